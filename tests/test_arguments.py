@@ -1,6 +1,7 @@
 """A public function works with any argument, or says in one line what it takes."""
 
 import itertools
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import pytest
 
 import jumpcad
 from jumpcad import checks
-from jumpcad.arguments import typed
+from jumpcad.arguments import require_fields, typed
 from jumpcad.errors import JumpcadError
 
 ODD: list[Any] = [
@@ -100,6 +101,30 @@ def test_a_design_is_built_where_a_robot_is_wanted(tmp_path: Path, monkeypatch: 
     assert repr(jumpcad.simulate(DESIGN)) == repr(jumpcad.simulate(robot))
     ours, theirs = (jumpcad.export(one, tmp_path / str(n), pictures=False) for n, one in enumerate((DESIGN, robot)))
     assert ours.files == theirs.files
+
+
+def test_a_whole_number_is_taken_for_any_number_and_a_text_is_not() -> None:
+    @typed
+    def doubled(length_mm: float) -> float:
+        return 2.0 * length_mm
+
+    assert (doubled(2), doubled(2.5)) == (4.0, 5.0)
+    with pytest.raises(JumpcadError, match=r"doubled\(\) takes .* as length_mm, not '2'"):
+        doubled("2")  # type: ignore[arg-type]
+
+
+def test_a_record_checks_its_fields() -> None:
+    @dataclass(frozen=True)
+    class Leg:
+        length_mm: float
+        name: str = "leg"
+
+        def __post_init__(self) -> None:
+            require_fields(self)
+
+    assert Leg(3).length_mm == 3
+    with pytest.raises(JumpcadError, match=r"Leg\(\) takes .* as name, not 2 \(int\)"):
+        Leg(3.0, 2)  # type: ignore[arg-type]
 
 
 def test_a_vector_may_be_of_any_numbers() -> None:

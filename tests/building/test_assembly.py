@@ -155,6 +155,17 @@ def test_frames_of_the_joints_close_the_loop(name: str) -> None:
             np.testing.assert_allclose(frames[body][[0, 2], 0], by_cosines[:2, 0], atol=1e-12)
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_leg_goes_from_loaded_springs_into_its_stop_as_far_as_it_gives(name: str) -> None:
+    robot = built(name)
+    leg = robot.joint(robot.spring.joint)
+    assert leg.lower_rad == -robot.design.compression_rad
+    assert robot.stop is not None
+    assert robot.stop_blow is not None
+    assert robot.stop_blow.give_rad > 0.0
+    assert leg.upper_rad == pytest.approx(robot.stop.angle_rad + robot.stop_blow.give_rad)
+
+
 def test_the_foot_lies_flat_when_the_body_is_tilted_by_beta() -> None:
     robot = built(LONG_TOES)
     along_foot = body_in_plane(robot, FOOT, 0.0)[:2, 0]

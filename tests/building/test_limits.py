@@ -12,6 +12,7 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive import DriveLimits
+from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.sizing import sections
@@ -115,9 +116,15 @@ def test_an_axle_of_3_mm_leaves_room_for_its_spacer_and_its_lever() -> None:
 
 
 def test_a_cam_gear_without_a_track_has_a_wall_around_its_pockets() -> None:
-    """Half of the dog, a sliding fit and three lines; a sensor's track needs more."""
+    """Half of the dog, a sliding fit and three lines; a sensor's track needs more.
+
+    Its pin, on either side the error of its place, 0.3 mm to the track's edge, and a wall of 1.6 mm.
+    """
     workshop = load_workshop()
     none = limits(changed("bought", sensor=""))
     fits = workshop.fits
     assert none.train.cam_gear_root_min_mm == pytest.approx(SECTIONS.dog_mm / 2.0 + fits.sliding_mm + fits.wall_mm)
-    assert limits(workshop).train.cam_gear_root_min_mm > none.train.cam_gear_root_min_mm
+    travel = chosen_parts(workshop).components["sensor"].travel
+    assert travel is not None
+    track = travel.pin_mm + 2.0 * (workshop.seats.sensor_along_mm + 0.3 + 1.6)
+    assert limits(workshop).train.cam_gear_root_min_mm == pytest.approx(SECTIONS.dog_mm / 2.0 + track)

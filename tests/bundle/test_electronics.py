@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import BODY
@@ -49,6 +51,13 @@ def test_the_manifest_says_what_each_part_gets_and_bears(robot: Robot) -> None:
     assert {board["role"] for board in facts["boards"]} == {"controller", "driver"} | (
         {"regulator"} if cells == 2 else set()
     )
+    train, safety = robot.layout.drive.train, robot.workshop.safety
+    assert 0.0 < facts["pwm_cap"] <= 1.0
+    assert facts["pwm_cap"] == pytest.approx(
+        supply_of(chosen_parts(robot.workshop)).duty(train.motor, safety.motor_torque_max_nm), abs=1e-3
+    )
+    boards_w = supply_of(chosen_parts(robot.workshop)).boards_w
+    assert facts["energy_j"]["boards"] == pytest.approx(boards_w * train.winding_s, abs=1e-4)
     assert sum(facts["energy_j"].values()) == pytest.approx(robot.layout.drive.train.electrical_j, abs=1e-5)
 
 
@@ -329,3 +338,11 @@ def test_leads_between_the_boards_run_in_the_gap_between_them(robot: Robot) -> N
         assert ((low <= lead.points_mm[1:-1, 0]) & (lead.points_mm[1:-1, 0] <= high)).all()
     places = [round(float(lead.points_mm[1, 0]), 6) for lead in between]
     assert len({*places}) == len(places)
+
+
+def test_the_drawing_names_resistors_in_kiloohms(robot: Robot) -> None:
+    wiring = wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)
+    drawn = wiring_svg(robot)
+    for name, ohm in wiring.resistors.items():
+        (said,) = set(re.findall(rf"{name}: ([\d.]+) kΩ", drawn))
+        assert 1000.0 * float(said) == ohm

@@ -62,6 +62,15 @@ def test_what_is_no_plain_file_is_never_replaced_or_followed(tmp_path: Path, thi
     assert (outside / "b.md").read_text() == "old"
 
 
+@pytest.mark.parametrize("force", [False, True])
+def test_a_folder_of_other_things_is_not_written_into(tmp_path: Path, force: bool) -> None:
+    (tmp_path / "photos").mkdir()
+    (tmp_path / "photos" / "cat.jpg").write_text("meow")
+    with pytest.raises(JumpcadError, match=r"photos: holds files but no manifest\.json, so it is not a bundle"):
+        write_folder(tmp_path / "photos", "robot", {}, {"a.md": "new"}.items(), force=force)
+    assert listed(tmp_path / "photos") == ["cat.jpg"]
+
+
 def test_one_bundle_is_not_turned_into_another_unasked(tmp_path: Path) -> None:
     target = tmp_path / "robot"
     write_folder(target, "frog", {"bodies": {}}, {"a.md": "frog"}.items())

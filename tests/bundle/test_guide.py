@@ -14,7 +14,7 @@ from jumpcad.bundle.arrival import arrival_lines, grams_at
 from jumpcad.bundle.bom import BilledPlate, bill_of_materials
 from jumpcad.bundle.expected import expected
 from jumpcad.bundle.firmware import firmware_files, numbers
-from jumpcad.bundle.guide import with_bill, write_guide
+from jumpcad.bundle.guide import _put_on, with_bill, write_guide
 from jumpcad.bundle.ordering import order_lines, strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
@@ -23,6 +23,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.workshop import load_workshop
 
 
@@ -417,3 +418,25 @@ def test_only_what_is_pushed_on_comes_from_a_side(robot: Robot) -> None:
     assert sided >= {"front axle", "cam", "cam gear", "roller", "motor", "spring pin"}
     assert others >= {"main leg", "foot", "electronics tray lower", "electronics tray upper", "tie controller", "plug"}
     assert not sided & others
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_what_is_put_on_with_a_tool_names_it(name: str) -> None:
+    """And as many of them as there are: steps bring each thing once, but for what is only tried on."""
+    counted = 0
+    for step in assembly_steps(built(name)):
+        lines = list(_put_on(step))
+        for placed in step.placed:
+            move = placed.move
+            if move.tool and not (move.trial or move.brings) and any("screw" in thing.name for thing in placed.things):
+                assert any(line.endswith(f"; {move.tool.name})") for line in lines), step.key
+                counted += 1
+    assert counted > 3
+
+
+def test_the_table_of_printed_parts_has_the_grams_of_each() -> None:
+    robot = built("kenan-2.0")
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in write_guide(robot).splitlines() if "|" in line]
+    grams = {row[0]: row[3] for row in rows if len(row) >= 4}
+    for part in robot.parts:
+        assert grams[part.name] == f"{1000.0 * part.mass_kg:.2f}"

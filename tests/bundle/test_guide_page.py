@@ -36,6 +36,12 @@ def test_the_page_says_what_the_guide_says() -> None:
     assert root.findtext("body/blockquote/p") == "Hot."
 
 
+def test_a_name_is_text_in_the_page_whatever_it_holds() -> None:
+    name = "<b>frog</b> & <script>"
+    root = ET.fromstring(write_page("# A\n", name, {}).replace("<!DOCTYPE html>", "", 1))
+    assert root.findtext("head/title") == f"{name}: assembly"
+
+
 def test_every_number_in_the_texts_is_filled_in() -> None:
     """No name in braces is left, and the kitchen scale reads what raises it: energy of the spring over its rise.
 

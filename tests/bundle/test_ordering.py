@@ -106,6 +106,17 @@ def test_a_charger_is_needed_for_two_cells_alone(monkeypatch: pytest.MonkeyPatch
     assert "with a balance lead\n" in "\n".join(tool_lines(replace(robot, workshop=shop), []))
 
 
+@pytest.mark.parametrize("hole_mm", [3.2, 3.4, 3.5, 3.9, 4.1])
+def test_a_rod_for_the_springs_pin_passes_its_hole(hole_mm: float) -> None:
+    """In halves of a millimetre, half a millimetre thinner than the hole or a little more."""
+    robot = built("kenan-2.0")
+    through = replace(robot.layout.pin_hole, diameter_mm=hole_mm)
+    text = "\n".join(tool_lines(replace(robot, layout=replace(robot.layout, pin_hole=through)), []))
+    (rod,) = re.findall(r"rod of at most ([\d.]+) mm", text)
+    assert hole_mm - 1.0 < float(rod) <= hole_mm - 0.5 + 1e-9
+    assert 2.0 * float(rod) % 1.0 == 0.0
+
+
 def test_what_is_printed_is_said_with_the_workshops_settings() -> None:
     robot, shop = built("kenan-2.0"), load_workshop()
     process = shop.process.model_copy(

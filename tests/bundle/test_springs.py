@@ -122,3 +122,10 @@ def test_the_weakest_springs_that_are_accepted_give_the_area_under_their_torque(
     rate = torque_shares(changed)[1] * spring.wound_rad / (spring.wound_rad + wider)
     early = float(law.wind_rad(law.ramp_rad)) + preload
     assert early_torque_share(changed) == pytest.approx(rate * (early + wider) / early)
+
+
+def test_the_manifest_has_the_preload_in_degrees() -> None:
+    robot = built("kenan-2.0")
+    drive = replace(robot.layout.drive, spring=replace(robot.layout.drive.spring, preload_rad=math.radians(7.5)))
+    facts = spring_facts(replace(robot, layout=replace(robot.layout, drive=drive)))
+    assert [one["preload_deg"] for one in facts] == [7.5, 7.5]

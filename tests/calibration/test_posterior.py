@@ -64,6 +64,7 @@ def test_chains_are_long_enough_or_say_so(posterior: CalibrationPosterior) -> No
 def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: CalibrationPosterior) -> None:
     first, again = (sampled(Model(posterior.model.subjects), 1, **SHORTEST) for _ in range(2))
     assert np.array_equal(again.z, first.z)
+    assert not np.array_equal(sampled(Model(posterior.model.subjects), 2, **SHORTEST).z, first.z)
     assert first.walkers == 8 * len(posterior.model.parameters)
 
 
@@ -185,11 +186,14 @@ def test_a_summary_has_the_quantiles_of_prior_and_posterior() -> None:
     springs, pins, floor = drawn(z).summaries()
     assert springs["prior"] == pytest.approx([0.95 - 1.28155 * 0.05, 0.95, 0.95 + 1.28155 * 0.05], abs=1e-5)
     assert springs["posterior"] == pytest.approx([0.95 - 0.8 * 0.05, 0.95, 0.95 + 0.8 * 0.05])
-    assert springs["spread"] == pytest.approx(1.0 / math.sqrt(3.0), rel=1e-2)
+    spreads = [one["spread"] for one in (springs, pins, floor)]
+    assert spreads == pytest.approx([1.0 / math.sqrt(3.0), 0.0, math.sqrt(3.0)], rel=1e-2)
     assert (springs["verdict"], pins["verdict"], floor["verdict"]) == (
         "partly identified", "identified", "stays at its prior",
     )  # fmt: skip
     assert pins["posterior"] == pytest.approx([0.25] * 3)
+    moved, _, stays = drawn(np.stack([z[:, 2] + 1.1, z[:, 1], z[:, 2] + 0.9], axis=1)).summaries()
+    assert (moved["verdict"], stays["verdict"]) == ("partly identified", "stays at its prior")
 
 
 def test_a_measurement_stands_beside_its_likeliest_reading() -> None:

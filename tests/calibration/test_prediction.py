@@ -1,6 +1,7 @@
 """A robot that was not calibrated on: its own properties stay open, shared ones follow the calibration."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -42,6 +43,12 @@ def test_shared_parameters_are_those_of_the_calibration(posterior: CalibrationPo
     )
 
 
+def test_what_stays_open_is_drawn_by_the_seed(posterior: CalibrationPosterior, subject: Subject) -> None:
+    other = twin(subject, jumps=JUMPS, mass={"robot_g": 103.0})
+    draws = [predicted_jump(posterior, other, seed).values["floor:twin"].tolist() for seed in (0, 0, 1)]
+    assert draws[0] == draws[1] != draws[2]
+
+
 def test_a_twin_jumps_as_far_with_a_wider_interval(posterior: CalibrationPosterior, subject: Subject) -> None:
     found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
     low, middle, high = found.quantiles()["ballistic_range_m"]
@@ -81,6 +88,9 @@ def test_settings_are_read_back(posterior: CalibrationPosterior, tmp_path: Any) 
     settings = load_settings(path)
     assert settings.spring_efficiency == pytest.approx(np.median(posterior.values["spring_efficiency"]), abs=1e-4)
     assert settings.ground_friction == pytest.approx(np.tan(np.radians(38.0)), rel=0.1)
+    several = Model([*posterior.model.subjects, *posterior.model.subjects])  # each on a floor of its own
+    path.write_text(settings_toml(replace(posterior, model=several)))
+    assert load_settings(str(path)).ground_friction is None
     assert len(settings.draws.spring_efficiency) == len(settings.draws.pin_friction) == SAVED
     assert settings.model_copy(update={"draws": Settings().draws}).spring_efficiency == settings.spring_efficiency
 

@@ -62,6 +62,18 @@ def test_a_board_without_ground_is_named() -> None:
         assert (finding.severity, finding.message) == ("error", f"no ground at {role}")
 
 
+@pytest.mark.parametrize("role", ["battery", "controller", "driver"])
+def test_what_hangs_on_no_ground_net_is_named(role: str) -> None:
+    chosen = parts("light-1s")
+    wiring = wiring_of(chosen, {})
+    nets = tuple(
+        replace(net, terminals=tuple(one for one in net.terminals if one.part != role)) if net.kind == "ground" else net
+        for net in wiring.nets
+    )
+    finding = next(one for one in wiring_findings(chosen, replace(wiring, nets=nets)) if one.name == "wiring_ground")
+    assert (finding.severity, finding.message) == ("error", f"no ground at {role}")
+
+
 def test_too_few_pins_and_a_driver_that_cannot_be_driven() -> None:
     chosen = parts("light-1s")
     few = {name: chosen.controller.pins[name] for name in ("BAT-", "GND", "3V3", "D1", "D2")}

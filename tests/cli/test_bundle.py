@@ -1,18 +1,26 @@
 """`jumpcad build`, `render` and `verify`, and `simulate` of what was built."""
 
+import inspect
 import json
 import os
 import re
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 from unittest.mock import ANY
 
 import pytest
+from support.built import built
 from support.commands import Run
 from support.pictures import with_few_pictures
 
-from jumpcad.cli.bundle import _print_facts
+from jumpcad import checks
+from jumpcad.bundle import export as bundle_export
+from jumpcad.cli.bundle import _facts, _print_facts
 from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.findings import at_most
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES
 
 
@@ -34,6 +42,9 @@ def test_build_says_how_far_it_jumps_and_what_it_weighs(
     facts = json.loads(out)
     assert code == 0
     assert facts["jump"]["verdict"] == facts["capsule_jump"]["verdict"] == "jump"
+    assert facts["jump"]["mass_kg"] == pytest.approx(facts["mass_kg"])
+    assert facts["capsule_jump"]["mass_kg"] == pytest.approx(capsule_robot(load_design("kenan-2.0")).mass_kg)
+    assert facts["capsule_jump"]["mass_kg"] != pytest.approx(facts["mass_kg"])
     assert sum(line["quantity"] * line["mass_kg"] for line in facts["masses"]) == pytest.approx(facts["mass_kg"])
     assert facts["winding"]["efficiency"] == pytest.approx(facts["spring_energy_j"] / facts["winding"]["electrical_j"])
     assert facts["violated"] == []
@@ -66,6 +77,19 @@ def test_build_of_a_robot_with_violated_limits_names_them_and_says_not_to_build_
     assert sentence[1] in page
     warning = next(line for line in guide.splitlines() if "Do not build it as it is" in line)
     assert all(name in warning for name in names)
+
+
+def test_build_tells_of_warnings_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is violated: first what is used most, warnings among the errors, and nothing that holds."""
+    found = [
+        at_most("holds", 1.0, 2.0, "mm", "", ""), at_most("warns", 3.0, 2.0, "mm", "", "", "warning"),
+        at_most("fails", 2.5, 2.0, "mm", "", ""),
+    ]  # fmt: skip
+    monkeypatch.setattr(checks, "quick_findings", lambda _: found)
+    bundle, jump = SimpleNamespace(folder="b", files={}, manifest={"masses": []}), SimpleNamespace(to_dict=dict)
+    facts = _facts(built("kenan-2.0"), bundle, jump, jump)  # type: ignore[arg-type]
+    assert [one["name"] for one in facts["violated"]] == ["warns", "fails"]
+    assert facts["violation"].startswith("2 of its 3 limits are violated")
 
 
 def test_simulating_the_bundle_gives_the_range_of_the_build(run: Run, bundle: Path) -> None:
@@ -223,6 +247,26 @@ def test_a_printer_or_a_material_is_no_workshop(run: Run, name: str, option: str
     code, _, err = run("check", "kenan-2.0", "--workshop", name)
     assert code == 2
     assert option in err
+
+
+@pytest.mark.parametrize("option", ["--no-pictures", "--step", "--ros2", "--force"])
+def test_every_option_of_build_is_that_of_the_export(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, option: str
+) -> None:
+    """Each option changes what it is named after, and nothing else."""
+    asked = {}
+
+    def export(robot: object, folder: Path, *options: bool) -> None:
+        asked.update(zip(inspect.signature(real).parameters, (robot, folder, *options), strict=True))
+        raise JumpcadError("enough")
+
+    real = bundle_export.export
+    monkeypatch.setattr(bundle_export, "export", export)
+    assert run("build", "kenan-2.0", "-o", tmp_path / "b", option)[0] == 2
+    assert asked["folder"] == tmp_path / "b"
+    usual = {"pictures": True, "step": False, "force": False, "ros2": False}
+    name = option.removeprefix("--").removeprefix("no-")
+    assert {key: asked[key] for key in usual} == usual | {name: not option.startswith("--no-")}
 
 
 def test_a_ros2_package_is_part_of_the_bundle_where_it_is_asked_for(run: Run, bundle: Path, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 import json
 import shutil
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 from support.calibrations import with_coarse_calibration
@@ -10,6 +11,7 @@ from support.commands import Run
 
 from jumpcad.cli.calibrate import _lines
 from jumpcad.cli.uncertain import uncertain_lines
+from jumpcad.errors import JumpcadError
 from jumpcad.files.templates import templates_folder
 from jumpcad.simulation import uncertain
 
@@ -81,6 +83,18 @@ def test_wrong_requests(run: Run, arguments: tuple[str, ...], message: str) -> N
     code, out, err = run(*arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert message in err
+
+
+def test_the_seed_is_the_samplers(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def sampling(files: object, seed: int) -> NoReturn:
+        asked.append(seed)
+        raise JumpcadError("enough")
+
+    monkeypatch.setattr("jumpcad.calibration.calibrate", sampling)
+    assert run("calibrate", "kenan-2.0", "--seed", 7)[0] == 2
+    assert asked == [7]
 
 
 def test_an_output_over_the_measurements(run: Run, tmp_path: Path) -> None:

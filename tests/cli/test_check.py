@@ -13,6 +13,7 @@ from jumpcad.cli.check import TIGHT, margin_in_words
 from jumpcad.cli.commands import app
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import limit
+from jumpcad.workshop import load_workshop
 
 
 def test_command_finds_nothing_wrong_with_kenan() -> None:
@@ -78,6 +79,21 @@ def test_a_printer_is_named_on_the_command_line(monkeypatch: pytest.MonkeyPatch)
     arguments = ["check", "kenan-2.0", "--printer", "a1-mini", "--material", "PLA", "--all"]
     output = CliRunner().invoke(app, arguments, env={"COLUMNS": "200"}).output
     assert "180 x 180 x 180 mm" in output
+
+
+def test_a_material_is_named_on_the_command_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The legs' allowed stress is then that of PLA; they are of PETG."""
+    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
+
+    def allowed_mpa(*more: str) -> float:
+        arguments = ["check", "kenan-2.0", "--explain", "leg_strength", "--json", *more]
+        (finding,) = json.loads(CliRunner().invoke(app, arguments).output)["findings"]
+        return float(finding["limit"])
+
+    materials = load_workshop().materials
+    share = materials["PLA"].strength_in_plane_mpa / materials["PETG"].strength_in_plane_mpa
+    assert share > 1.1
+    assert allowed_mpa("--material", "PLA") / allowed_mpa() == pytest.approx(share, rel=0.01)
 
 
 def test_command_says_which_part_does_not_fit_the_bed(tmp_path: Path) -> None:

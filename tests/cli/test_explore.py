@@ -72,4 +72,7 @@ def test_views_tell_in_json_what_they_looked_at(folder):
     for name in ("sampled", "elite"):
         assert sum(views[name]["shares"]) == pytest.approx(1.0)
         assert np.array(views[name]["directions"]).shape == (3, 3)
+    shares = data("explore", "importance", *QUICK, *NARROW, "--samples", 80)["importance"]
+    assert set(shares) == set(swept)
+    assert list(shares.values()) == sorted(shares.values(), reverse=True)
     assert views["sampled"]["designs"] == 40 >= views["elite"]["designs"] > 0

@@ -112,6 +112,27 @@ def data_or_none(path):
     return json.loads(result.stdout)["evaluations"] if result.exit_code == 0 and not result.exception else 0
 
 
+def test_robust_scores_stand_under_their_headings(capsys):
+    one = SimpleNamespace(
+        trial=SimpleNamespace(score=3.0), parameters_score=2.0, print_score=1.0, neighbours=16, rejections={"loop": 2}
+    )
+    trial = SimpleNamespace(design=load_design("kenan-2.0"), score=3.0, workshop={})
+    request = SimpleNamespace(
+        aim=SimpleNamespace(neighbours_of=""), searched=20, space=SimpleNamespace(size=1000), is_front=False,
+        objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"),
+    )  # fmt: skip
+    result = SimpleNamespace(
+        request=request, evaluations=20, trials=[trial] * 20, rejected={}, converged=False, notes=[], best=trial,
+        winner=trial, candidates=[one], score=1.0, design=trial.design, widened=[], bounds=[],
+    )  # fmt: skip
+    optimize._print_result(result, Path("won.toml"))
+    lines = capsys.readouterr().out.splitlines()
+    head = next(number for number, line in enumerate(lines) if "itself" in line)
+    for heading, score in (("itself", "3.0000"), ("±1 %", "2.0000"), ("lengths", "1.0000")):
+        end = lines[head].index(heading) + len(heading)
+        assert lines[head + 1][:end].endswith(score)
+
+
 def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     """What a moved bound is worth, why it is not, and what was not looked at; the front by its springs' energy."""
     design = load_design("kenan-2.0")

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -13,7 +14,7 @@ import pytest
 from support.commands import Run, interruptible
 
 from jumpcad.cli.output import console, escaped, print_json, status
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
 LIGHT = ["simulate", "kenan-2.0", "--capsule"]
@@ -133,6 +134,23 @@ def test_an_interrupt_while_modules_load_is_exit_code_130(tmp_path: Path, module
         env=SURROUNDINGS, preexec_fn=interruptible,
     )  # fmt: skip
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "jumpcad: interrupted\n")
+
+
+def test_an_interrupt_that_a_library_caught_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It goes on as if nothing had been, and the command ends as if all were done."""
+    caught = []
+
+    def careless(name: str) -> Design:
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt:
+            caught.append(name)
+        return load_design(name)
+
+    monkeypatch.setattr("jumpcad.design.load_design", careless)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    code, _, err = run("new", "robot.toml")
+    assert (code, err, len(caught)) == (130, "jumpcad: interrupted\n", 1)
 
 
 def test_an_error_is_one_line_whatever_the_file_is_called(run: Run) -> None:

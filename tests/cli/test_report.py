@@ -32,12 +32,13 @@ def test_a_page_in_a_wrong_place_is_refused_before_the_work(run: Run, tmp_path: 
     assert not list(tmp_path.iterdir())
 
 
-def test_a_users_page_is_not_replaced(run: Run, tmp_path: Path) -> None:
-    (tmp_path / "kenan-2.0-report.html").write_text("mine")
-    code, _, err = run("report", "kenan-2.0")
+@pytest.mark.parametrize(("name", "more"), [("kenan-2.0-report.html", ()), ("own.html", ("-o", "own.html"))])
+def test_a_users_page_is_not_replaced(run: Run, tmp_path: Path, name: str, more: tuple[str, ...]) -> None:
+    (tmp_path / name).write_text("mine")
+    code, _, err = run("report", "kenan-2.0", *more)
     assert code == 2
     assert "--force" in err
-    assert (tmp_path / "kenan-2.0-report.html").read_text() == "mine"
+    assert (tmp_path / name).read_text() == "mine"
 
 
 def test_the_page_of_a_study_is_a_file_of_its_own_and_is_renewed(run: Run, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from jumpcad.cli.uncertain import uncertain_lines
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.paper import published
 from jumpcad.simulation import Settings, simulate
 
 
@@ -144,3 +146,14 @@ def test_uncertain_jumps_and_trajectories_are_of_one_engine(command: Run, monkey
     for engine in ("mujoco", "planar"):
         code, _, err = command("kenan-2.0", "--engine", engine, "--uncertain", "--seed", 7)
         assert (code, err) == (2, f"jumpcad: asked with seed 7 in {engine}\n")
+
+
+def test_published_quantities_are_printed_each_by_its_name(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = published.PublishedJump(distance_m=0.25, base_height_m=0.125, energy_j=0.0625)
+    monkeypatch.setattr(published, "simulate", lambda design: found)
+    code, out, _ = command("kenan-2.0", "--published")
+    assert code == 0
+    told = [re.match(r"(\w+ ?\w*?) +([\d.]+)", line) for line in out.splitlines()]
+    assert [(one[1].strip(), float(one[2])) for one in told if one] == [
+        ("published distance", 0.25), ("published height", 0.125), ("energy", 0.0625),
+    ]  # fmt: skip

@@ -280,6 +280,7 @@ def test_a_part_that_is_heavier_than_the_model_by_a_twentieth_is_printed_so(caps
     )
     plate = SimpleNamespace(name="plate-1-PETG", material="PETG", grams=10.5, time_s=60.0)
     _print_sliced(SimpleNamespace(parts=(part,), plates=(plate,), version="2.5.0", ignored={}))
-    row = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("foot"))
-    assert "10.50" in row
-    assert "+5.0 %" in row
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["foot", "1", "PETG", "10.50", "10.00", "+5.0", "%", "0:01", "h"] in rows
+    assert ["plate-1-PETG", "PETG", "10.50", "0:01", "h"] in rows
+    assert ["all", "10.50", "0:01", "h"] in rows

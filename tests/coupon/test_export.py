@@ -1,12 +1,15 @@
 """The coupon's folder: the same bytes for the same workshop, and no readings lost."""
 
+import re
 import shutil
 from pathlib import Path
 
 import pytest
 
 from jumpcad.coupon import export
-from jumpcad.coupon.export import export_coupon
+from jumpcad.coupon.export import _guide, export_coupon
+from jumpcad.coupon.joints import joint_pieces
+from jumpcad.coupon.pieces import coupon_holes
 from jumpcad.errors import JumpcadError
 from jumpcad.workshop import load_workshop
 
@@ -34,3 +37,17 @@ def test_readings_that_were_filled_in_are_not_lost(
     with pytest.raises(JumpcadError, match=r"c: readings\.toml: edited or added since the bundle was written"):
         export_coupon(load_workshop("fine"), folder)
     assert "0.1" in (folder / "readings.toml").read_text()
+
+
+@pytest.mark.parametrize("role", ["links", "body", "gears"])
+def test_the_guide_names_the_material_in_which_each_piece_is_printed(role: str) -> None:
+    """One role in PLA, the others in PETG."""
+    workshop = load_workshop()
+    roles = {one: "PLA" if one == role else "PETG" for one in ("links", "body", "gears")}
+    workshop = workshop.model_copy(update={"roles": workshop.roles.model_copy(update=roles)})
+    holes = coupon_holes(workshop)
+    made = {re.sub(r"_\d+$", "", piece.name): piece.material for piece in joint_pieces(workshop, holes)}
+    said = dict(re.findall(r"\*\*(\w+)\*\* \((\w+)\)", _guide(workshop, holes)))
+    assert {"taps", "shaft_bores", "lying_holes", "dog_pockets", "axle_floor", "seat"} <= said.keys()
+    assert {name: made[name] for name in said} == said
+    assert f"gears in {roles['gears']}" in _guide(workshop, holes)

@@ -33,6 +33,22 @@ def test_what_no_cam_can_do_is_refused_with_what_to_change():
         synthesised(75, 1.7)
 
 
+@pytest.mark.parametrize(("limit", "met"), [("pressure_angle_rad", 0.16), ("pressure_mpa", 20.0)])
+def test_a_limit_that_is_just_too_hard_is_missed_by_little(limit, met):
+    """3 % beyond what a cam can do, the nearest one misses by a tenth of the limit at most."""
+
+    def margin(tighter):
+        try:
+            synthesised(40, 0.6, replace(LIMITS, **{limit: tighter * met}))
+        except CannotBuildError as refused:
+            return refused.margin
+        return 0.0
+
+    margins = [margin(tighter) for tighter in (1.0, 0.97, 0.94, 0.91)]
+    assert margins[0] == 0.0
+    assert next(one for one in margins if one < 0.0) > -0.1
+
+
 def test_a_roller_that_is_too_large_is_refused_with_what_misses():
     """One of 60 mm leaves no room for the fall, one of 100 mm none for a lever; the diameter that is named fits one."""
     with pytest.raises(CannotBuildError, match=r"misses: .* mm short.*a smaller bought\.roller"):

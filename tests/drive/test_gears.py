@@ -105,6 +105,12 @@ def test_undercut_begins_at_17_teeth():
     assert least_shift(18) < 0
     with pytest.raises(JumpcadError, match="12 teeth and shift 0 would be undercut"):
         Gear(12, 1.0, 0.0, 5)
+    for teeth in (8, 12, 16):  # from 17 teeth less by 1/17 a tooth, as in ISO 53's basic rack
+        least = least_shift(teeth)
+        assert least == pytest.approx((17 - teeth) / 17, abs=0.01)
+        assert Gear(teeth, 1.0, least, 5).shift == least
+        with pytest.raises(JumpcadError, match=f"by at least {least:.3f}"):
+            Gear(teeth, 1.0, least - 0.001, 5)
 
 
 @pytest.mark.parametrize("gear", named(GEARS))

@@ -139,6 +139,23 @@ def test_a_stiffer_lever_kicks_less() -> None:
     assert stiff.kept_j > usual.kept_j
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_release_is_the_worst_of_its_cases(name: str) -> None:
+    """Over a sharp corner and over a rounded one, with either motor: least energy kept, largest blow and kick."""
+    robot = built(name)
+    found, geometry = robot.release, robot.layout.drive.cam.geometry
+    wound = float(roll_over(geometry).wind_rad.max())
+    corners = roll_over(geometry), roll_over(geometry, robot.workshop.release.corner_radius_mm)
+    sharp, rounded = ([roll(corner, parts, wound) for parts in found.parts] for corner in corners)
+    for ratio, rolled in ((found.energy_ratio, sharp), (found.rounded_ratio, rounded)):
+        assert ratio == pytest.approx(min(one.kept_j for one in rolled) / rolled[0].held_j, rel=1e-3)
+    (energy,) = (finding for finding in found.findings if finding.name == "release_energy")
+    assert energy.value == pytest.approx(100.0 * min(found.energy_ratio, found.rounded_ratio))
+    assert found.energy_ratio != found.rounded_ratio
+    assert found.blow_nm == max(one.blow_nm for one in (*sharp, *rounded))
+    assert found.kick_nm == pytest.approx(max(one.kick_nm for one in (*sharp, *rounded)) / found.gear_ratio)
+
+
 def test_lever_and_contact_are_springs_in_series() -> None:
     robot = built("best-ga")
     parts = robot.release.parts[1]

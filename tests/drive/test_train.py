@@ -11,7 +11,10 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.train import synthesise_train
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
+from jumpcad.workshop import load_workshop
 
 MOTORS = [load_catalogue().motors[name] for name in LP6]
 LIMITS = default_limits().train
@@ -62,6 +65,19 @@ def test_the_motor_stays_within_what_its_maker_allows(law, limits):
     assert torque <= 0.196
     assert train.motor.no_load_rpm * math.pi / 30 / train.ratio <= limits.cam_speed_max_rad_s
     assert train.ratio == math.prod(pair.wheel.teeth / pair.pinion.teeth for pair in train.stages)
+
+
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_the_cam_is_fastest_on_a_full_battery(kit):
+    """Without load the voltage of the windings goes with the speed: what the resistances take is a few per cent."""
+    shop = load_workshop()
+    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": shop.bought.model_copy(update={"kit": kit})})))
+    roomy = dataclasses.replace(LIMITS, motor_distance_min_mm=12.0, supply=supply)
+    train = synthesise_train(law_of("kenan-1.0"), MOTORS, roomy)
+    motor, duty = train.motor, supply.duty(train.motor, roomy.blocked_nm)
+    full = duty * supply.full_v / motor.voltage_v * motor.no_load_rpm * math.pi / 30
+    assert train.cam_speed_rad_s * train.ratio == pytest.approx(full, rel=0.03)
+    assert supply.full_v > 1.1 * supply.nominal_v
 
 
 @pytest.mark.parametrize(("law", "limits"), trains())

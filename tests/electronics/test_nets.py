@@ -1,5 +1,6 @@
 """The net list traced as a circuit: where current flows, what a pin sees, and one wire less than terminals."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -169,6 +170,23 @@ def test_a_contact_without_a_least_current_has_the_largest_pull_up() -> None:
     dry = chosen.components["sensor"].model_copy(update={"least_a": None})
     wiring = wiring_of(replace(chosen, components={**chosen.components, "sensor": dry}), {})
     assert wiring.pull_up_ohm == 10_000
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_a_signal_takes_the_least_capable_pin_that_can_do_it(kit: str) -> None:
+    """What is left at its turn can do no less: pins with an analogue input stay free for who needs one."""
+    chosen = parts(kit)
+    pins, taken = wiring_of(chosen, {}).pins, set()
+    needed = {"battery": "adc", "motor": "pwm"}
+    for signal, pin in pins.items():
+        free = {name: does for name, does in chosen.controller.pins.items() if name not in taken}
+        suitable = [
+            does for does in free.values()
+            if any(re.fullmatch(r"gpio\d+", one) for one in does) and not {"strapping", "boot_log"} & set(does)
+            and needed.get(signal, does[0]) in does
+        ]  # fmt: skip
+        assert len(free[pin]) == min(map(len, suitable)), signal
+        taken.add(pin)
 
 
 @pytest.mark.parametrize("kit", KITS)

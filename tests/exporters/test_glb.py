@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import trimesh
 from support.built import built
 from support.decimals import decimals
 
-from jumpcad.exporters.glb import linear_light, write_glb
+from jumpcad.exporters.glb import _in_metres, linear_light, write_glb
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -55,3 +56,15 @@ def test_colours_of_a_glb_have_six_decimals(robot: Robot) -> None:
     colours = [one["pbrMetallicRoughness"]["baseColorFactor"] for one in tree["materials"]]
     assert decimals(colours) == 6
     assert {colour[3] for colour in colours} == {1.0}  # nothing is transparent
+
+
+def test_light_falls_on_things_from_outside() -> None:
+    """Normals of convex things lead away from their middle: else they are dark."""
+    robot, seen = built("kenan-2.0"), 0
+    for shape in visuals(robot):
+        if re.fullmatch(r"(leg|cam|front)_axle|battery|motor", shape.name):
+            mesh = _in_metres(shape)
+            away = mesh.vertices - mesh.bounds.mean(axis=0)
+            assert (np.einsum("ij,ij->i", mesh.vertex_normals, away) > -1e-9).all(), shape.name
+            seen += 1
+    assert seen >= 4

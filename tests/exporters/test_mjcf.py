@@ -101,6 +101,32 @@ def test_the_stop_is_as_stiff_as_the_robots() -> None:
     assert ratio == 1.0
 
 
+def test_mujoco_slides_spins_and_rolls_as_the_settings_say() -> None:
+    """A pair's friction is twice sliding, then spinning, then twice rolling (MuJoCo's XML reference)."""
+    mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
+    settings = Settings(ground_friction=0.8, rolling_friction_m=0.001, spinning_friction_m=0.003)
+    model = mujoco.MjModel.from_xml_string(write_mjcf(robot, settings))
+    assert set(model.pair_dim) == {6}
+    assert len(model.pair_friction) == sum(len(body.contacts) for body in robot.bodies.values())
+    for row in model.pair_friction.tolist():
+        assert row[:2] == pytest.approx([row[0]] * 2)
+        assert row[2:] == pytest.approx([0.8 * 0.003, 0.8 * 0.001, 0.8 * 0.001])
+
+
+def test_mujoco_reads_angles_in_radians() -> None:
+    """The leg's range, from loaded springs to its stop; the angle at which springs that also pull are relaxed."""
+    mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")
+    leg = mujoco.MjModel.from_xml_string(write_mjcf(robot)).joint(robot.spring.joint)
+    assert robot.stop is not None
+    assert leg.limited[0]
+    assert leg.range[0] <= -robot.spring.wind_rad
+    assert leg.range[1] == pytest.approx(robot.stop.angle_rad, abs=1e-9)
+    pulling = replace(robot, stop=None, spring=replace(robot.spring, one_sided=False, preload_rad=0.1))
+    model = mujoco.MjModel.from_xml_string(write_mjcf(pulling))
+    assert model.qpos_spring[model.joint(robot.spring.joint).qposadr[0]] == pytest.approx(0.1)
+    assert not model.joint(robot.spring.joint).limited[0]
+
+
 @pytest.mark.parametrize("gravity_m_s2", [9.81, 1.62])
 def test_weight_pulls_straight_down(gravity_m_s2: float) -> None:
     root = ET.fromstring(write_mjcf(capsule_robot(load_design("kenan-2.0")), Settings(gravity_m_s2=gravity_m_s2)))

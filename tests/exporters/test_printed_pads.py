@@ -26,6 +26,13 @@ def test_each_printed_pad_has_a_closed_file_of_its_mass() -> None:
         assert f"{item.name}.stl" in item.article
 
 
+def test_a_stop_is_printed_though_the_feet_are_cut() -> None:
+    shop = load_workshop()
+    body = shop.body.model_copy(update={"stop_pad": "tpu-2"})
+    files = dict(stl_files(build(load_design("kenan-2.0"), shop.model_copy(update={"body": body}))))
+    assert [name for name in files if "_pad" in name] == ["stl/stop_pad.stl"]
+
+
 def test_pads_that_are_cut_have_none() -> None:
     files = dict(stl_files(build(load_design("kenan-2.0"))))
     assert not [name for name in files if "_pad" in name]

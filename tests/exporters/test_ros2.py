@@ -1,6 +1,9 @@
 """Joints that mimic the leg's in ROS: the line through their angles, against numpy's polynomial fit."""
 
+import math
+import re
 import xml.etree.ElementTree as ET
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.ros2 import mimicked, model_name, ros2_files
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.poses import standing
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 
@@ -29,11 +33,16 @@ def test_dependent_joints_follow_the_leg_by_the_line_of_least_squares(name: str)
         assert np.abs(mimic.slope * leg + mimic.offset_rad - angle).max() == pytest.approx(mimic.error_rad, abs=1e-4)
 
 
+@cache
+def files() -> dict[str, str | bytes]:
+    """Return the files of a ROS package by their names."""
+    return {Path(path).name: content for path, content in ros2_files(built("kenan-2.0"))}
+
+
 @pytest.fixture(scope="module")
 def package() -> dict[str, ET.Element]:
     """The files of XML of the ROS package, by name."""
-    files = ros2_files(built("kenan-2.0"))
-    return {Path(path).name: ET.fromstring(text) for path, text in files if path.endswith((".xacro", ".sdf"))}
+    return {path: ET.fromstring(text) for path, text in files().items() if path.endswith((".xacro", ".sdf"))}
 
 
 def test_arguments_have_their_defaults(package: dict[str, ET.Element]) -> None:
@@ -135,3 +144,25 @@ def test_every_link_shows_the_parts_of_its_body_where_they_are(package: dict[str
             place = np.array(origin.get("xyz").split(), dtype=float)
             np.testing.assert_allclose(place, seen[name][part][:3, 3], atol=1e-6)
         assert float(links[name].find("inertial/mass").get("value")) == pytest.approx(body.mass_kg)
+
+
+def test_texts_have_the_robots_height_and_a_torque_that_holds_its_loaded_springs() -> None:
+    """The springs pull with stiffness times loaded angle (and preload); a hold of up to twice that is no snap."""
+    robot, texts = built("kenan-2.0"), {name: text for name, text in files().items() if isinstance(text, str)}
+    peak = robot.spring.stiffness_nm_per_rad * (robot.spring.wind_rad + robot.spring.preload_rad)
+    for name in ("controllers.yaml", "README.md"):
+        found = re.findall(r"-(\d+\.\d+) N.m|\[-(\d+\.\d+)\]", texts[name])
+        assert found
+        assert all(1.02 * peak < float("".join(one)) < 2.0 * peak for one in found), name
+    (height,) = re.findall(r'HEIGHT_M = "(.*)"', texts["gazebo.launch.py"])
+    rest = standing(robot, 0.0)
+    assert float(height) == pytest.approx(rest.body_position_m[2], abs=5.1e-5)
+    right = dict(re.findall(r"(\d+\.\d+)° and (\d+\.\d+)°", texts["README.md"]))
+    leg = np.linspace(-robot.spring.wind_rad, 0.0, 200)
+    pose, lines = robot.linkage.pose(leg), mimicked(robot)
+    off = [
+        math.degrees(np.abs(lines[name].slope * leg + lines[name].offset_rad - angle).max())
+        for name, angle in (("front", pose.front_rad), ("ankle", pose.ankle_rad))
+    ]
+    assert [float(one) for pair in right.items() for one in pair] == pytest.approx(off, abs=0.006)
+    assert not any(re.search("@[A-Z_]+@", text) for text in texts.values())

@@ -14,7 +14,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY_NAMES
+from jumpcad.mechanism.model import BODY_NAMES, FOOT
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
@@ -85,6 +85,26 @@ def test_loop_file_closes_the_loop(small_robot: Robot) -> None:
         poses[joint.child] = poses[joint.parent] @ turn
     ends = [(poses[data["loop"][f"body_{side}"]] @ [*data["loop"][f"point_{side}_m"], 1.0])[:3] for side in ("a", "b")]
     assert np.linalg.norm(ends[0] - ends[1]) < 1e-12
+
+
+def test_the_release_of_the_loop_file_stands_on_the_ground() -> None:
+    """All spheres of the foot touch z = 0, of a robot whose body is turned: pitch, then the joints of the tree."""
+    robot = capsule_robot(load_design("best-ga"))
+    release = json.loads(write_loop(robot))["release"]
+    assert abs(release["body_pitch_rad"]) > 0.005
+
+    def turned(angle: float, at: object) -> np.ndarray:
+        pose = np.eye(4)
+        pose[:3, :3] = [[math.cos(angle), 0, math.sin(angle)], [0, 1, 0], [-math.sin(angle), 0, math.cos(angle)]]
+        pose[:3, 3] = at
+        return pose
+
+    poses = {"body": turned(release["body_pitch_rad"], release["body_position_m"])}
+    for joint in robot.joints:
+        angle = joint.rest_angle_rad + release["joint_rad"][joint.name]
+        poses[joint.child] = poses[joint.parent] @ turned(angle, joint.origin_m)
+    for contact in robot.bodies[FOOT].contacts:
+        assert (poses[FOOT] @ [*contact.centre_m, 1.0])[2] == pytest.approx(contact.radius_m, abs=1e-9)
 
 
 def test_missing_or_foreign_files_are_refused_in_one_line(small_robot: Robot, tmp_path: Path) -> None:

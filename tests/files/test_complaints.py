@@ -41,6 +41,13 @@ def test_nested_value_is_named_with_its_section_and_line(tmp_path: Path) -> None
     assert complaint(tmp_path, text) == "p.toml:4: bed.width_mm = 9000: must be at most 400"
 
 
+def test_a_list_that_is_too_long_is_told_with_both_lengths(tmp_path: Path) -> None:
+    file = tmp_path / "w.toml"
+    file.write_text('[printer]\nname = "mine"\nnozzle_mm = 0.4\nbed_mm = [250.0, 210.0, 220.0, 1.0]\n')
+    with pytest.raises(JumpcadError, match="must have 3 values, not 4"):
+        load_workshop(file)
+
+
 def test_misspelt_key_is_recognised(tmp_path: Path) -> None:
     text = 'name = "MK4"\nnozle_mm = 0.4\n[bed]\nwidth_mm = 250\nwidht_mm = 2\n'
     assert complaint(tmp_path, text) == (

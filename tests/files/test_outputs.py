@@ -14,6 +14,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import (
     require_apart,
     require_free,
+    require_path,
     require_target,
     same_file,
     sealed,
@@ -177,3 +178,9 @@ def test_outputs_are_apart_from_each_other_and_from_what_is_read(tmp_path: Path)
     ):
         with pytest.raises(JumpcadError, match="choose another name"):
             require_apart(outputs, {"design": str(read)})
+
+
+@pytest.mark.parametrize("path", ["a\0b.toml", "\0", "folder/\0.toml"])
+def test_a_path_with_a_nul_is_refused_in_words(path: str) -> None:
+    with pytest.raises(JumpcadError, match="cannot be a path: it has a NUL"):
+        require_path(Path(path))

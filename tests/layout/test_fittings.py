@@ -64,7 +64,7 @@ def test_the_usb_plug_is_before_the_controllers_socket(robot: Robot) -> None:
         assert layout.fittings.usb_size_mm == board.usb_mm
 
 
-@pytest.mark.parametrize("seat_mm", [4.5, 10.0])
+@pytest.mark.parametrize("seat_mm", [4.5, 4.9, 5.3, 5.7, 6.1, 10.0])
 def test_openings_lie_as_near_to_the_boards_as_a_seat_amid_them_lets_them(seat_mm: float) -> None:
     """Around it they keep its radius and 0.4 mm; places are 2 mm apart, so none is 2.9 mm farther than it need be.
 

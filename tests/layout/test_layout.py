@@ -100,6 +100,13 @@ def electronics(layout: Layout) -> shapely.Geometry:
     return box(layout.tray_mm + np.array([0.0, height / 2.0]), carried.battery.length_mm, height)
 
 
+def test_toes_are_as_wide_as_asked_and_never_narrower_than_their_tips() -> None:
+    layout = plans()["kenan-2.0"]
+    tips = layout.design.l5_mm * math.sin(math.radians(layout.design.ground_link_angle_deg))
+    for asked, wide in ((0.0, tips), (tips - 5.0, tips), (tips + 5.0, tips + 5.0)):
+        assert plan_again(layout, toe_half_width_mm=asked).toe_half_width_mm == pytest.approx(wide)
+
+
 def test_axes_of_gears_are_at_their_centre_distances() -> None:
     for name, layout in plans().items():
         axes = [layout.motor_mm, *([] if layout.idler_mm is None else [layout.idler_mm]), layout.cam_axis_mm]

@@ -37,6 +37,18 @@ def test_a_turn_is_counter_clockwise_in_x_z():
     assert offset.mass.com_m == pytest.approx([0.0, 0.001, 0.010], abs=1e-12)
 
 
+def test_a_part_moves_with_its_mass() -> None:
+    """By 10, 20 and 30 mm, turned by 90° about z: what lay along y lies along -x."""
+    pose = np.array([[0.0, -1.0, 0.0, 10.0], [1.0, 0.0, 0.0, 20.0], [0.0, 0.0, 1.0, 30.0], [0.0, 0.0, 0.0, 1.0]])
+    moved = rod(at=(5.0, 0.0, 7.0)).moved(pose)
+    assert moved.mass.com_m == pytest.approx([0.010 - 0.020, 0.020 + 0.005, 0.030 + 0.007], abs=1e-9)
+    assert moved.look.copy().apply_transform(moved.T_body_part).bounds.mean(axis=0) == pytest.approx(
+        [-10, 25, 37], abs=1e-3
+    )
+    across = 2.2e-3 * (3.0 * 0.0015**2 + 0.040**2) / 12.0
+    assert np.diag(moved.mass.inertia_kg_m2) == pytest.approx([2.2e-3 * 0.0015**2 / 2.0, across, across], rel=3e-3)
+
+
 def test_pins_weigh_what_their_steel_does() -> None:
     """7.85 g/cm³: a split pin's wire over its length, a clevis pin's shank and head."""
     robot = built("kenan-2.0")

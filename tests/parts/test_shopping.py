@@ -23,6 +23,7 @@ from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.parts.shopping import _d_shaft, _electronics, _standoffs
+from jumpcad.parts.toes import toes
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import load_workshop
@@ -265,6 +266,11 @@ def test_the_sensors_case_lies_in_the_plate_where_the_layout_says(name: str) -> 
     low, high = item.look.copy().apply_transform(item.T_body_part).bounds
     assert ((low + high) / 2.0)[[0, 2]] == pytest.approx(felt.place_mm, abs=2e-3)
     assert high[1] == pytest.approx(robot.layout.lateral.outside[1] + felt.base_mm, abs=1e-3)
+    screws = [one for one in robot.hardware if one.name.startswith("sensor_screw_")]
+    assert len(screws) == 2
+    for screw in screws:  # four threads of 0.4 mm in the plate at least, and not out of its inside
+        tip = screw.look.copy().apply_transform(screw.T_body_part).bounds[0, 1]
+        assert robot.layout.lateral.inside[1] < tip <= robot.layout.lateral.outside[1] - 1.6 + 1e-6
     part = felt.needs.part
     corners = item.look.vertices
     sizes = np.ptp(corners, axis=0)
@@ -287,7 +293,8 @@ def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
         (item,) = (one for one in robot.hardware if one.name == f"switch_screw_{number}")
         bounds = item.look.copy().apply_transform(item.T_body_part).bounds
         assert bounds.mean(axis=0)[[0, 2]] == pytest.approx([x + side * 7.5, z], abs=1e-3)
-        assert bounds[0, 1] < low < bounds[1, 1]
+        assert bounds[0, 1] < low
+        assert bounds[1, 1] >= inside + 0.5 - 1e-6  # through the switch's ear
 
 
 def test_bearings_are_in_the_hub_and_on_the_lever(assembled_robot: Robot) -> None:
@@ -308,6 +315,8 @@ def test_bearings_are_in_the_hub_and_on_the_lever(assembled_robot: Robot) -> Non
         assert bounds.mean(axis=0)[[0, 2]] == pytest.approx(centre, abs=0.02), name
         assert bounds[1, 1] == pytest.approx(high, abs=1e-3), name
         assert low is None or bounds[0, 1] == pytest.approx(low, abs=1e-3), name
+        if name == "roller_screw":
+            assert bounds[0, 1] <= -half - 4.0 + 1e-6, "not through the whole nut"
 
 
 @pytest.mark.parametrize("plate_mm", [1.6, 2.0, 2.4, 3.0, 3.5, 4.0, 4.5])
@@ -415,3 +424,48 @@ def test_a_d_shaft_is_a_disc_without_a_segment(diameter: float, across: float) -
     r, h = diameter / 2.0, across - diameter / 2.0
     segment = r**2 * math.acos(h / r) - h * math.sqrt(r**2 - h**2)
     assert _d_shaft(diameter, across).area() == pytest.approx(math.pi * r**2 - segment, rel=5e-3)
+
+
+def test_cross_screws_go_through_the_toe_into_the_stub() -> None:
+    """Under the head (1.65 mm, ISO 7380-1 M3) lies the toe; behind it 4 mm at least of thread, within the stub."""
+    robot = built(LONG_TOES)
+    for toe in toes(robot.layout):
+        inverse, side = np.linalg.inv(toe.pose_mm), toe.outside * np.array([0.0, 1.0, 0.0])
+        overlap = [
+            placed(robot, name).apply_transform(inverse).slice_plane([15.0, 0, 0], [1, 0, 0])
+            .slice_plane([31.0, 0, 0], [-1, 0, 0]).vertices @ side for name in (toe.name, "foot")
+        ]  # fmt: skip
+        outside, inside = overlap[0].max(), overlap[0].min()
+        screws = [item for item in robot.hardware if item.name.startswith(f"{toe.name}_screw")]
+        assert len(screws) == 2
+        for item in screws:
+            along = item.look.copy().apply_transform(inverse @ item.T_body_part).vertices @ side
+            assert along.max() - outside == pytest.approx(1.65, abs=1e-3)
+            assert overlap[1].min() < along.min() <= inside - 4.0
+
+
+def test_small_steel_weighs_what_the_catalogue_says(assembled_robot: Robot) -> None:
+    catalogue = load_catalogue()
+    expected = {"roller_nut": catalogue.nuts["M3 nyloc"].mass_g, "roller_washer": catalogue.washers["M3"].mass_g}
+    for name in ("roller", "hub_bearing_1", "hub_bearing_2"):
+        (bearing,) = named(assembled_robot, name) if name != "roller" else named(assembled_robot, "roller")[:1]
+        assert bearing.name == name
+        expected[name] = catalogue.bearings[bearing.article.removeprefix("ball bearing ")].mass_g
+    found = {one.name: 1000.0 * one.mass_kg for one in assembled_robot.hardware if one.name in expected}
+    assert found == pytest.approx(expected, rel=1e-9)
+
+
+def test_rings_have_their_bores(assembled_robot: Robot) -> None:
+    """A washer of ISO 7089 M3: 7 mm, 3.2 mm, 0.5 mm; ball bearings as their names say, filled between the rings."""
+    catalogue, seen = load_catalogue(), set()
+    for item in assembled_robot.hardware:
+        if item.name == "roller_washer":
+            outer, bore, width = 7.0, 3.2, 0.5
+        elif item.article.startswith("ball bearing "):
+            bearing = catalogue.bearings[item.article.removeprefix("ball bearing ")]
+            outer, bore, width = bearing.outer_mm, bearing.bore_mm, bearing.width_mm
+        else:
+            continue
+        seen.add(item.name)
+        assert item.shape.volume_mm3 == pytest.approx(math.pi / 4.0 * (outer**2 - bore**2) * width, rel=0.01), item.name
+    assert seen == {"roller_washer", "roller", "hub_bearing_1", "hub_bearing_2"}

@@ -2,7 +2,7 @@
 
 import pytest
 
-from jumpcad.printing.project import settings_in_words, temperatures_in_words
+from jumpcad.printing.project import project_settings, settings_in_words, temperatures_in_words
 from jumpcad.workshop import load_workshop
 
 
@@ -32,3 +32,19 @@ def test_instructions_have_the_numbers_of_the_process() -> None:
     assert any("filled like the others" in line for line in solid)
     hollow = settings_in_words(shop.printer, process.model_copy(update={"infill": 0.0}))
     assert any(line.startswith("infill: none but solid layers") for line in hollow)
+
+
+@pytest.mark.parametrize("name", ["PETG", "PLA"])
+def test_a_project_has_the_materials_temperatures_of_every_layer(name: str) -> None:
+    """A nozzle is hotter than a bed; of a material that is not known there are none."""
+    shop = load_workshop()
+    material = shop.materials[name]
+    settings = project_settings(shop.printer, shop.process, material, name)
+    for layer in ("", "first_layer_"):
+        assert float(settings[f"{layer}temperature"]) == material.nozzle_c
+        assert float(settings[f"{layer}bed_temperature"]) == material.bed_c
+        assert float(settings[f"{layer}temperature"]) > 150.0 > float(settings[f"{layer}bed_temperature"])
+    unknown = material.model_copy(update={"nozzle_c": None, "bed_c": None})
+    assert not any("temperature" in key for key in project_settings(shop.printer, shop.process, unknown, name))
+    assert settings["filament_type"] == name
+    assert not {"start_gcode", "end_gcode"} & settings.keys()

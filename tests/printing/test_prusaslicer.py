@@ -5,6 +5,7 @@ import os
 import pytest
 
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.printing import prusaslicer
 from jumpcad.printing.prusaslicer import slice_part, slicer_program, slicer_settings, slicer_version
 from jumpcad.workshop import load_workshop
 
@@ -93,6 +94,13 @@ def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):
     with pytest.raises(JumpcadError, match="exit code 139: it printed no message") as crash:
         sliced(tmp_path)
     assert not isinstance(crash.value, CannotBuildError)
+
+
+def test_a_slicer_that_does_not_finish_is_ended(stand_in, monkeypatch, tmp_path):
+    monkeypatch.setattr(prusaslicer, "TIMEOUT_S", 0.1)
+    stand_in("exec sleep 5")
+    with pytest.raises(JumpcadError, match=r"did not finish .* within 0\.1 s"):
+        sliced(tmp_path)
 
 
 def test_versions_of_which_settings_are_known_are_taken(stand_in):

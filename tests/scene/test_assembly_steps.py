@@ -12,6 +12,7 @@ from support.built import built
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_order.plan import Move, Words
 from jumpcad.scene.assembly_steps import REST, SIDES, _texts, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
@@ -123,6 +124,35 @@ def test_toes_come_along_their_own_width(name: str, way: float) -> None:
     np.testing.assert_allclose(found, way * turned[:3, :3] @ np.array([math.sin(0.7), math.cos(0.7), 0.0]), atol=1e-12)
     with pytest.raises(ValueError, match="no direction from nowhere"):
         travel(built("kenan-2.0"), thing, Move("toe_left", "from nowhere"), turned)  # type: ignore[arg-type]
+
+
+def test_warnings_come_as_warnings_and_checks_as_checks(robot: Robot) -> None:
+    plans, found = {plan.key: plan for plan in ORDER}, Counter[str]()
+    for step in assembly_steps(robot):
+        for kind in ("text", "warnings", "checks"):
+            ours, planned = getattr(step, kind), [words.text for words in getattr(plans[step.key], kind)]
+            assert set(ours) <= set(planned), step.key
+            found[kind] += len(ours)
+    assert min(found.values()) > 3
+
+
+@pytest.mark.parametrize("boss_mm", [0.0, 2.0])
+def test_the_springs_pin_leans_on_a_boss_or_on_a_strip_of_tape(boss_mm: float) -> None:
+    robot = built("kenan-2.0")
+    steps = assembly_steps(replace(robot, layout=replace(robot.layout, spring_boss_mm=boss_mm)))
+    words = " ".join(text for step in steps for text in step.text)
+    found = [text in words for text in ("its boss on the plate holds it", "adhesive tape from it to the plate")]
+    assert found == [boss_mm > 0.0, boss_mm == 0.0]
+
+
+@pytest.mark.parametrize("preload_rad", [0.0, 0.1])
+def test_springs_with_a_preload_are_put_on_with_a_screwdriver(preload_rad: float) -> None:
+    robot = built("kenan-2.0")
+    layout = robot.layout
+    drive = replace(layout.drive, spring=replace(layout.drive.spring, preload_rad=preload_rad))
+    steps = assembly_steps(replace(robot, layout=replace(layout, drive=drive)))
+    words = " ".join(text for step in steps for text in step.text)
+    assert ("The springs are loaded by" in words) == (preload_rad > 0.0)
 
 
 @pytest.mark.parametrize(

@@ -29,6 +29,15 @@ def test_sampled_components_are_equal_and_the_elite_s_are_not(evaluator):
     assert best.directions @ best.directions.T == pytest.approx(np.eye(8), abs=1e-9)
 
 
+def test_samples_and_what_is_permuted_follow_from_the_seed(evaluator):
+    drawn = [sample(evaluator(), 32, seed) for seed in (0, 0, 1)]
+    keys = [[trial.key for trial in trials] for trials in drawn]
+    assert keys[0] == keys[1]
+    assert not set(keys[0]) & set(keys[2])
+    falls = [importance(evaluator(), drawn[0], seed).mean.tolist() for seed in (0, 0, 1)]
+    assert falls[0] == falls[1] != falls[2]
+
+
 def test_importance_knows_which_parameters_decide(evaluator):
     one = evaluator(space=Space.default())
     found = importance(one, sample(one, 300, 0), 0)

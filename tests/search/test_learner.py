@@ -101,6 +101,14 @@ def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
     assert after.log_feasible(unit) < before.log_feasible(unit)
 
 
+def test_what_failed_where_all_seemed_well_is_believed_to_fail():
+    """Compression ratio 0.59, of up to 0.7: there the trials know of nothing wrong."""
+    learner, unit = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True), np.array([[0.7, 0.3, 0.3]])
+    assert math.exp(learner._learned().log_feasible(unit)[0]) > 0.99
+    learner.tried.append(unit[0])
+    assert math.exp(learner._learned().log_feasible(unit)[0]) < 0.5
+
+
 def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
     many = [[0.01 * number, 0.5, 0.5] for number in range(40)]
     learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)

@@ -7,7 +7,7 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.design import SEARCH_BOUNDS
-from jumpcad.search.margin import STEEPNESS, _missed
+from jumpcad.search.margin import STEEPNESS, _missed, propose_robust
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.robust import rank_candidates
 from jumpcad.search.space import Space
@@ -45,6 +45,17 @@ def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
     edge = [one for one in ranked if one.trial.design.compression_ratio > 0.6985]
     assert all(one.neighbours < best.neighbours for one in edge)
     assert all(one.robust_score < 5.0 for one in edge if one.neighbours >= 8)
+
+
+def test_proposals_off_an_edge_follow_from_the_seed(evaluator):
+    points = SMALL.spread(16, np.random.default_rng(1))
+    runs = []
+    for seed in (0, 0, 1):
+        one = evaluator(model=Cliff())
+        one.evaluate([SMALL.to_design(point) for point in points], "bo", 0)
+        runs.append([trial.key for trial in propose_robust(one, one.trials, 0, seed, 0.01)])
+    assert len(runs[0]) == 3
+    assert runs[0] == runs[1] != runs[2]
 
 
 class Level:

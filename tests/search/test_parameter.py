@@ -49,6 +49,28 @@ def test_bounds_of_a_workshops_value_are_numbers_and_its_choices_are_left_to_the
         read_change("bound", "body.plate_mm=thin:2.4")
 
 
+@pytest.mark.parametrize("bounds", ["1.0:1.0", "1.1:0.9"])
+def test_a_range_without_width_is_empty(bounds: str) -> None:
+    with pytest.raises(JumpcadError, match="is an empty range: the first must be less than the second"):
+        changed_parameters([read_change("bound", f"c_coef={bounds}")])
+
+
+def test_a_whole_number_of_the_workshop_stays_one_from_bound_to_bound() -> None:
+    found = changed_parameters([read_change("bound", "process.perimeters=2:5")], load_workshop())
+    assert found["process.perimeters"].choices == (2.0, 3.0, 4.0, 5.0)
+    found = changed_parameters([read_change("bound", "process.infill=0.2:0.5")], load_workshop())
+    assert found["process.infill"].choices == ()
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [(("c_coef=1", "c_coef=0.9"), "c_coef"), (("body.plate_mm=3", "body.plate_mm=2.5"), "body.plate_mm")],
+)
+def test_what_is_given_twice_is_refused(changes: tuple[str, str], named: str) -> None:
+    with pytest.raises(JumpcadError, match=f"{named} is given twice"):
+        changed_parameters([read_change("fix", text) for text in changes], load_workshop())
+
+
 @pytest.mark.parametrize(
     ("parameter", "record"),
     [

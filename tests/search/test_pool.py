@@ -38,6 +38,14 @@ def test_results_do_not_depend_on_who_computes_them(workers):
     assert notes == []
 
 
+@pytest.mark.parametrize("workers", [0, 1])
+def test_an_outcome_says_how_long_it_took(workers):
+    with local_pool(workers) as pool:
+        durations = [outcome.duration_s for outcome in pool.evaluate(Hill(pause_s=0.02), DESIGNS[:3])]
+    assert len(durations) == 3
+    assert all(0.02 <= duration < 0.5 for duration in durations)
+
+
 @pytest.mark.parametrize(
     ("way", "limit_s", "reason"),
     [

@@ -9,7 +9,7 @@ from support.proposals import with_less_work
 from support.quick import LIKE, SPACE, quick
 
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.guess import Guess
+from jumpcad.search.guess import Guess, Table
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import IDLE, run_bayesian
@@ -123,6 +123,22 @@ def test_what_fails_is_learned_as_a_trial_and_guesses_follow_the_robots_that_wer
     held = [rehearsal.holds(SPACE.to_variant(point)) for point in tried]
     assert len(failures) == min(held.count(False), FAILED)
     assert all(trial.score is None and not trial.evaluation.feasible for trial in failures)
+
+
+def test_figures_are_fitted_around_the_best_robot(trials, monkeypatch):
+    seen = []
+
+    class Noted(Table):
+        def __init__(self, space, known, centre, laid=False):
+            seen.append((known, centre.tolist()))
+            super().__init__(space, known, centre, laid)
+
+    monkeypatch.setattr("jumpcad.search.rehearsal.Table", Noted)
+    rehearsal_of().learn(trials)
+    ((known, centre),) = seen
+    best = max((trial for trial in known if trial.score is not None), key=lambda trial: trial.score)
+    assert centre == SPACE.to_unit(best.variant).tolist()
+    assert best is not known[0]
 
 
 def test_what_other_searches_tried_is_not_looked_at(trials):

@@ -61,6 +61,18 @@ def test_a_candidate_of_which_no_neighbour_is_known_is_as_robust_as_itself(evalu
     assert candidate.robust_score == candidate.parameters_score == candidate.print_score == trial.score
 
 
+def test_neighbours_follow_from_the_seed_and_are_each_candidates_own(evaluator):
+    one = evaluator()
+    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
+    asked = [(0, 0), (0, 0), (1, 0), (0, 1)]
+    found = [_Examined(index, one.trials[0]).neighbours(4, seed, LENGTHS_ALONE) for seed, index in asked]
+    keys = [{variant.key for _, variant in variants} for variants in found]
+    assert len(keys[0]) == 4
+    assert keys[0] == keys[1]
+    assert not keys[0] & keys[2]
+    assert not keys[0] & keys[3]
+
+
 def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
     one = evaluator(model=Needles())
     centre = SMALL.to_design([0.5, 0.5, 0.5])

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from operator import attrgetter
 from types import SimpleNamespace
 
 import numpy as np
@@ -63,6 +64,14 @@ def test_a_robot_stands_in_for_itself():
     exact, found = simulate(LIKE), simulate(other)
     assert found.ballistic_range_m == pytest.approx(exact.ballistic_range_m, rel=2e-3)  # left and right alike
     assert [one.margin for one in found.findings[:4]] == pytest.approx([one.margin for one in exact.findings[:4]])
+    for name, body in other.bodies.items():
+        like = LIKE.bodies[name]
+        assert body.mass_kg == pytest.approx(like.mass_kg, rel=1e-5)
+        assert body.com_m[[0, 2]] == pytest.approx(like.com_m[[0, 2]], rel=1e-5)
+        assert body.inertia_kg_m2[1, 1] == pytest.approx(like.inertia_kg_m2[1, 1], rel=1e-5)
+        assert [one.radius_m for one in body.contacts] == pytest.approx([one.radius_m for one in like.contacts])
+    same = "stop.angle_rad", "stop.stiffness_nm_per_rad", "roller_off.leg_rad", "roller_off.leg_rad_s", "foot_depth_m"
+    assert attrgetter(*same)(other) == pytest.approx(attrgetter(*same)(LIKE), rel=1e-4)
 
 
 def test_a_guess_is_as_good_as_its_error_says_and_what_is_left_out_is_worse_than_the_best(model, trials):

@@ -9,7 +9,7 @@ from support.machines import let_go
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Friction
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
 from jumpcad.settings import coefficients
@@ -17,6 +17,7 @@ from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.bullet import LINKS, BulletWorld
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics
+from jumpcad.strength.pin_friction import pin_torque_nm
 
 pytest.importorskip("pybullet")
 
@@ -124,6 +125,18 @@ def test_pybullets_ground_has_the_settings_friction_and_leaves_bounces_to_the_ro
         info = bullet.getDynamicsInfo(world._ground, -1, physicsClientId=world._client)
         assert bullet.getPhysicsEngineParameters(physicsClientId=world._client)["gravityAccelerationZ"] == -9.81
     assert (info[0], info[1], info[5]) == (0.0, friction, 1.0)
+
+
+def test_the_pins_rub_once_and_at_the_leg() -> None:
+    """Their torque is that of the leg's joint (`pin_torque_nm`), beside what the settings ask of every joint."""
+    plain = capsule_robot(load_design("kenan-2.0"))
+    robot = replace(plain, friction=Friction(0.7, 0.5, 0.2, (0.0015, 0.002, 0.002, 0.002)))
+    pins = pin_torque_nm(robot, 0.2)
+    assert pins > 1e-4
+    with engine_named("pybullet").world(robot, Settings(joint_friction_nm=0.003)) as world:
+        assert world._dry_nm == pytest.approx([0.003 + pins, 0.003, 0.003])
+    with engine_named("pybullet").world(plain, Settings()) as world:
+        assert world._dry_nm == [0.0, 0.0, 0.0]
 
 
 def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:

@@ -6,6 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from jumpcad.design import load_design
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.jump import EnergyBudget, Jump, Trajectory
@@ -67,3 +69,11 @@ def test_what_does_not_jump_has_no_figures_of_a_jump() -> None:
         "verdict": "no_takeoff", "engine": "planar", "mass_kg": 0.1, "spring_energy_j": 0.2, "fitness": 0.0,
         "findings": (),
     }  # fmt: skip
+
+
+def test_a_jump_in_json_has_its_energy_and_the_account_of_it() -> None:
+    jump = simulate(capsule_robot(load_design("kenan-2.0")), engine="planar")
+    data = jump.to_dict()
+    assert data["energy_account_j"] == jump.energy_account_j
+    assert sum(data["energy_account_j"].values()) == pytest.approx(jump.spring_energy_j)
+    assert data["energy"]["forward_j"] > 0.0

@@ -148,3 +148,13 @@ def test_the_loaded_state_is_that_of_an_engine_before_anything_moves(lopsided: R
     mechanics = Mechanics(lopsided, 9.81)
     assert mechanics.energies(here).spring_j == pytest.approx(lopsided.spring.energy_j)
     assert mechanics.energies(here).kinetic_j == 0.0
+
+
+def test_a_standing_robot_is_no_distance_from_the_ground(lopsided: Robot) -> None:
+    """Whose centres of mass are beside its frames: its lowest sphere touches; raised by 1 cm it is 1 cm above."""
+    with engine_named("planar").world(lopsided, Settings()) as world:
+        state = world.state()
+    mechanics = Mechanics(lopsided, 9.81)
+    assert mechanics.clearance_m(state) == pytest.approx(0.0, abs=1e-6)
+    raised = replace(state, com_m=state.com_m + np.array([0.0, 0.0, 0.01]))
+    assert mechanics.clearance_m(raised) == pytest.approx(0.01, abs=1e-6)

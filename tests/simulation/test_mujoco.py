@@ -1,5 +1,7 @@
 """The MuJoCo back end: settings that it does not have are rejected; it begins where the planar engine does."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from support.machines import let_go
@@ -31,6 +33,14 @@ def test_mujoco_begins_where_the_planar_engine_does(kenan: Robot, turning: bool)
         np.testing.assert_allclose(getattr(one, key), getattr(other, key), atol=1e-5, err_msg=key)
     assert one.leg_rad == pytest.approx(other.leg_rad, abs=1e-9)
     assert (np.abs(one.velocity_m_s).max() > 0.01) == turning
+
+
+def test_the_pad_pushes_against_the_legs_opening(kenan: Robot) -> None:
+    pytest.importorskip("mujoco")
+    with engine_named("mujoco").world(kenan, Settings()) as world:
+        world._pad = SimpleNamespace(torque_nm=lambda leg_rad, leg_rad_s: 0.25)
+        world.advance(1)
+        assert world.data.qfrc_applied[world._leg_dof] == -0.25
 
 
 def test_the_pad_stops_the_leg_in_mujoco_and_not_its_limit(kenan: Robot) -> None:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
@@ -15,6 +16,17 @@ def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
     ranges = [simulate(kenan, settings, "planar").ballistic_range_m for settings in pairs]
     assert ranges[0] == ranges[1]
     assert ranges[2] > 1.5 * ranges[0]
+
+
+@pytest.mark.parametrize("preload_rad", [0.0, 0.2])
+def test_a_preload_gives_the_energy_of_its_winding(kenan: Robot, preload_rad: float) -> None:
+    """½·k·((w + p)² - p²), as in Bullet, whose jump is as far."""
+    robot = replace(kenan, spring=replace(kenan.spring, preload_rad=preload_rad))
+    jumps = [simulate(robot, engine=engine) for engine in ("planar", "pybullet")]
+    wound = kenan.spring.wind_rad + preload_rad
+    energy = 0.5 * kenan.spring.stiffness_nm_per_rad * (wound**2 - preload_rad**2)
+    assert jumps[0].spring_energy_j == pytest.approx(energy)
+    assert jumps[0].ballistic_range_m == pytest.approx(jumps[1].ballistic_range_m, rel=0.01)
 
 
 def test_left_and_right_do_not_count(lopsided: Robot) -> None:

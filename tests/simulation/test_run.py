@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -61,6 +62,23 @@ def test_energy_gained_counts_as_a_share_of_the_springs() -> None:
         )
         run._look(None, record=False)  # type: ignore[arg-type]
         assert (run.worst_energy_ratio, run.worst_gap_m) == pytest.approx((ratio, gap_m))
+
+
+@pytest.mark.parametrize("trajectory", [False, True])
+def test_a_push_off_is_audited_every_hundredth_of_a_second(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch, trajectory: bool
+) -> None:
+    looks, look = [], Run._look
+
+    def noted(run: Run, *arguments: Any) -> None:
+        looks.append(run.time_s)
+        look(run, *arguments)
+
+    monkeypatch.setattr(Run, "_look", noted)
+    simulate(kenan, Settings(trajectory=trajectory, trajectory_rate_hz=30))
+    assert looks[0] == 0.0
+    assert len(looks) > 5
+    assert np.diff(looks).max() < 0.01
 
 
 def test_time_runs_out(kenan: Robot) -> None:

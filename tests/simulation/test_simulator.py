@@ -40,6 +40,8 @@ def test_a_robot_that_only_stands_up_does_not_take_off() -> None:
     assert jump.verdict == "no_takeoff"
     assert jump.fitness == 0.0
     assert jump.ballistic_range_m is None
+    (refusal,) = (finding for finding in jump.findings if finding.severity == "error")
+    assert (refusal.name, bool(refusal.message), bool(refusal.remedy)) == ("no_takeoff", True, True)
 
 
 def test_heavier_gravity_makes_it_too_weak(kenan: Robot) -> None:
@@ -53,6 +55,8 @@ def test_a_jumps_ratios_are_shares_of_the_springs_energy() -> None:
     capsules = capsule_robot(load_design("kenan-2.0"))
     jump = simulate(capsules, engine="planar")
     assert jump.release_energy_ratio == pytest.approx(1.0, abs=1e-9)
+    assert jump.takeoff_time_s is not None
+    assert 0.01 < jump.takeoff_time_s < 0.2  # some hundredths of a second
     assert jump.energy is not None
     printed = replace(capsules, roller_off=RollerOff(-0.5 * capsules.spring.wind_rad, 3.0, 0.9))
     lossy = simulate(printed, engine="planar")

@@ -11,7 +11,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
 from jumpcad.simulation import simulate, uncertain
-from jumpcad.simulation.uncertain import _first_order, _groups, uncertain_jump
+from jumpcad.simulation.uncertain import Uncertainty, _first_order, _groups, uncertain_jump
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +52,20 @@ def test_interval_holds_the_jump_and_shrinks_with_a_calibration(robot: Robot) ->
     assert (vague.calibrated, sharp.calibrated) == (False, True)
     share = [found.first_order["calibration"]["ballistic_range_m"] for found in (vague, sharp)]
     assert share[1] < share[0]
+
+
+def test_jumps_and_their_resampling_follow_from_the_seed(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    def found(seed: int) -> Uncertainty:
+        return uncertain_jump(robot, Settings(), "planar", seed=seed, samples=32)
+
+    one, again, other = (found(seed) for seed in (0, 0, 1))
+    assert one == again
+    assert one.quantiles != other.quantiles
+    monkeypatch.setattr(uncertain, "sobol", lambda width, count, _: np.random.default_rng(0).random((count, width)))
+    one, other = found(0), found(1)
+    assert one.quantiles == other.quantiles
+    assert one.interval != other.interval
+    assert all(low < high for group in one.interval.values() for low, high in group.values())
 
 
 def test_the_workshop_says_how_much_springs_scatter(robot: Robot) -> None:

@@ -61,6 +61,23 @@ def test_what_is_removed_is_removed_and_equal_heights_are_one_outline():
     assert not inset.any()
 
 
+class Between:
+    """A block of one outline between two heights."""
+
+    def __init__(self, size, low, high):
+        (self.outline,), self.low, self.high = rectangle((size, size)).to_polygons(), low, high
+
+    def contours_at(self, heights_mm):
+        return [[self.outline] if self.low < z < self.high else [] for z in heights_mm]
+
+
+def test_what_is_added_at_one_height_and_removed_at_another_is_not_one_section():
+    """A square of 6 mm in one of 10 mm: 100 mm² with both added, 64 mm² with the small one removed."""
+    blocks = Blocks((Between(10.0, 0.0, 4.0), Between(6.0, 0.0, 2.0)), (Between(6.0, 2.0, 4.0),))
+    areas = [region.area() for region in blocks.regions_at([1.0, 3.0])]
+    assert areas == pytest.approx([100.0, 64.0])
+
+
 def test_a_turned_block_has_turned_sections():
     turned = Turned(FINGER, 0.7, np.array([5.0, -2.0]))
     require_same_sections(Blocks((turned,)), np.array([0.5, 4.5, 6.0, 8.9]), 1e-6)

@@ -107,6 +107,16 @@ def test_first_points(evaluations, prior, initial):
     assert default_initial(SMALL, evaluations, prior) == initial
 
 
+def test_a_search_knows_what_a_prior_study_gained(evaluator):
+    """Its first step gains nothing over that study's best: seven such steps are enough."""
+    teacher = evaluator()
+    run_bayesian(teacher, Task(20, 0, initial=9))
+    assert best(teacher.trials) > 9.9
+    pupil = evaluator(prior=teacher.trials)
+    assert run_bayesian(pupil, Task(20, 1, least_gain=0.02)) is True
+    assert len(pupil.trials) == 7
+
+
 def test_an_exhausted_space_ends_the_search(evaluator):
     space = Space.parse(fix=[*FIXED, f"rest_angle_deg={TOP['rest_angle_deg']}", "compression_ratio=0.6"],
                         choose=["stiffness_nmm_per_deg=8,19,30"])  # fmt: skip

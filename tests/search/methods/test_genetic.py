@@ -6,8 +6,10 @@ from support.hills import SMALL, TOP
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.genetic import find_preset, run_genetic
+from jumpcad.search.methods.genetic import ScreenedFitness, find_preset, run_genetic
+from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial
 
 
 def best(trials):
@@ -83,3 +85,13 @@ def test_a_prior_study_seeds_the_population(evaluator):
 def test_unknown_preset():
     with pytest.raises(JumpcadError, match="did you mean published"):
         find_preset("publishd")
+
+
+def test_what_a_screen_leaves_out_has_the_score_that_was_guessed():
+    fitness = object.__new__(ScreenedFitness)
+    fitness.rejected = -1.0
+    design = SMALL.to_design([0.5, 0.5, 0.5])
+    for metrics, score in (({GUESSED: 2.5}, 2.5), ({}, -1.0)):
+        trial = Trial("ga", 0, 0, design, Evaluation(SCREENED, metrics), None, "m", 0.0)
+        assert fitness.fitness(trial) == score
+    assert fitness.fitness(Trial("ga", 0, 0, design, Evaluation("jump"), 3.5, "m", 0.0)) == 3.5

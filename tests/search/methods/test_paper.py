@@ -45,6 +45,14 @@ def test_each_stage_moves_what_it_should(evaluator):
     assert min(len(few), len(near), len(last)) >= 10
 
 
+def test_every_run_begins_with_designs_of_its_own(evaluator):
+    """Ten each, of the published preset; the same ones would be evaluated once."""
+    one = evaluator(space=Space.default())
+    run_paper(one, Task(140, 3))
+    first = [trial for trial in one.trials if trial.phase == "ga" and trial.step % STEPS == 0]
+    assert [sum(trial.step == run * STEPS for trial in first) for run in range(RUNS)] == [10] * RUNS
+
+
 def test_it_resumes_and_its_study_is_read(tmp_path):
     def rows(path, evaluations):
         with local_pool(0) as pool:
