@@ -231,7 +231,7 @@ class RobotModel:
 
     @property
     def guess_engine(self) -> str:
-        """The engine of what is only guessed: the planar one, compiled or not, unless it lacks what settings ask for."""
+        """The engine of what is only guessed: the planar one, compiled or not, unless it lacks what is asked for."""
         from jumpcad.simulation.planar import LACKING
 
         lacks = any(getattr(self.settings or Settings(), key) for key in LACKING)
