@@ -25,8 +25,9 @@ from jumpcad.workshop import load_workshop
 
 LEAST, GROWTH = 16, 1.25
 """Robots from which on the screen works; it is fitted anew when there are so many times more."""
-WORTH = 0.003
-"""Least gain, as a share of the best score, for which a robot is built; judgement."""
+WORTH = 0.0005
+"""Least gain, as a share of the best score, for which a robot is built: what a search ends by. With 0.003 a search
+builds a third less, and ends 1 % lower (ten seeds)."""
 
 
 class Screen:
