@@ -195,3 +195,15 @@ def test_accidents_are_one_line_or_harmless(read: Callable[..., Robot], file: st
             refused.append(str(error))
     assert len(refused) > TRIES // 2
     assert all(told.isprintable() for told in refused)
+
+
+def test_every_joint_keeps_its_limits(read: Callable[..., Robot]) -> None:
+    """The mechanism's travel is that of the loop file, to which the URDF adds room."""
+    got = read()
+    for joint in KENAN.joints:
+        again = got.joint(joint.name)
+        assert joint.lower_rad < joint.upper_rad
+        for key in ("lower_rad", "upper_rad", "effort_nm", "velocity_rad_s", "rest_angle_rad"):
+            assert getattr(again, key) == pytest.approx(getattr(joint, key), rel=1e-6), (joint.name, key)
+        assert (again.parent, again.child) == (joint.parent, joint.child)
+        assert again.origin_m == pytest.approx(joint.origin_m, abs=1e-9)
