@@ -99,8 +99,10 @@ def test_each_arm_pushes_its_pin_outwards(pin: str, direction: tuple[float, floa
 def test_a_cam_gear_must_clear_the_hub() -> None:
     axle = disc("leg axle", HUB, 4.0, EVERYWHERE)
     require_gear_room([axle], HUB + np.array([0.0, 30.0]), 26.0, (0.0, 5.0))
-    with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"):
-        require_gear_room([axle], HUB + np.array([0.0, 30.0]), 27.0, (0.0, 5.0))
+    far = disc("front axle", HUB + np.array([90.0, 0.0]), 4.0, EVERYWHERE)
+    for things in ([axle], [axle, far], [far, axle]):
+        with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"):
+            require_gear_room(things, HUB + np.array([0.0, 30.0]), 27.0, (0.0, 5.0))
 
 
 @pytest.mark.parametrize("stages", [1, 2])

@@ -112,7 +112,7 @@ def test_the_energy_of_a_blow_is_that_of_a_turning_body() -> None:
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
 def test_springs_that_pull_back_beyond_rest_slow_the_leg(name: str) -> None:
-    """By the energy that they store up to the stop, ½·K·q²; up to take-off, less than 1° past rest, they are the same."""
+    """By the energy stored up to the stop, ½·K·q²; up to take-off, less than 1° past rest, they are the same."""
     robot, stop = built(name), math.radians(8.0)
     kinds = [replace(robot.spring, one_sided=one_sided) for one_sided in (False, True)]
     slow, quick = (leg_blow(robot.bodies, robot.linkage, spring, stop) for spring in kinds)
