@@ -9,9 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.built import built
 from support.loaded import loaded_range_m
 from support.places import ROOT
 
+from jumpcad import evaluation
 from jumpcad.building import build
 from jumpcad.bundle.export import export
 from jumpcad.checks import constraint_findings
@@ -166,3 +168,20 @@ def test_electricity_is_voltage_times_mean_current_times_time() -> None:
     assert result.metrics["electrical_energy_j"] == pytest.approx(power * result.metrics["winding_time_s"], rel=1e-9)
     parts = result.metrics["motor_energy_j"] + result.metrics["boards_energy_j"]
     assert result.metrics["electrical_energy_j"] == pytest.approx(parts)
+
+
+def test_a_made_robot_jumps_with_the_settings_and_the_engine_that_are_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """`made` changes robot and settings; findings and size stay those of the design."""
+    robot, worn = built("kenan-2.0"), built("best-bo")
+    fine, icy = Settings(dt_s=1.0 / 8000.0), Settings(ground_friction=0.1)
+    (finding,) = constraint_findings(robot)[:1]
+    jump, asked = simulate(robot, engine="planar"), []
+    monkeypatch.setattr(evaluation, "_designed", lambda order: (robot, (finding,)))
+    monkeypatch.setattr(evaluation, "simulate", lambda *values: asked.append(values) or jump)
+    got = evaluation.evaluate_made(KENAN, None, fine, "mujoco", lambda one, given: (one, given))
+    evaluation.evaluate_made(KENAN, None, None, "planar", lambda one, given: (one, given))
+    evaluation.evaluate_made(KENAN, None, fine, "planar", lambda one, given: (worn, icy))
+    assert asked == [(robot, fine, "mujoco"), (robot, Settings(), "planar"), (worn, icy, "planar")]
+    assert (got.robot, got.jump, got.findings) == (robot, jump, (*jump.findings, finding))

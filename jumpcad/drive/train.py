@@ -64,8 +64,8 @@ class GearTrain:
         Largest torque on the wheel of each pair.
     cam_speed_rad_s
         Speed of the unloaded cam with a full battery.
-    motor_torque_nm, stall_margin
-        Largest torque on the motor's output, and what is left of its allowed torque, as a share of stall.
+    motor_torque_nm
+        Largest torque on the motor's output.
     winding_s, mean_current_a, peak_current_a, motor_j, boards_j
         For one turn of the cam, which is one jump, at the battery's nominal voltage under load: time, currents of the
         motor, and energy of motor and of boards. Waiting before the jump is not counted.
@@ -78,7 +78,6 @@ class GearTrain:
     wheel_torques_nm: tuple[float, ...]
     cam_speed_rad_s: float
     motor_torque_nm: float
-    stall_margin: float
     winding_s: float
     mean_current_a: float
     peak_current_a: float
@@ -124,7 +123,7 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     """Return a train with its figures, and every limit with its margin."""
     ratio = math.prod(pair.ratio for pair in stages)
     efficiency = limits.efficiency(len(stages))
-    peak, allowed = law.peak_torque_nm / (ratio * efficiency), allowed_nm(motor, limits)
+    peak = law.peak_torque_nm / (ratio * efficiency)
     cam_speed = free_speed_rad_s(limits.fastest(motor)) / ratio
     torques = _wheel_torques_nm(law, stages, limits)
     turn = winding(law, limits.driven(motor), ratio, efficiency)
@@ -137,7 +136,6 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
         wheel_torques_nm=torques,
         cam_speed_rad_s=cam_speed,
         motor_torque_nm=peak,
-        stall_margin=(allowed - peak) / motor.stall_torque_nm,
         winding_s=turn.seconds,
         mean_current_a=turn.mean_current_a,
         peak_current_a=turn.peak_current_a,

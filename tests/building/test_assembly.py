@@ -2,8 +2,10 @@
 
 import hashlib
 import math
+import re
 import subprocess
 import sys
+from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -310,3 +312,39 @@ def test_spacers_of_the_idler_have_as_much_play_to_either_side() -> None:
     start, end = placed(robot, "cam_spacer_left").bounds[:, 1]
     assert end == pytest.approx(lateral.inside[1], abs=1e-3)
     assert 0.0 < start - lateral.gears[0][1] < 0.5
+
+
+def test_nothing_that_is_printed_is_left_out() -> None:
+    """A body of plates, trays and stop, four links with a foot, the train, and what keeps things apart on axles."""
+    usual = {
+        "body_plate_left", "body_plate_right", "electronics_tray_lower", "electronics_tray_upper", "stop_bar",
+        "main_leg", "front_link", "foot", "cam", "cam_gear", "motor_pinion", "motor_cap", "sensor_mount",
+        "spring_bushing_left", "spring_bushing_right", "front_spacer_left", "front_spacer_right", "cam_spacer_right",
+    }  # fmt: skip
+    geared_down = {"idler", "idler_spacer_right", "cam_spacer_left"}
+    for robot, more in (
+        (built("kenan-2.0"), set()),
+        (built(LONG_TOES), {"toe_left", "toe_right"}),
+        (geared(), geared_down),
+    ):
+        assert {part.name for part in robot.parts} == usual | more
+        assert all(part.placements for part in robot.parts)
+
+
+def test_nothing_that_is_bought_is_left_out() -> None:
+    """Of Kenan 2.0 as the default workshop makes it; wires, ties and pads besides."""
+    bought = Counter(re.sub(r"(_\d+)?(_(left|right))?$", "", item.name) for item in built("kenan-2.0").hardware)
+    needed = {
+        "leg_axle": 1, "front_axle": 1, "cam_axle": 1, "spring_pin": 1, "hub_bearing": 2, "roller": 1,
+        "roller_washer": 1, "roller_screw": 1, "roller_nut": 1, "ankle_pin": 1, "front_eye_pin": 1, "leg_spring_pin": 1,
+        "ankle_pin_split_pin": 1, "front_eye_pin_split_pin": 1, "leg_spring_pin_split_pin": 1, "spring": 2, "motor": 1,
+        "cap_screw": 2, "sensor": 1, "sensor_screw": 2, "battery": 1, "strap_battery": 1, "controller": 1, "driver": 1,
+        "capacitor": 1, "plug": 1, "switch": 1, "switch_screw": 2, "stop_pad": 1, "nose_pad": 2,
+    }  # fmt: skip
+    assert {name: bought[name] for name in needed} == needed
+    names = [item.name for item in built("kenan-2.0").hardware]
+    assert len(set(names)) == len(names)
+    standoffs = len(built("kenan-2.0").layout.standoffs_mm)
+    assert bought["standoff"] == standoffs >= 2
+    for number in range(1, standoffs + 1):
+        assert {f"standoff_{number}_screw_{side}" for side in ("left", "right")} < set(names)

@@ -142,3 +142,14 @@ def test_what_a_calibration_may_write_is_what_settings_take(key: str) -> None:
     for value in (least - 1e-6, most + 1e-6):
         with pytest.raises(JumpcadError, match=key):
             Settings(**{key: value})
+
+
+def test_a_length_of_which_it_is_unknown_what_it_is_stands_beside_all_that_it_may_be(
+    posterior: CalibrationPosterior, subject: Subject
+) -> None:
+    unknown = {"distance_of": "unknown", "height_of": "unknown"}
+    jumps = ({"distance_mm": (220.0,), "height_mm": (80.0,)} | unknown,)
+    found = predicted_jump(posterior, twin(subject, jumps=jumps, mass={"robot_g": 103.0}))
+    rows = [(row["what"], row["as"]) for row in found.beside()]
+    lengths = [("distance", of) for of in ("centre-of-mass", "first-touchdown", "resting-place")]
+    assert sorted(rows) == sorted([*lengths, ("height", "rise"), ("height", "absolute")])

@@ -2,9 +2,11 @@
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from jumpcad.calibration import subject as subject_module
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.subject import (
     LARGEST_FACTOR,
@@ -17,6 +19,8 @@ from jumpcad.calibration.subject import (
 )
 from jumpcad.errors import JumpcadError
 from jumpcad.files import templates_folder
+from jumpcad.robot import Robot
+from jumpcad.settings import Settings
 
 HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
 FAR, HIGH = '[[jumps]]\ndistance_of = "first-touchdown"\n', '[[jumps]]\nheight_of = "rise"\n'
@@ -222,3 +226,25 @@ def test_measurements_are_named_once_under_one_name(tmp_path: Path) -> None:
     ):
         with pytest.raises(JumpcadError, match=words):
             require_each_once(names)
+
+
+def test_what_is_beyond_the_ballistic_range_is_seen_at_softer_and_harder_springs(
+    subject: Subject, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From 0.7 to 1.5 times the energy; the mean and the deviation of five jumps, of which one does not fly here."""
+    asked: list[float] = []
+
+    def jump(robot: Robot, settings: Settings, engine: str) -> SimpleNamespace:
+        asked.append(robot.spring.energy_j / subject.robot.spring.energy_j)
+        assert (settings.flight, engine) == ("simulated", "planar")
+        flies = len(asked) != 2
+        return SimpleNamespace(
+            touchdown_distance_m=0.2 + 0.01 * len(asked) if flies else None, ballistic_range_m=0.2 if flies else None
+        )
+
+    monkeypatch.setattr(subject_module, "simulate", jump)
+    mean, deviation = Subject("again", subject.measured, subject.robot, ()).beyond_m
+    assert asked == pytest.approx([0.7, 0.85, 1.0, 1.2, 1.5])
+    seen = (0.01, 0.03, 0.04, 0.05)
+    assert mean == pytest.approx(sum(seen) / 4.0)
+    assert deviation == pytest.approx(math.sqrt(sum((one - mean) ** 2 for one in seen) / 4.0))

@@ -1,12 +1,20 @@
 """Printability on parts that are drawn to violate one limit each, and on a robot that violates none."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 from support.built import checked
 
-from jumpcad.checks.printability import _longest_mm, _tall_regions, bed_findings, printability_findings
+from jumpcad.checks.printability import (
+    _longest_mm,
+    _mesh_undersides,
+    _tall_regions,
+    bed_findings,
+    printability_findings,
+)
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY
@@ -152,3 +160,16 @@ def test_solids_that_are_no_stacks_are_cut_every_so_often_from_bottom_to_top(ken
     assert sum(height for height, _ in regions) == pytest.approx(20.0, abs=2.0 * regions[0][0])
     assert sum(height * area for height, area in regions) == pytest.approx(20.0 * 20.0 / 2.0 * 10.0, rel=0.1)
     assert [area for _, area in regions] == sorted((area for _, area in regions), reverse=True)
+
+
+@pytest.mark.parametrize("lean_deg", [20.0, 40.0, 60.0])
+def test_a_meshs_wall_hangs_over_where_it_leans_more_than_the_printer_can(lean_deg: float) -> None:
+    """The angle is that from upright, whatever it is: at 45° alone its sine and cosine are one."""
+    lean = 10.0 * math.tan(math.radians(lean_deg))
+    floor = [(x, y, 0.0) for x in (0.0, 20.0) for y in (0.0, 8.0)]
+    top = [(x, y, 10.0) for x in (0.0, 20.0 + lean) for y in (0.0, 8.0)]
+    mesh = trimesh.Trimesh([*floor, *top]).convex_hull
+    for most_deg in (lean_deg - 2.0, lean_deg + 2.0):
+        found = list(_mesh_undersides(mesh, math.radians(most_deg)))
+        assert len(found) == (most_deg < lean_deg)
+        assert all(span == (False, pytest.approx(min(8.0, lean), abs=1e-6)) for span in found)

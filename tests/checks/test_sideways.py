@@ -9,8 +9,9 @@ import shapely
 import shapely.affinity
 
 from jumpcad.building import build
+from jumpcad.checks import sideways
 from jumpcad.checks.interference import Moment, components, pose_of
-from jumpcad.checks.sideways import play_rad, rolls, sideways_findings, stance_deg
+from jumpcad.checks.sideways import Roll, play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
@@ -141,3 +142,14 @@ def test_the_bar_across_a_toe_is_checked() -> None:
     wide = build(NARROW, workshop(toe_half_width_mm=60.0))
     (bar,) = (found for found in strength_findings(wide) if found.name == "toe_bar_strength")
     assert bar.value > 0.0
+
+
+@pytest.mark.parametrize("state", ["at rest", "springs loaded", "landing"])
+def test_the_state_in_which_least_is_left_is_told(kenan: Robot, state: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is left, not where the robot tips first: much play may take more."""
+    states = ("at rest", "springs loaded", "landing")
+    told = tuple(Roll(one, 9.0, 5.0) if one == state else Roll(one, 8.0, 1.0) for one in states)
+    monkeypatch.setattr(sideways, "rolls", lambda *_: told)
+    (finding,) = sideways_findings(kenan)
+    assert finding.message.startswith(f"{state}, the robot tips sideways at 9.0°")
+    assert (finding.value, finding.limit) == (4.0, 2.0)

@@ -153,3 +153,17 @@ def test_the_rollers_screw_is_a_cantilever_beside_the_lever(robot: str, request:
     force = strong.layout.drive.cam.peak_contact_n
     assert screw.value == pytest.approx(32.0 * force * 2.5 / (math.pi * 2.387**3), rel=0.01)
     assert screw.limit == pytest.approx(640.0 / 1.5 / LOADS)  # property class 8.8
+
+
+@pytest.mark.parametrize("jumps", [1e3, 3000.0, 1e6])
+def test_a_rod_has_its_yield_stress_over_0_78_as_tensile_strength(kenan: Robot, jumps: float) -> None:
+    """Goodman's line by hand, for a stress that is half mean, half amplitude (Shigley 6-12, figure 6-18)."""
+    case = LoadCase(changed(kenan, "safety", jumps=jumps))
+    (finding,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
+    name = finding.message.removeprefix("the ").partition(":")[0].replace(" ", "_")
+    tensile = case.bars[name].yield_mpa / 0.78
+    endless = min(tensile / 2.0, 700.0) * min(1.0, 4.51 * tensile**-0.265)
+    of_way = (math.log10(jumps) - 3.0) / 3.0
+    lasts = math.exp((1.0 - of_way) * math.log(0.77 * tensile) + of_way * math.log(endless))
+    allowed = min(2.0 / (1.0 / lasts + 1.0 / tensile), 0.78 * tensile)
+    assert finding.limit == pytest.approx(allowed / LOADS)

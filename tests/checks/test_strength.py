@@ -196,3 +196,36 @@ def test_the_dog_bears_the_cams_torque_and_its_blow(robot: str, request: pytest.
     bore = 3.0 + 2.0 * fits.sliding_mm
     boss = math.sqrt(3.0) * 16.0 * torque * outer / (math.pi * (outer**4 - bore**4))
     assert dog.value == pytest.approx(max(jaws, boss))
+
+
+@pytest.mark.parametrize("robot", ["kenan", "strongest"])
+def test_what_is_pulled_along_and_at_its_eyes_by_hand(robot: str, request: pytest.FixtureRequest) -> None:
+    """F/A of lever and front link, a shell around a thin core; bearing and tear-out of eyes and lugs, √3·F/((D - d)·t).
+
+    The lever's moment falls to 0 at the roller, where it is as high as its eye; the cam pushes along it with N·sin α.
+    """
+    case = LoadCase(request.getfixturevalue(robot))
+    found = {one.name: one for one in strength_findings(case.robot)}
+    sections, shell, thick = case.layout.sections, case.shell, case.layout.sections.thickness_mm
+
+    def core(height: np.ndarray, power: int) -> np.ndarray:
+        """b·hⁿ less what the infill lacks."""
+        hollow = (thick - 2.0 * shell.layers_mm) * np.maximum(height - 2.0 * shell.walls_mm, 0.0) ** power
+        return thick * height**power - (1.0 - shell.core_share) * hollow
+
+    cam, share = case.layout.drive.cam, np.linspace(0.0, 1.0, 2001)
+    height = sections.lever_root_mm + share * (8.0 - sections.lever_root_mm)
+    along = cam.peak_contact_n * math.sin(cam.max_pressure_angle_rad)
+    lever = 6.0 * case.torque_nmm * (1.0 - share) * height / core(height, 3) + along / core(height, 1)
+    assert found["lever_strength"].value == pytest.approx(lever.max(), rel=2e-3)
+    front = case.front_n / core(np.array([sections.front_mm]), 1)[0]
+    assert found["front_link_strength"].value == pytest.approx(front)
+
+    def eye(force: float, thickness: float, outside: float, bore: float) -> float:
+        return max(force / (bore * thickness), math.sqrt(3.0) * force / ((outside - bore) * thickness))
+
+    force, fits, axle = max(case.ankle_n, case.front_n), case.workshop.fits, case.layout.axle_mm
+    largest, bore = max(force, case.landing_n), axle + 2.0 * fits.eye_mm
+    assert found["eye_strength"].value == pytest.approx(eye(largest, thick, 2.0 * sections.eye_radius_mm, bore))
+    lug = eye(force / 2.0, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, case.holes.lying(axle))
+    assert found["foot_lug_strength"].value == pytest.approx(lug)

@@ -10,10 +10,13 @@ from support.decimals import decimals
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.building.limits import release_limits
+from jumpcad.building.releasing import release_of
+from jumpcad.drive import release as release_module
 from jumpcad.drive.corner import roll_over
 from jumpcad.drive.release import Release, _kick_limit_nm
 from jumpcad.drive.rolling import ReleaseParts, Rolled, _Release, roll
 from jumpcad.errors import JumpcadError
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
@@ -250,3 +253,25 @@ def test_the_contact_is_as_stiff_about_the_pivot_as_its_lever_arm_says(name: str
     expected = 1000.0 * robot.workshop.release.contact_n_per_mm * arm_m**2
     for parts in robot.release.parts:
         assert parts.contact_nm_per_rad == pytest.approx(expected, rel=0.05)
+
+
+@pytest.mark.parametrize("worst", range(4))
+def test_the_worst_of_both_corners_and_both_motors_counts(worst: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sharp and rounded, quick and slow: whichever kicks most, or keeps least, is what the limits are compared with."""
+    robot = built("kenan-2.0")
+    rolled = [
+        Rolled(-0.1, 0.0, 0.8 if case == worst else 0.9, 1.0, *((7.0, 9.0) if case == worst else (2.0, 3.0)))
+        for case in range(4)
+    ]
+    told = iter(rolled)
+    monkeypatch.setattr(release_module, "roll", lambda *_: next(told))
+    layout = robot.layout
+    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
+    found = release_of(layout, robot.workshop, holes, robot.parts, robot.hardware, robot.bodies, robot.spring)
+    assert next(told, None) is None
+    assert (found.blow_nm, found.kick_nm) == pytest.approx((7.0, 9.0 / layout.drive.train.ratio))
+    assert (found.energy_ratio, found.rounded_ratio) == pytest.approx((0.8, 0.9) if worst < 2 else (0.9, 0.8))
+    of = {finding.name: finding for finding in found.findings}
+    assert of["release_energy"].value == pytest.approx(80.0)
+    reserve = 1.0 + robot.workshop.safety.kick_reserve
+    assert of["release_kick"].value == pytest.approx(1000.0 * reserve * found.kick_nm)

@@ -10,6 +10,7 @@ from support.built import built, geared
 
 from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive import TorsionSpring
+from jumpcad.drive.socket import socket_half_mm
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout import drive_places
@@ -98,8 +99,10 @@ def test_each_arm_pushes_its_pin_outwards(pin: str, direction: tuple[float, floa
 def test_a_cam_gear_must_clear_the_hub() -> None:
     axle = disc("leg axle", HUB, 4.0, EVERYWHERE)
     require_gear_room([axle], HUB + np.array([0.0, 30.0]), 26.0, (0.0, 5.0))
-    with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"):
-        require_gear_room([axle], HUB + np.array([0.0, 30.0]), 27.0, (0.0, 5.0))
+    far = disc("front axle", HUB + np.array([90.0, 0.0]), 4.0, EVERYWHERE)
+    for things in ([axle], [axle, far], [far, axle]):
+        with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"):
+            require_gear_room(things, HUB + np.array([0.0, 30.0]), 27.0, (0.0, 5.0))
 
 
 @pytest.mark.parametrize("stages", [1, 2])
@@ -235,3 +238,29 @@ def test_a_shaft_reaches_into_its_pinion_by_its_diameter(pairs: int) -> None:
     with pytest.raises(CannotBuildError, match=rf"it needs {needed:.1f} mm to pass its cap") as refused:
         require_shaft(motor.model_copy(update={"shaft_length_mm": needed - 0.01}), lateral)
     assert refused.value.margin == pytest.approx(-0.01)
+
+
+def test_the_motors_pinion_keeps_clear_of_what_stands_in_its_own_plane() -> None:
+    """With two stages that is the idler wheel's, farther out than the cam gear's; the motor's body ends before it."""
+    layout = geared().layout
+    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
+    _, usual, _ = train_places([], drive, lateral, axis)
+    post = disc("post", usual, 2.0, lateral.gears[-1])
+    idler, motor, _ = train_places([post], drive, lateral, axis)
+    first = drive.train.stages[0]
+    assert math.dist(motor, usual) >= first.pinion.tip_radius_mm + 2.0 - 1e-5
+    assert math.dist(idler, usual) >= first.wheel.tip_radius_mm + 2.0 - 1e-5
+
+
+@pytest.mark.parametrize("stages", [1, 2])
+def test_the_motor_stands_clear_over_its_whole_length(stages: int) -> None:
+    """From the right plate to the gap before the gears: a post at either end of it is in its way, on its own ring."""
+    layout = (built("kenan-2.0") if stages == 1 else geared()).layout
+    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
+    _, usual, _ = train_places([], drive, lateral, axis)
+    right, left = lateral.inside[0], lateral.gears[-1][0] - 0.5
+    half = min(socket_half_mm(drive.train.motor))
+    for interval, clear in (((right, right + 0.1), True), ((left - 0.1, left), True), ((right - 1.0, right), False)):
+        post = disc("post", usual, 1.0, interval)
+        _, motor, _ = train_places([post], drive, lateral, axis)
+        assert (math.dist(motor, usual) >= half + 1.0 - 1e-5) == clear, interval

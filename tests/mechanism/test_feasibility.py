@@ -13,7 +13,14 @@ from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import errors
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.feasibility import TAKEOFF_ENERGY_FACTOR, geometry_findings, statics_findings, support_span_mm
+from jumpcad.mechanism.feasibility import (
+    BASIS,
+    TAKEOFF_ENERGY_FACTOR,
+    feasibility_findings,
+    geometry_findings,
+    statics_findings,
+    support_span_mm,
+)
 
 with (DATA / "reference_flights.csv").open(encoding="utf-8") as stream:
     ROWS = list(csv.DictReader(stream))
@@ -163,3 +170,12 @@ def test_a_findings_margin_is_how_far_its_value_is_on_the_right_side_of_its_limi
             assert found.limit == 0.0 or found.name == "too_weak"
             seen.add((found.name, found.severity))
     assert {name for name, _ in seen} == {"winding", "loop", "below_ground", "tips", "too_weak"}
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_both_steps_are_among_the_findings(name: str) -> None:
+    robot = capsule_robot(load_design(name))
+    found = {finding.name: finding for finding in feasibility_findings(robot)}
+    assert set(found) == set(BASIS) - {"winding"}, "it takes the place of `loop`"
+    assert found["loop"] == geometry_findings(robot.design)[0]
+    assert found["too_weak"] == statics_findings(robot)[1]

@@ -108,3 +108,15 @@ def test_a_foot_that_comes_down_flat_keeps_the_momentum_of_the_leg() -> None:
 
 def test_the_energy_of_a_blow_is_that_of_a_turning_body() -> None:
     assert Blow(takeoff_rad=0.0, stop_rad_s=20.0, inertia_kg_m2=1e-4).energy_j == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
+def test_springs_that_pull_back_beyond_rest_slow_the_leg(name: str) -> None:
+    """By the energy stored up to the stop, ½·K·q²; up to take-off, less than 1° past rest, they are the same."""
+    robot, stop = built(name), math.radians(8.0)
+    kinds = [replace(robot.spring, one_sided=one_sided) for one_sided in (False, True)]
+    slow, quick = (leg_blow(robot.bodies, robot.linkage, spring, stop) for spring in kinds)
+    assert (robot.spring.preload_rad, slow.takeoff_rad) == (0.0, pytest.approx(quick.takeoff_rad, abs=1e-3))
+    assert slow.takeoff_rad < math.radians(1.0)
+    work = 0.5 * robot.spring.stiffness_nm_per_rad * stop**2
+    assert quick.energy_j - slow.energy_j == pytest.approx(work, rel=0.02)

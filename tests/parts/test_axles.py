@@ -211,3 +211,14 @@ def test_a_clevis_pin_that_is_just_long_enough_is_taken(more_mm: float, longer_m
         half = (length - 0.4 - pin.cotter_mm / 2.0 - pin.end_mm + more_mm) / 2.0
         found, _ = _clevis(Place("ankle_pin", "foot", np.zeros(2), (-half, half)), 3.0, catalogue)
         assert found.article.startswith(f"clevis pin B 3 x {length + longer_mm:g} ISO")
+
+
+def test_axles_have_play_along_them_between_what_keeps_them(robot: Robot) -> None:
+    """0.2 mm at either end, up to a plate's floor or a clip in its groove: what is pressed from both sides jams."""
+    pieces, (low, high) = {item.name: item for item in robot.hardware}, robot.layout.lateral.outside
+    clip = robot.workshop.catalogue.clip_for(3.0)
+    within = {"plates": robot.layout.floor_mm + 0.2, "clips": -0.2 - clip.groove_width_mm - clip.end_mm}
+    if (inside := within.get(robot.layout.retention)) is not None:  # a screw is pulled tight by its nut
+        for name in ("leg_axle", "front_axle", "cam_axle", "spring_pin"):
+            ends = pieces[name].look.copy().apply_transform(pieces[name].T_body_part).bounds[:, 1]
+            assert ends == pytest.approx((low + inside, high - inside)), name

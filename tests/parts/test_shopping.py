@@ -469,3 +469,17 @@ def test_rings_have_their_bores(assembled_robot: Robot) -> None:
         seen.add(item.name)
         assert item.shape.volume_mm3 == pytest.approx(math.pi / 4.0 * (outer**2 - bore**2) * width, rel=0.01), item.name
     assert seen == {"roller_washer", "roller", "hub_bearing_1", "hub_bearing_2"}
+
+
+def test_screws_weigh_shank_and_head(assembled_robot: Robot) -> None:
+    """Steel of 7.85 g/cm³; a button head is rounded: more than half of the cylinder around it, and less than all."""
+    catalogue = load_catalogue()
+    screws = [item for item in assembled_robot.hardware if item.article.startswith("screw ")]
+    assert {"cap_screw_1", "roller_screw", "standoff_1_screw_left", "sensor_screw_1"} <= {one.name for one in screws}
+    for item in screws:
+        kind, length = item.article.split()[1], float(item.article.split()[3])
+        screw = catalogue.screws[kind]
+        shank = screw.diameter_mm**2 * length
+        head = screw.button_head_mm**2 * screw.button_head_height_mm
+        least, most = (7.85e-6 * math.pi / 4.0 * (shank + share * head) for share in (0.5, 1.0))
+        assert least < item.mass_kg < most, item.name

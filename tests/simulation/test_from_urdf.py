@@ -1,5 +1,6 @@
 """URDF and loop files from unknown sources: read as they were written, or rejected in one line."""
 
+import itertools
 import json
 import os
 import random
@@ -8,14 +9,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
-from jumpcad.simulation.from_urdf import robot_from_urdf
+from jumpcad.simulation.from_urdf import _require_inertia, robot_from_urdf
 
 KENAN = capsule_robot(load_design("kenan-2.0"))
 URDF, LOOP = write_urdf(KENAN), write_loop(KENAN)
@@ -195,3 +198,34 @@ def test_accidents_are_one_line_or_harmless(read: Callable[..., Robot], file: st
             refused.append(str(error))
     assert len(refused) > TRIES // 2
     assert all(told.isprintable() for told in refused)
+
+
+def test_every_joint_keeps_its_limits(read: Callable[..., Robot]) -> None:
+    """The mechanism's travel is that of the loop file, to which the URDF adds room."""
+    got = read()
+    for joint in KENAN.joints:
+        again = got.joint(joint.name)
+        assert joint.lower_rad < joint.upper_rad
+        for key in ("lower_rad", "upper_rad", "effort_nm", "velocity_rad_s", "rest_angle_rad"):
+            assert getattr(again, key) == pytest.approx(getattr(joint, key), rel=1e-6), (joint.name, key)
+        assert (again.parent, again.child) == (joint.parent, joint.child)
+        assert again.origin_m == pytest.approx(joint.origin_m, abs=1e-9)
+
+
+@pytest.mark.parametrize("turn_deg", [0.0, 35.0])
+def test_no_principal_moment_exceeds_the_other_two_together(turn_deg: float) -> None:
+    """A flat plate reaches their sum; whichever way its axes point."""
+    turn = Rotation.from_euler("xyz", [turn_deg, 20.0, -turn_deg], degrees=True).as_matrix()
+
+    def refusal(*moments: float) -> str:
+        try:
+            _require_inertia("body", 0.1, turn @ np.diag(moments) @ turn.T)
+        except JumpcadError as error:
+            return str(error)
+        return ""
+
+    for order in itertools.permutations((1e-5, 2e-5, 3e-5)):
+        assert refusal(*order) == ""
+    for order in itertools.permutations((1e-5, 2e-5, 3.1e-5)):
+        assert "none can be more than the other two together" in refusal(*order)
+    assert "must be more than 0" in refusal(-1e-9, 2e-5, 2e-5)

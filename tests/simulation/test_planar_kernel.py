@@ -420,3 +420,26 @@ def test_the_bodys_gap_and_rise_are_those_of_the_robot_in_space(either: Robot) -
         assert kernel._belly_gap_m(model, links, Ground(moment.ankle_m, turn_of(moment), 1e-4)) == pytest.approx(gap)
         assert kernel.gap_m(model, moment._replace(belly_gap_m=gap)) == pytest.approx(mechanics.clearance_m(state))
         assert kernel.rising(model, moment) == (mechanics.velocity_m_s(state)[2] > 0.0)
+
+
+@pytest.mark.parametrize(("more_s", "flown"), [(0.0035, False), (0.0045, True)])
+def test_a_robot_flies_once_it_has_been_in_the_air_for_4_ms(kenan: Robot, more_s: float, flown: bool) -> None:
+    """A simulation that ends before has not seen it fly."""
+    settings = replace_damping(FINE.model_copy(update={"takeoff_clearance_m": 0.0}))
+    left_s = PlanarWorld(kenan, settings).push_off().steps * settings.dt_s
+    until = settings.model_copy(update={"max_time_s": left_s + more_s})
+    assert PlanarWorld(kenan, until).push_off().flown == flown
+
+
+@pytest.mark.parametrize("within_s", [0.002, 0.004])
+def test_who_has_not_flown_for_a_while_after_its_springs_came_to_rest_does_not_jump(
+    kenan: Robot, within_s: float
+) -> None:
+    """Counted from the first step past rest; here from a robot of which more time in the air is asked than it has."""
+    world = PlanarWorld(kenan, FINE)
+    moment, steps = world.moment, 0
+    while moment.leg_rad < 0.0:
+        moment, steps = kernel.advance(world.model, moment, FINE.dt_s, 1), steps + 1
+    found = kernel.push_off(world.model, world.moment, FINE.dt_s, 0.1, 0.0, within_s, FINE.max_time_s, 16)
+    assert not found.flown
+    assert (found.steps - steps) * FINE.dt_s == pytest.approx(within_s, abs=1.5 * FINE.dt_s)
