@@ -4,11 +4,13 @@ import math
 import subprocess
 import sys
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from jumpcad.design import load_design
 from jumpcad.findings import Finding
+from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.models import PRESENTATION, RobotModel, code_digest, robot_model
 from jumpcad.search.objective import Evaluation, find_objective
@@ -91,6 +93,21 @@ def test_a_model_says_what_decides_its_evaluations():
     assert not {"manifold3d", "trimesh"} & set(capsule.versions())
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
     assert len(digests) == 4
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga"])
+@pytest.mark.parametrize("distance_m", [0.6, 0.0])
+def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes(monkeypatch, name, distance_m):
+    """Its figures are the published simulation's; one that goes nowhere does not take off."""
+    jump = SimpleNamespace(distance_m=distance_m, base_height_m=0.2, energy_j=0.3)
+    monkeypatch.setattr(published, "simulate", lambda _: jump)
+    design = load_design(name)
+    found = robot_model("published")(design)
+    assert found.verdict == ("jump" if distance_m else "no_takeoff")
+    longest = max(design.l2_mm, design.l3_mm, design.l5_mm)
+    figures = found.metrics
+    assert figures["fitness"] == pytest.approx(1000.0 * distance_m / longest)
+    assert set(figures.values()) == {figures["fitness"], distance_m, 0.2, 0.3}
 
 
 class Slope(RobotModel):
