@@ -267,6 +267,15 @@ def test_springs_are_accepted_by_their_torque_where_the_robot_loads_them(name: s
     scale = re.search(r"kitchen scale .* up to (\d+) kg", guide)
     assert scale is not None
     assert 1000 * int(scale[1]) > int(found[2])
+    more = re.search(r"more is not used: (\d+) g are (\d+) % more torque than computed, with (\d+) MPa", guide)
+    assert more is not None
+    assert more[1] == found[2]
+    assert int(more[2]) == pytest.approx(100.0 * (high / middle - 1.0), abs=1.0)
+    assert int(more[3]) == pytest.approx(high / middle * spring.stress_mpa, abs=3.0)
+    rows = [[int(cell) for cell in row] for row in re.findall(r"\| (\d+)° \| (\d+) g \| (\d+) to (\d+) g \|", guide)]
+    assert len(rows) > 1
+    for angle, *grams in rows:
+        assert grams == pytest.approx([grams_at(spring, angle) * share for share in (1.0, 0.9, 1.1)], abs=1.0)
     percent = f"N·mm, +{100.0 * (high / middle - 1.0):.0f} % / -{100.0 * (1.0 - low / middle):.0f} %"
     assert all(percent in sheet for _, sheet in spring_sheets(robot))
     assert percent in guide

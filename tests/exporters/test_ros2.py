@@ -13,7 +13,7 @@ from support.built import built
 
 from jumpcad.design import load_design
 from jumpcad.exporters.collision import body_box, capsules
-from jumpcad.exporters.ros2 import mimicked, model_name, ros2_files
+from jumpcad.exporters.ros2 import Mimic, _links, mimicked, model_name, ros2_files
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.poses import standing
 from jumpcad.scene.visuals import visuals
@@ -94,6 +94,16 @@ def test_gazebo_has_the_springs_and_the_floor(package: dict[str, ET.Element]) ->
     for body in robot.bodies.values():
         (one,) = (one for one in package["gazebo.xacro"] if one.get("reference") == body.name)
         assert float(one.find("mu1").text) == float(one.find("mu2").text) == pytest.approx(floor.contact(body.surface))
+
+
+def test_a_joint_that_mimics_has_slope_and_offset_of_its_line() -> None:
+    """Those of Kenan 2.0 have no offset: its links are parallel."""
+    robot = built("kenan-2.0")
+    root = ET.fromstring(_links(robot, visuals(robot), {"ankle": Mimic(-0.75, 0.125, 0.0)}, "meshes"))
+    (mimic,) = root.iter("mimic")
+    assert (mimic.get("joint"), float(mimic.get("multiplier")), float(mimic.get("offset"))) == ("leg", -0.75, 0.125)
+    (joint,) = (one for one in root.findall("joint") if mimic in one.iter())
+    assert joint.get("name") == "ankle"
 
 
 def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.Element]) -> None:
