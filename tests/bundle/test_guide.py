@@ -11,10 +11,10 @@ from support.built import built
 
 from jumpcad.building import build
 from jumpcad.bundle.arrival import arrival_lines, grams_at
-from jumpcad.bundle.bom import BilledPlate, bill_of_materials
+from jumpcad.bundle.bom import Bill, BilledPlate, BillLine, bill_of_materials
 from jumpcad.bundle.expected import expected
 from jumpcad.bundle.firmware import firmware_files, numbers
-from jumpcad.bundle.guide import _put_on, with_bill, write_guide
+from jumpcad.bundle.guide import _put_on, _tables, with_bill, write_guide
 from jumpcad.bundle.ordering import order_lines, strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
@@ -449,3 +449,29 @@ def test_the_table_of_printed_parts_has_the_grams_of_each() -> None:
     grams = {row[0]: row[3] for row in rows if len(row) >= 4}
     for part in robot.parts:
         assert grams[part.name] == f"{1000.0 * part.mass_kg:.2f}"
+
+
+def test_the_guides_tables_say_grams_and_hours_each_and_the_price_of_all() -> None:
+    """The column of prices adds up to what is said below it; what has none leaves its cell empty."""
+    bill = Bill(
+        (
+            BillLine("printed", "toe", 2, "PETG", 0.0015, "model", None, 5400.0),
+            BillLine("printed", "cam", 1, "PLA", 0.0125, "model", None, 900.0),
+            BillLine("bought", "nut", 4, "", 0.00025, "catalogue", 0.75),
+            BillLine("bought", "cell", 1, "", 0.0105, "catalogue", 6.5),
+            BillLine("bought", "cord", 3, "", 0.0, "catalogue"),
+        ),
+        (BilledPlate("plate-1", "PETG", 10_800.0), BilledPlate("plate-2", "PLA", 900.0)),
+    )
+    lines = list(_tables(bill))
+    rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines if line.startswith("| ")]
+    assert rows[0] == ["part", "copies", "material", "g each", "time each"]
+    assert rows[1:3] == [["toe", "2", "PETG", "1.50", "1:30 h"], ["cam", "1", "PLA", "12.50", "0:15 h"]]
+    assert rows[3:7] == [
+        ["plate", "material", "time"], ["plate-1", "PETG", "3:00 h"], ["plate-2", "PLA", "0:15 h"],
+        ["all", "", "3:15 h"],
+    ]  # fmt: skip
+    assert rows[7] == ["article", "quantity", "g each", "€"]
+    assert rows[8:] == [["nut", "4", "0.25", "3.00"], ["cell", "1", "10.50", "6.50"], ["cord", "3", "0.00"]]
+    assert lines[-1].startswith("In all 27.0 g; ")
+    assert lines[-1].endswith(", 9.50 € together.")

@@ -20,6 +20,8 @@ from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
+from jumpcad.settings import load_settings
+from jumpcad.workshop import load_workshop
 
 SEARCH = (
     "--objective", "range", "--seed", "5", "--workshop", "light", "--settings", "fine", "--engine", "mujoco",
@@ -56,13 +58,13 @@ def test_every_option_of_optimize_arrives_and_is_that_of_python(run: Run, asked:
         "--within", 10,
     )  # fmt: skip
     assert (code, err) == (2, "jumpcad: enough\n")
-    request, shop = asked["request"], robot_model("printed", "light", "fine", "mujoco")
+    request, shop = asked["request"], load_workshop("light")
     assert (request.method, request.objective, request.evaluations, request.seed) == ("ga+bo", "range", 77, 5)
     assert (request.preset, request.batch, request.prior) == ("published", 4, Path("old.db"))
     assert (request.until_percent, request.hours, request.widen, request.screen) == (2.0, 1.5, True, False)
     model = request.model
     assert (model.name, model.workshop, model.settings, model.engine) == (
-        "printed", shop.workshop, shop.settings, "mujoco",
+        "printed", shop, load_settings("fine"), "mujoco",
     )  # fmt: skip
     own = load_design("kenan-2.0")
     assert [one.name for one in request.space.parameters if one.free] == ["c_coef", "rest_angle_deg"]

@@ -15,6 +15,8 @@ from jumpcad.search import models
 from jumpcad.search.models import PRESENTATION, RobotModel, code_digest, robot_model
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.tolerances import Making
+from jumpcad.settings import load_settings
+from jumpcad.workshop import load_workshop
 
 
 @pytest.fixture
@@ -93,6 +95,20 @@ def test_a_model_says_what_decides_its_evaluations():
     assert not {"manifold3d", "trimesh"} & set(capsule.versions())
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
     assert len(digests) == 4
+
+
+def test_a_model_has_the_workshop_settings_and_engine_that_are_named():
+    """By a template's name or themselves; without one the default's."""
+    light, fine = load_workshop("light"), load_settings("fine")
+    for shop, how in (("light", "fine"), (light, fine)):
+        named = robot_model("printed", shop, how, "planar")
+        assert (named.workshop, named.settings, named.engine) == (light, fine, "planar")
+        capsule = robot_model("capsule", None, how, "planar")
+        assert (capsule.workshop, capsule.settings, capsule.engine) == (None, fine, "planar")
+    usual = robot_model()
+    assert (usual.workshop, usual.settings) == (load_workshop("default"), load_settings("default"))
+    assert light != usual.workshop
+    assert fine != usual.settings
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga"])
