@@ -167,6 +167,13 @@ def test_uncertain_jumps_and_trajectories_are_of_one_engine(command: Run, monkey
         assert (code, err) == (2, f"jumpcad: asked with seed 7 in {engine}\n")
 
 
+def test_a_report_begins_with_what_was_simulated(command: Run) -> None:
+    """Robot, model and settings as they were asked for, then the engine with its verdict."""
+    code, out, _ = command("kenan-2.0", "--capsule", "--engine", "planar", "--settings", "screening")
+    assert code == 0
+    assert out.splitlines()[:2] == ["kenan-2.0, capsule robot, settings screening", "planar: jump"]
+
+
 def test_published_quantities_are_printed_each_by_its_name(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     found = published.PublishedJump(distance_m=0.25, base_height_m=0.125, energy_j=0.0625)
     monkeypatch.setattr(published, "simulate", lambda design: found)

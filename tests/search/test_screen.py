@@ -27,7 +27,9 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.tier import Expected, Tier
 from jumpcad.search.trial import Trial, best_trial
 from jumpcad.search.variant import Key, Variant
+from jumpcad.settings import load_settings
 from jumpcad.simulation import simulate
+from jumpcad.workshop import load_workshop
 
 LAYOUT = {name: FIGURES[name] for name in LAID}
 
@@ -272,6 +274,18 @@ def test_what_an_estimate_refuses_has_the_outcome_of_its_evaluation() -> None:
     found = Screen(Space.default(), plain, find_objective("body_lengths")).outcomes([Variant(weak)], 0.0)
     assert found == {Variant(weak).key: plain(weak).bare}
     assert found[Variant(weak).key].verdict == "too_weak"
+
+
+def test_what_is_refused_is_refused_in_the_search_s_workshop_and_settings(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    monkeypatch.setattr("jumpcad.search.screen.quick_refusal", lambda *given: asked.append(given) or ())
+    model = robot_model("printed", "light", "fine")
+    screen = Screen(Space.default(), model, find_objective("body_lengths"))
+    monkeypatch.setattr(screen, "model", SimpleNamespace(
+        admits=lambda _: True, workshop=model.workshop, settings=model.settings
+    ))  # fmt: skip
+    assert screen.outcomes([Variant(BEST)], 0.0) == {}
+    assert asked == [(BEST, load_workshop("light"), load_settings("fine"))]
 
 
 def test_nothing_is_learned_where_too_few_were_built(model):

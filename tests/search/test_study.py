@@ -222,6 +222,21 @@ def test_a_prior_study_of_the_same_model_is_learned_from(tmp_path):
         run(replace(REQUEST, model=Hill(name="other"), prior=tmp_path / "old.db"))
 
 
+def test_of_a_prior_study_only_designs_of_the_space_are_learned_from(tmp_path):
+    """A search that is narrower than the earlier one; scores are those of its own objective."""
+    run(replace(REQUEST, method="ga", evaluations=60), tmp_path / "old.db")
+    whole, _ = study._read_prior(replace(REQUEST, prior=tmp_path / "old.db"))
+    name = SMALL.free[0].name
+    values = sorted(trial.variant.value(name) for trial in whole)
+    middle = values[len(values) // 2]
+    free = {one.name: (one.lower, one.upper) for one in SMALL.free}
+    fixed = {one.name: one.lower for one in SMALL.parameters if not one.free}
+    narrow = Space.make(fixed, free | {name: (free[name][0], middle)})
+    some, _ = study._read_prior(replace(REQUEST, space=narrow, prior=tmp_path / "old.db"))
+    assert sorted(trial.variant.value(name) for trial in some) == [value for value in values if value <= middle]
+    assert 10 < len(some) < len(whole) - 10
+
+
 class Marked(Hill):
     """A hill whose rows have figures for stand-ins too, or not."""
 
