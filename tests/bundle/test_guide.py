@@ -24,7 +24,7 @@ from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, varied
 
 
 @pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
@@ -475,3 +475,26 @@ def test_the_guides_tables_say_grams_and_hours_each_and_the_price_of_all() -> No
     assert rows[8:] == [["nut", "4", "0.25", "3.00"], ["cell", "1", "10.50", "6.50"], ["cord", "3", "0.00"]]
     assert lines[-1].startswith("In all 27.0 g; ")
     assert lines[-1].endswith(", 9.50 € together.")
+
+
+@pytest.mark.parametrize(("name", "kit", "cells"), [("kenan-2.0", "light-1s", 1), ("best-bo", "strong-2s", 2)])
+def test_what_arrives_is_measured_against_the_parts_that_are_built_in(name: str, kit: str, cells: int) -> None:
+    """Lithium polymer cells have 3.0 V when empty and 4.2 V when full; N20 motors a shaft of 3 mm with 2.5 mm flat.
+
+    A tight bore is reamed to a little more than its rod, less than the play that is too much.
+    """
+    shop = varied(load_workshop(), {"bought.kit": kit})
+    robot = build(load_design(name), shop)
+    text = " ".join(arrival_lines(robot))
+    volts = re.search(r"Battery\.\*\* ([\d.]+) to ([\d.]+) V at its plug", text)
+    assert volts is not None
+    assert float(volts[2]) == pytest.approx(4.2 * cells)
+    assert 2.9 * cells < float(volts[1]) < 3.6 * cells
+    assert "its flat is 2.5 mm thick" in text
+    bores = re.search(
+        r"A rod of ([\d.]+) mm must .* drill or reamer of ([\d.]+) mm .* rocks by more than ([\d.]+) mm", text
+    )
+    assert bores is not None
+    rod, drill, play = map(float, bores.groups())
+    assert rod == robot.layout.axle_mm == 3.0
+    assert rod < drill < rod + play
