@@ -1,6 +1,7 @@
 """What is asked for on the command line arrives where the work is done, under the name that it has in Python.
 
-Of `jumpcad.cli.optimize`, `jumpcad.cli.explore`, `jumpcad.cli.searching` and `jumpcad.cli.calibrate`.
+Of `jumpcad.cli.bundle`, `jumpcad.cli.report`, `jumpcad.cli.optimize`, `jumpcad.cli.explore`, `jumpcad.cli.searching`
+and `jumpcad.cli.calibrate`.
 """
 
 from collections.abc import Iterator
@@ -21,7 +22,7 @@ from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.settings import load_settings
+from jumpcad.settings import Settings, load_settings
 from jumpcad.workshop import load_workshop
 
 SEARCH = (
@@ -237,3 +238,18 @@ def test_a_calibration_s_seed_is_that_asked_for(run: Run, monkeypatch: pytest.Mo
     monkeypatch.setattr("jumpcad.calibration.predicted_jump", predicted)
     assert run("calibrate", "kenan-2.0", "--predict", "kenan-1.0", "--seed", 9)[0] == 2
     assert seen == [(["kenan-2.0"], 9), ("kenan-1.0", 9)]
+
+
+def test_the_drawn_jump_has_its_flight(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Up to the touchdown, moment by moment."""
+    asked = []
+
+    def simulate(_: object, settings: Settings, *__: object) -> None:
+        asked.append((settings.flight, settings.trajectory))
+        raise JumpcadError("enough")
+
+    monkeypatch.setattr("jumpcad.cli.bundle.printed_robot", lambda *_: SimpleNamespace(name="frog"))
+    monkeypatch.setattr("jumpcad.bundle.renders.renders", lambda _: {})
+    monkeypatch.setattr("jumpcad.simulation.simulate", simulate)
+    assert run("render", "kenan-2.0")[::2] == (2, ANY)
+    assert asked == [("simulated", True)]
