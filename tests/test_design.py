@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, load_design
+from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 
 KENAN_2 = [100.0, 1.0, 0.833, 0.934, 0.46145125, 88.2, 9.2, 40.0]
@@ -40,6 +40,18 @@ def test_spring_energy_and_torque_are_the_published_ones(name: str, energy_j: fl
     assert design.spring_energy_j == pytest.approx(energy_j, abs=5e-4)
     if torque_nm:
         assert design.peak_spring_torque_nm == pytest.approx(torque_nm, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_a_parameter_has_the_limits_within_which_a_design_is_one(name: str) -> None:
+    """Just outside of either it is refused; a search's usual bounds lie within."""
+    numbers, (low, high) = dict(zip(PARAMETERS, KENAN_2, strict=True)), limits_of(name)
+    for value in (low, high):
+        assert getattr(Design(**(numbers | {name: value})), name) == value
+    for value in (low - 1e-6 * max(1.0, abs(low)), high * (1.0 + 1e-6)):
+        with pytest.raises(JumpcadError, match=name):
+            Design(**(numbers | {name: value}))
+    assert low <= SEARCH_BOUNDS[name].lower < SEARCH_BOUNDS[name].upper <= high
 
 
 def test_work_of_the_springs_is_the_integral_of_their_torque() -> None:

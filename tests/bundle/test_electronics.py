@@ -316,6 +316,22 @@ def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> Non
         assert beside.any(axis=1).all(), name
 
 
+def test_what_a_jump_takes_is_told_in_its_shares(robot: Robot) -> None:
+    """Joules of motor and boards add up; the boards' are their share of the time that winding takes."""
+    text, train = "\n".join(wiring_lines(robot)), robot.layout.drive.train
+    found = re.search(
+        r"takes ([\d.]+) J from the battery: ([\d.]+) J the motor, ([\d.]+) J the boards while it winds for ([\d.]+) "
+        r"s; .* lasts for about (\d+) jumps",
+        text,
+    )
+    assert found is not None
+    whole, motor, boards, seconds, jumps = map(float, found.groups())
+    assert whole == pytest.approx(motor + boards, abs=0.011)
+    assert (motor, boards) == pytest.approx((train.motor_j, train.boards_j), abs=0.0051)
+    assert seconds == pytest.approx(train.winding_s, abs=0.051)
+    assert jumps == pytest.approx(jumps_per_charge(robot), rel=0.05)
+
+
 def test_which_ground_is_used_is_said_where_there_are_two(robot: Robot) -> None:
     """The controller's battery pads are joined to its ground; behind a regulator they stay empty."""
     text = "\n".join(wiring_lines(robot))

@@ -11,10 +11,10 @@ from support.built import built
 
 from jumpcad.building import build
 from jumpcad.bundle.arrival import arrival_lines, grams_at
-from jumpcad.bundle.bom import BilledPlate, bill_of_materials
+from jumpcad.bundle.bom import Bill, BilledPlate, BillLine, bill_of_materials
 from jumpcad.bundle.expected import expected
 from jumpcad.bundle.firmware import firmware_files, numbers
-from jumpcad.bundle.guide import _put_on, with_bill, write_guide
+from jumpcad.bundle.guide import _put_on, _tables, with_bill, write_guide
 from jumpcad.bundle.ordering import order_lines, strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
@@ -24,7 +24,7 @@ from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, varied
 
 
 @pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
@@ -267,6 +267,15 @@ def test_springs_are_accepted_by_their_torque_where_the_robot_loads_them(name: s
     scale = re.search(r"kitchen scale .* up to (\d+) kg", guide)
     assert scale is not None
     assert 1000 * int(scale[1]) > int(found[2])
+    more = re.search(r"more is not used: (\d+) g are (\d+) % more torque than computed, with (\d+) MPa", guide)
+    assert more is not None
+    assert more[1] == found[2]
+    assert int(more[2]) == pytest.approx(100.0 * (high / middle - 1.0), abs=1.0)
+    assert int(more[3]) == pytest.approx(high / middle * spring.stress_mpa, abs=3.0)
+    rows = [[int(cell) for cell in row] for row in re.findall(r"\| (\d+)° \| (\d+) g \| (\d+) to (\d+) g \|", guide)]
+    assert len(rows) > 1
+    for angle, *grams in rows:
+        assert grams == pytest.approx([grams_at(spring, angle) * share for share in (1.0, 0.9, 1.1)], abs=1.0)
     percent = f"N·mm, +{100.0 * (high / middle - 1.0):.0f} % / -{100.0 * (1.0 - low / middle):.0f} %"
     assert all(percent in sheet for _, sheet in spring_sheets(robot))
     assert percent in guide
@@ -440,3 +449,52 @@ def test_the_table_of_printed_parts_has_the_grams_of_each() -> None:
     grams = {row[0]: row[3] for row in rows if len(row) >= 4}
     for part in robot.parts:
         assert grams[part.name] == f"{1000.0 * part.mass_kg:.2f}"
+
+
+def test_the_guides_tables_say_grams_and_hours_each_and_the_price_of_all() -> None:
+    """The column of prices adds up to what is said below it; what has none leaves its cell empty."""
+    bill = Bill(
+        (
+            BillLine("printed", "toe", 2, "PETG", 0.0015, "model", None, 5400.0),
+            BillLine("printed", "cam", 1, "PLA", 0.0125, "model", None, 900.0),
+            BillLine("bought", "nut", 4, "", 0.00025, "catalogue", 0.75),
+            BillLine("bought", "cell", 1, "", 0.0105, "catalogue", 6.5),
+            BillLine("bought", "cord", 3, "", 0.0, "catalogue"),
+        ),
+        (BilledPlate("plate-1", "PETG", 10_800.0), BilledPlate("plate-2", "PLA", 900.0)),
+    )
+    lines = list(_tables(bill))
+    rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines if line.startswith("| ")]
+    assert rows[0] == ["part", "copies", "material", "g each", "time each"]
+    assert rows[1:3] == [["toe", "2", "PETG", "1.50", "1:30 h"], ["cam", "1", "PLA", "12.50", "0:15 h"]]
+    assert rows[3:7] == [
+        ["plate", "material", "time"], ["plate-1", "PETG", "3:00 h"], ["plate-2", "PLA", "0:15 h"],
+        ["all", "", "3:15 h"],
+    ]  # fmt: skip
+    assert rows[7] == ["article", "quantity", "g each", "€"]
+    assert rows[8:] == [["nut", "4", "0.25", "3.00"], ["cell", "1", "10.50", "6.50"], ["cord", "3", "0.00"]]
+    assert lines[-1].startswith("In all 27.0 g; ")
+    assert lines[-1].endswith(", 9.50 € together.")
+
+
+@pytest.mark.parametrize(("name", "kit", "cells"), [("kenan-2.0", "light-1s", 1), ("best-bo", "strong-2s", 2)])
+def test_what_arrives_is_measured_against_the_parts_that_are_built_in(name: str, kit: str, cells: int) -> None:
+    """Lithium polymer cells have 3.0 V when empty and 4.2 V when full; N20 motors a shaft of 3 mm with 2.5 mm flat.
+
+    A tight bore is reamed to a little more than its rod, less than the play that is too much.
+    """
+    shop = varied(load_workshop(), {"bought.kit": kit})
+    robot = build(load_design(name), shop)
+    text = " ".join(arrival_lines(robot))
+    volts = re.search(r"Battery\.\*\* ([\d.]+) to ([\d.]+) V at its plug", text)
+    assert volts is not None
+    assert float(volts[2]) == pytest.approx(4.2 * cells)
+    assert 2.9 * cells < float(volts[1]) < 3.6 * cells
+    assert "its flat is 2.5 mm thick" in text
+    bores = re.search(
+        r"A rod of ([\d.]+) mm must .* drill or reamer of ([\d.]+) mm .* rocks by more than ([\d.]+) mm", text
+    )
+    assert bores is not None
+    rod, drill, play = map(float, bores.groups())
+    assert rod == robot.layout.axle_mm == 3.0
+    assert rod < drill < rod + play

@@ -75,6 +75,22 @@ def test_a_path_that_leads_out_makes_it_none(tmp_path: Path, path: str) -> None:
     refused(tmp_path, json.dumps(GOOD | {"files": GOOD["files"] | {path: SHA}}))
 
 
+@pytest.mark.parametrize("paths", [("a/b.md", "a/b.md/c.md"), ("a/b.md/c.md", "a/b.md")])
+def test_no_file_is_the_folder_of_another_whichever_is_named_first(tmp_path: Path, paths: tuple[str, ...]) -> None:
+    refused(tmp_path, json.dumps(GOOD | {"files": dict.fromkeys(paths, SHA)}))
+
+
+@pytest.mark.parametrize("lost", ["urdf/frog.urdf", "urdf/frog.loop.json"])
+def test_a_robot_without_its_loop_is_none(tmp_path: Path, lost: str) -> None:
+    """The URDF file is a tree; the leg's loop is closed by the other file."""
+    paths = ("urdf/frog.urdf", "urdf/frog.loop.json")
+    bundle = write_folder(tmp_path / "b", "frog", {}, ((path, "x") for path in paths))
+    assert bundle.urdf == tmp_path / "b" / "urdf" / "frog.urdf"
+    (tmp_path / "b" / lost).unlink()
+    with pytest.raises(JumpcadError, match=f"{lost}: missing; build the bundle again"):
+        _ = bundle.urdf
+
+
 def test_what_is_no_plain_file_is_not_opened(tmp_path: Path) -> None:
     manifest = tmp_path / "manifest.json"
     for make in (os.mkfifo, Path.mkdir, lambda path: path.symlink_to("/dev/zero"), lambda path: path.symlink_to(path)):

@@ -97,6 +97,21 @@ def test_the_seed_is_the_samplers(run: Run, monkeypatch: pytest.MonkeyPatch) -> 
     assert asked == [7]
 
 
+@pytest.mark.parametrize("name", ["parameters", "measurements"])
+def test_pictures_of_one_s_own_are_not_replaced_unasked(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    def sampling(files: object, seed: int) -> NoReturn:
+        raise JumpcadError("begun")
+
+    monkeypatch.setattr("jumpcad.calibration.calibrate", sampling)
+    (tmp_path / "pictures").mkdir()
+    (tmp_path / "pictures" / f"{name}.svg").write_text("mine")
+    command = ("calibrate", "kenan-2.0", "--plots", "pictures")
+    assert f"pictures/{name}.svg: exists already" in run(*command)[2]
+    assert run(*command, "--force")[2] == "jumpcad: begun\n"
+
+
 def test_an_output_over_the_measurements(run: Run, tmp_path: Path) -> None:
     text = (templates_folder() / "measurements" / "kenan-2.0.toml").read_text()
     (tmp_path / "mine.toml").write_text(text)

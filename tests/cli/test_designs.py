@@ -91,6 +91,15 @@ cam = 1.5
 """
 
 
+def test_the_next_command_takes_the_new_file(run: Run) -> None:
+    """Not what it was copied from."""
+    said = run("new", "w.toml", "--workshop", "fine")[1]
+    assert said.startswith("w.toml: a copy of fine; try: jumpcad check ")
+    assert said.endswith(" --workshop w.toml\n")
+    said = run("new", "d.toml", "--from", "kenan-1.0")[1]
+    assert said == "d.toml: a copy of kenan-1.0; try: jumpcad simulate d.toml\n"
+
+
 def test_a_workshop_of_ones_own_is_copied_with_all_that_it_says(run: Run, tmp_path: Path) -> None:
     (tmp_path / "own.toml").write_text(OWN)
     assert run("new", "again.toml", "--workshop", "own.toml") == (0, ANY, "")

@@ -175,4 +175,4 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
         "at its lower bound: d_coef = 0.5; 0.45 is rejected: loop",
         f"at its upper bound: e_coef = 1; 1.1 is {NOT_EXAMINED}",
     ]
-    assert told[-1].startswith("next: jumpcad build won.toml --workshop ")
+    assert told[-1] == "next: jumpcad build won.toml --workshop won-workshop.toml"

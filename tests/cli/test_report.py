@@ -7,6 +7,8 @@ import pytest
 from support.commands import Run
 from support.searches import QUICK
 
+from jumpcad.errors import JumpcadError
+
 
 def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, bundle: Path, tmp_path: Path) -> None:
     copy = shutil.copytree(bundle, tmp_path / "kenan-2.0")
@@ -14,6 +16,25 @@ def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, b
     assert (code, out.strip()) == (0, str(copy / "report.html"))
     assert 'id="viewer-glb"' in (copy / "report.html").read_text()  # built without pictures it had none
     assert run("verify", copy)[0] == 0
+
+
+def test_an_edited_page_of_a_bundle_is_not_replaced(
+    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is refused before the robot is built and drawn."""
+
+    def built(*_: object) -> None:
+        raise JumpcadError("begun")
+
+    monkeypatch.setattr("jumpcad.cli.report.printed_robot", built)
+    copy = shutil.copytree(bundle, tmp_path / "kenan-2.0")
+    page = copy / "report.html"
+    page.write_text(page.read_text() + "mine" if page.exists() else "mine")
+    code, _, err = run("report", copy)
+    assert (code, err.count("\n")) == (2, 1)
+    assert "report.html" in err
+    assert "--force" in err
+    assert run("report", copy, "--force")[2] == "jumpcad: begun\n"
 
 
 def test_the_page_of_a_template_is_a_file_of_its_own(run: Run, tmp_path: Path) -> None:

@@ -135,6 +135,25 @@ def test_quantiles_are_printed_in_millimetres():
     assert [line.split()[-2:] for line in lines[1:3]] == [["200…300…400", "mm"], ["50…60…70", "mm"]]
 
 
+def test_the_uncertain_robot_is_built_in_the_workshop_that_is_named(
+    command: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As the one that jumps, and with the same settings."""
+    built, uncertain = [], []
+
+    def asked(_: object, *given: object) -> None:
+        uncertain.append(given)
+        raise JumpcadError("enough")
+
+    monkeypatch.setattr(module, "printed_robot", lambda *given: built.append(given))
+    monkeypatch.setattr(module, "_jumps", lambda *_: [])
+    monkeypatch.setattr(module, "_uncertain", asked)
+    words = ("--workshop", "light", "--settings", "fine", "--engine", "planar", "--uncertain")
+    assert command("kenan-2.0", *words)[::2] == (2, "jumpcad: enough\n")
+    assert built == [("kenan-2.0", "light")] * 2
+    assert uncertain == [("fine", "planar", 0)]
+
+
 def test_uncertain_jumps_and_trajectories_are_of_one_engine(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """By default, or named: what is asked for is begun."""
 
@@ -146,6 +165,13 @@ def test_uncertain_jumps_and_trajectories_are_of_one_engine(command: Run, monkey
     for engine in ("mujoco", "planar"):
         code, _, err = command("kenan-2.0", "--engine", engine, "--uncertain", "--seed", 7)
         assert (code, err) == (2, f"jumpcad: asked with seed 7 in {engine}\n")
+
+
+def test_a_report_begins_with_what_was_simulated(command: Run) -> None:
+    """Robot, model and settings as they were asked for, then the engine with its verdict."""
+    code, out, _ = command("kenan-2.0", "--capsule", "--engine", "planar", "--settings", "screening")
+    assert code == 0
+    assert out.splitlines()[:2] == ["kenan-2.0, capsule robot, settings screening", "planar: jump"]
 
 
 def test_published_quantities_are_printed_each_by_its_name(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:

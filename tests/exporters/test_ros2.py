@@ -13,7 +13,8 @@ from support.built import built
 
 from jumpcad.design import load_design
 from jumpcad.exporters.collision import body_box, capsules
-from jumpcad.exporters.ros2 import mimicked, model_name, ros2_files
+from jumpcad.exporters.ros2 import Mimic, _links, mimicked, model_name, ros2_files
+from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.poses import standing
 from jumpcad.scene.visuals import visuals
@@ -94,6 +95,33 @@ def test_gazebo_has_the_springs_and_the_floor(package: dict[str, ET.Element]) ->
     for body in robot.bodies.values():
         (one,) = (one for one in package["gazebo.xacro"] if one.get("reference") == body.name)
         assert float(one.find("mu1").text) == float(one.find("mu2").text) == pytest.approx(floor.contact(body.surface))
+
+
+def test_joints_are_those_of_the_urdf(package: dict[str, ET.Element]) -> None:
+    """Axes, limits, friction and damping."""
+    theirs = {one.get("name"): one for one in ET.fromstring(write_urdf(built("kenan-2.0"))).findall("joint")}
+    ours = {one.get("name"): one for one in package["links.xacro"].findall("joint")}
+    assert ours.keys() - theirs.keys() == {"base"}
+    for name, joint in theirs.items():
+        for tag in ("origin", "axis", "limit", "dynamics"):
+            one, other = ours[name].find(tag).attrib, joint.find(tag).attrib
+            assert one.keys() == other.keys()
+            for key in other:
+                values = [np.array(found[key].split(), dtype=float) for found in (one, other)]
+                np.testing.assert_allclose(*values, rtol=1e-6, atol=1e-9, err_msg=f"{name} {tag} {key}")
+        assert [ours[name].find(end).attrib for end in ("parent", "child")] == [
+            joint.find(end).attrib for end in ("parent", "child")
+        ]
+
+
+def test_a_joint_that_mimics_has_slope_and_offset_of_its_line() -> None:
+    """Those of Kenan 2.0 have no offset: its links are parallel."""
+    robot = built("kenan-2.0")
+    root = ET.fromstring(_links(robot, visuals(robot), {"ankle": Mimic(-0.75, 0.125, 0.0)}, "meshes"))
+    (mimic,) = root.iter("mimic")
+    assert (mimic.get("joint"), float(mimic.get("multiplier")), float(mimic.get("offset"))) == ("leg", -0.75, 0.125)
+    (joint,) = (one for one in root.findall("joint") if mimic in one.iter())
+    assert joint.get("name") == "ankle"
 
 
 def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.Element]) -> None:

@@ -15,6 +15,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, Mechanism
 from jumpcad.robot import Robot
+from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
 
 
@@ -69,6 +70,21 @@ def test_meshes_are_those_beside_the_urdf(small_robot: Robot) -> None:
     text = dict(sdf_files(small_robot))[f"sdf/{small_robot.name}.sdf"]
     uris = {uri.text for uri in ET.fromstring(text).iter("uri")}
     assert {f"../urdf/meshes/{part.name}.stl" for part in small_robot.parts} <= uris
+
+
+def test_every_link_shows_the_parts_of_its_body_where_they_are(small_robot: Robot) -> None:
+    shapes = visuals(small_robot)
+    root = ET.fromstring(write_sdf(small_robot, shapes))
+    shown = {
+        visual.get("name"): (link.get("name"), visual) for link in root.iter("link") for visual in link.iter("visual")
+    }
+    assert shown.keys() == {shape.name for shape in shapes}
+    for shape in shapes:
+        body, visual = shown[shape.name]
+        assert body == shape.body
+        assert visual.findtext("geometry/mesh/uri") == f"../urdf/meshes/{shape.mesh_name}.stl"
+        assert numbers(visual, "geometry/mesh/scale") == pytest.approx([0.001] * 3)
+        assert pose(visual) == pytest.approx(shape.T_body_mesh, abs=1e-6)
 
 
 def test_gazebo_finds_the_model_by_its_config(small_robot: Robot) -> None:

@@ -4,6 +4,7 @@ import io
 import re
 import zipfile
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -11,9 +12,10 @@ import pytest
 import trimesh
 from PIL import Image
 
-from jumpcad.exporters.threemf import threemf_files, write_threemf
+from jumpcad.exporters.threemf import _in_words, threemf_files, write_threemf
 from jumpcad.exporters.thumbnail import thumbnail
 from jumpcad.printing.plates import packed
+from jumpcad.workshop import load_workshop
 
 SETTINGS, PICTURE = {"perimeters": "3", "fill_density": "40%"}, b"\x89PNG"
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
@@ -99,6 +101,21 @@ def test_the_settings_stand_in_words_beside_the_plates(small_robot):
     assert re.search(r"## plate-1-PETG\.3mf\n\nPETG: nozzle \d+ °C, bed \d+ °C\n", said)
     for part in small_robot.parts:
         assert f"- {part.quantity} × {part.name}\n" in said
+
+
+def test_each_plate_has_the_heat_of_its_own_material():
+    """Temperatures that the workshop does not know are the user's to enter."""
+    shop = load_workshop("default")
+    petg = shop.materials["PETG"]
+    heats = {"cold": (190.0, 50.0), "hot": (260.0, 100.0), "mine": (None, None)}
+    materials = {
+        name: petg.model_copy(update={"nozzle_c": nozzle, "bed_c": bed}) for name, (nozzle, bed) in heats.items()
+    }
+    plates = [SimpleNamespace(name=f"plate-{name}", material=name, items=[]) for name in heats]
+    said = _in_words(plates, shop.model_copy(update={"materials": materials}))
+    assert "## plate-cold.3mf\n\ncold: nozzle 190 °C, bed 50 °C\n" in said
+    assert "## plate-hot.3mf\n\nhot: nozzle 260 °C, bed 100 °C\n" in said
+    assert "## plate-mine.3mf\n\nmine: no temperatures in the workshop" in said
 
 
 def test_the_same_plate_gives_the_same_bytes_without_a_date(plate):

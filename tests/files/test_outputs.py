@@ -125,6 +125,9 @@ def test_a_target_has_a_fitting_name_and_a_folder(tmp_path: Path) -> None:
         require_target(tmp_path / "t.txt", (".csv", ".json"))
     with pytest.raises(JumpcadError, match="cannot be written: there is no folder"):
         require_target(tmp_path / "no" / "t.csv", (".csv",))
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(JumpcadError, match="cannot be written: there is no folder"):
+        require_target(tmp_path / "file" / "t.csv", (".csv",))
 
 
 def test_one_file_under_many_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

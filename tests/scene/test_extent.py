@@ -24,7 +24,10 @@ def test_the_extent_is_that_of_everything_on_the_robot() -> None:
     assert extent_m(robot) == pytest.approx(high - low, abs=2e-5)
 
 
-def test_a_small_part_within_the_box_of_a_larger_one_may_reach_farther(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("printed", [False, True])
+def test_a_small_part_within_the_box_of_a_larger_one_may_reach_farther(
+    monkeypatch: pytest.MonkeyPatch, printed: bool
+) -> None:
     """Two squares of 14.1 mm, one lying and one standing, come with boxes of 20 mm about their corners.
 
     Turned by 45° they reach 7.1 mm, in boxes that reach 14.1; cubes of 5 mm lie 7 mm from the middle on one side of
@@ -46,7 +49,8 @@ def test_a_small_part_within_the_box_of_a_larger_one_may_reach_farther(monkeypat
     square = [(10.0, 0.0), (0.0, 10.0), (-10.0, 0.0), (0.0, -10.0)]
     cube = [(2.5, 2.5), (-2.5, 2.5), (-2.5, -2.5), (2.5, -2.5)]
     things = [piece(square, 0.5, pose) for pose in poses[:2]] + [piece(cube, 2.5, pose) for pose in poses[2:]]
-    robot = SimpleNamespace(hardware=things, parts=[])
+    parts = [SimpleNamespace(drawing=SimpleNamespace(shape=one.shape), placements=[one]) for one in things]
+    robot = SimpleNamespace(hardware=[], parts=parts) if printed else SimpleNamespace(hardware=things, parts=[])
     assert extent_m(robot) == pytest.approx(np.full(3, 0.018))  # type: ignore[arg-type]
 
 

@@ -4,15 +4,19 @@ import math
 import subprocess
 import sys
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from jumpcad.design import load_design
 from jumpcad.findings import Finding
+from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.models import PRESENTATION, RobotModel, code_digest, robot_model
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.tolerances import Making
+from jumpcad.settings import load_settings
+from jumpcad.workshop import load_workshop
 
 
 @pytest.fixture
@@ -91,6 +95,35 @@ def test_a_model_says_what_decides_its_evaluations():
     assert not {"manifold3d", "trimesh"} & set(capsule.versions())
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
     assert len(digests) == 4
+
+
+def test_a_model_has_the_workshop_settings_and_engine_that_are_named():
+    """By a template's name or themselves; without one the default's."""
+    light, fine = load_workshop("light"), load_settings("fine")
+    for shop, how in (("light", "fine"), (light, fine)):
+        named = robot_model("printed", shop, how, "planar")
+        assert (named.workshop, named.settings, named.engine) == (light, fine, "planar")
+        capsule = robot_model("capsule", None, how, "planar")
+        assert (capsule.workshop, capsule.settings, capsule.engine) == (None, fine, "planar")
+    usual = robot_model()
+    assert (usual.workshop, usual.settings) == (load_workshop("default"), load_settings("default"))
+    assert light != usual.workshop
+    assert fine != usual.settings
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga"])
+@pytest.mark.parametrize("distance_m", [0.6, 0.0])
+def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes(monkeypatch, name, distance_m):
+    """Its figures are the published simulation's; one that goes nowhere does not take off."""
+    jump = SimpleNamespace(distance_m=distance_m, base_height_m=0.2, energy_j=0.3)
+    monkeypatch.setattr(published, "simulate", lambda _: jump)
+    design = load_design(name)
+    found = robot_model("published")(design)
+    assert found.verdict == ("jump" if distance_m else "no_takeoff")
+    longest = max(design.l2_mm, design.l3_mm, design.l5_mm)
+    figures = found.metrics
+    assert figures["fitness"] == pytest.approx(1000.0 * distance_m / longest)
+    assert set(figures.values()) == {figures["fitness"], distance_m, 0.2, 0.3}
 
 
 class Slope(RobotModel):

@@ -13,7 +13,7 @@ from support.hills import Hill, Trap
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED
-from jumpcad.search.pool import dask_pool, local_pool
+from jumpcad.search.pool import InProcess, dask_pool, local_pool
 from jumpcad.search.space import Space
 
 SPACE = Space.parse(fix=["c_coef=1", "d_coef=0.8"])
@@ -82,6 +82,15 @@ def test_what_fails_once_is_repeated(tmp_path):
     assert found == [Hill()(design) for design in DESIGNS]
     assert notes
     assert not any("quarantined" in note for note in notes)
+
+
+def test_without_processes_an_error_is_no_result():
+    """As of any executor: it is raised where the result is asked for."""
+    assert InProcess().submit(divmod, 7, 3).result() == (2, 1)
+    failed = InProcess().submit(divmod, 7, 0)
+    assert isinstance(failed.exception(), ZeroDivisionError)
+    with pytest.raises(ZeroDivisionError):
+        failed.result()
 
 
 def test_an_error_of_the_request_ends_the_run():

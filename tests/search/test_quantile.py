@@ -34,6 +34,20 @@ def test_it_is_the_worst_of_ten_neighbours_within_one_percent():
     assert found.metrics["fitness"] == DESIGN.compression_ratio
 
 
+@pytest.mark.parametrize("scores", [range(1, NEIGHBOURS + 1), range(NEIGHBOURS, 0, -1)])
+def test_each_neighbour_counts_with_its_own_score(scores):
+    """The worst of ten, whether it is the first or the last of them; the design itself, with 99, is none of them."""
+
+    class Counting(RobotModel):
+        given = iter([99, *scores])
+
+        def _alone(self, design):
+            return Evaluation("jump", {"fitness": float(next(self.given))})
+
+    assert NEIGHBOURS == 10
+    assert Counting("capsule", neighbours_of="fitness")(DESIGN).metrics["p10"] == 1.0
+
+
 def test_a_design_is_rejected_with_its_first_neighbour():
     class Near(Slope):
         limit = DESIGN.compression_ratio * 1.002

@@ -9,7 +9,8 @@ from support.proposals import with_less_work
 from support.quick import LIKE, SPACE, quick
 
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.guess import Guess, Table
+from jumpcad.search.fitting import Table
+from jumpcad.search.guess import Guess
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import IDLE, run_bayesian

@@ -52,6 +52,18 @@ def test_a_plateau_beats_a_needle(evaluator):
     assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
 
 
+def test_neighbours_follow_from_the_seed(evaluator):
+    runs = []
+    for seed in (0, 0, 1):
+        one = evaluator()
+        one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
+        rank_candidates(one, one.trials, seed=seed, making=LENGTHS_ALONE, evaluations=20)
+        runs.append([trial.key for trial in one.trials if trial.phase == "robust"])
+    assert len(runs[0]) >= 16
+    assert runs[0] == runs[1]
+    assert not set(runs[1]) & set(runs[2])
+
+
 def test_a_candidate_of_which_no_neighbour_is_known_is_as_robust_as_itself(evaluator):
     one = evaluator(model=Spiked())
     one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)

@@ -27,7 +27,9 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.tier import Expected, Tier
 from jumpcad.search.trial import Trial, best_trial
 from jumpcad.search.variant import Key, Variant
+from jumpcad.settings import load_settings
 from jumpcad.simulation import simulate
+from jumpcad.workshop import load_workshop
 
 LAYOUT = {name: FIGURES[name] for name in LAID}
 
@@ -186,6 +188,39 @@ def test_what_tips_by_a_guess_is_left_out_only_beyond_the_error(margin: float, l
     assert leaves_out(tier_of(Guess(None, {"tips": margin})).guess(Variant(BEST), {}), 1.0) is left_out
 
 
+@pytest.mark.parametrize(("margin", "least"), [(0.0, 2.0 / 1.1**0.5), (-0.1, 0.0)])
+def test_a_score_is_corrected_by_the_robots_beside_it_and_known_to_so_many_deviations(
+    margin: float, least: float
+) -> None:
+    """They score twice what is guessed, and deviate by half of the unit of its error, a factor of 1.1.
+
+    Where a limit may be violated it may be no score at all.
+    """
+    tier = tier_of(Guess(1.0, {"reach": margin}))
+    tier._process = SimpleNamespace(  # type: ignore[assignment]
+        predict=lambda _: (np.full(1, math.log(2.0)), np.full(1, 0.3)), scatter=0.4
+    )
+    found = tier.guess(Variant(BEST), {})
+    assert found == Expected(pytest.approx(2.0), pytest.approx(least), pytest.approx(2.0 * 1.1**0.5), False)
+
+
+def test_of_a_generation_those_are_built_that_may_be_better_than_another_s_least(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """With its layout one scores 1.3 at least and 1.7 at most: 1.4 may be more, 1.2 cannot."""
+    variants = [SPACE.to_variant(np.full(SPACE.dimension, share)) for share in (0.1, 0.2, 0.3)]
+    *_, beaten = variants
+    exact = dict(zip(variants_keys(variants), [offer(1.5, 0.2), offer(1.3, 0.1), offer(1.1, 0.1)], strict=True))
+    screen = Screen.__new__(Screen)
+    screen.model = SimpleNamespace(  # type: ignore[assignment]
+        admits=lambda _: True, laid_out=lambda _: {"laid_coil_mm": 1.0}, workshop=None, settings=None
+    )
+    rough = SimpleNamespace(guess=lambda *_: offer(2.0, 1.0))
+    screen.tiers = {False: rough, True: SimpleNamespace(guess=lambda one, _: exact[one.key])}  # type: ignore[dict-item]
+    monkeypatch.setattr("jumpcad.search.screen.quick_refusal", lambda *_: ())
+    assert set(screen.outcomes(variants, 1.0)) == {beaten.key}
+
+
 def tier_of(guess: Guess) -> Tier:
     """Return a tier with always the same guess, whose deviation is one."""
     tier = Tier(SPACE, lambda *_: guess, laid=False)  # type: ignore[arg-type]
@@ -239,6 +274,18 @@ def test_what_an_estimate_refuses_has_the_outcome_of_its_evaluation() -> None:
     found = Screen(Space.default(), plain, find_objective("body_lengths")).outcomes([Variant(weak)], 0.0)
     assert found == {Variant(weak).key: plain(weak).bare}
     assert found[Variant(weak).key].verdict == "too_weak"
+
+
+def test_what_is_refused_is_refused_in_the_search_s_workshop_and_settings(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    monkeypatch.setattr("jumpcad.search.screen.quick_refusal", lambda *given: asked.append(given) or ())
+    model = robot_model("printed", "light", "fine")
+    screen = Screen(Space.default(), model, find_objective("body_lengths"))
+    monkeypatch.setattr(screen, "model", SimpleNamespace(
+        admits=lambda _: True, workshop=model.workshop, settings=model.settings
+    ))  # fmt: skip
+    assert screen.outcomes([Variant(BEST)], 0.0) == {}
+    assert asked == [(BEST, load_workshop("light"), load_settings("fine"))]
 
 
 def test_nothing_is_learned_where_too_few_were_built(model):

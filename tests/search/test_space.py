@@ -131,3 +131,12 @@ def test_a_part_of_the_space_is_as_wide_as_asked_and_not_wider_than_the_whole():
     assert [parameter.name for parameter in held.free] == ["e_coef"]
     assert (held.free[0].lower, held.free[0].upper) == (0.6, 1.4)
     assert held.to_design([0.5]) == middle.design
+
+
+def test_what_is_fixed_bounded_or_chosen_is_that_in_numbers_as_in_words():
+    numbers = Space.make(fixed={"c_coef": 1.1}, bounds={"rest_angle_deg": (50.0, 60.0)}, choices={"d_coef": (0.7, 0.8)})
+    assert numbers == Space.parse(["c_coef=1.1"], ["rest_angle_deg=50:60"], ["d_coef=0.7,0.8"])
+    found = numbers.describe()
+    assert found["c_coef"] == {"fixed": 1.1}
+    assert found["rest_angle_deg"] == {"lower": 50.0, "upper": 60.0}
+    assert found["d_coef"] == {"choices": [0.7, 0.8]}

@@ -13,6 +13,7 @@ import pytest
 from support.hills import SMALL, Hill
 from support.places import TESTS
 
+from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search import study
 from jumpcad.search.models import NEIGHBOURS
@@ -23,11 +24,30 @@ from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
+from jumpcad.search.trial import Trial
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4, until_percent=0.0)
 SCRIPT = TESTS / "support" / "study_script.py"
 
 pytestmark = pytest.mark.usefixtures("quick_proposals")
+
+
+def test_a_search_is_told_to_be_hopeless_after_fifty_designs_that_fail():
+    """Its reasons are counted; one that jumps, or what the search has not proposed, is no reason to complain."""
+
+    def trial(number, score=None, phase="ga"):
+        outcome = Evaluation("tips" if number % 5 else "loop")
+        return Trial(phase, 0, number, load_design("best-ga"), outcome, score, "m", 0.0)
+
+    hopeless = study.Hopeless()
+    said = [hopeless.warning(trial(number)) for number in range(120)]
+    assert [number for number, text in enumerate(said, start=1) if text] == [50]
+    assert "none of the first 50 designs jumps (tips 40, loop 10)" in said[49]
+    for first in (0, 30, 49):
+        hopeless = study.Hopeless()
+        assert not any(hopeless.warning(trial(n, 1.0 if n == first else None)) for n in range(120))
+    hopeless = study.Hopeless()
+    assert not any(hopeless.warning(trial(number, phase="pick")) for number in range(120))
 
 
 def contents(path):
@@ -200,6 +220,21 @@ def test_a_prior_study_of_the_same_model_is_learned_from(tmp_path):
     assert learned.notes == []
     with pytest.raises(JumpcadError, match=r'was made with another model than this search \(model.name: "hill" there'):
         run(replace(REQUEST, model=Hill(name="other"), prior=tmp_path / "old.db"))
+
+
+def test_of_a_prior_study_only_designs_of_the_space_are_learned_from(tmp_path):
+    """A search that is narrower than the earlier one; scores are those of its own objective."""
+    run(replace(REQUEST, method="ga", evaluations=60), tmp_path / "old.db")
+    whole, _ = study._read_prior(replace(REQUEST, prior=tmp_path / "old.db"))
+    name = SMALL.free[0].name
+    values = sorted(trial.variant.value(name) for trial in whole)
+    middle = values[len(values) // 2]
+    free = {one.name: (one.lower, one.upper) for one in SMALL.free}
+    fixed = {one.name: one.lower for one in SMALL.parameters if not one.free}
+    narrow = Space.make(fixed, free | {name: (free[name][0], middle)})
+    some, _ = study._read_prior(replace(REQUEST, space=narrow, prior=tmp_path / "old.db"))
+    assert sorted(trial.variant.value(name) for trial in some) == [value for value in values if value <= middle]
+    assert 10 < len(some) < len(whole) - 10
 
 
 class Marked(Hill):

@@ -31,6 +31,9 @@ def test_best_and_front_are_listed(study: Path) -> None:
     assert best == [1, 3, 4]
     assert front == [4, 1]
     assert Points(study).best == 1
+    for text, number in listed.items():
+        design = Points(study).trial(number).design
+        assert text.startswith((f"front, {1000.0 * design.spring_energy_j:.1f} mJ: ", "best "))
 
 
 def test_the_workshop_is_that_of_the_study_with_the_trials_values(tmp_path: Path) -> None:

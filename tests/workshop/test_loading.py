@@ -41,6 +41,16 @@ def test_a_printer_may_be_changed_in_part(written):
     assert (printer.bed_mm, printer.nozzle_mm) == ((100.0, 100.0, 100.0), 0.4)
 
 
+@pytest.mark.parametrize("name", ["PA12", "pa12"])
+def test_a_shipped_material_keeps_what_is_not_said_otherwise(written, name):
+    """The default workshop prints nothing in PA12, of which only density and modulus are general."""
+    strength = "strength_in_plane_mpa = 41.0\nstrength_interlayer_mpa = 23.0\n"
+    text = f'[roles]\nlinks = "{name}"\n[materials.{name}]\n{strength}modulus_mpa = 1250.0\n'
+    material = load_workshop(written(text)).material("links")
+    assert (material.strength_in_plane_mpa, material.strength_interlayer_mpa) == (41.0, 23.0)
+    assert (material.modulus_mpa, material.density_g_cm3) == (1250.0, 1.01)
+
+
 def test_materials_of_ones_own_and_weighed_parts(written):
     text = """
     [roles]

@@ -45,6 +45,23 @@ def test_each_stage_moves_what_it_should(evaluator):
     assert min(len(few), len(near), len(last)) >= 10
 
 
+def test_the_sample_follows_from_the_seed(evaluator, monkeypatch):
+    drawn = []
+
+    def evaluate(designs, phase, step):
+        drawn.append([design.key for design in designs])
+        raise JumpcadError("enough")
+
+    for seed in (3, 3, 4):
+        one = evaluator(space=Space.default())
+        monkeypatch.setattr(one, "evaluate", evaluate)
+        with pytest.raises(JumpcadError, match="enough"):
+            run_paper(one, Task(140, seed))
+    assert len(drawn[0]) > 10
+    assert drawn[0] == drawn[1]
+    assert not set(drawn[1]) & set(drawn[2])
+
+
 def test_every_run_begins_with_designs_of_its_own(evaluator):
     """Ten each, of the published preset; the same ones would be evaluated once."""
     one = evaluator(space=Space.default())
