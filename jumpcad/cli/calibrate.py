@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
-from jumpcad.cli.searching import PlotsOption
+from jumpcad.cli.searching import PlotsOption, require_pictures
 
 if TYPE_CHECKING:
     from jumpcad.calibration import CalibrationPosterior
@@ -40,13 +40,13 @@ def calibrate(
     from jumpcad.calibration import load_subject, predicted_jump, settings_toml
     from jumpcad.calibration.plots import PICTURES
     from jumpcad.calibration.subject import renamed, require_each_once
-    from jumpcad.files.outputs import require_apart, require_free, require_target, write_atomically
+    from jumpcad.files.outputs import require_apart, require_target, write_atomically
 
     require_apart({"--output": output, "--plots": plots}, {f"measurements {name}": name for name in files})
     if output:
         require_target(output, (".toml",), force)
-    for name in PICTURES if plots else ():
-        require_free(Path(str(plots)) / f"{name}.svg", force)
+    if plots:
+        require_pictures(plots, PICTURES, force)
     require_each_once([*files, *(predict or ())])
     others = renamed([load_subject(name) for name in predict or ()])
     with status("simulating the robots, sampling the posterior …"):

@@ -3,7 +3,7 @@
 import functools
 import inspect
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
@@ -129,20 +129,25 @@ def require_study(study: Path | None) -> None:
 
 
 def require_plots(folder: Path | None, force: bool) -> None:
-    """Require, before a search, that pictures can be written to a folder without replacing a user's files.
+    """Require, before a search, that its pictures can be written to a folder without replacing a user's files."""
+    if folder is not None:  # without matplotlib, which takes 0.4 s to load
+        from jumpcad.search.figures import PICTURES
+
+        require_pictures(folder, PICTURES, force)
+
+
+def require_pictures(folder: Path, names: Iterable[str], force: bool) -> None:
+    """Require that pictures can be written to a folder without replacing a user's files.
 
     Raises
     ------
     JumpcadError
         If it is no folder, or has a file of a picture's name that jumpcad did not write (unless `force`).
     """
-    if folder is None:
-        return  # without matplotlib, which takes 0.4 s to load
     from jumpcad.files.outputs import require_free
-    from jumpcad.search.figures import PICTURES
 
     if os.path.lexists(folder) and not os.path.isdir(folder):
         raise JumpcadError(f"{folder}: is there already and is no folder; choose another name")
-    for name in PICTURES:
+    for name in names:
         for suffix in (".svg", ".png"):
             require_free(folder / f"{name}{suffix}", force)

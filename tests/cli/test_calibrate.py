@@ -85,19 +85,7 @@ def test_wrong_requests(run: Run, arguments: tuple[str, ...], message: str) -> N
     assert message in err
 
 
-def test_the_seed_is_the_samplers(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = []
-
-    def sampling(files: object, seed: int) -> NoReturn:
-        asked.append(seed)
-        raise JumpcadError("enough")
-
-    monkeypatch.setattr("jumpcad.calibration.calibrate", sampling)
-    assert run("calibrate", "kenan-2.0", "--seed", 7)[0] == 2
-    assert asked == [7]
-
-
-@pytest.mark.parametrize("name", ["parameters", "measurements"])
+@pytest.mark.parametrize("name", ["parameters.svg", "measurements.svg", "parameters.png", "measurements.png"])
 def test_pictures_of_one_s_own_are_not_replaced_unasked(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
@@ -106,9 +94,9 @@ def test_pictures_of_one_s_own_are_not_replaced_unasked(
 
     monkeypatch.setattr("jumpcad.calibration.calibrate", sampling)
     (tmp_path / "pictures").mkdir()
-    (tmp_path / "pictures" / f"{name}.svg").write_text("mine")
+    (tmp_path / "pictures" / name).write_text("mine")
     command = ("calibrate", "kenan-2.0", "--plots", "pictures")
-    assert f"pictures/{name}.svg: exists already" in run(*command)[2]
+    assert f"pictures/{name}: exists already" in run(*command)[2]
     assert run(*command, "--force")[2] == "jumpcad: begun\n"
 
 
