@@ -136,8 +136,10 @@ class RobotModel:
 
     def _refused_first(self, design: Design) -> tuple[Finding, ...]:
         """Return why a printed robot need not be built; nothing where others learn from every robot that is."""
-        if self.name != "printed" or self.stand_in or self.made:
-            return ()
+        return () if self.name != "printed" or self.stand_in or self.made else self.refused_first(design)
+
+    def refused_first(self, design: Design) -> tuple[Finding, ...]:
+        """Return what an estimate of a printed robot's masses says of a design that is violated for certain."""
         from jumpcad.search.quick_refusal import quick_refusal
 
         return quick_refusal(design, self.workshop or load_workshop(), self.guess_settings)

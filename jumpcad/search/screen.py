@@ -15,13 +15,10 @@ from jumpcad.search.fitting import MARK, learned_rows
 from jumpcad.search.guess import Fit, Guesser
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import GUESSED, SCREENED, Evaluation, Objective
-from jumpcad.search.quick_refusal import quick_refusal
 from jumpcad.search.space import Space
 from jumpcad.search.tier import Expected, Tier
 from jumpcad.search.trial import Trial, best_trial
 from jumpcad.search.variant import NOTHING, Key, Variant
-from jumpcad.settings import Settings
-from jumpcad.workshop import load_workshop
 
 LEAST, GROWTH = 16, 1.25
 """Robots from which on the screen works; it is fitted anew when there are so many times more."""
@@ -108,8 +105,7 @@ class Screen:
 
     def _refused(self, one: Variant) -> Evaluation | None:
         """Return the outcome of a variant that an estimate of its masses refuses."""
-        workshop, settings = self.model.workshop or load_workshop(), self.model.settings or Settings()
-        refused = quick_refusal(one.design, workshop, settings)
+        refused = self.model.refused_first(one.design)
         if not refused:
             return None
         return Evaluation(refused[0].name, findings=(*geometry_findings(one.design), *refused)).bare

@@ -16,7 +16,7 @@ from jumpcad.search.fitting import MARK
 from jumpcad.search.guess import Fit, Guess
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.genetic import run_genetic
-from jumpcad.search.models import robot_model
+from jumpcad.search.models import GUESS_STEP_S, robot_model
 from jumpcad.search.objective import GUESSED, SCREENED, Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
@@ -204,20 +204,17 @@ def test_a_score_is_corrected_by_the_robots_beside_it_and_known_to_so_many_devia
     assert found == Expected(pytest.approx(2.0), pytest.approx(least), pytest.approx(2.0 * 1.1**0.5), False)
 
 
-def test_of_a_generation_those_are_built_that_may_be_better_than_another_s_least(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_of_a_generation_those_are_built_that_may_be_better_than_another_s_least() -> None:
     """With its layout one scores 1.3 at least and 1.7 at most: 1.4 may be more, 1.2 cannot."""
     variants = [SPACE.to_variant(np.full(SPACE.dimension, share)) for share in (0.1, 0.2, 0.3)]
     *_, beaten = variants
     exact = dict(zip(variants_keys(variants), [offer(1.5, 0.2), offer(1.3, 0.1), offer(1.1, 0.1)], strict=True))
     screen = Screen.__new__(Screen)
     screen.model = SimpleNamespace(  # type: ignore[assignment]
-        admits=lambda _: True, laid_out=lambda _: {"laid_coil_mm": 1.0}, workshop=None, settings=None
+        admits=lambda _: True, laid_out=lambda _: {"laid_coil_mm": 1.0}, refused_first=lambda _: ()
     )
     rough = SimpleNamespace(guess=lambda *_: offer(2.0, 1.0))
     screen.tiers = {False: rough, True: SimpleNamespace(guess=lambda one, _: exact[one.key])}  # type: ignore[dict-item]
-    monkeypatch.setattr("jumpcad.search.screen.quick_refusal", lambda *_: ())
     assert set(screen.outcomes(variants, 1.0)) == {beaten.key}
 
 
@@ -234,7 +231,7 @@ def offer(score: float, error: float, fails: bool = False) -> Expected:
     return Expected(score, score - error, score + error, fails)
 
 
-def test_a_generation_is_laid_out_and_built_only_where_it_may_be_better(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_generation_is_laid_out_and_built_only_where_it_may_be_better() -> None:
     """Of a best of 1.0: one is worse for certain, one fails, one has no room, one is worse than another's least."""
     points = [np.full(SPACE.dimension, share) for share in (0.1, 0.2, 0.3, 0.4, 0.5)]
     worse, failing, crowded, good, beaten = variants = [SPACE.to_variant(point) for point in points]
@@ -247,11 +244,12 @@ def test_a_generation_is_laid_out_and_built_only_where_it_may_be_better(monkeypa
         return Evaluation("no_room", detail="why") if one is crowded else {"laid_coil_mm": 1.0}
 
     screen = Screen.__new__(Screen)
-    screen.model = SimpleNamespace(admits=lambda _: True, laid_out=laid_out, workshop=None, settings=None)  # type: ignore[assignment]
+    screen.model = SimpleNamespace(  # type: ignore[assignment]
+        admits=lambda _: True, laid_out=laid_out, refused_first=lambda _: ()
+    )
     plain = SimpleNamespace(guess=lambda one, _: first[one.key])
     laid = SimpleNamespace(guess=lambda one, _: offer(1.5, 0.001))  # known well
     screen.tiers = {False: plain, True: laid}  # type: ignore[dict-item]
-    monkeypatch.setattr("jumpcad.search.screen.quick_refusal", lambda *_: ())
     found = screen.outcomes(variants, 1.0)
     assert tried == [crowded.key, good.key]
     assert {key: (one.verdict, dict(one.metrics)) for key, one in found.items()} == {
@@ -277,15 +275,15 @@ def test_what_an_estimate_refuses_has_the_outcome_of_its_evaluation() -> None:
 
 
 def test_what_is_refused_is_refused_in_the_search_s_workshop_and_settings(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the steps of guesses, which are longer."""
     asked = []
-    monkeypatch.setattr("jumpcad.search.screen.quick_refusal", lambda *given: asked.append(given) or ())
-    model = robot_model("printed", "light", "fine")
-    screen = Screen(Space.default(), model, find_objective("body_lengths"))
-    monkeypatch.setattr(screen, "model", SimpleNamespace(
-        admits=lambda _: True, workshop=model.workshop, settings=model.settings
-    ))  # fmt: skip
+    monkeypatch.setattr("jumpcad.search.quick_refusal.quick_refusal", lambda *given: asked.append(given) or ())
+    screen = Screen(Space.default(), robot_model("printed", "light", "fine"), find_objective("body_lengths"))
     assert screen.outcomes([Variant(BEST)], 0.0) == {}
-    assert asked == [(BEST, load_workshop("light"), load_settings("fine"))]
+    settings = load_settings("fine")
+    assert settings.dt_s < GUESS_STEP_S
+    longer = settings.model_copy(update={"dt_s": GUESS_STEP_S})
+    assert asked == [(BEST, load_workshop("light"), longer)]
 
 
 def test_nothing_is_learned_where_too_few_were_built(model):
