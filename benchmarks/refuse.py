@@ -45,6 +45,7 @@ ROUNDS, WARM = 50, 10
 SCAN = np.arange(0.9, 1.3, 0.01)
 """Strengths of the springs with which estimated robots push off."""
 FAR_TOO_WEAK = 0.6
+"""Share of the energy that is needed, below which robots are not fitted: other estimates refuse them."""
 DESIGNS_EACH = 2
 """Designs of each box that are tried in a workshop."""
 BOX = {name: (bound.lower, bound.upper) for name, bound in SEARCH_BOUNDS.items()}

@@ -126,23 +126,23 @@ class RobotModel:
         rejecting = errors(findings)
         if rejecting:
             return Evaluation(rejecting[0].name, findings=findings)
-        refused = self._refused_first(design)
+        others_learn = self.stand_in or self.made  # from every robot that is built
+        refused = None if self.name != "printed" or others_learn else self.refused_first(design)
         if refused:
-            return Evaluation(refused[0].name, findings=(*findings, *refused))
+            return refused
         try:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:
             return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
 
-    def _refused_first(self, design: Design) -> tuple[Finding, ...]:
-        """Return why a printed robot need not be built; nothing where others learn from every robot that is."""
-        return () if self.name != "printed" or self.stand_in or self.made else self.refused_first(design)
-
-    def refused_first(self, design: Design) -> tuple[Finding, ...]:
-        """Return what an estimate of a printed robot's masses says of a design that is violated for certain."""
+    def refused_first(self, design: Design) -> Evaluation | None:
+        """Return the outcome of a design that an estimate of the printed robot's masses refuses; None of others."""
         from jumpcad.search.quick_refusal import quick_refusal
 
-        return quick_refusal(design, self.workshop or load_workshop(), self.guess_settings)
+        refused = quick_refusal(design, self.workshop or load_workshop(), self.guess_settings)
+        if not refused:
+            return None
+        return Evaluation(refused[0].name, findings=(*geometry_findings(design), *refused))
 
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
         """Return the model of the robot in the workshop with other values, or made otherwise than designed."""

@@ -10,7 +10,6 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.search.fitting import MARK, learned_rows
 from jumpcad.search.guess import Fit, Guesser
 from jumpcad.search.models import RobotModel
@@ -85,8 +84,8 @@ class Screen:
             guess = self.guess(one)
             if guess is not None and leaves_out(guess, bar):
                 found[one.key] = _screened(guess)
-            elif refused := self._refused(one):
-                found[one.key] = refused
+            elif refused := self.model.refused_first(one.design):
+                found[one.key] = refused.bare
             elif guess is not None:
                 offers.append((one, guess))
         for one, guess in sorted(offers, key=lambda offer: -(offer[1].score or 0.0)):
@@ -102,13 +101,6 @@ class Screen:
                 held.append((one, better))
                 bar = max(bar, better.least)
         return found | {one.key: _screened(guess) for one, guess in held if leaves_out(guess, bar)}
-
-    def _refused(self, one: Variant) -> Evaluation | None:
-        """Return the outcome of a variant that an estimate of its masses refuses."""
-        refused = self.model.refused_first(one.design)
-        if not refused:
-            return None
-        return Evaluation(refused[0].name, findings=(*geometry_findings(one.design), *refused)).bare
 
 
 def leaves_out(guess: Expected, bar: float) -> bool:

@@ -211,7 +211,7 @@ def test_of_a_generation_those_are_built_that_may_be_better_than_another_s_least
     exact = dict(zip(variants_keys(variants), [offer(1.5, 0.2), offer(1.3, 0.1), offer(1.1, 0.1)], strict=True))
     screen = Screen.__new__(Screen)
     screen.model = SimpleNamespace(  # type: ignore[assignment]
-        admits=lambda _: True, laid_out=lambda _: {"laid_coil_mm": 1.0}, refused_first=lambda _: ()
+        admits=lambda _: True, laid_out=lambda _: {"laid_coil_mm": 1.0}, refused_first=lambda _: None
     )
     rough = SimpleNamespace(guess=lambda *_: offer(2.0, 1.0))
     screen.tiers = {False: rough, True: SimpleNamespace(guess=lambda one, _: exact[one.key])}  # type: ignore[dict-item]
@@ -245,7 +245,7 @@ def test_a_generation_is_laid_out_and_built_only_where_it_may_be_better() -> Non
 
     screen = Screen.__new__(Screen)
     screen.model = SimpleNamespace(  # type: ignore[assignment]
-        admits=lambda _: True, laid_out=laid_out, refused_first=lambda _: ()
+        admits=lambda _: True, laid_out=laid_out, refused_first=lambda _: None
     )
     plain = SimpleNamespace(guess=lambda one, _: first[one.key])
     laid = SimpleNamespace(guess=lambda one, _: offer(1.5, 0.001))  # known well
