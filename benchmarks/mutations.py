@@ -1,10 +1,11 @@
 """Which one-line changes of the package do the nearest tests not see?
 
-    python benchmarks/mutations.py [--seed 1] [--count 30] [--only REGEX] [--files 3] [--log FILE]
+    python benchmarks/mutations.py [--seed 1] [--count 30] [--only REGEX] [--files 3] [--whole] [--log FILE]
 
 A mutant is the package with one expression changed: a number × 1.3, ÷ 4 or ± 1, an operator, a function or a truth for
 its opposite, a sign or a `not` dropped, one side of a returned sum or product gone. It is made in a copy of the
-checkout, and the tests nearest to its module run there: its namesakes, and those that import it most often.
+checkout, and the tests nearest to its module run there: its namesakes, and those that import it most often. With
+`--whole` all tests run for those that these do not see, which takes about eight minutes each.
 Left out is what says nothing of the machine: words for people, types, and the modules that draw (`DRAWING`).
 
 A survivor is one of three: equivalent (no result changes), a judgement (another number would do as well), or a hole in
@@ -28,8 +29,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = "jumpcad"
-LIMIT_S = 150.0
-"""Time of one mutant's tests: an endless loop ends here."""
+LIMIT_S, WHOLE_LIMIT_S = 150.0, 1800.0
+"""Time of one mutant's tests, the nearest or all: an endless loop ends here."""
 
 DRAWING = re.compile(
     r"bundle/(lead_drawing|page|renders|spring_sheet|step_pictures|viewer)|calibration/plots|cli/progress|notebook|"
@@ -194,7 +195,7 @@ def nearest(root: Path, module: str, files: int) -> list[str]:
     return sorted(ranks, key=lambda file: ranks[file])[:files] or [folder.as_posix()]
 
 
-def outcome(root: Path, tests: list[str]) -> str:
+def outcome(root: Path, tests: list[str], limit_s: float = LIMIT_S) -> str:
     """Run tests in a copy; return `survived`, `timeout`, or `killed` and the first test that failed."""
     environment = os.environ | {"PYTHONPATH": str(root), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests]
@@ -202,7 +203,7 @@ def outcome(root: Path, tests: list[str]) -> str:
         command, cwd=root, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True
     ) as process:
         try:
-            said, _ = process.communicate(timeout=LIMIT_S)
+            said, _ = process.communicate(timeout=limit_s)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()
@@ -221,6 +222,7 @@ def main() -> None:
     option("--count", type=int, default=30)
     option("--only", default="", metavar="REGEX", help="modules whose path matches")
     option("--files", type=int, default=3, help="test files that run for a module at most")
+    option("--whole", action="store_true", help="run all tests for what the nearest do not see")
     option("--log", type=Path, help="write the lines to this file too")
     arguments = parser.parse_args()
 
@@ -239,8 +241,10 @@ def main() -> None:
             source = path.read_bytes()
             path.write_bytes(mutant.applied(source))
             result = outcome(copy, nearest(copy, mutant.path, arguments.files))
+            if arguments.whole and result == "survived":
+                result = f"{outcome(copy, ['tests'], WHOLE_LIMIT_S)}, unseen by the nearest"
             path.write_bytes(source)
-            counts[result.split()[0]] += 1
+            counts[re.split(r"\W", result)[0]] += 1
             say(f"{mutant.said(source)}  {result}  ({time.monotonic() - began:.0f} s)")
         say(", ".join(f"{count} {what}" for what, count in counts.items()))
 
