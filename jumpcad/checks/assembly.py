@@ -122,8 +122,6 @@ def assembly_ways(robot: Robot) -> list[Way]:
                 built.pop(placed.move.brings)
             movers = [pieces[thing.name] for thing in placed.things]
             along = [travel(robot, thing, placed.move, poses[thing.body]) for thing in placed.things]
-            if placed.move.brings:  # one piece: all of it moves as its first thing does
-                along = [along[0]] * len(along)
             way = Way(step, placed, movers, [], [*there])
             if placed.move.way == "snapped":
                 paths = [_snapped(way, mover, side) for mover, side in zip(movers, along, strict=True)]

@@ -34,14 +34,15 @@ class Scripted:
         speed_m_s: float,
         opening_s: float = 0.0,
         hop_m: float = 0.0,
+        end_rad: float = 0.0,
     ) -> None:
         self.flights_s, self.steps, self.start = flights_s, 0, start
-        self.speed_m_s, self.opening_s, self.hop_m = speed_m_s, opening_s, hop_m
+        self.speed_m_s, self.opening_s, self.hop_m, self.end_rad = speed_m_s, opening_s, hop_m, end_rad
 
     def advance(self, steps: int) -> float:
-        """Return the coordinate of a leg that opens by 1 rad/s and comes to rest after `opening_s`."""
+        """Return the coordinate of a leg that opens by 1 rad/s, at 0 after `opening_s` if it does not rest before."""
         self.steps += steps
-        return min(self.steps * DT_S - self.opening_s, 0.0)
+        return min(self.steps * DT_S - self.opening_s, self.end_rad)
 
     def loaded(self) -> bool:
         time = self.steps * DT_S
@@ -69,11 +70,12 @@ def takeoff_s(
     speed_m_s: float = 0.1,
     opening_s: float = 0.0,
     hop_m: float = 0.0,
+    end_rad: float = 0.0,
     **settings: float,
 ) -> float | None:
     """Return when a robot with these flights, of that height, is said to take off."""
     with released(mechanism) as start:
-        world = Scripted(start, flights_s, speed_m_s, opening_s, hop_m)
+        world = Scripted(start, flights_s, speed_m_s, opening_s, hop_m, end_rad)
         run = Run(world, mechanism, Settings(dt_s=DT_S, **settings))
         run.go()
     return run.takeoff.time_s if run.takeoff else None
@@ -92,6 +94,12 @@ def test_a_hop_while_the_springs_still_push_is_a_part_of_the_push_off(kenan: Mec
     assert takeoff_s(kenan, [hop, flight]) == pytest.approx(0.010)
     assert takeoff_s(kenan, [hop, flight], opening_s=0.020) == pytest.approx(0.030)
     assert takeoff_s(kenan, [hop, flight], opening_s=0.040) == pytest.approx(0.030)
+
+
+def test_a_leg_that_rests_before_its_end_has_spent_its_springs(kenan: Mechanism) -> None:
+    """Friction of its pins holds it there, and nothing drives the robot any more."""
+    hop, flight = (0.010, 0.010 + CONTACT_LOST_S), (0.030, 0.060)
+    assert takeoff_s(kenan, [hop, flight], opening_s=0.022, end_rad=-0.002) == pytest.approx(0.030)
 
 
 def test_a_printed_robot_clears_the_ground_by_a_millimetre(kenan: Mechanism) -> None:
