@@ -115,7 +115,7 @@ class Tier:
                 mean, deviation = _at(self._ratios_of(others), self._place(trial.variant, trial.evaluation.metrics))
                 off.append((ratio - mean) / deviation)
         errors = {name: CAREFUL * max(map(abs, values)) for name, values in wrong.items()}
-        if len(off) >= PAIRS:
+        if off:
             less, more = np.percentile(off, [100.0 - SURE, SURE]).tolist()
             errors |= {LESS: min(less, 0.0), MORE: max(more, 0.0)}
         return errors
@@ -126,7 +126,6 @@ class Tier:
         assert best is not None
         units = np.array([self._space.to_unit(trial.variant) for trial in trials])
         distance = np.abs(units - self._space.to_unit(best.variant)).max(axis=1)
-        distance[trials.index(best)] = -1.0
         return [trials[place] for place in np.argsort(distance, kind="stable")[:BESIDE]]
 
     def _ratio(self, trial: Trial) -> float | None:
