@@ -47,7 +47,7 @@ from jumpcad.design import SEARCH_BOUNDS
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import default_initial, incumbent
-from jumpcad.search.models import robot_model, versions
+from jumpcad.search.models import robot_model
 from jumpcad.search.objective import find_objective
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.pool import local_pool
@@ -57,6 +57,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.start import first_points
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial
+from jumpcad.search.versions import versions
 from jumpcad.transforms import Array
 
 EVALUATIONS = 60

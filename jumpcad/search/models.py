@@ -1,28 +1,27 @@
 """What evaluates a design in a search: the printed, the capsule or the published robot, chosen by name."""
 
 import hashlib
-import importlib.metadata
 import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cache, cached_property, partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from jumpcad.arguments import require_fields, typed
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.files import Record, did_you_mean, templates_folder
-from jumpcad.findings import Finding, errors
+from jumpcad.files import Record, did_you_mean
+from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.search.objective import CANNOT_BUILD, COST, QUANTILE, Evaluation, Objective, find_objective
+from jumpcad.search.neighbours import neighbours, with_neighbours
+from jumpcad.search.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
 from jumpcad.search.refusal import refusal_findings, room_findings
 from jumpcad.search.stand_in import figures_of, laid_out
-from jumpcad.search.tolerances import PREFIX, Making, as_made, tenth
+from jumpcad.search.tolerances import PREFIX, Making, as_made
 from jumpcad.search.variant import NOTHING, Variant
+from jumpcad.search.versions import code_digest, versions
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
 from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE
@@ -30,15 +29,11 @@ from jumpcad.version import __version__
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 from jumpcad.workshop.varied import Value
 
-NEIGHBOURS = 10
-"""Neighbours of a design that the objective p10 looks at, half of each kind."""
 MODELS = ("printed", "capsule", "published")
 PUBLISHED_FIGURES = ("fitness", "base_distance_m", "base_height_m", "spring_energy_j")
 """Figures of a jump of the published robot."""
 GUESS_STEP_S = 0.002
 """Time step of the planar engine for a guess: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
-PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio")
-"""The packages of jumpcad that do not affect the trials of a study."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -89,37 +84,13 @@ class RobotModel:
             except JumpcadError as error:  # the values do not go together
                 return Evaluation("workshop", detail=str(error))
         found = self._alone(design)
-        return self._with_neighbours(design, found) if self.neighbours_of and found.feasible else found
+        if not self.neighbours_of or not found.feasible:
+            return found
+        return with_neighbours(found, neighbours(design, self.making), self._beside, find_objective(self.neighbours_of))
 
-    def _with_neighbours(self, design: Design, found: Evaluation) -> Evaluation:
-        """Return an evaluation with the score that nine of ten neighbours reach.
-
-        They deviate alike from every design, so that the figure is as smooth as the score.
-        """
-        generators = (np.random.default_rng(kind) for kind in (0, 1))
-        kinds = (
-            self.making.varied(Variant(design), next(generators)),
-            self.making.neighbours(Variant(design), next(generators)),
-        )
-        objective, scores = find_objective(self.neighbours_of), []
-        neighbours = [one for pair in zip(*kinds, strict=True) for one in pair][:NEIGHBOURS]
-        for number, neighbour in enumerate(neighbours, start=1):
-            model = self.varied(neighbour.workshop) if neighbour.workshop else self
-            beside = model._alone(neighbour.design)
-            score = objective.score(beside)
-            if score is None:
-                reasons = ", ".join(beside.reasons)
-                failed = Finding(
-                    "neighbours", "error", (number - 1) / NEIGHBOURS - 1.0, "",
-                    f"neighbour {number} of {NEIGHBOURS} within the tolerances is rejected: {reasons}",
-                    "keep away from the limits that reject it",
-                )  # fmt: skip
-                metrics = {**found.metrics, COST: 1.0 + number}
-                return replace(found, metrics=metrics, findings=(*found.findings, failed), detail=reasons)
-            scores.append(score)
-        passed = Finding("neighbours", "info", 1.0 / NEIGHBOURS, "", "all neighbours jump", "")
-        metrics = {**found.metrics, QUANTILE: tenth(scores), COST: 1.0 + NEIGHBOURS}
-        return replace(found, metrics=metrics, findings=(*found.findings, passed))
+    def _beside(self, neighbour: Variant) -> Evaluation:
+        model = self.varied(neighbour.workshop) if neighbour.workshop else self
+        return model._alone(neighbour.design)
 
     def _alone(self, design: Design) -> Evaluation:
         findings = tuple(geometry_findings(design))
@@ -333,34 +304,6 @@ def robot_model(
         built_in = workshop if isinstance(workshop, Workshop) else load_workshop(workshop or DEFAULT)
     how = settings if isinstance(settings, Settings) else load_settings(settings or "default")
     return RobotModel(name, built_in, how, engine or default_engine())
-
-
-@cache
-def code_digest() -> str:
-    """Return a hash (hexadecimal) of the code and the catalogue that decide the trials of a study.
-
-    Between two releases the version number stays, but the code changes.
-    """
-    package = Path(__file__).parents[1]
-    files = {path.relative_to(package).as_posix(): path for path in package.rglob("*.py")}
-    files |= {f"hardware/{path.name}": path for path in (templates_folder() / "hardware").glob("*.toml")}
-    found = hashlib.sha256()
-    for name in sorted(files):
-        if name.split("/")[0] not in PRESENTATION:
-            content = files[name].read_bytes()
-            found.update(f"{name} {len(content)}\n".encode() + content)
-    return found.hexdigest()[:16]
-
-
-def versions(*packages: str) -> dict[str, str]:
-    """Return the installed versions of packages; of those that are not installed, `none`."""
-    found = {}
-    for package in packages:
-        try:
-            found[package] = importlib.metadata.version(package)
-        except importlib.metadata.PackageNotFoundError:
-            found[package] = "none"
-    return found
 
 
 def _figures(jump: Any) -> dict[str, float]:

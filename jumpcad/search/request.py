@@ -14,12 +14,13 @@ from jumpcad.files.complaints import shown
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
-from jumpcad.search.models import RobotModel, versions
+from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import QUANTILE, Model, Objective, find_objective
 from jumpcad.search.robust import pick_share
 from jumpcad.search.space import Space
 from jumpcad.search.tolerances import LENGTHS_ALONE, Making
 from jumpcad.search.trial import Trial
+from jumpcad.search.versions import versions
 
 MOST_EVALUATIONS = 1_000_000
 """About a day of one core, at 80 ms an evaluation (docs/speed.md)."""

@@ -13,13 +13,14 @@ from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.methods import METHODS, STEPS, Task
-from jumpcad.search.models import NEIGHBOURS, versions
+from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
 from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
 from jumpcad.search.store import StudyStore, difference
 from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
+from jumpcad.search.versions import versions
 from jumpcad.search.widening import Widened, widen
 
 FIRST = 50

@@ -1,70 +1,18 @@
-"""What a study knows of the program that made it."""
+"""Models of robots: what is evaluated, and how."""
 
 import math
-import subprocess
-import sys
 from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 
 from jumpcad.design import load_design
-from jumpcad.findings import Finding
 from jumpcad.paper import published
-from jumpcad.search import models
-from jumpcad.search.models import PRESENTATION, RobotModel, code_digest, robot_model
-from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.models import robot_model
+from jumpcad.search.objective import find_objective
 from jumpcad.search.tolerances import Making
 from jumpcad.settings import load_settings
 from jumpcad.workshop import load_workshop
-
-
-@pytest.fixture
-def package(tmp_path, monkeypatch):
-    """Return the folder of a small package that stands in for this one."""
-    root = tmp_path / "jumpcad"
-    for name in ("search/models.py", "simulation/run.py", "cli/study.py"):
-        (root / name).parent.mkdir(parents=True, exist_ok=True)
-        (root / name).write_text(f"# {name}\n")
-    (tmp_path / "templates" / "hardware").mkdir(parents=True)
-    monkeypatch.setattr(models, "__file__", str(root / "search" / "models.py"))
-    monkeypatch.setattr(models, "templates_folder", lambda: tmp_path / "templates")
-    return root
-
-
-@pytest.mark.parametrize(
-    ("name", "counts"),
-    [
-        ("simulation/run.py", True),
-        ("simulation/new.py", True),
-        ("../templates/hardware/wire.toml", True),
-        ("cli/study.py", False),
-    ],
-)
-def test_every_change_of_what_computes_is_noticed(package, name, counts):
-    before = code_digest.__wrapped__()
-    assert code_digest.__wrapped__() == before
-    (package / name).write_text("changed = True\n")
-    assert (code_digest.__wrapped__() != before) == counts
-
-
-def test_the_digest_is_part_of_what_a_study_is_about():
-    assert RobotModel("capsule").versions()["code"] == code_digest()
-
-
-def test_no_evaluation_imports_what_the_digest_leaves_out():
-    code = f"""
-import sys
-from jumpcad.design import load_design
-from jumpcad.search import study
-from jumpcad.search.models import MODELS, RobotModel
-from jumpcad.workshop import load_workshop
-for name in ("printed", "capsule"):
-    RobotModel(name, load_workshop("default") if name == "printed" else None)(load_design("kenan-2.0"))
-print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part] for part in {PRESENTATION}]])
-"""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert done.stdout.split() == [], done.stderr
 
 
 def test_only_a_printed_robot_has_a_workshop_a_size_and_a_quick_score():
@@ -124,30 +72,3 @@ def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes(mon
     figures = found.metrics
     assert figures["fitness"] == pytest.approx(1000.0 * distance_m / longest)
     assert set(figures.values()) == {figures["fitness"], distance_m, 0.2, 0.3}
-
-
-class Slope(RobotModel):
-    """Fitness is the compression ratio; above a limit it tips."""
-
-    limit = 1.0
-
-    def _alone(self, design):
-        if design.compression_ratio > self.limit:
-            return Evaluation("tips", findings=(Finding("tips", "error", -1.0, "", "", ""),))
-        return Evaluation("jump", {"fitness": design.compression_ratio})
-
-
-def test_the_margin_of_neighbours_is_how_many_of_ten_jump_before_one_does_not(monkeypatch):
-    """Less one, so that it is 0 where all do but the last; each costs its evaluation, as the design itself does."""
-    design, looked = load_design("best-ga"), []
-    look = Slope._alone
-    monkeypatch.setattr(Slope, "_alone", lambda self, one: looked.append(one) or look(self, one))
-    found = Slope("capsule", neighbours_of="fitness")(design)
-    assert found.margins["neighbours"] == pytest.approx(1.0 / models.NEIGHBOURS)
-    assert found.metrics["evaluations"] == len(looked) == 1 + models.NEIGHBOURS
-    around = looked[1:]
-    higher = [place for place, one in enumerate(around) if one.compression_ratio > design.compression_ratio]
-    monkeypatch.setattr(Slope, "limit", design.compression_ratio)
-    rejected = Slope("capsule", neighbours_of="fitness")(design)
-    assert rejected.margins["neighbours"] == pytest.approx(higher[0] / models.NEIGHBOURS - 1.0)
-    assert rejected.metrics["evaluations"] == 2.0 + higher[0]

@@ -16,7 +16,7 @@ from support.places import TESTS
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search import study
-from jumpcad.search.models import NEIGHBOURS
+from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.polling import gains
 from jumpcad.search.pool import local_pool

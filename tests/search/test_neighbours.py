@@ -5,7 +5,8 @@ import pytest
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.search.models import NEIGHBOURS, RobotModel
+from jumpcad.search.models import RobotModel
+from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
@@ -82,3 +83,19 @@ def test_names():
     assert find_objective("p10-range").neighbours_of == "range"
     with pytest.raises(JumpcadError, match="is not one of the objectives"):
         find_objective("p10-nonsense")
+
+
+def test_the_margin_of_neighbours_is_how_many_of_ten_jump_before_one_does_not(monkeypatch):
+    """Less one, so that it is 0 where all do but the last; each costs its evaluation, as the design itself does."""
+    design, looked = load_design("best-ga"), []
+    look = Slope._alone
+    monkeypatch.setattr(Slope, "_alone", lambda self, one: looked.append(one) or look(self, one))
+    found = Slope("capsule", neighbours_of="fitness")(design)
+    assert found.margins["neighbours"] == pytest.approx(1.0 / NEIGHBOURS)
+    assert found.metrics["evaluations"] == len(looked) == 1 + NEIGHBOURS
+    around = looked[1:]
+    higher = [place for place, one in enumerate(around) if one.compression_ratio > design.compression_ratio]
+    monkeypatch.setattr(Slope, "limit", design.compression_ratio)
+    rejected = Slope("capsule", neighbours_of="fitness")(design)
+    assert rejected.margins["neighbours"] == pytest.approx(higher[0] / NEIGHBOURS - 1.0)
+    assert rejected.metrics["evaluations"] == 2.0 + higher[0]

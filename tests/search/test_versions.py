@@ -1,0 +1,58 @@
+"""What a study knows of the program that made it."""
+
+import subprocess
+import sys
+
+import pytest
+
+from jumpcad.search import versions
+from jumpcad.search.models import RobotModel
+from jumpcad.search.versions import PRESENTATION, code_digest
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """Return the folder of a small package that stands in for this one."""
+    root = tmp_path / "jumpcad"
+    for name in ("search/versions.py", "simulation/run.py", "cli/study.py"):
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(f"# {name}\n")
+    (tmp_path / "templates" / "hardware").mkdir(parents=True)
+    monkeypatch.setattr(versions, "__file__", str(root / "search" / "versions.py"))
+    monkeypatch.setattr(versions, "templates_folder", lambda: tmp_path / "templates")
+    return root
+
+
+@pytest.mark.parametrize(
+    ("name", "counts"),
+    [
+        ("simulation/run.py", True),
+        ("simulation/new.py", True),
+        ("../templates/hardware/wire.toml", True),
+        ("cli/study.py", False),
+    ],
+)
+def test_every_change_of_what_computes_is_noticed(package, name, counts):
+    before = code_digest.__wrapped__()
+    assert code_digest.__wrapped__() == before
+    (package / name).write_text("changed = True\n")
+    assert (code_digest.__wrapped__() != before) == counts
+
+
+def test_the_digest_is_part_of_what_a_study_is_about():
+    assert RobotModel("capsule").versions()["code"] == code_digest()
+
+
+def test_no_evaluation_imports_what_the_digest_leaves_out():
+    code = f"""
+import sys
+from jumpcad.design import load_design
+from jumpcad.search import study
+from jumpcad.search.models import MODELS, RobotModel
+from jumpcad.workshop import load_workshop
+for name in ("printed", "capsule"):
+    RobotModel(name, load_workshop("default") if name == "printed" else None)(load_design("kenan-2.0"))
+print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part] for part in {PRESENTATION}]])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.split() == [], done.stderr
