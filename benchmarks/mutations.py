@@ -235,18 +235,18 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "copy"
         shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", ".*_cache", "__pycache__", "build"))
-        counts = {"killed": 0, "timeout": 0, "survived": 0}
+        counts = {"killed": 0, "elsewhere": 0, "timeout": 0, "survived": 0}
         for mutant in chosen(copy, arguments.seed, arguments.count, arguments.only):
             path, began = copy / mutant.path, time.monotonic()
             source = path.read_bytes()
             path.write_bytes(mutant.applied(source))
             result = outcome(copy, nearest(copy, mutant.path, arguments.files))
             if arguments.whole and result == "survived":
-                result = f"{outcome(copy, ['tests'], WHOLE_LIMIT_S)}, unseen by the nearest"
+                result = outcome(copy, ["tests"], WHOLE_LIMIT_S).replace("killed by", "elsewhere killed by")
             path.write_bytes(source)
-            counts[re.split(r"\W", result)[0]] += 1
+            counts[result.split()[0]] += 1
             say(f"{mutant.said(source)}  {result}  ({time.monotonic() - began:.0f} s)")
-        say(", ".join(f"{count} {what}" for what, count in counts.items()))
+        say(", ".join(f"{count} {what}" for what, count in counts.items() if count))
 
 
 if __name__ == "__main__":
