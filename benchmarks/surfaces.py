@@ -23,8 +23,8 @@ from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import faults, finished, to_trimesh
-from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import Stack, without_slivers
+from jumpcad.solids.outline import Region, without_slivers
+from jumpcad.solids.stack import Stack
 from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import load_workshop
 

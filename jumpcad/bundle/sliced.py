@@ -20,7 +20,7 @@ from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import Sections
+from jumpcad.solids.slab import Sections
 from jumpcad.transforms import Array
 from jumpcad.workshop import Material, Workshop
 

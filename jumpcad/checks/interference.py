@@ -20,7 +20,8 @@ from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Drawing, Shape
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
-from jumpcad.solids.stack import Stack, overlap_volume_mm3
+from jumpcad.solids.overlap import overlap_volume_mm3
+from jumpcad.solids.stack import Stack
 from jumpcad.transforms import Array, pose_about_y
 
 WINDING_POSITIONS = 13

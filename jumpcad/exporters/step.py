@@ -14,7 +14,8 @@ from jumpcad.exporters.curves import Arc, Circle, Curve, Line, curves_of
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import Slab, Stack
+from jumpcad.solids.slab import Slab
+from jumpcad.solids.stack import Stack
 
 if TYPE_CHECKING:
     from build123d import Edge, Shape, Solid, Wire

@@ -11,7 +11,8 @@ from manifold3d import Manifold
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.parts.part import UNSEEN_MM, laid, lying_on_left
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import Slab, Stack
+from jumpcad.solids.slab import Slab
+from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import Wire, tube
 from jumpcad.transforms import Array, chained, in_metres, pose_about_z
 

@@ -10,7 +10,7 @@ from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.solids.moments import areas_and_borders, borders_mm
 from jumpcad.solids.outline import Region, rectangle, union
-from jumpcad.solids.stack import NOTHING, Sections
+from jumpcad.solids.slab import NOTHING, Sections
 from jumpcad.transforms import Array
 
 OUTLINE_TOLERANCE_MM = 0.01

@@ -19,7 +19,7 @@ from jumpcad.printing.cores import cores, section_moments, shared
 from jumpcad.printing.runs import LayerRun, Numbers, jumps_of, runs_of
 from jumpcad.solids.moments import areas_and_borders, mass_of, prism_moments
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2, Sections
+from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, Sections
 from jumpcad.transforms import Array
 from jumpcad.workshop import Process
 

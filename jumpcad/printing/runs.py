@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.solids.stack import SMALLEST_AREA_MM2
+from jumpcad.solids.slab import SMALLEST_AREA_MM2
 from jumpcad.transforms import Array
 from jumpcad.workshop import Process
 

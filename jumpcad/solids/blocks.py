@@ -18,7 +18,7 @@ from manifold3d import CrossSection, Manifold, OpType
 from jumpcad.solids.finish import finished
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region, circle_points, corners_key
-from jumpcad.solids.stack import NOTHING, Sections
+from jumpcad.solids.slab import NOTHING, Sections
 from jumpcad.transforms import Array
 
 Contours = list[Array]

@@ -23,6 +23,7 @@ Point: TypeAlias = Sequence[float] | Array
 
 MIN_FACETS = 64
 SAGITTA_MM = 0.005  # a polygon may leave its circle by this much: a tenth of what a printer resolves
+SLIVER_MM = 0.01
 ORIGIN = (0.0, 0.0)
 
 
@@ -172,3 +173,12 @@ def rounded(region: Region, radius_mm: float) -> Region:
 def filleted(region: Region, radius_mm: float) -> Region:
     """Return the region with its inner corners filled to a radius; holes narrower than two radii close."""
     return grown(grown(region, radius_mm), -radius_mm)
+
+
+def without_slivers(region: Region) -> Region:
+    """Return the region with gaps and walls narrower than two `SLIVER_MM` closed and removed.
+
+    They come from outlines that nearly coincide; in a file their sides would touch along a line.
+    """
+    closed = region.offset(SLIVER_MM, JoinType.Miter).offset(-2.0 * SLIVER_MM, JoinType.Miter)
+    return closed.offset(SLIVER_MM, JoinType.Miter)

@@ -8,91 +8,18 @@ import functools
 import itertools
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from manifold3d import CrossSection, JoinType, Manifold, Mesh64, OpType
+from manifold3d import CrossSection, Manifold, Mesh64, OpType
 
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.solids.moments import areas_moments, mass_of, prism_moments
-from jumpcad.solids.outline import Region, corners_key
+from jumpcad.solids.outline import Region, without_slivers
 from jumpcad.solids.skin import skin
+from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, Numbers, Sections, Slab, SlabLike, rounded_z
 from jumpcad.transforms import Array
-
-Numbers = npt.NDArray[np.int64]
-
-Z_DIGITS = 4  # heights are rounded to this many decimals of a mm: faces meant to meet do, in 32-bit floats too
-SLIVER_MM = 0.01
-SMALLEST_AREA_MM2 = 1e-6  # what clipping leaves where two regions only touch
-NOTHING: Region = CrossSection()
-
-
-class Sections(NamedTuple):
-    """Cross-sections at heights (n,).
-
-    Attributes
-    ----------
-    outlines
-        The different outlines.
-    which
-        The number of each section's outline and pocket (n,): two heights have the same cross-section where it and the
-        inset are the same.
-    inset_mm
-        Insets of chamfers (n,).
-    pockets
-        The outlines that are another one less a pocket inside it, which are not among `outlines`: they are numbered
-        after these. Each is the number of the other outline and the pocket.
-    """
-
-    outlines: Sequence[Region]
-    which: Numbers
-    inset_mm: Array
-    pockets: Sequence[tuple[int, Region]] = ()
-
-
-@dataclass(frozen=True, eq=False)
-class Slab:
-    """An outline, with its border set back by `inset_mm`, extruded from `z0_mm` to `z1_mm`, less a pocket inside it.
-
-    `number` is the outline's number within a stack: slabs of one number have one outline. `pocket_number` is likewise
-    that of the pocket, 0 without. Slabs are equal if their numbers and the corners of their outlines and pockets are.
-    """
-
-    z0_mm: float
-    z1_mm: float
-    outline: Region
-    inset_mm: float = 0.0
-    number: int = 0
-    pocket: Region = NOTHING
-    pocket_number: int = 0
-
-    @functools.cached_property
-    def region(self) -> Region:
-        """The region that is extruded."""
-        outline = self.outline - self.pocket if self.pocket_number else self.outline
-        return outline.offset(-self.inset_mm, JoinType.Miter) if self.inset_mm else outline
-
-    @property
-    def height_mm(self) -> float:
-        """Thickness of the slab (mm)."""
-        return self.z1_mm - self.z0_mm
-
-    @property
-    def _numbers(self) -> tuple[float, float, float, int, int]:
-        return self.z0_mm, self.z1_mm, self.inset_mm, self.number, self.pocket_number
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Slab) or self._numbers != other._numbers:
-            return False
-        return _same(self.outline, other.outline) and _same(self.pocket, other.pocket)
-
-    def __hash__(self) -> int:
-        return hash((self._numbers, self.outline.bounds()))  # quicker than the corners, which few slabs need
-
-
-SlabLike = Slab | tuple[float, float, Region]
 
 
 @dataclass(frozen=True)
@@ -120,7 +47,7 @@ class Stack:
         This is `minus`, but the outlines are left as they are: a part's layers that differ only in a pocket inside it
         are made and weighed for little more than one.
         """
-        cuts = [(_z(z0), _z(z1), region) for z0, z1, region in pockets]
+        cuts = [(rounded_z(z0), rounded_z(z1), region) for z0, z1, region in pockets]
         levels = {z for z0, z1, _ in cuts for z in (z0, z1)}
         slabs = []
         for slab in _arranged(self.slabs, ()).slabs:
@@ -174,11 +101,10 @@ class Stack:
         steps, z, height = [], 0.0, first_layer_mm or layer_mm
         while (inset := depth_mm - z - height / 2.0) > 1e-9:
             top, whole = min(z + height, bottom.height_mm), bottom.inset_mm
-            steps.append(
-                replace(bottom, z0_mm=_z(bottom.z0_mm + z), z1_mm=_z(bottom.z0_mm + top), inset_mm=whole + inset)
-            )
+            low, high = rounded_z(bottom.z0_mm + z), rounded_z(bottom.z0_mm + top)
+            steps.append(replace(bottom, z0_mm=low, z1_mm=high, inset_mm=whole + inset))
             z, height = top, layer_mm
-        rest = replace(bottom, z0_mm=_z(bottom.z0_mm + z))
+        rest = replace(bottom, z0_mm=rounded_z(bottom.z0_mm + z))
         upper = (rest, *self.slabs[1:]) if rest.height_mm > 1e-9 else self.slabs[1:]
         return Stack((*steps, *upper))
 
@@ -275,83 +201,21 @@ class Stack:
         pockets = {number: change(pocket) for number, pocket in pockets.items()}
         slabs = []
         for slab in self.slabs:
-            low, high = sorted((_z(change_z(slab.z0_mm)), _z(change_z(slab.z1_mm))))
+            low, high = sorted((rounded_z(change_z(slab.z0_mm)), rounded_z(change_z(slab.z1_mm))))
             outline, pocket = changed[slab.number], pockets[slab.pocket_number]
             slabs.append(replace(slab, z0_mm=low, z1_mm=high, outline=outline, pocket=pocket))
         return Stack(tuple(sorted(slabs, key=lambda slab: slab.z0_mm)))
-
-
-def overlap_volume_mm3(a: Stack, T_world_a: Array, b: Stack, T_world_b: Array) -> float:
-    """Return the volume that two placed stacks share, exactly.
-
-    Parameters
-    ----------
-    a, b
-        The stacks, each in its own frame (mm).
-    T_world_a, T_world_b
-        Their poses (4, 4), lengths in mm; the two extrusion axes must be parallel (either way round).
-
-    Raises
-    ------
-    ValueError
-        If the extrusion axes are not parallel.
-    """
-    T_a_b = np.linalg.inv(T_world_a) @ T_world_b
-    turn, shift = T_a_b[:3, :3], T_a_b[:3, 3]
-    if abs(abs(turn[2, 2]) - 1.0) > 1e-9:
-        raise ValueError("the extrusion axes of the two stacks are not parallel")
-    flat = np.column_stack([turn[:2, :2], shift[:2]])
-    total = 0.0
-    for slab_b in b.slabs:
-        low, high = sorted(turn[2, 2] * z + shift[2] for z in (slab_b.z0_mm, slab_b.z1_mm))
-        region_b = None
-        for slab_a in a.slabs:
-            height = min(high, slab_a.z1_mm) - max(low, slab_a.z0_mm)
-            if height <= 10.0**-Z_DIGITS:
-                continue
-            if region_b is None:
-                region_b = slab_b.region.transform(flat)
-            if _apart(slab_a.region, region_b):
-                continue
-            area = (slab_a.region ^ region_b).area()
-            if area > SMALLEST_AREA_MM2:
-                total += area * height
-    return total
-
-
-def _apart(a: Region, b: Region) -> bool:
-    """Tell whether two bounding boxes do not meet."""
-    ax0, ay0, ax1, ay1 = a.bounds()
-    bx0, by0, bx1, by1 = b.bounds()
-    return bool(ax1 <= bx0 or bx1 <= ax0 or ay1 <= by0 or by1 <= ay0)
-
-
-def _same(a: Region, b: Region) -> bool:
-    """Tell whether two regions have the same corners."""
-    return a is b or corners_key(a) == corners_key(b)
 
 
 def _listed(slabs: Iterable[SlabLike] | Stack) -> tuple[SlabLike, ...]:
     return slabs.slabs if isinstance(slabs, Stack) else tuple(slabs)
 
 
-def _z(height_mm: float) -> float:
-    return round(float(height_mm), Z_DIGITS)
-
-
-def without_slivers(region: Region) -> Region:
-    """Return the region with gaps and walls narrower than two `SLIVER_MM` closed and removed.
-
-    They come from outlines that nearly coincide; in a file their sides would touch along a line.
-    """
-    closed = region.offset(SLIVER_MM, JoinType.Miter).offset(-2.0 * SLIVER_MM, JoinType.Miter)
-    return closed.offset(SLIVER_MM, JoinType.Miter)
-
-
 def _clean(slabs: Iterable[SlabLike]) -> list[Slab]:
     """Return slabs with rounded heights; empty ones are dropped."""
     tuples = [(s.z0_mm, s.z1_mm, s.region) if isinstance(s, Slab) else s for s in slabs]
-    return [Slab(_z(z0), _z(z1), region) for z0, z1, region in tuples if _z(z0) < _z(z1) and not region.is_empty()]
+    levels = [(rounded_z(z0), rounded_z(z1), region) for z0, z1, region in tuples]
+    return [Slab(z0, z1, region) for z0, z1, region in levels if z0 < z1 and not region.is_empty()]
 
 
 def _arranged(added: Iterable[SlabLike], removed: Iterable[SlabLike]) -> Stack:

@@ -11,7 +11,8 @@ from jumpcad.printing import runs
 from jumpcad.printing.layer_mass import line_spacing_mm, mass_properties, sliced
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.outline import disc, rectangle, tapered_bar
-from jumpcad.solids.stack import Sections, Stack
+from jumpcad.solids.slab import Sections
+from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
 PROCESS = load_workshop("default").process.model_copy(

@@ -1,17 +1,15 @@
-"""Stacks: what slabs make together, how they weigh, what they share, and whether their files are closed."""
-
-import math
+"""Stacks: what slabs make together, how they weigh, and whether their files are closed."""
 
 import numpy as np
 import pytest
 import trimesh
-from manifold3d import Error, Manifold, OpType
+from manifold3d import Error
 from support.stacks import random_stack
 
 from jumpcad.errors import JumpcadError
 from jumpcad.solids.finish import faults, to_trimesh
 from jumpcad.solids.outline import disc, hole, polygon, rectangle, tapered_bar
-from jumpcad.solids.stack import Stack, overlap_volume_mm3
+from jumpcad.solids.stack import Stack
 
 
 def stl(stack):
@@ -116,39 +114,6 @@ def test_stacks_that_are_made_alike_are_equal_and_others_are_not():
     assert len({made(), made().moved(), made((0.1, 0.0)), made((0.0, 0.1)), made().mirrored().mirrored()}) == 3
     assert made() != made().chamfered(0.35, 0.2)
     assert Stack.of([(0, 3, disc(9))]) != Stack.of([(0, 4, disc(9))])
-
-
-def test_shared_volume_of_coaxial_cylinders():
-    a, b = Stack.of([(0, 10, disc(12))]), Stack.of([(0, 10, disc(8))])
-    lifted = np.eye(4)
-    lifted[2, 3] = 6.0
-    assert overlap_volume_mm3(a, np.eye(4), b, lifted) == pytest.approx(math.pi * 16.0 * 4.0, rel=2e-3)
-    lifted[0, 3] = 10.5
-    assert overlap_volume_mm3(a, np.eye(4), b, lifted) == 0.0
-
-
-@pytest.mark.parametrize("over", [0.0, 180.0])
-def test_shared_volume_agrees_with_booleans_in_space(over):
-    rng = np.random.default_rng(5)
-    a = Stack.of([(0, 3, tapered_bar((0, 0), (40, 5), 12, 6)), (3, 7, disc(8))])
-    b = Stack.of([(0, 5, rectangle((30, 8), (10, 0))), (2, 9, disc(10, (20, 1)))]).through(hole(4.0, (20, 1)))
-    for _ in range(5):
-        poses = []
-        for extra in (0.0, over):
-            turn = trimesh.transformations.rotation_matrix(rng.uniform(0, 6.28), (0, 0, 1))
-            turn = turn @ trimesh.transformations.rotation_matrix(math.radians(extra), (1, 0, 0))
-            turn[:3, 3] = rng.uniform(-3, 3, 3)
-            poses.append(trimesh.transformations.rotation_matrix(1.1, (0.3, 0.5, 0.8)) @ turn)
-        solids = [s.solid().transform(pose[:3]) for s, pose in zip((a, b), poses, strict=True)]
-        expected = Manifold.batch_boolean(solids, OpType.Intersect).volume()
-        assert overlap_volume_mm3(a, poses[0], b, poses[1]) == pytest.approx(expected, rel=1e-3, abs=0.05)
-
-
-def test_shared_volume_needs_parallel_axes():
-    stack = Stack.of([(0, 3, disc(9))])
-    tilted = trimesh.transformations.rotation_matrix(0.1, (1, 0, 0))
-    with pytest.raises(ValueError, match="not parallel"):
-        overlap_volume_mm3(stack, np.eye(4), stack, tilted)
 
 
 def test_files_of_random_parts_are_closed_and_in_one_piece():

@@ -1,0 +1,95 @@
+"""Slabs, of which stacks are made, and cross-sections of what has them."""
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from manifold3d import CrossSection, JoinType
+
+from jumpcad.solids.outline import Region, corners_key
+from jumpcad.transforms import Array
+
+Numbers = npt.NDArray[np.int64]
+
+Z_DIGITS = 4  # heights are rounded to this many decimals of a mm: faces meant to meet do, in 32-bit floats too
+SMALLEST_AREA_MM2 = 1e-6  # what clipping leaves where two regions only touch
+NOTHING: Region = CrossSection()
+
+
+class Sections(NamedTuple):
+    """Cross-sections at heights (n,).
+
+    Attributes
+    ----------
+    outlines
+        The different outlines.
+    which
+        The number of each section's outline and pocket (n,): two heights have the same cross-section where it and the
+        inset are the same.
+    inset_mm
+        Insets of chamfers (n,).
+    pockets
+        The outlines that are another one less a pocket inside it, which are not among `outlines`: they are numbered
+        after these. Each is the number of the other outline and the pocket.
+    """
+
+    outlines: Sequence[Region]
+    which: Numbers
+    inset_mm: Array
+    pockets: Sequence[tuple[int, Region]] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Slab:
+    """An outline, with its border set back by `inset_mm`, extruded from `z0_mm` to `z1_mm`, less a pocket inside it.
+
+    `number` is the outline's number within a stack: slabs of one number have one outline. `pocket_number` is likewise
+    that of the pocket, 0 without. Slabs are equal if their numbers and the corners of their outlines and pockets are.
+    """
+
+    z0_mm: float
+    z1_mm: float
+    outline: Region
+    inset_mm: float = 0.0
+    number: int = 0
+    pocket: Region = NOTHING
+    pocket_number: int = 0
+
+    @functools.cached_property
+    def region(self) -> Region:
+        """The region that is extruded."""
+        outline = self.outline - self.pocket if self.pocket_number else self.outline
+        return outline.offset(-self.inset_mm, JoinType.Miter) if self.inset_mm else outline
+
+    @property
+    def height_mm(self) -> float:
+        """Thickness of the slab (mm)."""
+        return self.z1_mm - self.z0_mm
+
+    @property
+    def _numbers(self) -> tuple[float, float, float, int, int]:
+        return self.z0_mm, self.z1_mm, self.inset_mm, self.number, self.pocket_number
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Slab) or self._numbers != other._numbers:
+            return False
+        return _same(self.outline, other.outline) and _same(self.pocket, other.pocket)
+
+    def __hash__(self) -> int:
+        return hash((self._numbers, self.outline.bounds()))  # quicker than the corners, which few slabs need
+
+
+SlabLike = Slab | tuple[float, float, Region]
+
+
+def rounded_z(height_mm: float) -> float:
+    """Return a height as it is kept."""
+    return round(float(height_mm), Z_DIGITS)
+
+
+def _same(a: Region, b: Region) -> bool:
+    """Tell whether two regions have the same corners."""
+    return a is b or corners_key(a) == corners_key(b)
