@@ -12,7 +12,7 @@ import ezdxf
 from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
-from jumpcad.parts.body_plate import ENGRAVING_MM
+from jumpcad.parts.engraving import ENGRAVING_MM
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import Region

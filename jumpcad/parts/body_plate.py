@@ -8,8 +8,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
-from numpy.lib.stride_tricks import sliding_window_view
 from scipy.spatial import Delaunay
 
 from jumpcad.dimensions import (
@@ -26,6 +24,7 @@ from jumpcad.drive.socket import window_mm
 from jumpcad.layout.layout import Layout
 from jumpcad.layout.stop import EAR_MM
 from jumpcad.mechanism.model import BODY
+from jumpcad.parts.engraving import ENGRAVING_MM, letters_on
 from jumpcad.parts.fittings import fitting_openings, fitting_pads
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, laid
@@ -34,12 +33,12 @@ from jumpcad.parts.stop import stop_slot
 from jumpcad.solids.outline import (
     SAGITTA_MM,
     Region,
-    contained,
     disc,
     filleted,
     grown,
     hole,
     hull,
+    middle_of,
     rectangle,
     ring,
     rounded,
@@ -47,16 +46,11 @@ from jumpcad.solids.outline import (
     strips,
     union,
 )
-from jumpcad.solids.text import engravable, text
+from jumpcad.solids.text import engravable
 
 RIB_MM = 3.2
 EDGE_MM = 3.2
 POCKET_RADIUS_MM = 1.5
-ENGRAVING_MM = 0.5
-TEXT_HEIGHTS_MM = (4.5, 3.5)
-TEXT_EDGE_MM = 0.8
-"""Least margin around a label: two printed lines."""
-TEXT_STEP_MM = 1.0
 
 
 def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
@@ -175,7 +169,7 @@ def _covers(layout: Layout) -> _Covers:
     """
     pads = _pads(layout)
     around = hull(pads)
-    middles = np.array([_middle(pad) for pad in pads])
+    middles = np.array([middle_of(pad) for pad in pads])
     simplices = Delaunay(middles).simplices
     pairs = np.unique(np.sort(simplices[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
     more = 2.0 * POCKET_RADIUS_MM
@@ -256,44 +250,8 @@ def _drawing(
     stack, pose = laid(slabs, face)
     if label:
         bare = slabs[0][2] if covered is None else slabs[0][2] - covered
-        letters = _letters(label, bare, mirrored=face == "left")
+        letters = letters_on(label, bare, mirrored=face == "left")
         if letters is not None:
             cut, _ = laid([(*engraved_y, letters)], face)
             stack = stack.minus(cut)
     return Drawing(name, "body", holes.chamfered(stack), (Placement(BODY, pose),))
-
-
-def _letters(label: str, face: Region, mirrored: bool) -> Region | None:
-    """Return a plate's label, or its last letter alone, at the place nearest to the pivots' line that has room for it.
-
-    Seen from the left, x points to the left. Where nothing fits there are no letters.
-    """
-    low_x, low_z, high_x, high_z = face.bounds()
-    x, z = np.meshgrid(np.arange(low_x, high_x, TEXT_STEP_MM), np.arange(low_z, high_z, TEXT_STEP_MM))
-    places = np.column_stack([x.ravel(), z.ravel()])
-    outside = ~contained(face, places).reshape(x.shape)
-    order = np.lexsort((np.abs(places[:, 0]), np.abs(places[:, 1])))
-    for words, height in itertools.product((label, label[-1]), TEXT_HEIGHTS_MM):
-        letters = text(words, height)
-        letters = letters.translate(tuple(-_middle(letters)))
-        letters = letters.mirror((1.0, 0.0)) if mirrored else letters
-        low_x, low_z, high_x, high_z = letters.bounds()
-        size = (high_x - low_x + 2.0 * TEXT_EDGE_MM, high_z - low_z + 2.0 * TEXT_EDGE_MM)
-        box, possible = rectangle(size), _possible(outside, size)
-        for place in places[order[possible[order]]]:
-            if (box.translate(tuple(place)) - face).area() < 1e-6:
-                return letters.translate(tuple(place))
-    return None
-
-
-def _possible(outside: npt.NDArray[np.bool_], size_mm: tuple[float, float]) -> npt.NDArray[np.bool_]:
-    """Return around which places (n,) of a grid a box covers none that is outside; the box may still cross an edge."""
-    reach_x, reach_z = (int((side / 2.0 - 1e-3) / TEXT_STEP_MM) for side in size_mm)
-    padded = np.pad(outside, ((reach_z, reach_z), (reach_x, reach_x)), constant_values=True)
-    covered = sliding_window_view(padded, (2 * reach_z + 1, 2 * reach_x + 1))
-    return ~covered.any(axis=(2, 3)).ravel()
-
-
-def _middle(region: Region) -> np.ndarray:
-    low_x, low_z, high_x, high_z = region.bounds()
-    return np.array([(low_x + high_x) / 2.0, (low_z + high_z) / 2.0])

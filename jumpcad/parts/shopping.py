@@ -6,22 +6,17 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.catalogue import Battery, Bearing, Board, Catalogue, Component, Screw
+from jumpcad.catalogue import Bearing, Catalogue
 from jumpcad.dimensions import ROLLER_WASHER_MM
-from jumpcad.electronics.chosen import chosen_of
-from jumpcad.electronics.nets import wiring_of
 from jumpcad.layout.drive_places import arm_line
-from jumpcad.layout.electronics import BALANCE_MM, TAPE_MM
-from jumpcad.layout.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
-from jumpcad.parts import axles, sensor, toes
+from jumpcad.parts import axles, sensor, toes, wired
 from jumpcad.parts.body_plate import ear_places
-from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.leads import metres_by_colour
 from jumpcad.parts.purchased import BoughtPart, bought
+from jumpcad.parts.simple import box_outline, placed_screw, round_outline
 from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
 from jumpcad.parts.train import gear_turns
 from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring, stadium
@@ -33,17 +28,6 @@ TOE_THREAD_MM = 4.0
 SCREW_END_MM = 4.0
 """Least length of thread of a standoff's screw inside the standoff, M3 in polyamide; judgement: as in a toe. Stock
 lengths are 2 mm apart, so that it stays below the 6 mm that are tapped."""
-SWITCH_EAR_MM = 0.5
-"""Thickness of the ears of a slide switch, tapped M2; usual."""
-STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm, 1.2 mm thick at most", (10.0, 1.0), 0.8
-TIE, TIE_MM, TIE_G = "cable tie 2.5 x 100 mm, polyamide", (2.5, 1.1), 0.3
-BALANCE_HEIGHT_MM = 6.0
-"""Of a balance lead's plug, which lies under its tie; judgement."""
-TAPE, TAPE_G_CM3 = "double-sided foam tape 1 mm", 0.5
-SMALL = ("resistor", "diode")
-"""What lies between the boards, by the beginnings of its names."""
-HEAT_SHRINK, HEAT_SHRINK_G, RESISTOR_G, WIRE_LENGTH_MM = "heat-shrink tube 2 mm, 0.5 m", 0.4, 0.2, 500.0
-"""What holds battery and boards: order text, width and thickness, mass or density; what is soldered; from memory."""
 
 
 def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> list[BoughtPart]:
@@ -56,20 +40,9 @@ def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen:
         *_motor_things(layout, catalogue),
         *_standoffs(layout, catalogue),
         *_sensor(layout, catalogue),
-        *_electronics(layout, catalogue, chosen),
+        *wired.electronics(layout, catalogue, chosen),
         *_toe_screws(layout, holes, catalogue),
     ]
-
-
-@lru_cache(maxsize=64)
-def _round(outer_mm: float, bore_mm: float = 0.0) -> Region:
-    """Return a disc, or a ring, about the origin."""
-    return ring(outer_mm, bore_mm) if bore_mm else disc(outer_mm)
-
-
-@lru_cache(maxsize=64)
-def _box_of(width_mm: float, height_mm: float) -> Region:
-    return rectangle((width_mm, height_mm))
 
 
 @lru_cache(maxsize=64)
@@ -95,12 +68,12 @@ def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: 
     roller = catalogue.bearings[chosen.roller]
     yield _bearing("roller", end, lateral.cam[0], roller)
     washer, nut, screw = catalogue.washers["M3"], catalogue.nuts["M3 nyloc"], catalogue.screws["M3"]
-    slabs = [(0.0, ROLLER_WASHER_MM, _round(washer.outer_mm, washer.bore_mm))]
+    slabs = [(0.0, ROLLER_WASHER_MM, round_outline(washer.outer_mm, washer.bore_mm))]
     yield bought("roller_washer", "washer M3 ISO 7089", MAIN_LEG, washer.mass_g, slabs, (end[0], high, end[1]))
     head = lateral.cam[1]
     length = screw.length_for(head - low + nut.height_mm, "choose a narrower bought.leg_bearing or bought.roller")
     shank = (head - length, head)
-    yield _screw("roller_screw", MAIN_LEG, end, shank, 1.0, screw, catalogue)
+    yield placed_screw("roller_screw", MAIN_LEG, end, shank, 1.0, screw, catalogue)
     slabs = [(-nut.height_mm, 0.0, _hexagon(nut.across_flats_mm, screw.diameter_mm))]
     yield bought("roller_nut", "lock nut M3 DIN 985", MAIN_LEG, nut.mass_g, slabs, (end[0], low, end[1]))
 
@@ -136,7 +109,7 @@ def _motor_things(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     motor, (x, z) = layout.drive.train.motor, layout.motor_mm
     low, front = layout.lateral.motor
     shaft_mass = catalogue.rod_mass_g(motor.shaft_mm, motor.shaft_length_mm)
-    body = [(0.0, front - low, _box_of(motor.width_mm, motor.height_mm))]
+    body = [(0.0, front - low, box_outline(motor.width_mm, motor.height_mm))]
     shaft = [(0.0, motor.shaft_length_mm, _d_shaft(motor.shaft_mm, motor.shaft_flat_mm))]
     article, turn = f"gear motor {motor.name}", gear_turns(layout)["motor_pinion"]
     article += f" ({motor.article})" if motor.article else ""
@@ -145,7 +118,7 @@ def _motor_things(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     screw = catalogue.screws["M2"]
     for number, ear in enumerate(ear_places(layout), start=1):
         top = layout.lateral.motor_cap[1] - screw.button_head_height_mm
-        yield _screw(f"cap_screw_{number}", BODY, ear, (top - 8.0, top), 1.0, screw, catalogue)
+        yield placed_screw(f"cap_screw_{number}", BODY, ear, (top - 8.0, top), 1.0, screw, catalogue)
 
 
 def _standoffs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
@@ -163,8 +136,8 @@ def _standoffs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
         shank = screw.length_for(plate + SCREW_END_MM, "lower body.plate_mm")
         left = (high + plate - shank, high + plate)
         right = (low - plate, low - plate + shank)
-        yield _screw(f"standoff_{number}_screw_left", BODY, place, left, 1.0, screw, catalogue)
-        yield _screw(f"standoff_{number}_screw_right", BODY, place, right, -1.0, screw, catalogue)
+        yield placed_screw(f"standoff_{number}_screw_left", BODY, place, left, 1.0, screw, catalogue)
+        yield placed_screw(f"standoff_{number}_screw_right", BODY, place, right, -1.0, screw, catalogue)
 
 
 def _toe_screws(layout: Layout, holes: HoleSizes, catalogue: Catalogue) -> Iterator[BoughtPart]:
@@ -182,91 +155,7 @@ def _toe_screws(layout: Layout, holes: HoleSizes, catalogue: Catalogue) -> Itera
         shank = _sorted(toe.outside * outer, toe.outside * (outer - length))
         for number, x in enumerate(toes.SCREWS_MM, start=1):
             name = f"{toe.name}_screw_{number}"
-            yield _screw(name, FOOT, np.array([x, height]), shank, toe.outside, screw, catalogue).moved(pose)
-
-
-def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
-    """Yield battery, boards, plug and capacitor on their seats, what holds them, and the small parts in the wires."""
-    electronics, inside = layout.electronics, layout.lateral.inside
-    x, z = layout.tray_mm
-    items: dict[str, Battery | Board | Component] = {
-        "battery": electronics.battery,
-        **electronics.boards,
-        **electronics.tied,
-    }
-    for role, seat in electronics.seats(inside).items():
-        item, (length, width, height) = items[role], seat.size_mm
-        at, top = (x + seat.x_mm, seat.y_mm), z + seat.bottom_mm + height
-        yield _box(role, item.description, *at, z + seat.bottom_mm, length, width, height, item.mass_g)
-        if role == "battery":
-            yield _box("strap_battery", STRAP, *at, top, STRAP_MM[0], width, STRAP_MM[1], STRAP_G)
-            if electronics.balanced:
-                ahead, above = at[0] + electronics.balance_mm, z + seat.bottom_mm + BALANCE_HEIGHT_MM
-                yield _box("tie_balance_lead", TIE, ahead, at[1], above, TIE_MM[0], BALANCE_MM, TIE_MM[1], TIE_G)
-        elif role in electronics.boards:
-            yield _box(f"tie_{role}", TIE, *at, top, length, TIE_MM[0], TIE_MM[1], TIE_G)
-            mass = TAPE_G_CM3 * length * width * TAPE_MM / 1000.0
-            yield _box(f"tape_{role}", TAPE, *at, z + seat.bottom_mm - TAPE_MM, length, width, TAPE_MM, mass)
-        else:
-            yield _box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
-    yield from _switch(layout, catalogue)
-    placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
-    small = layout.electronics.small_seats(inside)
-    soldered = []
-    for name, article, mass_g in _soldered(layout, catalogue, chosen, placed):
-        if name.startswith(SMALL) and small:
-            seat = small.pop(0)
-            yield _box(f"wiring_{name}", article, x + seat.x_mm, seat.y_mm, z + seat.bottom_mm, *seat.size_mm, mass_g)
-        else:
-            soldered.append((name, article, mass_g))
-    # Wire is everywhere: flat in the gap above the battery its mass is about right.
-    size = electronics.battery.length_mm / max(1, len(soldered))
-    above = z + electronics.upper_tray_mm - 0.5
-    for number, (name, article, mass_g) in enumerate(soldered):
-        at = x - electronics.battery.length_mm / 2.0 + (number + 0.5) * size
-        yield _box(f"wiring_{name}", article, at, sum(inside) / 2.0, above, 0.8 * size,
-                   electronics.battery.width_mm / 2.0, 0.4, mass_g)  # fmt: skip
-    for role, place, y in (
-        ("sensor", layout.fittings.left_mm, layout.lateral.outside[1]),
-        ("motor", layout.fittings.right_mm, layout.lateral.outside[0] - TIE_MM[1]),
-    ):
-        slabs = [(0.0, TIE_MM[1], _box_of(RELIEF_APART_MM, TIE_MM[0]))]
-        at_mm = (place[0], y, place[1] - HOLE_HALF_MM[1] + HOLE_MM + RELIEF_UP_MM)
-        yield bought(f"tie_{role}_leads", TIE, BODY, TIE_G, slabs, at_mm)
-
-
-def _soldered(
-    layout: Layout, catalogue: Catalogue, chosen: BoughtParts, placed: set[str]
-) -> Iterator[tuple[str, str, float]]:
-    """Yield name, article and mass (g) of what has no seat: wire by its colour, and what is soldered into it."""
-    parts = chosen_of(catalogue, chosen)
-    wiring = wiring_of(parts, chosen.pins)
-    for role, part in parts.components.items():
-        if role == "wire":
-            per_m = 1000.0 * part.mass_g / (part.length_mm or WIRE_LENGTH_MM)
-            for colour, metres in metres_by_colour(layout, wiring).items():
-                article = f"{part.description}, {colour}, {math.ceil(10.0 * metres - 1e-6) / 10.0:g} m"
-                yield f"wire_{colour}", article, per_m * metres
-            yield "heat_shrink", HEAT_SHRINK, HEAT_SHRINK_G
-        elif role not in placed and (role != "diode" or parts.regulator is not None):
-            yield role, part.description, part.mass_g
-    for name, ohm in wiring.resistors.items():
-        which = name.removesuffix(" resistor").replace("-", "_")
-        yield f"resistor_{which}", f"resistor {ohm / 1000:g} kOhm 0.25 W, 1 %", RESISTOR_G
-
-
-def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
-    """Yield the switch behind the right plate and the screws through its ears."""
-    place, switch, low = layout.fittings.switch_mm, layout.fittings.switch, layout.lateral.inside[0]
-    if place is None or switch is None:
-        return
-    slabs = [(0.0, switch.height_mm or 0.0, _box_of(switch.length_mm or 0.0, switch.width_mm or 0.0))]
-    yield bought("switch", switch.description, BODY, switch.mass_g, slabs, (place[0], low, place[1]))
-    screw, outer = catalogue.screws["M2"], layout.lateral.outside[0]
-    length = screw.length_for(low - outer + SWITCH_EAR_MM)
-    for number, sign in enumerate((-1.0, 1.0), start=1):
-        at = np.array([place[0] + sign * SWITCH_SCREWS_MM, place[1]])
-        yield _screw(f"switch_screw_{number}", BODY, at, (outer, outer + length), -1.0, screw, catalogue)
+            yield placed_screw(name, FOOT, np.array([x, height]), shank, toe.outside, screw, catalogue).moved(pose)
 
 
 def _sensor(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
@@ -280,31 +169,11 @@ def _sensor(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     head = outside + sensor.ear_height_mm(layout)
     for number, place in enumerate(sensor.screw_places(felt), start=1):
         shank = (head - sensor.screw_mm(), head)
-        yield _screw(f"sensor_screw_{number}", BODY, place, shank, 1.0, catalogue.screws["M2"], catalogue)
-
-
-def _box(
-    name: str, article: str, x: float, y: float, z: float, size_x: float, size_y: float, size_z: float, mass_g: float
-) -> BoughtPart:
-    slabs = [(-size_y / 2.0, size_y / 2.0, _box_of(size_x, size_z))]
-    return bought(name, article, BODY, mass_g, slabs, (x, y, z + size_z / 2.0))
+        yield placed_screw(f"sensor_screw_{number}", BODY, place, shank, 1.0, catalogue.screws["M2"], catalogue)
 
 
 def _bearing(name: str, centre: Array, right_mm: float, bearing: Bearing) -> BoughtPart:
     """Return a bearing whose right side is at `right_mm` along y."""
-    slabs = [(0.0, bearing.width_mm, _round(bearing.outer_mm, bearing.bore_mm))]
+    slabs = [(0.0, bearing.width_mm, round_outline(bearing.outer_mm, bearing.bore_mm))]
     at = (centre[0], right_mm, centre[1])
     return bought(name, f"ball bearing {bearing.name}", MAIN_LEG, bearing.mass_g, slabs, at)
-
-
-def _screw(
-    name: str, body: str, centre: Array, shank: Interval, side: float, screw: Screw, catalogue: Catalogue
-) -> BoughtPart:
-    """Return a screw whose shank fills an interval of y; its head sits at the left end (side +1) or the right (-1)."""
-    height, width = screw.button_head_height_mm, screw.button_head_mm
-    length = round(shank[1] - shank[0], 6)
-    seat = length if side > 0 else -height
-    volume_mass = catalogue.rod_mass_g(screw.diameter_mm, length) + catalogue.rod_mass_g(width, 0.7 * height)
-    slabs = [(0.0, length, _round(screw.diameter_mm)), (seat, seat + height, _round(width))]
-    at = (centre[0], shank[0], centre[1])
-    return bought(name, f"screw {screw.name} x {length:g} {screw.norm}", body, volume_mass, slabs, at)

@@ -182,3 +182,9 @@ def without_slivers(region: Region) -> Region:
     """
     closed = region.offset(SLIVER_MM, JoinType.Miter).offset(-2.0 * SLIVER_MM, JoinType.Miter)
     return closed.offset(SLIVER_MM, JoinType.Miter)
+
+
+def middle_of(region: Region) -> Array:
+    """Return the middle (2,) of a region's bounding box."""
+    low_x, low_z, high_x, high_z = region.bounds()
+    return np.array([(low_x + high_x) / 2.0, (low_z + high_z) / 2.0])

@@ -11,7 +11,7 @@ import pytest
 from support.built import built
 
 from jumpcad.exporters.dxf import MILLIMETRES, sheet, write_dxf, write_dxfs
-from jumpcad.parts.body_plate import TEXT_HEIGHTS_MM
+from jumpcad.parts.engraving import TEXT_HEIGHTS_MM
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle
 from jumpcad.solids.text import text

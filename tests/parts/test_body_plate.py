@@ -16,17 +16,14 @@ from jumpcad.design import load_design
 from jumpcad.dimensions import MOTOR_CAP_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import socket_half_mm
 from jumpcad.parts.body_plate import (
-    ENGRAVING_MM,
-    TEXT_HEIGHTS_MM,
     _covers,
     _drawing,
-    _letters,
     _pads,
-    _possible,
     ear_reach_mm,
     socket_about_axis,
     tray_slots,
 )
+from jumpcad.parts.engraving import ENGRAVING_MM, TEXT_HEIGHTS_MM, _possible, letters_on
 from jumpcad.parts.fittings import fitting_pads
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
@@ -362,7 +359,7 @@ def test_a_label_has_0_8_mm_around_it_on_either_side(more_mm: tuple[float, float
     window = (high_x - low_x + 2.0 * (0.8 + more_mm[0]), high_z - low_z + 2.0 * (0.8 + more_mm[1]))
     plate = rectangle((60.0, 40.0))  # the raster of places begins at its corner
     face = rectangle(window) + (plate - rectangle((59.0, 39.0)))
-    letters = _letters("Fy R", face, mirrored=False)
+    letters = letters_on("Fy R", face, mirrored=False)
     assert letters is not None
     assert letters.area() == pytest.approx((large if high else small).area(), rel=1e-6)
 

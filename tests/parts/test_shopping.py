@@ -22,8 +22,9 @@ from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.parts.shopping import _d_shaft, _electronics, _standoffs
+from jumpcad.parts.shopping import _d_shaft, _standoffs
 from jumpcad.parts.toes import toes
+from jumpcad.parts.wired import electronics
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import load_workshop
@@ -405,7 +406,7 @@ def test_the_balance_lead_of_two_cells_lies_under_its_tie_ahead_of_the_battery()
     robot, catalogue = built("kenan-2.0"), load_catalogue()
     layout, chosen = robot.layout, robot.workshop.bought
     carried = replace(layout.electronics, battery=catalogue.batteries["lipo-2s-180"])
-    found = {item.name: item for item in _electronics(replace(layout, electronics=carried), catalogue, chosen)}
+    found = {item.name: item for item in electronics(replace(layout, electronics=carried), catalogue, chosen)}
     tie, battery = (
         found[name].look.copy().apply_transform(found[name].T_body_part).bounds
         for name in ("tie_balance_lead", "battery")
