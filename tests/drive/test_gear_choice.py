@@ -107,6 +107,20 @@ def test_of_two_pairs_every_pinion_bears_the_torque_with_the_losses_behind_it():
     assert nearest > 0.85  # some are near the limit
 
 
+def test_of_two_pairs_the_idlers_wheel_passes_beside_the_cams_axle():
+    """Its tips keep the radius of the axle with its spacers from the cam's axis, as large as that may be."""
+    law = law_of("best-bo")
+    for axle in (3.0, 8.0, 12.0):
+        limits, nearest = dataclasses.replace(LIMITS, axle_mm=axle), math.inf
+        for _, (first, last) in itertools.islice(by_cost(law, MOTORS, limits, 2), 60):
+            room = last.centre_distance_mm - first.wheel.tip_radius_mm - axle
+            assert room >= -1e-9
+            assert last.centre_distance_mm >= limits.idler_distance_min_mm
+            assert first.centre_distance_mm + last.centre_distance_mm >= limits.motor_distance_min_mm
+            nearest = min(nearest, room)
+        assert nearest < 2.0, axle  # some are near the limit
+
+
 def test_the_table_of_pairs_has_the_circles_of_their_gears():
     table = _printable((1.0, 1.25), 0.15, 0.45, 2.9)
     rows = getattr(table, "table", table)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.limits import default_limits
 
+from jumpcad.catalogue import load_catalogue
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.drive import DriveLimits, synthesise
 from jumpcad.drive.corner import clear_window_rad
@@ -183,3 +184,19 @@ def test_a_drive_of_which_little_is_said_has_slack_springs_and_the_usual_clearan
     check(load_design("kenan-2.0"), drive)
     assert drive.spring.preload_rad == drive.cam.law.preload_rad == 0.0
     assert drive.spring.stock == ""
+
+
+def test_springs_from_stock_say_their_rate_beside_the_drives_other_limits():
+    """Two of 26.36 N·mm/° where the design asks for 9.20; springs made to order have the design's."""
+    stock = dataclasses.replace(default_limits("kenan-1.0"), stock_spring=load_catalogue().springs["9271K589"])
+    design = load_design("kenan-1.0")
+    rates = {
+        limits.stock_spring and limits.stock_spring.name: [
+            finding.message for finding in synthesise(design, limits).findings if finding.name == "spring_rate"
+        ]
+        for limits in (LIMITS, stock)
+    }
+    assert rates[None] == []
+    (said,) = rates["9271K589"]
+    assert "52.72 N·mm/°" in said
+    assert "9.20" in said

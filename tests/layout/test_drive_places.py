@@ -81,7 +81,10 @@ def test_the_springs_arm_is_a_tangent_that_ends_a_little_beyond_its_pin() -> Non
     assert math.dist(start, end) == pytest.approx(math.sqrt(14.0**2 - 5.1**2) + 2.0, abs=1e-4)
     arm, pin = spring_obstacles(HUB, HUB + np.array([0.0, 14.0]), spring, INSIDE)
     assert np.linalg.norm(arm.points_mm - pin.points_mm, axis=1).min() >= 2.1 - 1e-4
-    assert pin.radius_mm > 1.5
+    assert pin.radius_mm == pytest.approx(3.0 / 2.0 + CLEAR_MM)
+    assert arm.radius_mm == pytest.approx(1.2 / 2.0 + CLEAR_MM)
+    assert arm.y_mm == pin.y_mm == INSIDE
+    assert pin.points_mm.tolist() == [[-40.0, 14.0]]
 
 
 @pytest.mark.parametrize(("pin", "direction", "turned"), [("plate", (0.0, 1.0), -1.0), ("leg", (1.0, 0.0), 1.0)])

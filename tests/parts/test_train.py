@@ -385,3 +385,21 @@ def test_the_cam_gears_hub_reaches_to_a_tenth_of_a_millimetre_from_the_plate_or_
         assert mesh.bounds[:, 1] == pytest.approx([lateral.gears[0][0], lateral.gears[0][1] + out], abs=1e-3)
         if robot.layout.idler_mm is None:
             assert lateral.left_plate[0] - mesh.bounds[1, 1] == pytest.approx(0.1, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_jaws_slide_between_the_gears_hub_and_its_rim(name: str) -> None:
+    """Inside and outside the play of what turns, measured on sections; the boss ends a quarter of a mm off the gear."""
+    robot = built(name)
+    low, high = robot.layout.lateral.gears[0]
+    play = robot.workshop.fits.sliding_mm
+    jaws, gear = (region(cut(placed(robot, part), (low + high) / 2.0) - robot.layout.cam_axis_mm)
+                  for part in ("cam", "cam_gear"))  # fmt: skip
+    radii = np.hypot(*np.concatenate([np.array(jaw.exterior.coords) for jaw in jaws.geoms]).T)
+    rings = [np.hypot(*np.array(ring.coords).T) for ring in gear.interiors]
+    pockets = np.concatenate([ring for ring in rings if ring.min() < radii.max() and ring.max() > radii.min()])
+    assert radii.min() - pockets.min() == pytest.approx(play, abs=0.03)
+    assert pockets.max() - radii.max() == pytest.approx(play, abs=0.03)
+    boss, begun = (region(cut(placed(robot, "cam"), low - gap)) for gap in (0.27, 0.23))
+    assert boss.geom_type == "Polygon"
+    assert len(begun.geoms) == 2
