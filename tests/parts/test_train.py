@@ -377,6 +377,20 @@ def test_a_gap_of_each_pinion_is_where_a_tooth_of_its_wheel_points(teeth: tuple[
         assert share % 1.0 == pytest.approx(0.5, abs=1e-9)
 
 
+def test_an_idlers_small_teeth_reach_through_the_cam_gear_from_its_wheel_on() -> None:
+    """In one plane with the motor's pinion and with the cam gear, small teeth between them too; no face is past one."""
+    robot = geared()
+    lateral, mesh = robot.layout.lateral, placed(robot, "idler")
+    (cam_low, cam_high), (motor_low, motor_high) = lateral.gears[0], lateral.gears[-1]
+    assert mesh.bounds[:, 1] == pytest.approx([cam_low, motor_high], abs=1e-3)
+    first, last = robot.layout.drive.train.stages
+    places = {cam_low + 0.5: last.pinion, motor_low - 0.1: last.pinion, motor_low + 0.1: first.wheel}
+    for y, gear in places.items():
+        section = region(cut(mesh, y)).bounds
+        assert (section[2] - section[0]) / 2.0 == pytest.approx(gear.tip_radius_mm, rel=0.03), y
+    assert cam_high < motor_low
+
+
 def test_the_cam_gears_hub_reaches_to_a_tenth_of_a_millimetre_from_the_plate_or_is_flush_beside_a_spacer() -> None:
     """Where two pairs need a spacer between gear and plate, nothing stands out of the gear there."""
     for robot in robots().values():
