@@ -73,7 +73,8 @@ def test_the_motor_stays_within_what_its_maker_allows(law, limits):
 def test_the_cam_is_fastest_on_a_full_battery(kit):
     """Without load the voltage of the windings goes with the speed: what the resistances take is a few per cent."""
     shop = load_workshop()
-    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": shop.bought.model_copy(update={"kit": kit})})))
+    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump())
+    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": bought})))
     roomy = dataclasses.replace(LIMITS, motor_distance_min_mm=12.0, supply=supply)
     train = synthesise_train(law_of("kenan-1.0"), MOTORS, roomy)
     motor, duty = train.motor, supply.duty(train.motor, roomy.blocked_nm)
