@@ -16,6 +16,7 @@ from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM
+from jumpcad.strength.loads import toe_load_n
 from jumpcad.workshop import load_workshop
 
 
@@ -129,6 +130,23 @@ def test_a_blow_on_one_toe_meets_less_than_the_whole_mass(name: str) -> None:
     x, y = (mm / 1000.0 for mm in _toe_from_body_mm(case.robot))
     turned = 1.0 + body.mass_kg * (x**2 / body.inertia_kg_m2[1, 1] + y**2 / body.inertia_kg_m2[0, 0])
     assert case.toe_blow_n == pytest.approx(case.landing_n / turned)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_pins_and_toes_bear_the_most_that_a_push_off_has(name: str) -> None:
+    """On its way the pins' forces change; the ankle bears the springs' torque over the leg, and the force along it."""
+    case, design = LoadCase(built(name)), load_design(name)
+    forces, along = case.forces, case.forces.leg_axial_n
+    preload = built(name).spring.preload_rad
+    across = 1000.0 * design.stiffness_nm_per_rad * (preload - forces.leg_rad) / design.l2_mm
+    stands = forces.ground_n[:, 1] > 0.0
+    at_ankle = np.hypot(across, along)[stands]
+    assert case.ankle_n == pytest.approx(at_ankle.max())
+    assert at_ankle.min() < 0.8 * case.ankle_n
+    assert case.front_n == pytest.approx(max(forces.front_n.max(), -forces.front_n.min()))
+    both = toe_load_n(forces, design, 1000.0 * built(name).foot_depth_m)
+    assert case.toes_n == pytest.approx(both.max())
+    assert both.min() < 0.8 * case.toes_n
 
 
 def _toe_from_body_mm(robot: Robot) -> tuple[float, float]:

@@ -55,6 +55,8 @@ def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
         ("walls", [(0.0, 5.0, BLOCK - hole(19.0))], 0.5 - 0.8),
         ("holes", [(0.0, 5.0, BLOCK - hole(1.2))], 1.2 - 1.6),
         ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(2.0))], 2.0 - 3.0),
+        # beside a block of the same height
+        ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(2.0, (-10.0, 0.0)) + rectangle((12.0, 12.0), (6.0, 0.0)))], -1.0),
         # a ledge of 5 mm beyond a column; two lines of 0.45 mm hold
         ("overhangs", [(0.0, 4.0, rectangle((10.0, 20.0))), (4.0, 6.0, rectangle((20.0, 20.0)))], 0.9 - 5.0),
         # a mushroom is held in its middle alone

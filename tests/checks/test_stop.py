@@ -116,6 +116,18 @@ def test_the_bar_of_solid_plastic_is_a_beam_on_two_supports() -> None:
     assert found(robot)["stop_strength"].value == pytest.approx(6.0 * moment / (8.0 * (6.0 - 0.6) ** 2))
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_pad_may_be_pressed_by_half_and_the_leg_turn_3_degrees_and_the_cams_clearance(name: str) -> None:
+    """The clearance between cam and roller, at the lever's end, is an angle of the leg."""
+    robot = built(name)
+    cam, findings = robot.layout.drive.cam, found(robot)
+    assert findings["stop_pad"].limit == pytest.approx(robot.layout.stop.pad.thickness_mm / 2.0)
+    room = 3.0 + math.degrees(cam.geometry.clearance_mm / cam.lever_length_mm)
+    assert cam.geometry.clearance_mm > 0.4
+    assert findings["stop_clearance"].limit == pytest.approx(room)
+    assert findings["stop_clearance"].value == pytest.approx(math.degrees(robot.stop_blow.give_rad))
+
+
 def quicker(robot: Robot, times: float) -> Robot:
     """Return a robot whose leg meets its stop quicker: force, torque and give grow alike."""
     blow = robot.stop_blow

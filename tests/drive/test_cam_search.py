@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from support.limits import default_limits
 
-from jumpcad.drive.cam_findings import SCALES
+from jumpcad.drive.cam_findings import LIMITS as CAM_LIMITS
+from jumpcad.drive.cam_findings import ROWS, SCALES
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import measure
 from jumpcad.drive.cam_search import _Shapes, synthesise_cam
@@ -100,6 +101,26 @@ def test_no_neighbour_on_the_grid_is_a_cam_smaller_by_a_step_that_fits():
         least = LIMITS.hub_radius_mm + LIMITS.roller_radius_mm + LIMITS.clearance_mm
         within = (smaller[:, 0] >= least) & (smaller[:, 1] >= LIMITS.gap_min_mm) & (margins > 0.0).all(axis=0)
         assert (outer[within] > cam.outer_radius_mm - 0.01).all()
+
+
+def test_the_findings_of_a_cam_are_those_of_its_own_shape():
+    """Not of one beside it on the grid: pressure angle, pressure and load again from its outline's shape."""
+    for compression_deg, stiffness in ((50, 0.6), (45, 1.0), (35, 0.8), (55, 0.5)):
+        cam = synthesised(compression_deg, stiffness)
+        shape = [cam.lever_length_mm, cam.geometry.axis_distance_mm - cam.lever_length_mm, cam.geometry.lead_rad]
+        law = CamLaw(math.radians(compression_deg), stiffness, LIMITS.lift_rad, LIMITS.ramp_rad)
+        outer, margins, numbers = measure(law, LIMITS, np.array([shape]), 181)
+        least = {checked.name: math.inf for checked in CAM_LIMITS}
+        for row, margin in zip(ROWS, margins[:, 0], strict=True):
+            name = CAM_LIMITS[row].name
+            least[name] = min(least[name], margin)
+        assert {finding.name: finding.margin for finding in cam.findings} == pytest.approx(least, abs=1e-9)
+        assert cam.peak_contact_n == pytest.approx(numbers["force"][0])
+        assert cam.contact_pressure_mpa == pytest.approx(numbers["pressure"][0])
+        assert cam.max_pressure_angle_rad == pytest.approx(numbers["pressure_angle"][0])
+        assert cam.min_convex_radius_mm == pytest.approx(numbers["convex_radius"][0])
+        assert cam.outer_radius_mm == pytest.approx(outer[0], abs=0.01)
+        assert cam.core_radius_mm == pytest.approx(np.hypot(*cam.profile_mm.T).min())
 
 
 def shapes_and_cam() -> tuple[_Shapes, np.ndarray]:

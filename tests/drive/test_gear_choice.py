@@ -79,17 +79,18 @@ def test_the_least_cam_gear_turns_the_cam_alone_and_none_smaller_does(name):
         assert tip - 2.25 * max(LIMITS.modules_mm) < LIMITS.cam_gear_root_min_mm
 
 
-@pytest.mark.parametrize(("seconds_per_gram", "count"), [(2.0, 1), (0.5, 1), (2.0, 2)])
+@pytest.mark.parametrize(("seconds_per_gram", "count"), [(2.0, 1), (0.5, 1), (2.0, 2), (0.2, 2)])
 def test_gears_come_in_the_order_of_their_mass_and_of_what_time_is_worth(seconds_per_gram, count):
-    """Solid discs of PETG, 1.27 g/cm³, as wide as the teeth, over their pitch circles."""
+    """Solid discs of PETG, 1.27 g/cm³, as wide as the teeth, over their pitch circles; and the motors' own mass."""
+    motors = [motor.model_copy(update={"mass_g": 8.0 + number % 3}) for number, motor in enumerate(MOTORS)]
     law, limits = law_of("best-bo"), dataclasses.replace(LIMITS, seconds_per_gram=seconds_per_gram)
     costs = []
-    for motor, stages in itertools.islice(by_cost(law, MOTORS, limits, count), 12):
+    for motor, stages in by_cost(law, motors, limits, count):
         radii = [gear.pitch_radius_mm / 10.0 for pair in stages for gear in (pair.pinion, pair.wheel)]
         grams = 1.27 * math.pi * sum(radius**2 for radius in radii) * limits.face_width_mm / 10.0
         seconds = winding_s(law, motor, math.prod(pair.ratio for pair in stages), limits.efficiency(count))
-        costs.append(grams + seconds / seconds_per_gram)
-    assert len(costs) == 12
+        costs.append(motor.mass_g + grams + seconds / seconds_per_gram)
+    assert len(costs) > 12
     assert costs == pytest.approx(sorted(costs))
 
 
@@ -105,6 +106,21 @@ def test_of_two_pairs_every_pinion_bears_the_torque_with_the_losses_behind_it():
             assert max(of_last, of_first) <= stress * (1.0 + 1e-9)
             nearest = max(nearest, of_first / stress)
     assert nearest > 0.85  # some are near the limit
+
+
+def test_of_two_pairs_the_idlers_wheel_passes_beside_the_cams_axle():
+    """Its tips keep the radius of the axle with its spacers from the cam's axis, as large as that may be."""
+    law = law_of("best-bo")
+    for axle, idler in ((3.0, 0.0), (8.0, 25.0), (12.0, 35.0)):
+        limits = dataclasses.replace(LIMITS, axle_mm=axle, idler_distance_min_mm=idler)
+        nearest = math.inf
+        for _, (first, last) in itertools.islice(by_cost(law, MOTORS, limits, 2), 60):
+            room = last.centre_distance_mm - first.wheel.tip_radius_mm - axle
+            assert room >= -1e-9
+            assert last.centre_distance_mm >= limits.idler_distance_min_mm
+            assert first.centre_distance_mm + last.centre_distance_mm >= limits.motor_distance_min_mm
+            nearest = min(nearest, room, math.inf if not idler else last.centre_distance_mm - idler)
+        assert nearest < 2.0, axle  # some are near the limit
 
 
 def test_the_table_of_pairs_has_the_circles_of_their_gears():

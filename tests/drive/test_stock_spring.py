@@ -148,3 +148,15 @@ def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits(off_deg: 
     back = math.copysign(2.5, (askew.arm_angle_deg - about + 180.0) % 360.0 - 180.0)
     with pytest.raises(CannotBuildError, match="there is room from"):
         fitted(askew.model_copy(update={"arm_angle_deg": (about + back) % 360.0}), limits=limits)
+
+
+def test_where_several_directions_of_the_plates_pin_are_free_the_shortest_arms_are_taken() -> None:
+    """In whatever order they come: each direction alone gives its arms."""
+    angles = [math.radians(angle) for angle in (55.0, 53.0, 57.0)]
+    alone = [fitted(STOCK, limits=replace(LIMITS, plate_pins_rad=(angle,))).arms.lever_mm for angle in angles]
+    shortest = min(alone)
+    assert max(alone) > shortest + 0.5
+    for order in (angles, angles[::-1], [angles[1], angles[2], angles[0]]):
+        found = fitted(STOCK, limits=replace(LIMITS, plate_pins_rad=tuple(order)))
+        assert found.arms.lever_mm == shortest
+        assert found.plate_pin_rad == angles[alone.index(shortest)]

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from support.limits import default_limits
 
+from jumpcad.catalogue import load_catalogue
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
-from jumpcad.drive import DriveLimits, synthesise
+from jumpcad.drive import DriveLimits, synthesis, synthesise
 from jumpcad.drive.corner import clear_window_rad
 from jumpcad.errors import CannotBuildError
 
@@ -183,3 +184,32 @@ def test_a_drive_of_which_little_is_said_has_slack_springs_and_the_usual_clearan
     check(load_design("kenan-2.0"), drive)
     assert drive.spring.preload_rad == drive.cam.law.preload_rad == 0.0
     assert drive.spring.stock == ""
+
+
+def test_springs_from_stock_say_their_rate_beside_the_drives_other_limits():
+    """Two of 26.36 N·mm/° where the design asks for 9.20; springs made to order have the design's."""
+    stock = dataclasses.replace(default_limits("kenan-1.0"), stock_spring=load_catalogue().springs["9271K589"])
+    design = load_design("kenan-1.0")
+    rates = {
+        limits.stock_spring and limits.stock_spring.name: [
+            finding.message for finding in synthesise(design, limits).findings if finding.name == "spring_rate"
+        ]
+        for limits in (LIMITS, stock)
+    }
+    assert rates[None] == []
+    (said,) = rates["9271K589"]
+    assert "52.72 N·mm/°" in said
+    assert "9.20" in said
+
+
+def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):
+    """However often a farther axis is tried for one pair: a farther one is larger and heavier."""
+    design = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 27.5, 36.353])
+    cam = dataclasses.replace(LIMITS.cam, hub_radius_mm=8.4)
+    train = dataclasses.replace(LIMITS.train, cam_gear_tip_max_mm=48.0)
+    limits = dataclasses.replace(LIMITS, cam=cam, train=train)
+    only = synthesise(design, dataclasses.replace(limits, more_gap_mm=(0.0,)))
+    monkeypatch.setattr(synthesis, "least_tip_mm", lambda *_: 0.0)  # as if one pair were always possible
+    tried = synthesise(design, dataclasses.replace(limits, more_gap_mm=(0.0, 1.0, 2.0)))
+    assert len(only.train.stages) == len(tried.train.stages) == 2
+    assert tried.cam.geometry.axis_distance_mm == only.cam.geometry.axis_distance_mm

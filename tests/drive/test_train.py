@@ -9,7 +9,9 @@ from support.limits import LP6, default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
+from jumpcad.drive import train as train_module
 from jumpcad.drive.cam_law import CamLaw
+from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.train import synthesise_train
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
@@ -71,7 +73,8 @@ def test_the_motor_stays_within_what_its_maker_allows(law, limits):
 def test_the_cam_is_fastest_on_a_full_battery(kit):
     """Without load the voltage of the windings goes with the speed: what the resistances take is a few per cent."""
     shop = load_workshop()
-    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": shop.bought.model_copy(update={"kit": kit})})))
+    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump())
+    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": bought})))
     roomy = dataclasses.replace(LIMITS, motor_distance_min_mm=12.0, supply=supply)
     train = synthesise_train(law_of("kenan-1.0"), MOTORS, roomy)
     motor, duty = train.motor, supply.duty(train.motor, roomy.blocked_nm)
@@ -117,3 +120,18 @@ def test_a_motor_that_turns_the_cam_at_no_ratio_is_refused():
         synthesise_train(law_of("best-bo"), weak, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0))
     with pytest.raises(CannotBuildError, match="no motor is allowed"):
         synthesise_train(law_of("best-bo"), [], LIMITS)
+
+
+def test_a_train_that_misses_a_limit_is_passed_over(monkeypatch):
+    """Whatever comes first as the lightest: here teeth that break, or a motor that is too fast or too weak."""
+    law, motor = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]
+    good = synthesise_train(law, MOTORS, LIMITS)
+    (stage,) = good.stages
+    thin = gear_pair(stage.pinion.teeth, stage.wheel.teeth, stage.module_mm, 0.2, 0.15)
+    equal = gear_pair(20, 20, stage.module_mm, 5.0, 0.15)
+    for bad in ((good.motor, (thin,)), (motor, (equal,))):
+        monkeypatch.setattr(train_module, "by_cost", lambda *_, bad=bad: iter([bad, (good.motor, good.stages)]))
+        assert synthesise_train(law, MOTORS, LIMITS).stages == good.stages
+        monkeypatch.setattr(train_module, "by_cost", lambda *_, bad=bad: iter([bad]))
+        with pytest.raises(CannotBuildError, match="no motor turns the cam"):
+            synthesise_train(law, MOTORS, LIMITS)

@@ -81,7 +81,10 @@ def test_the_springs_arm_is_a_tangent_that_ends_a_little_beyond_its_pin() -> Non
     assert math.dist(start, end) == pytest.approx(math.sqrt(14.0**2 - 5.1**2) + 2.0, abs=1e-4)
     arm, pin = spring_obstacles(HUB, HUB + np.array([0.0, 14.0]), spring, INSIDE)
     assert np.linalg.norm(arm.points_mm - pin.points_mm, axis=1).min() >= 2.1 - 1e-4
-    assert pin.radius_mm > 1.5
+    assert pin.radius_mm == pytest.approx(3.0 / 2.0 + CLEAR_MM)
+    assert arm.radius_mm == pytest.approx(1.2 / 2.0 + CLEAR_MM)
+    assert arm.y_mm == pin.y_mm == INSIDE
+    assert pin.points_mm.tolist() == [[-40.0, 14.0]]
 
 
 @pytest.mark.parametrize(("pin", "direction", "turned"), [("plate", (0.0, 1.0), -1.0), ("leg", (1.0, 0.0), 1.0)])
@@ -254,13 +257,21 @@ def test_the_motors_pinion_keeps_clear_of_what_stands_in_its_own_plane() -> None
 
 @pytest.mark.parametrize("stages", [1, 2])
 def test_the_motor_stands_clear_over_its_whole_length(stages: int) -> None:
-    """From the right plate to the gap before the gears: a post at either end of it is in its way, on its own ring."""
+    """From the right plate to the gap before the gears: a post at either end of it is in its way, on its own ring.
+
+    One beyond its ends, as thin as the gap of 0.5 mm, is not.
+    """
     layout = (built("kenan-2.0") if stages == 1 else geared()).layout
     drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
     _, usual, _ = train_places([], drive, lateral, axis)
     right, left = lateral.inside[0], lateral.gears[-1][0] - 0.5
     half = min(socket_half_mm(drive.train.motor))
-    for interval, clear in (((right, right + 0.1), True), ((left - 0.1, left), True), ((right - 1.0, right), False)):
+    beside = ((right - 1.0, right), (left, left + 0.5))
+    for interval, clear in (
+        ((right, right + 0.1), True),
+        ((left - 0.1, left), True),
+        *((one, False) for one in beside),
+    ):
         post = disc("post", usual, 1.0, interval)
         _, motor, _ = train_places([post], drive, lateral, axis)
         assert (math.dist(motor, usual) >= half + 1.0 - 1e-5) == clear, interval

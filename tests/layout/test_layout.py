@@ -307,16 +307,21 @@ def test_springs_and_axles_keep_the_usual_clearance() -> None:
 
 def test_openings_keep_off_what_stands_in_the_body_and_off_the_standoffs_pads(monkeypatch: pytest.MonkeyPatch) -> None:
     """A standoff needs 9 mm of plate, from plate to plate; the boss of the springs' pin keeps off the same things."""
-    layout, found = plans()["geared"], {}
+    layout, found, given = plans()["geared"], {}, {}
     for name in ("fittings_of", "spring_boss_mm"):
         make = getattr(layout_module, name)
 
         def kept(obstacles: list[Obstacle], *others: Any, name: str = name, make: Any = make) -> Any:
             found[name] = list(obstacles)
+            given[name] = others
             return make(obstacles, *others)
 
         monkeypatch.setattr(layout_module, name, kept)
     plan_again(layout)
+    *_, seats, seat_mm = given["fittings_of"]
+    assert seat_mm == pytest.approx(1.5 + 3.0)  # an axle's bore, and the plate's wall around it
+    held = [*layout.axles.values(), layout.spring_pin_mm, layout.stop.tab_mm]
+    assert sorted(place.tolist() for place in seats) == sorted(place.tolist() for place in held)
     for obstacles in found.values():
         pads = [one for one in obstacles if one.name == "standoff"]
         assert [one.points_mm.tolist() for one in pads] == [[place.tolist()] for place in layout.standoffs_mm]

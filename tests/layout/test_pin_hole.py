@@ -69,3 +69,17 @@ def test_the_hole_keeps_off_the_bores_of_the_axles() -> None:
     assert pin_hole(*given, near + 0.01, HOLE_MM, AXLE_MM).diameter_mm == HOLE_MM
     with pytest.raises(CannotBuildError, match=r"0\.1 mm too little beside the bore of the leg axle"):
         pin_hole(*given, near - 0.1, HOLE_MM, AXLE_MM)
+
+
+@pytest.mark.parametrize("more_mm", [-0.1, 0.1])
+def test_the_hole_keeps_2_mm_off_the_slot_of_the_rest_stop(robot: Robot, more_mm: float) -> None:
+    """At the stop, the slot begins behind the leg's middle line by its heel and the pad, less its seat of 0.6 mm."""
+    layout, stop = robot.layout, robot.layout.stop
+    behind = stop.heel_mm + stop.pad.thickness_mm - 0.6
+    beside_slot = stop.radius_mm - 1.5  # tabs of 5 mm begin where the bar of 8 mm does
+    given = (robot.linkage, [], stop, layout.lateral, beside_slot, 2.0 * (behind - 2.0 - more_mm), AXLE_MM)
+    if more_mm > 0.0:
+        assert pin_hole(*given).pad_mm == pytest.approx(2.0 * (behind - more_mm))
+        return
+    with pytest.raises(CannotBuildError, match=r"0\.1 mm too little beside the rest stop's slot"):
+        pin_hole(*given)

@@ -68,6 +68,18 @@ def test_foot_is_symmetric_and_its_toes_spread_by_twice_the_angle() -> None:
     assert left[0] < 0 < left[1]
 
 
+@pytest.mark.parametrize("name", ["kenan-1.0", "best-bo"])
+def test_the_ground_is_a_radius_below_the_feet(name: str) -> None:
+    """Capsules have a radius of 1/25 of the longest link, so have the balls at their ends, on which the foot lies."""
+    design = load_design(name)
+    robot = capsule_robot(design)
+    radius = max(design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm) / 25_000
+    assert robot.foot_depth_m == pytest.approx(radius)
+    balls = [ball for body in robot.bodies.values() for ball in body.contacts]
+    assert [ball.radius_m for ball in balls] == pytest.approx(5 * [radius])
+    assert {ball.centre_m[2] for ball in balls} == {0.0}
+
+
 def test_joints_have_their_own_ranges() -> None:
     """A parallelogram's front link turns as its main leg does, and its foot keeps the body's direction."""
     robot = capsule_robot(load_design("kenan-2.0"))

@@ -53,6 +53,17 @@ def test_without_weight_the_leg_is_an_oscillator(past: float) -> None:
     assert level.push_off_s(spring, past) == pytest.approx(expected, rel=2e-3)
 
 
+@pytest.mark.parametrize("preload", [0.0, 0.2, 0.7])
+def test_preloaded_springs_push_a_leg_through_a_part_of_their_oscillation(preload: float) -> None:
+    """w + p = (w0 + p)·cos(t·sqrt(k/I)) until w = 0, and then on at the speed that the leg has there."""
+    spring, inertia, rate = Spring("leg", 0.5, 0.7, preload_rad=preload), 8e-4, math.sqrt(0.5 / 8e-4)
+    level = ReflectedMass(np.linspace(0.0, 0.7, 33), np.full(33, inertia), np.zeros(33), np.zeros(33))
+    expected = math.acos(preload / (0.7 + preload)) / rate
+    speed = rate * math.sqrt((0.7 + preload) ** 2 - preload**2)
+    assert level.push_off_s(spring, 0.0) == pytest.approx(expected, rel=2e-3)
+    assert level.push_off_s(spring, 0.1) == pytest.approx(expected + 0.1 / speed, rel=2e-3)
+
+
 @pytest.mark.parametrize("name", ["kenan-1.0", "best-ga"])
 def test_the_push_off_takes_as_long_as_one_stepped_in_time(name: str) -> None:
     robot = built(name)

@@ -83,6 +83,17 @@ def test_what_is_of_steel_has_the_density_of_steel(robot: Robot) -> None:
     assert counted > 15
 
 
+def test_a_screw_that_is_an_axle_weighs_its_shank_and_its_head(robot: Robot) -> None:
+    """ISO 4762, M3: a head of 5.5 x 3 mm, three tenths of which are its socket; 7.85 g/cm³."""
+    screws = [item for item in robot.hardware if "ISO 4762" in item.article]
+    assert bool(screws) == (robot.workshop.bought.retention == "nuts")
+    for screw in screws:
+        length = float(screw.article.split(" x ")[1].split()[0])
+        volume = math.pi / 4.0 * (3.0**2 * length + 0.7 * 5.5**2 * 3.0)
+        assert 1000.0 * screw.mass_kg == pytest.approx(7.85e-3 * volume, rel=0.01), screw.name
+        assert reach(screw)[1] - reach(screw)[0] == pytest.approx(length + 3.0)
+
+
 def test_an_axle_weighs_its_rod() -> None:
     """Aluminium, 2.81 g/cm³, less two grooves of 2.3 mm in 3 mm, 0.64 mm wide (DIN 6799)."""
     robot = build(load_design("kenan-2.0"), workshop(retention="clips", axle="aluminium-7075"))

@@ -30,6 +30,21 @@ def test_eyes_of_the_front_link_are_one_link_apart(robot: Robot) -> None:
     np.testing.assert_allclose(holes, [[0.0, 0.0], [robot.design.l3_mm, 0.0]], atol=2e-3)
 
 
+def test_pins_turn_in_the_ankle_and_are_pressed_in_elsewhere(robot: Robot) -> None:
+    """Hole by hole, from the workshop's fits: the foot's pin has little play, the springs' pin has 0.1 mm a side."""
+    layout, fits = robot.layout, robot.workshop.fits
+    leg, link = (
+        {round(x): width for (x, z), width in hole_centres(cut(placed(robot, name), 0.01)).items() if abs(z) < 0.01}
+        for name in ("main_leg", "front_link")
+    )
+    eye = layout.axle_mm + 2.0 * fits.eye_mm
+    assert leg[round(robot.design.l2_mm)] == pytest.approx(eye, abs=0.01)
+    assert [link[0], link[round(robot.design.l3_mm)]] == pytest.approx([eye, eye], abs=0.01)
+    assert leg[round(layout.leg_pin_mm)] == pytest.approx(layout.axle_mm + 2.0 * fits.press_mm, abs=0.01)
+    assert fits.m3_clearance_mm in [pytest.approx(width, abs=0.01) for width in hole_centres(
+        cut(placed(robot, "main_leg"), 0.01)).values()]  # fmt: skip
+
+
 def test_lever_and_leg_make_the_angle_of_the_cam(robot: Robot) -> None:
     """Of the four holes, the lever's lies as far from the hub as the cam's roller, in the direction that it needs."""
     cam, half = robot.layout.drive.cam, robot.layout.sections.thickness_mm / 2

@@ -6,6 +6,7 @@ import shapely
 import trimesh
 from support.built import built, cut, part, placed, region
 
+from jumpcad.parts.stop import stop_slot
 from jumpcad.robot import Robot
 
 
@@ -56,6 +57,17 @@ def test_tabs_stand_in_the_plates_slots(robot: Robot) -> None:
         tab, around = (region(cut(placed(robot, name), y)) for name in ("stop_bar", f"body_plate_{side}"))
         assert tab.intersection(around).area < 1e-3
         assert tab.buffer(robot.workshop.fits.press_mm + 0.01, join_style="mitre").intersection(around).length > 17.9
+
+
+@pytest.mark.parametrize("edge_mm", [0.0, 2.0])
+def test_around_a_slot_the_plate_has_an_edge_on_all_four_sides(robot: Robot, edge_mm: float) -> None:
+    """The slot has a tab's 5 x 4 mm with its play, turned as the bar is; the edge is as wide at its corners."""
+    stop = robot.layout.stop
+    (contour,) = stop_slot(robot.layout, 0.2, edge_mm).to_polygons()
+    along, behind = np.array(stop.along), np.array(stop.behind)
+    from_middle = np.asarray(contour) - stop.tab_mm
+    assert np.abs(from_middle @ along) == pytest.approx(4 * [2.6 + edge_mm], abs=1e-6)
+    assert np.abs(from_middle @ behind) == pytest.approx(4 * [2.1 + edge_mm], abs=1e-6)
 
 
 def test_the_pad_lies_in_its_seat_before_the_bar(robot: Robot) -> None:

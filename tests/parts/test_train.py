@@ -377,6 +377,20 @@ def test_a_gap_of_each_pinion_is_where_a_tooth_of_its_wheel_points(teeth: tuple[
         assert share % 1.0 == pytest.approx(0.5, abs=1e-9)
 
 
+def test_an_idlers_small_teeth_reach_through_the_cam_gear_from_its_wheel_on() -> None:
+    """In one plane with the motor's pinion and with the cam gear, small teeth between them too; no face is past one."""
+    robot = geared()
+    lateral, mesh = robot.layout.lateral, placed(robot, "idler")
+    (cam_low, cam_high), (motor_low, motor_high) = lateral.gears[0], lateral.gears[-1]
+    assert mesh.bounds[:, 1] == pytest.approx([cam_low, motor_high], abs=1e-3)
+    first, last = robot.layout.drive.train.stages
+    places = {cam_low + 0.5: last.pinion, motor_low - 0.1: last.pinion, motor_low + 0.1: first.wheel}
+    for y, gear in places.items():
+        section = region(cut(mesh, y)).bounds
+        assert (section[2] - section[0]) / 2.0 == pytest.approx(gear.tip_radius_mm, rel=0.03), y
+    assert cam_high < motor_low
+
+
 def test_the_cam_gears_hub_reaches_to_a_tenth_of_a_millimetre_from_the_plate_or_is_flush_beside_a_spacer() -> None:
     """Where two pairs need a spacer between gear and plate, nothing stands out of the gear there."""
     for robot in robots().values():
@@ -385,3 +399,21 @@ def test_the_cam_gears_hub_reaches_to_a_tenth_of_a_millimetre_from_the_plate_or_
         assert mesh.bounds[:, 1] == pytest.approx([lateral.gears[0][0], lateral.gears[0][1] + out], abs=1e-3)
         if robot.layout.idler_mm is None:
             assert lateral.left_plate[0] - mesh.bounds[1, 1] == pytest.approx(0.1, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_jaws_slide_between_the_gears_hub_and_its_rim(name: str) -> None:
+    """Inside and outside the play of what turns, measured on sections; the boss ends a quarter of a mm off the gear."""
+    robot = built(name)
+    low, high = robot.layout.lateral.gears[0]
+    play = robot.workshop.fits.sliding_mm
+    jaws, gear = (region(cut(placed(robot, part), (low + high) / 2.0) - robot.layout.cam_axis_mm)
+                  for part in ("cam", "cam_gear"))  # fmt: skip
+    radii = np.hypot(*np.concatenate([np.array(jaw.exterior.coords) for jaw in jaws.geoms]).T)
+    rings = [np.hypot(*np.array(ring.coords).T) for ring in gear.interiors]
+    pockets = np.concatenate([ring for ring in rings if ring.min() < radii.max() and ring.max() > radii.min()])
+    assert radii.min() - pockets.min() == pytest.approx(play, abs=0.03)
+    assert pockets.max() - radii.max() == pytest.approx(play, abs=0.03)
+    boss, begun = (region(cut(placed(robot, "cam"), low - gap)) for gap in (0.27, 0.23))
+    assert boss.geom_type == "Polygon"
+    assert len(begun.geoms) == 2

@@ -10,7 +10,8 @@ from jumpcad.design import load_design
 from jumpcad.dimensions import STOP_SEAT_MM
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.strength.sizing import Growth, leg_flex_share, sections
+from jumpcad.strength.loads import push_off, toe_load_n
+from jumpcad.strength.sizing import TYPICAL_BODY, Growth, leg_flex_share, sections
 from jumpcad.strength.stress import Beam
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -182,3 +183,27 @@ def test_a_section_leaps_to_where_the_limit_is_once_it_is_known_what_growing_hel
     assert Growth().more([weak(1.05)], uses).leg == pytest.approx(1.002 * 1.05)
     assert grown.more([weak(1.05, "g")], uses).leg == pytest.approx(1.1 * 1.002 * 1.05)
     assert Growth().uses([Finding("f", "error", -1.0, "MPa", "", "", grows="leg")]) == {}
+
+
+@pytest.mark.parametrize("pad", ["", "tpu-2"])
+def test_toes_and_rails_bear_the_ground_under_the_pads(pad: str) -> None:
+    """Solid bars, 1.15 times the load of both tips, half of it on either: b·h²·S/6, 7 mm wide toes, 4 mm wide rails.
+
+    The ground's force along the ground has a longer arm with a pad under the feet.
+    """
+    shop = load_workshop()
+    solid = shop.model_copy(
+        update={
+            "process": shop.process.model_copy(update={"infill": 1.0}),
+            "ground": shop.ground.model_copy(update={"pad": pad}),
+        }
+    )
+    linkage = Linkage(load_design("best-bo"))
+    sizes = sections(linkage, solid)
+    ground = sizes.foot_depth_mm + (2.0 if pad else 0.0)
+    tips = 1.15 * toe_load_n(push_off(linkage, TYPICAL_BODY), linkage.design, ground).max()
+    back = linkage.design.l5_mm * math.cos(math.radians(linkage.design.ground_link_angle_deg))
+    for height, width, arm in ((sizes.toe_root_mm, 7.0, linkage.design.l5_mm), (sizes.rail_root_mm, 4.0, back)):
+        by_hand = math.sqrt(6.0 * tips / 2.0 * arm * LOADS / (width * 15.0))
+        assert height > 3.2
+        assert height == pytest.approx(math.ceil(100.0 * by_hand) / 100.0)

@@ -105,3 +105,9 @@ def test_factors_of_safety_multiply():
     assert safety.load_factor == pytest.approx(1.155)
     assert safety.printed_factor == pytest.approx(3.465)
     assert safety.metal_factor == pytest.approx(1.7325)
+
+
+@pytest.mark.parametrize(("pad", "friction"), [("sj5616", 0.7), ("", 0.3)])
+def test_feet_have_the_friction_of_their_pads_or_of_what_is_printed(pad, friction):
+    ground = load_workshop().ground.model_copy(update={"pad": pad, "friction": 0.7, "bare_friction": 0.3})
+    assert ground.foot_friction == friction

@@ -1,0 +1,34 @@
+"""Which electrical parts a workshop has."""
+
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.workshop import Workshop, load_workshop
+
+
+def with_parts(**bought: str) -> Workshop:
+    """Return the default workshop with the parts of a two-cell kit but for some."""
+    shop = load_workshop()
+    kit = shop.catalogue.kits["strong-2s"].model_dump() | bought
+    return shop.model_copy(update={"bought": shop.bought.model_copy(update=kit)})
+
+
+def test_what_is_named_is_there_and_what_is_not_named_is_left_out() -> None:
+    shop = with_parts(plug="", switch="")
+    bought, chosen = shop.bought, chosen_parts(shop)
+    assert (chosen.battery.name, chosen.controller.name, chosen.driver.name) == (
+        bought.battery, bought.controller, bought.driver,
+    )  # fmt: skip
+    assert chosen.components.keys() == {"sensor", "capacitor", "diode", "wire"}
+    assert {role: part.name for role, part in chosen.components.items()} == {
+        role: getattr(bought, role) for role in chosen.components
+    }
+
+
+def test_a_diode_lies_behind_a_regulator_alone() -> None:
+    """A controller that the battery feeds itself has none, whatever the workshop names."""
+    regulated, bare = chosen_parts(with_parts()), chosen_parts(with_parts(regulator=""))
+    assert regulated.boards.keys() == {"controller", "driver", "regulator"}
+    assert regulated.diode is not None
+    assert regulated.diode.name == with_parts().bought.diode
+    assert bare.boards.keys() == {"controller", "driver"}
+    assert "diode" in bare.components
+    assert bare.diode is None
