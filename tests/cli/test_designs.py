@@ -148,7 +148,10 @@ def test_a_new_file_is_told_in_json_with_the_values_that_it_has(run: Run, tmp_pa
     assert None not in values(told)
 
 
-@pytest.mark.parametrize(("option", "template"), [("--from", "robots/kenan-2.0"), ("--workshop", "workshops/default")])
+@pytest.mark.parametrize(
+    ("option", "template"),
+    [("--from", "robots/kenan-2.0"), ("--workshop", "workshops/default"), ("--printer", "printers/ender-3")],
+)
 def test_what_is_copied_is_not_written_over_though_forced(run: Run, tmp_path: Path, option: str, template: str) -> None:
     """Its comments and the user's own words would be lost."""
     text = (templates_folder() / f"{template}.toml").read_text(encoding="utf-8") + "# mine\n"
