@@ -6,6 +6,7 @@ import pytest
 from support.pictures import with_few_pictures
 
 import jumpcad
+from jumpcad import checks
 from jumpcad.robot import Robot
 
 
@@ -19,3 +20,9 @@ def test_a_bundle_has_pictures_and_no_step_files_unless_it_is_told_otherwise(
         suffixes = {Path(name).suffix for name in bundle.files}
         assert (".png" in suffixes) == pictures
         assert ".step" not in suffixes
+
+
+def test_limits_that_are_kept_are_told_too(small_robot: Robot, checked_once: None) -> None:
+    found = jumpcad.check(small_robot)
+    assert found == checks.check(small_robot)
+    assert {finding.severity for finding in found} > {"info"}

@@ -47,7 +47,7 @@ def new(
     for_workshop = any(value is not None for value in (workshop, printer, material))
     if for_workshop and template is not None:
         raise JumpcadError(f"--from {template}: a workshop file has no design; leave --from out, or write two files")
-    require_apart({"the new file": file}, {"--from": template, "--workshop": workshop})
+    require_apart({"the new file": file}, {"--from": template, "--workshop": workshop, "--printer": printer})
     require_target(file, (".toml",), force)
     if for_workshop:
         _new_workshop(file, workshop, printer, material, as_json)

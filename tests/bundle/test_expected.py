@@ -141,7 +141,7 @@ def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pyte
 
 def test_names_in_braces_are_replaced_and_steps_are_counted_from_one() -> None:
     steps = [SimpleNamespace(key="trays"), SimpleNamespace(key="motor")]
-    words = module._order(steps)  # type: ignore[arg-type]
+    words = expected(built("kenan-2.0"), steps)  # type: ignore[arg-type]
     assert filled("from step {step_trays} to {step_motor}", words) == "from step 1 to 2"
 
 

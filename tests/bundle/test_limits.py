@@ -42,7 +42,8 @@ def test_a_use_is_said_in_whole_percent(share: float, words: str) -> None:
 )  # fmt: skip
 def test_without_a_share_the_margin_is_said_in_units_that_people_read(margin: float, unit: str, words: str) -> None:
     assert used(limit("one", margin, unit, "", "")) == words
-    assert used(bare("one", "error", 0.0, "")) == "does not hold"
+    for severity in ("error", "warning"):
+        assert used(bare("one", severity, 0.0, "")) == "does not hold"
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -211,3 +212,20 @@ def test_a_measurement_stands_beside_its_likeliest_reading() -> None:
     assert range_["off_by_deviations"] == pytest.approx(0.05 / (0.2 * share))
     landed = _residual(Datum("a", "distance", "first-touchdown", 0.25, 4, 0.08, 0.03), robot)
     assert landed["off_by_deviations"] == pytest.approx(0.01 / math.hypot(0.24 * math.hypot(0.04, 0.03), 0.005))
+
+
+def test_each_robot_has_its_own_energy(subject: Subject) -> None:
+    """Springs of 95 % over a mass 1.25 times the model's, and over the model's own; without a dog 40 % to all is kept.
+
+    One that is not weighed varies by a fifth, so that its own quantiles lie farther apart.
+    """
+    heavy = measured(subject, mass={"robot_g": 1250.0 * subject.robot.mass_kg})
+    other = replace(subject.remeasured(Measurements(**{**SAID, "release": "fixed"})), name="other")
+    model = Model([heavy, other])
+    z = np.zeros((3, len(model.parameters)))
+    z[:, [one.key for one in model.parameters].index("mass:other")] = (-1.0, 0.0, 1.0)
+    found = CalibrationPosterior(model, z, 1.0, 1, 1).energies()
+    assert found["kenan-2.0"] == pytest.approx([0.95 / 1.25] * 3)
+    kept = 0.95 * (0.4 + 0.6 * 0.5)
+    by_mass = [kept / (1.0 + deviation * math.hypot(0.2, 0.01)) for deviation in (1.0, 0.0, -1.0)]
+    assert found["other"] == pytest.approx(np.quantile(by_mass, (0.1, 0.5, 0.9)))

@@ -4,9 +4,11 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from jumpcad.calibration import subject as subject_module
+from jumpcad.calibration import surface as surface_module
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.subject import (
     LARGEST_FACTOR,
@@ -21,6 +23,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import templates_folder
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
+from jumpcad.simulation import Jump
+from jumpcad.transforms import Array
 
 HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
 FAR, HIGH = '[[jumps]]\ndistance_of = "first-touchdown"\n', '[[jumps]]\nheight_of = "rise"\n'
@@ -157,6 +161,24 @@ def test_a_value_in_another_unit_is_asked_about(kind: str, factor: float, hint: 
 
 
 @pytest.mark.parametrize(
+    ("kind", "factor"), [("mass", 1e-3), ("part", 1e-3), ("rate", 1e-3), ("length", 1e-3), ("energy", 1.0 / 3600.0)]
+)
+def test_what_is_more_than_twice_off_a_mistake_is_none_of_its_kind(kind: str, factor: float) -> None:
+    """A question that names a wrong cause would lead astray; each factor is the least of its kind."""
+    for off, asked in ((2.1, False), (1.9, True), (1.0 / 1.9, True), (1.0 / 2.1, False)):
+        with pytest.raises(JumpcadError, match=r"\? give it" if asked else "the model has 20 g: give it"):
+            _require_unit("mine.toml", "key", 20.0 * factor * off, 20.0, "g", kind)
+
+
+def test_of_two_mistakes_the_nearer_is_asked_about() -> None:
+    """By factors: N·m/rad is 0.0573 of N·mm/°, a digit too few 0.1; as far from both is their geometric mean."""
+    middle = math.sqrt(0.18 / math.pi * 0.1)
+    for off, hint in ((0.99, "is that N·m/rad"), (1.01, "a digit too few")):
+        with pytest.raises(JumpcadError, match=hint):
+            _require_unit("mine.toml", "key", 20.0 * middle * off, 20.0, "g", "rate")
+
+
+@pytest.mark.parametrize(
     ("kind", "most"), [("mass", 2.5), ("part", 5.0), ("rate", 1.8), ("length", 5.0), ("energy", 5.0)]
 )
 def test_robots_differ_from_their_model_by_a_factor_at_most(kind: str, most: float) -> None:
@@ -198,6 +220,9 @@ def test_a_flight_may_need_a_tenth_more_than_the_springs_hold(
                 _require_energy(robot, what, "rise", *given)
         else:
             _require_energy(robot, what, "rise", *given)
+    rate = {"rate_nmm_per_deg": 1.25 * subject.rate_nmm_per_deg, "springs": 2}
+    stiff = subject.remeasured(Measurements(**said, mass=mass, spring=rate))  # which hold a quarter more
+    _require_energy(stiff, "first-touchdown", "rise", *given)
     _require_energy(robot, "resting-place", "rise", *given)
     _require_energy(robot, "first-touchdown", "absolute", *given)
 
@@ -248,3 +273,39 @@ def test_what_is_beyond_the_ballistic_range_is_seen_at_softer_and_harder_springs
     seen = (0.01, 0.03, 0.04, 0.05)
     assert mean == pytest.approx(sum(seen) / 4.0)
     assert deviation == pytest.approx(math.sqrt(sum((one - mean) ** 2 for one in seen) / 4.0))
+
+
+def test_the_surface_of_a_robot_is_near_its_jumps_from_a_third_to_three_times_their_energy(
+    subject: Subject, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Jumps of a formula here: range grows with the energy, falls with the pins' friction, and bends with the floor's.
+
+    Within 1 % everywhere (docs/calibration.md gives the error on a real robot).
+    """
+
+    def range_m(energy: Array, pins: Array, floor: Array) -> Array:
+        found: Array = 0.2 * energy * (1.0 - 0.3 * pins) * floor / (0.3 + floor)
+        return found
+
+    def jump(robot: Robot, settings: Settings, engine: str) -> Jump:
+        energy = robot.spring.energy_j / subject.robot.spring.energy_j
+        assert (engine, settings.spring_efficiency) == ("planar", 1.0)
+        reach = float(range_m(energy, settings.pin_friction, settings.ground_friction))
+        return Jump(
+            "jump",
+            engine,
+            0.1,
+            0.2,
+            ballistic_range_m=reach,
+            com_rise_m=0.1,
+            takeoff_speed_m_s=1.0,
+            takeoff_angle_deg=60.0,
+        )
+
+    monkeypatch.setattr(surface_module, "simulate", jump)
+    found = Subject("again", subject.measured, subject.robot, ()).surface
+    rng = np.random.default_rng(0)
+    points = (
+        np.exp(rng.uniform(np.log(0.31), np.log(2.99), 300)), rng.uniform(0.0, 0.9, 300), rng.uniform(0.2, 1.3, 300),
+    )  # fmt: skip
+    assert found.at(*points).range_m == pytest.approx(range_m(*points), rel=0.01)

@@ -11,7 +11,7 @@ import pytest
 from support.commands import Run
 
 from jumpcad.design import SEARCH_BOUNDS, load_design
-from jumpcad.files import template_names
+from jumpcad.files import template_names, templates_folder
 from jumpcad.workshop import Workshop, load_workshop
 
 
@@ -146,3 +146,17 @@ def test_a_new_file_is_told_in_json_with_the_values_that_it_has(run: Run, tmp_pa
         return [table, *(value for one in inner for value in values(one))]
 
     assert None not in values(told)
+
+
+@pytest.mark.parametrize(
+    ("option", "template"),
+    [("--from", "robots/kenan-2.0"), ("--workshop", "workshops/default"), ("--printer", "printers/ender-3")],
+)
+def test_what_is_copied_is_not_written_over_though_forced(run: Run, tmp_path: Path, option: str, template: str) -> None:
+    """Its comments and the user's own words would be lost."""
+    text = (templates_folder() / f"{template}.toml").read_text(encoding="utf-8") + "# mine\n"
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    code, _, err = run("new", "own.toml", option, "./own.toml", "--force")
+    assert (code, err.count("\n")) == (2, 1)
+    assert f"is {option} itself" in err
+    assert (tmp_path / "own.toml").read_text(encoding="utf-8") == text

@@ -3,10 +3,14 @@
 import re
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
+
+from jumpcad.cli import explore
+from jumpcad.errors import JumpcadError
 
 
 def test_views_of_the_space(folder):
@@ -76,3 +80,29 @@ def test_views_tell_in_json_what_they_looked_at(folder):
     assert set(shares) == set(swept)
     assert list(shares.values()) == sorted(shares.values(), reverse=True)
     assert views["sampled"]["designs"] == 40 >= views["elite"]["designs"] > 0
+
+
+def test_a_map_tells_each_axis_by_its_own_values(monkeypatch):
+    """Choices that are names by them; a verdict for every place, and how often each reason was."""
+
+    def trial(*reasons):
+        return SimpleNamespace(evaluation=SimpleNamespace(reasons=reasons))
+
+    trials = [[trial(), trial("tips", "loop")], [trial(), trial()], [trial("tips"), trial()]]
+    names, numbers = ("one", "two", "three"), [1.5, 2.5]
+    asked = []
+    for turned in (False, True):
+        x, y = ((), names) if not turned else (names, ())
+        found = SimpleNamespace(x_name="a", y_name="b", x=numbers, y=numbers, x_names=x, y_names=y, trials=trials)
+        monkeypatch.setattr(
+            "jumpcad.search.explore.feasibility_map", lambda *given, told=found: asked.append(given) or told
+        )
+        data, lines, _ = explore._mapped("centre", " a , b", 3)("evaluator")
+        assert (data["x"]["values"], data["y"]["values"]) == ((names, numbers) if turned else (numbers, names))
+        assert (data["x"]["name"], data["y"]["name"]) == ("a", "b")
+        assert data["verdicts"] == [["jump", "tips loop"], ["jump", "jump"], ["tips", "jump"]]
+        assert [line.split(maxsplit=1) for line in lines] == [["4", "jump"], ["1", "tips loop"], ["1", "tips"]]
+    assert asked == [("evaluator", "centre", "a", "b", 3)] * 2
+    for names in ("a", "a,b,c"):
+        with pytest.raises(JumpcadError, match="a map has two parameters"):
+            explore._mapped("centre", names, 3)

@@ -91,3 +91,12 @@ def test_what_is_no_study_is_refused(run: Run, tmp_path: Path, arguments: tuple[
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert said in err
     assert [path.name for path in tmp_path.iterdir()] == ["text.db"]
+
+
+def test_a_bundle_in_a_folder_that_is_called_like_a_study_is_a_bundle(
+    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("jumpcad.bundle.export.report_page", lambda robot, files: f"{robot.name} {len(files)}")
+    copy = shutil.copytree(bundle, tmp_path / "robots.db")
+    assert run("report", copy) == (0, f"{copy / 'report.html'}\n", "")
+    assert (copy / "report.html").read_text().startswith("kenan-2.0 ")

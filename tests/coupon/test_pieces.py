@@ -188,3 +188,17 @@ def test_the_dogs_jaws_turn_in_their_pockets_as_far_as_their_play(step: int) -> 
     pockets = reread(PIECES[f"dog_pockets_{step}"]).slice(2.5)
     free = [turn for turn in range(-20, 21) if (jaws.rotate(float(turn)) ^ pockets).area() < 0.05]
     assert free == list(range(-7, 8))  # 15 degrees between pockets of 55 and jaws of 40
+
+
+def test_holes_and_pegs_of_a_gauge_lie_apart_and_off_its_edges() -> None:
+    """The widest of a row decides: 2 mm at least of the plate about every hole and peg."""
+    for workshop in (WORKSHOP, changed("fits", press_mm=-0.3, loose_mm=0.9)):
+        solid = reread(coupon(workshop)["gauge_PETG"])
+        low_x, low_y, _, high_x, high_y, _ = solid.bounding_box()
+        circles = [*contours(solid.slice(1.5))[1], *contours(solid.slice(7.0))[0]]
+        boxes = np.array([[polygon.min(axis=0), polygon.max(axis=0)] for polygon in circles])
+        assert (boxes[:, 0] - (low_x, low_y)).min() > 2.0
+        assert ((high_x, high_y) - boxes[:, 1]).min() > 2.0
+        middles, radii = boxes.mean(axis=1), np.ptp(boxes, axis=1).max(axis=1) / 2.0
+        for one, other in itertools.combinations(range(len(boxes)), 2):
+            assert math.dist(middles[one], middles[other]) - radii[one] - radii[other] > 2.0

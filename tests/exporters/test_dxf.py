@@ -94,3 +94,14 @@ def test_the_name_reads_from_the_outside(robot: Robot, side: str, label: str) ->
         moved = wanted.translate(((x0 + x1 - a0 - a1) / 2.0, (y0 + y1 - b0 - b1) / 2.0))
         shared.append((moved ^ engraved).area() / engraved.area())
     assert shared[0] > 0.8 > shared[1]
+
+
+@pytest.mark.parametrize("before", [False, True])
+def test_other_sheets_of_ezdxf_keep_their_time_of_day(before: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a program sets for its own sheets stays as it is, also where one of these fails."""
+    monkeypatch.setattr(ezdxf.options, "write_fixed_meta_data_for_testing", before)
+    write_dxf(disc(9.0), disc(2.0))
+    assert ezdxf.options.write_fixed_meta_data_for_testing is before
+    with pytest.raises(AttributeError):
+        write_dxf(None, None)  # type: ignore[arg-type]
+    assert ezdxf.options.write_fixed_meta_data_for_testing is before

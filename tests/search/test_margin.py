@@ -12,6 +12,7 @@ from jumpcad.search.objective import Evaluation
 from jumpcad.search.robust import rank_candidates
 from jumpcad.search.space import Space
 from jumpcad.search.tolerances import LENGTHS_ALONE
+from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
 
 
@@ -86,3 +87,22 @@ def test_only_what_misses_its_confidence_costs() -> None:
     unsure = _missed(Space.default(), Level(0.90), 0.95, 0.01)  # type: ignore[arg-type]
     assert sure(point) == pytest.approx([0.0])
     assert unsure(point) == pytest.approx([STEEPNESS * np.log(0.95 / 0.90)])
+
+
+def test_only_what_was_made_as_the_space_says_is_learned_from(evaluator):
+    """Not designs of other values of what is fixed, above or below, nor ones that were made otherwise than designed."""
+    points = SMALL.spread(16, np.random.default_rng(1))
+    runs = []
+    for others in (False, True):
+        one = evaluator(model=Cliff())
+        own = one.evaluate([SMALL.to_design(point) for point in points], "bo", 0)
+        if others:
+            designs = [trial.design for trial in own[:4]]
+            changed = [
+                design.model_copy(update={"carrying_link_mm": length}) for design in designs for length in (90, 110)
+            ]
+            made = [Variant(design, {"process.infill": 0.3}) for design in designs]
+            one.evaluate([*changed, *made], "bo", 1)
+        runs.append([trial.key for trial in propose_robust(one, own, 2, 0, 0.01)])
+    assert len(runs[0]) == 3
+    assert runs[0] == runs[1]

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from jumpcad.design import load_design
+from jumpcad.findings import Finding
 from jumpcad.paper import published
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import find_objective
@@ -72,3 +73,23 @@ def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes(mon
     figures = found.metrics
     assert figures["fitness"] == pytest.approx(1000.0 * distance_m / longest)
     assert set(figures.values()) == {figures["fitness"], distance_m, 0.2, 0.3}
+
+
+def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbids_it(small_robot, monkeypatch):
+    """What the design keeps stands in the design's own trial, with the room that is left."""
+    jumped, kept, broken = (
+        Finding(name, severity, 1.0, "", "", "")
+        for name, severity in (("audit_loop", "info"), ("walls", "info"), ("stop", "error"))
+    )
+    result = SimpleNamespace(
+        verdict="jump", robot=small_robot, jump=SimpleNamespace(findings=(jumped,), com_rise_m=0.5),
+        findings=(jumped, kept, broken), metrics={"mass_kg": 0.1},
+    )  # fmt: skip
+    monkeypatch.setattr("jumpcad.evaluation.evaluate_made", lambda *_: result)
+    plain, made = robot_model(), robot_model().varied({"made.spring_factor": 1.05})
+    design = load_design("kenan-2.0")
+    found = plain._printed(design)
+    assert found.findings[:3] == (jumped, kept, broken)
+    assert len(found.findings) > 3
+    assert made._printed(design).findings == (jumped, broken)
+    assert made._printed(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import (
     Change,
@@ -18,6 +19,16 @@ from jumpcad.workshop import load_workshop
 
 def test_physical_limits_are_those_of_a_design():
     assert physical_limits("rest_angle_deg") == (5.0, 90.0)
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_a_search_may_go_to_the_ends_of_what_a_design_can_be_and_no_further(name):
+    ends = physical_limits(name)
+    found = changed_parameters([Change("bound", name, ends)])[name]
+    assert (found.lower, found.upper) == ends
+    for end, beyond in zip(ends, (-math.inf, math.inf), strict=True):
+        with pytest.raises(JumpcadError, match=f"{name} = .* is outside .*: no design can have it"):
+            changed_parameters([Change("fix", name, (math.nextafter(end, beyond),))])
 
 
 def test_a_place_in_the_unit_interval_is_a_value_or_the_nearest_choice():

@@ -13,7 +13,7 @@ from support.hills import Hill, Trap
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED
-from jumpcad.search.pool import InProcess, dask_pool, local_pool
+from jumpcad.search.pool import InProcess, Pool, dask_pool, local_pool
 from jumpcad.search.space import Space
 
 SPACE = Space.parse(fix=["c_coef=1", "d_coef=0.8"])
@@ -91,6 +91,22 @@ def test_without_processes_an_error_is_no_result():
     assert isinstance(failed.exception(), ZeroDivisionError)
     with pytest.raises(ZeroDivisionError):
         failed.result()
+
+
+def test_a_closed_pool_starts_again_and_ends_once():
+    opened, ended = [], []
+
+    def start():
+        opened.append(InProcess())
+        return opened[-1]
+
+    pool = Pool(start, ended.append, 1)
+    for _ in range(2):
+        assert len(list(pool.evaluate(Hill(), GOOD[:2]))) == 2
+        pool.close()
+        pool.close()
+    assert len(opened) == 2
+    assert ended == opened
 
 
 def test_an_error_of_the_request_ends_the_run():

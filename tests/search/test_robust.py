@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from support.hills import SMALL, Hill
+from support.hills import FIXED, SMALL, Hill
 
 from jumpcad.building import build
 from jumpcad.design import PARAMETERS, load_design
@@ -12,6 +12,7 @@ from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.robust import NOT_EXAMINED, _Examined, active_bounds, best_apart, plan_rounds, rank_candidates
+from jumpcad.search.space import Space
 from jumpcad.search.tolerances import LENGTHS_ALONE, MADE, Making, as_made, varied_parameters
 from jumpcad.search.variant import Variant
 from jumpcad.settings import Settings, coefficients
@@ -193,6 +194,17 @@ def test_active_bounds_and_their_worth(evaluator):
     assert found["compression_ratio"].reason == "loop"
     few = active_bounds(one, trial, 2, evaluations=0)
     assert {bound.reason for bound in few} == {NOT_EXAMINED} or few == list(found.values())
+
+
+def test_what_lies_beyond_a_bound_is_a_design_and_bounds_of_designs_are_left_out(evaluator):
+    """A rest angle is 5° to 90°: a twentieth of 80° beyond 86° would be 90.0°, beyond 89° no angle at all."""
+    for low, high, named in ((5.0, 90.0, []), (6.0, 89.0, [5.0, 90.0]), (15.0, 75.0, [12.0, 78.0])):
+        one = evaluator(model=Slope(), space=Space.parse(fix=FIXED, bound=[f"rest_angle_deg={low}:{high}"]))
+        found = []
+        for step, end in enumerate((0.0, 1.0)):
+            (trial,) = one.evaluate([one.space.to_design([0.5, end, 0.5])], "bo", step)
+            found += [bound.beyond for bound in active_bounds(one, trial, 2 + step)]
+        assert found == pytest.approx(named)
 
 
 @pytest.mark.parametrize(("off", "named"), [(0.0009, 3), (0.0011, 0)])

@@ -9,6 +9,7 @@ from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
 from jumpcad.search.variant import Variant
+from jumpcad.workshop import load_workshop
 
 
 def test_default_space_is_the_published_box():
@@ -56,6 +57,16 @@ def test_choices_snap_to_the_nearest():
     assert [space.to_design(p).stiffness_nmm_per_deg for p in space.snap(points)] == [10.0, 12.0, 20.0]
     assert Space.parse(fix=[f"{n}={SEARCH_BOUNDS[n].lower}" for n in PARAMETERS if n != "stiffness_nmm_per_deg"],
                        choose=["stiffness_nmm_per_deg=10,12,20"]).size == 3  # fmt: skip
+
+
+def test_spread_points_of_choices_are_their_levels():
+    """Of 10, 12 and 20 the levels are 0, 0.2 and 1: else a model would learn of places where no design was."""
+    space = Space.parse(choose=["stiffness_nmm_per_deg=10,12,20"])
+    column = [parameter.name for parameter in space.free].index("stiffness_nmm_per_deg")
+    points = space.spread(32, np.random.default_rng(0))
+    assert np.unique(points[:, column]) == pytest.approx([0.0, 0.2, 1.0])
+    assert len(points) == 32
+    assert len(np.unique(np.delete(points, column, axis=1))) == 32 * 7
 
 
 def test_near_a_design_and_only_some_parameters():
@@ -140,3 +151,15 @@ def test_what_is_fixed_bounded_or_chosen_is_that_in_numbers_as_in_words():
     assert found["c_coef"] == {"fixed": 1.1}
     assert found["rest_angle_deg"] == {"lower": 50.0, "upper": 60.0}
     assert found["d_coef"] == {"choices": [0.7, 0.8]}
+
+
+def test_a_point_has_a_coordinate_and_a_number_of_names_for_every_free_parameter():
+    """What is fixed, be it a number or a name, has none."""
+    space = Space.parse(
+        fix=["c_coef=1", "bought.leg_bearing="], choose=["bought.battery=lipo-2s-180,lipo-1s-300", "d_coef=0.6,0.7"],
+        workshop=load_workshop(),
+    )  # fmt: skip
+    assert space.dimension == len(space.free) == len(space.categories) == 8
+    assert space.categories == (0,) * 7 + (2,)
+    assert [one.name for one in space.parameters if not one.free] == ["c_coef", "bought.leg_bearing"]
+    assert space.spread(4, np.random.default_rng(0)).shape == (4, 8)

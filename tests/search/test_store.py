@@ -234,6 +234,18 @@ def test_a_study_that_another_program_changed(tmp_path, statement, reason):
     assert str(caught.value).isprintable()
 
 
+def test_what_is_noted_once_stands_there_once(tmp_path):
+    """Also where the run is continued; other notes are as many as they were made."""
+    for _ in range(2):
+        with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+            for _ in range(2):
+                store.note_once("none jumps")
+            store.note_once("ended")
+            store.note("failed")
+    with StudyStore.read(tmp_path / "s.db") as store:
+        assert sorted(store.notes()) == ["ended", "failed", "failed", "none jumps"]
+
+
 def test_notes_steer_no_terminal(tmp_path):
     path = edited(tmp_path / "s.db", "INSERT INTO notes VALUES ('a' || char(27) || '[31m' || char(10))")
     assert read_all(path)[2] == [r"a\x1b[31m\n"]

@@ -60,3 +60,8 @@ def test_of_several_findings_of_a_name_the_worst_margin_counts(tmp_path):
     with (tmp_path / "t.csv").open(newline="") as stream:
         (record,) = csv.DictReader(stream)
     assert float(record["margin_wall"]) == -0.2
+
+
+def test_a_table_of_nothing_has_a_head_alone(tmp_path):
+    write_table([], tmp_path / "t.csv")
+    assert (tmp_path / "t.csv").read_text() == "phase\n"

@@ -141,3 +141,17 @@ def test_a_search_of_few_keeps_to_them():
 def test_a_front_has_no_best_design_to_widen_for():
     with pytest.raises(JumpcadError, match="widen: does not apply to pareto"):
         Request(BELOW, Hill(), method="pareto", widen=True)
+
+
+def test_what_is_tried_beyond_bounds_counts_among_the_evaluations():
+    """Every stage has its share, of which the designs beyond the bounds are taken: none is searched in addition."""
+    request = Request(BELOW, Hill(), method="bo", evaluations=80, widen=True, until_percent=0.0, batch=7)
+    with local_pool(0) as pool:
+        trials = run_study(request, None, pool).trials
+    planned = [stage.evaluations for stage in plan_stages(request)]
+    begun = [
+        number for number, trial in enumerate(trials) if trial.phase == "widen" and trials[number - 1].phase != "widen"
+    ]
+    assert begun
+    assert set(begun) <= {sum(planned[:count]) for count in range(1, len(planned))}
+    assert len(trials) == sum(planned)

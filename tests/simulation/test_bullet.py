@@ -189,3 +189,31 @@ def test_the_foots_motion_is_that_of_the_state(kenan: Robot) -> None:
     np.testing.assert_allclose(velocity, state.velocity_m_s[foot], atol=5e-5)
     np.testing.assert_allclose(spin, state.angular_rad_s[foot], atol=0.01)
     assert np.abs(velocity).max() > 1e-3
+
+
+def test_pybullet_has_every_contact_sphere_where_it_is_and_as_large(lopsided: Robot) -> None:
+    """Read back in the principal axes at the centre of mass, where Bullet has them."""
+    bullet = pytest.importorskip("pybullet")
+    bodies = {
+        name: replace(
+            body,
+            contacts=tuple(
+                replace(contact, radius_m=0.003 + 0.001 * number) for number, contact in enumerate(body.contacts)
+            ),
+        )
+        for name, body in lopsided.bodies.items()
+    }
+    robot, seen = replace(lopsided, bodies=bodies), 0
+    with engine_named("pybullet").world(robot, Settings()) as world:
+        for link, name in enumerate((BODY, *LINKS), start=-1):
+            client, body = world._client, bodies[name]
+            axes = bullet.getDynamicsInfo(world.robot_id, link, physicsClientId=client)[4]
+            turn = np.array(bullet.getMatrixFromQuaternion(axes)).reshape(3, 3)
+            shapes = bullet.getCollisionShapeData(world.robot_id, link, physicsClientId=client)
+            assert len(shapes) == len(body.contacts)
+            for shape, contact in zip(shapes, body.contacts, strict=True):
+                assert shape[2] == bullet.GEOM_SPHERE
+                assert shape[3][0] == pytest.approx(contact.radius_m)
+                np.testing.assert_allclose(turn @ shape[5], contact.centre_m - body.com_m, atol=1e-7)
+                seen += 1
+    assert seen == 5

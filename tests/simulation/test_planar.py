@@ -49,6 +49,21 @@ def test_range_converges(jumping: list[Flight]) -> None:
     assert errors[2] < 2e-4
 
 
+def test_advancing_tells_where_the_leg_was_before_the_last_step(kenan: Robot) -> None:
+    """As the other engines do, which compute the springs' torque there; losses are counted from release on."""
+    world, other = PlanarWorld(kenan, FINE), PlanarWorld(kenan, FINE)
+    before = other.moment.leg_rad
+    for steps in (1, 7, 400):
+        other.advance(steps - 1) if steps > 1 else None
+        before = other.moment.leg_rad
+        other.advance(1)
+        assert world.advance(steps) == before < other.moment.leg_rad
+        assert world.moment == other.moment
+        losses = world.moment.losses
+        assert world.joint_damping_j == losses.damping_j + losses.friction_j > 0.0
+        assert world.slip_j == losses.slip_j
+
+
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_printed_robots(name: str, engine: str) -> None:

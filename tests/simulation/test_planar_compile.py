@@ -2,13 +2,16 @@
 
 import importlib.util
 import json
+import math
 import os
 import subprocess
 import sys
 
 import pytest
 
+from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.planar_compile import compiled
+from jumpcad.simulation.planar_state import Inertia
 
 WITHOUT_NUMBA = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
 PROGRAM = """
@@ -33,6 +36,13 @@ def test_compiled_and_plain_give_the_same_numbers() -> None:
     for one, other in zip(compiled, plain, strict=True):
         assert one[0] == other[0] == "jump"
         assert one[1:] == pytest.approx(other[1:], rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason="numba is not installed")
+def test_what_is_compiled_is_kept_for_the_next_process_and_divides_as_a_processor_does() -> None:
+    """By zero it says infinite or no number, which ends a push-off as lost, and raises nothing."""
+    assert kernel.response.stats.cache_path  # type: ignore[attr-defined]
+    assert not math.isfinite(kernel.response(Inertia(1.0, 0j, 0j, 0.0, 0.0, 0.0), 0j, 1.0, 0.0).foot)
 
 
 def test_a_missing_compiler_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

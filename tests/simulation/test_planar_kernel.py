@@ -95,10 +95,13 @@ def replace_damping(settings: Settings, damping: float = 0.0) -> Settings:
     return settings.model_copy(update={"joint_damping_nms_per_rad": damping})
 
 
-def pinned_bodies(robot: Robot, state: State, settings: Settings) -> tuple[Array, Array]:
+def pinned_bodies(
+    robot: Robot, state: State, settings: Settings, ground: tuple[tuple[float, complex], ...] = ()
+) -> tuple[Array, Array]:
     """Return accelerations (4, 3: x, z, turn) of four free bodies and forces (4, 2) of the pins that join them.
 
     Newton's and Euler's equations of each body and the pins' conditions in one linear system (Lagrange multipliers).
+    `ground` has the forces (x + iz) of the ground on the foot, each with the place x where it acts; there z is 0.
     """
     joints = {(joint.parent, joint.child): joint for joint in robot.joints}
     matrix, right = np.zeros((20, 20)), np.zeros(20)
@@ -126,19 +129,40 @@ def pinned_bodies(robot: Robot, state: State, settings: Settings) -> tuple[Array
                 torque -= robot.spring.stiffness_nm_per_rad * state.leg_rad
             right[one] -= torque
             right[two] += torque
+    foot = BODY_NAMES.index(FOOT)
+    for place_m, force in ground:
+        arm = complex(place_m, 0.0) - complex(*state.com_m[foot, [0, 2]])
+        right[3 * foot : 3 * foot + 3] += (force.real, force.imag, arm.imag * force.real - arm.real * force.imag)
     solution = np.linalg.solve(matrix, right)
     return solution[:12].reshape(4, 3), solution[12:].reshape(4, 2)
 
 
+@pytest.mark.parametrize("pushes", [(), (1.9,), (1.9, 0.4)])
 @pytest.mark.parametrize("leg_rad", [-0.6, -0.2, 0.1])
-def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(either: Robot, leg_rad: float) -> None:
+def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(
+    either: Robot, leg_rad: float, pushes: tuple[float, ...]
+) -> None:
+    """In the air, and with the ground's forces (N) on one or two spheres of the sole."""
     settings = Settings(joint_damping_nms_per_rad=0.001)
-    moment = moving(model_of(either), leg_rad)
-    accelerations, pin_n = pinned_bodies(either, world_at(either, moment).state(), settings)
+    moment, dt = moving(model_of(either), leg_rad), 1e-4
+    state, along = world_at(either, moment).state(), -0.7 if pushes else 0.0
+    body, place = either.bodies[FOOT], BODY_NAMES.index(FOOT)
+    spheres = [contact for contact in body.contacts if contact.surface == "foot"][:: len(body.contacts) - 1]
+    places = [float(state.com_m[place, 0] + state.rotation[place, 0] @ (one.centre_m - body.com_m)) for one in spheres]
+    ground_n = ((0.0, complex(along)), *((x, 1j * push) for x, push in zip(places, pushes, strict=False)))
+    accelerations, pin_n = pinned_bodies(either, state, settings, ground_n)
     model, turn, speed = model_of(either, settings), turn_of(moment), moment.speed
+    ground = Ground(moment.ankle_m, turn, dt / 2)
+    seen = [(ground.ankle_m + one * turn).real for one in model.sole_m]
+    numbers = [int(np.argmin([abs(x - other) for other in seen])) for x in places]
+    up = [dt * push for push in pushes] + [0.0] * (2 - len(pushes))
+    touching = [number if index < len(pushes) else -1 for index, number in enumerate(numbers)]
+    contact = Contact(*touching, kernel.STICK, *up, dt * along) if pushes else NO_CONTACT
     links = kernel.links_at(model, leg_rad)
     inertia = kernel.inertia_at(model, links, turn)
     change = kernel.response(inertia, *kernel.forces(model, links, inertia, turn, leg_rad, speed))
+    pushed = complex(along, sum(pushes)), kernel.turning_impulse(model, ground, contact) / dt, 0.0
+    change = kernel.plus(change, kernel.response(inertia, *pushed), 1.0)
     foot, body = accelerations[BODY_NAMES.index(FOOT)], accelerations[0]
     assert change.foot == pytest.approx(foot[2], rel=1e-9)
     pitch_rate2 = links.turn2[0] * speed.leg**2
@@ -147,9 +171,8 @@ def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(either: Robot, 
         radii = [0.0] * 4
         radii[pin] = 0.0015
         rubbed = planar_model(rubbing(either, pin=0.2, pin_radius_m=tuple(radii)), settings, pin_forces=True)
-        dt = 1e-4
-        ground, gained = Ground(moment.ankle_m, turn, dt / 2), Motion(*(dt * part for part in change))
-        torque = kernel.pin_torque(rubbed, links, ground, speed, gained, NO_CONTACT)
+        gained = Motion(*(dt * part for part in change))
+        torque = kernel.pin_torque(rubbed, links, ground, speed, gained, contact)
         expected = 0.2 * 0.0015 * np.linalg.norm(pin_n[pin]) * abs(links.pin1[pin])
         assert torque == pytest.approx(expected, rel=1e-9)
 
