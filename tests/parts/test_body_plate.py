@@ -1,6 +1,5 @@
 """Body plates, measured on their meshes: bores, the motor's seat, and a name where there is material for all of it."""
 
-import itertools
 import math
 
 import numpy as np
@@ -23,7 +22,7 @@ from jumpcad.parts.body_plate import (
     socket_about_axis,
     tray_slots,
 )
-from jumpcad.parts.engraving import ENGRAVING_MM, TEXT_HEIGHTS_MM, _possible, letters_on
+from jumpcad.parts.engraving import ENGRAVING_MM, TEXT_HEIGHTS_MM
 from jumpcad.parts.fittings import fitting_pads
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
@@ -260,17 +259,6 @@ def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -
         assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
 
 
-def test_letters_may_lie_where_no_point_of_the_raster_below_them_is_outside() -> None:
-    """A box of 5 x 3 mm covers what is less than 2.5 and 1.5 mm from its middle; beyond the raster all is outside."""
-    outside = np.zeros((6, 9), dtype=bool)
-    outside[1, 1] = True
-    free = {(x, z) for z, x in itertools.product(range(6), range(9)) if not outside[z, x]}
-    around = list(itertools.product((-2, -1, 0, 1, 2), (-1, 0, 1)))
-    expected = [all((x + dx, z + dz) in free for dx, dz in around) for z in range(6) for x in range(9)]
-    assert 0 < sum(expected) < 4 * 5
-    assert _possible(outside, (5.0, 3.0)).tolist() == expected
-
-
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_tabs_of_trays_slide_into_slots_at_both_ends(name: str, side: str) -> None:
@@ -349,19 +337,6 @@ def test_ribs_join_every_pad_to_its_neighbours(name: str) -> None:
     broken = [rib for rib in ribs if rib.buffer(1.59, cap_style="flat").intersection(pockets).area > 0.05]
     assert len(ribs) > 20
     assert broken == []
-
-
-@pytest.mark.parametrize(("more_mm", "high"), [((0.02, 0.02), True), ((-0.02, 0.02), False), ((0.02, -0.02), False)])
-def test_a_label_has_0_8_mm_around_it_on_either_side(more_mm: tuple[float, float], high: bool) -> None:
-    """In a window just so wide and high; in one that is a little smaller the letters are lower."""
-    large, small = (text("Fy R", height) for height in TEXT_HEIGHTS_MM)
-    low_x, low_z, high_x, high_z = large.bounds()
-    window = (high_x - low_x + 2.0 * (0.8 + more_mm[0]), high_z - low_z + 2.0 * (0.8 + more_mm[1]))
-    plate = rectangle((60.0, 40.0))  # the raster of places begins at its corner
-    face = rectangle(window) + (plate - rectangle((59.0, 39.0)))
-    letters = letters_on("Fy R", face, mirrored=False)
-    assert letters is not None
-    assert letters.area() == pytest.approx((large if high else small).area(), rel=1e-6)
 
 
 @pytest.mark.parametrize("more_mm", [0.0, 1.5])

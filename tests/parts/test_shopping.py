@@ -1,9 +1,7 @@
 """What is bought: rods as long and as heavy as their articles say, screws of stock lengths, springs of either hand."""
 
-import itertools
 import math
 import re
-from collections import defaultdict
 from dataclasses import replace
 
 import numpy as np
@@ -15,16 +13,13 @@ from support.built import LONG_TOES, body_in_plane, built, cut, placed, region
 
 from jumpcad.building import build
 from jumpcad.building.assembly import assembled
-from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.body_plate import ear_places
-from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.parts.shopping import _d_shaft, _standoffs
 from jumpcad.parts.toes import toes
-from jumpcad.parts.wired import electronics
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import load_workshop
@@ -188,42 +183,6 @@ def test_coil_and_leg_arm_are_one_wire_at_rest(preload_deg: float) -> None:
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_what_has_its_place_is_not_weighed_among_the_wires_too(name: str) -> None:
-    robot = built(name)
-    names = [item.name for item in robot.hardware]
-    placed = robot.layout.fittings.switch_mm is not None
-    assert names.count("switch") == placed
-    assert names.count("wiring_switch") == (not placed)
-    assert names.count("wiring_sensor") == (robot.layout.sensor is None)
-
-
-@pytest.mark.parametrize(
-    ("pattern", "size", "grams"),
-    [
-        ("strap_battery", (10.0, 1.0), 0.8), ("tie_(driver|controller)", (2.5, 1.1), 0.3),
-        ("tie_(plug|capacitor)", (2.5, 1.1), 0.3), ("tape_.*", (1.0,), None),
-        ("wiring_resistor_.*", None, 0.2), ("wiring_heat_shrink", None, 0.4),
-        ("tie_(sensor|motor)_leads", None, 0.3),
-    ],
-)  # fmt: skip
-def test_small_things_have_the_size_and_mass_of_their_kind(
-    pattern: str, size: tuple | None, grams: float | None
-) -> None:
-    """A strap of 10 mm, ties of 2.5 x 1.1 mm, foam tape of 1 mm and 0.5 g/cm³; a quarter watt resistor weighs 0.2 g."""
-    robot = built("kenan-2.0")
-    found = [item for item in robot.hardware if re.fullmatch(pattern, item.name)]
-    assert found
-    for item in found:
-        extents = np.ptp(item.shape.bounds_mm, axis=0)
-        for asked in size or ():
-            assert np.abs(extents - asked).min() < 2e-3, item.name
-        if grams is not None:
-            assert 1000.0 * item.mass_kg == pytest.approx(grams), item.name
-        elif pattern.startswith("tape"):
-            assert 1e6 * item.mass_kg == pytest.approx(0.5 * np.prod(extents), rel=1e-3)
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_the_motor_stands_in_its_socket_as_it_is_turned(name: str) -> None:
     """Its section, 12 x 10 mm, lies in the right plate's socket with a gap of less than half a millimetre."""
     robot = built(name)
@@ -240,22 +199,6 @@ def test_the_motor_stands_in_its_socket_as_it_is_turned(name: str) -> None:
     assert socket.intersection(around).area > 0.2 * around.difference(case).area
     everything = [1000.0 * item.mass_kg for item in robot.hardware if item.name in ("motor", "motor_shaft")]
     assert sum(everything) == pytest.approx(robot.layout.drive.train.motor.mass_g)
-
-
-def test_wire_is_bought_in_tenths_of_a_metre_rounded_up() -> None:
-    """By the lengths to cut; what is exactly so many tenths is not rounded up to one more."""
-    robot = built("kenan-2.0")
-    cut: dict[str, float] = defaultdict(float)
-    for *_, colour, length in wires(robot):
-        cut[colour] += length / 1000.0
-    for colour, metres in cut.items():
-        if metres:
-            item = next(one for one in robot.hardware if one.name == f"wiring_wire_{colour}")
-            ordered = float(re.findall(rf"{colour}, ([\d.]+) m$", item.article)[0])
-            assert -1e-6 <= ordered - metres < 0.1 - 1e-9, colour
-            assert ordered * 10.0 == pytest.approx(round(ordered * 10.0))
-            wire = load_catalogue().components[robot.workshop.bought.wire]
-            assert 1e3 * item.mass_kg == pytest.approx(1e3 * metres * wire.mass_g / wire.length_mm), colour
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -277,25 +220,6 @@ def test_the_sensors_case_lies_in_the_plate_where_the_layout_says(name: str) -> 
     sizes = np.ptp(corners, axis=0)
     assert sorted(sizes)[1:] == pytest.approx(sorted([part.length_mm, felt.needs.travel.total_mm]), abs=2e-3)
     assert item.mass_kg == pytest.approx(part.mass_g / 1000.0)
-
-
-def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
-    """15 mm apart to either side of the switch, from the plate's outside inwards."""
-    robot = built("kenan-2.0")
-    x, z = robot.layout.fittings.switch_mm
-    low, _ = robot.layout.lateral.outside
-    (switch,) = (one for one in robot.hardware if one.name == "switch")
-    box, inside = switch.look.copy().apply_transform(switch.T_body_part).bounds, robot.layout.lateral.inside[0]
-    assert box.mean(axis=0)[[0, 2]] == pytest.approx([x, z], abs=1e-3)
-    known = robot.layout.fittings.switch
-    assert np.ptp(box, axis=0) == pytest.approx([known.length_mm, known.height_mm, known.width_mm], abs=1e-3)
-    assert box[0, 1] == pytest.approx(inside, abs=1e-3)
-    for number, side in ((1, -1.0), (2, 1.0)):
-        (item,) = (one for one in robot.hardware if one.name == f"switch_screw_{number}")
-        bounds = item.look.copy().apply_transform(item.T_body_part).bounds
-        assert bounds.mean(axis=0)[[0, 2]] == pytest.approx([x + side * 7.5, z], abs=1e-3)
-        assert bounds[0, 1] < low
-        assert bounds[1, 1] >= inside + 0.5 - 1e-6  # through the switch's ear
 
 
 def test_bearings_are_in_the_hub_and_on_the_lever(assembled_robot: Robot) -> None:
@@ -337,55 +261,6 @@ def test_a_standoffs_screw_has_4_to_6_mm_of_thread_under_any_plate(plate_mm: flo
             assert bounds == pytest.approx([low, high])
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_what_holds_the_boards_lies_on_them_and_under_them(name: str) -> None:
-    """Foam tape from tray to board, ties and strap on top, in the middle; leads lie flat under the tray."""
-    robot = built(name)
-    boxes = {item.name: item.look.copy().apply_transform(item.T_body_part).bounds for item in robot.hardware}
-    electronics, (x, z) = robot.layout.electronics, robot.layout.tray_mm
-    floor = z + electronics.upper_tray_mm + 1.6
-    for role in electronics.boards:
-        board, tape, tie = boxes[role], boxes[f"tape_{role}"], boxes[f"tie_{role}"]
-        assert tape[:, 2] == pytest.approx([floor, board[0, 2]], abs=2e-3)
-        assert tape[:, :2] == pytest.approx(board[:, :2], abs=2e-3)
-        assert tie[0, 2] == pytest.approx(board[1, 2], abs=2e-3)
-        assert tie.mean(axis=0)[:2] == pytest.approx(board.mean(axis=0)[:2], abs=2e-3)
-        assert np.ptp(tie[:, 0]) == pytest.approx(np.ptp(board[:, 0]), abs=2e-3)
-    for role in electronics.tied:
-        part, tie = boxes[role], boxes[f"tie_{role}"]
-        assert part[0, 2] == pytest.approx(floor, abs=2e-3)
-        assert tie[0, 2] == pytest.approx(part[1, 2], abs=2e-3)
-        assert tie.mean(axis=0)[:2] == pytest.approx(part.mean(axis=0)[:2], abs=2e-3)
-        assert np.ptp(tie[:, 1]) == pytest.approx(np.ptp(part[:, 1]), abs=2e-3)
-    strap, battery = boxes["strap_battery"], boxes["battery"]
-    assert strap[0, 2] == pytest.approx(battery[1, 2], abs=2e-3)
-    assert strap.mean(axis=0)[:2] == pytest.approx(battery.mean(axis=0)[:2], abs=2e-3)
-    assert np.ptp(strap[:, 1]) == pytest.approx(np.ptp(battery[:, 1]), abs=2e-3)
-    wires = sorted((one for item, one in boxes.items() if item.startswith("wiring_wire")), key=lambda one: one[0, 0])
-    for wire in wires:
-        assert battery[1, 2] < wire[0, 2] < wire[1, 2] < floor - 1.6
-        assert (
-            x - electronics.battery.length_mm / 2.0 <= wire[0, 0] < wire[1, 0] <= x + electronics.battery.length_mm / 2
-        )
-        assert wire[:, 1].mean() == pytest.approx(sum(robot.layout.lateral.inside) / 2.0, abs=2e-3)
-    assert all(one[1, 0] < other[0, 0] for one, other in itertools.pairwise(wires))
-
-
-@pytest.mark.parametrize(("role", "outwards"), [("sensor", 1.0), ("motor", -1.0)])
-def test_ties_of_leads_lie_on_the_plates_across_their_slots(role: str, outwards: float) -> None:
-    """5 mm above the hole's middle, from slot to slot, 5.2 mm apart; outside the plate, 1.1 mm thick."""
-    robot = built("kenan-2.0")
-    fittings, outside = robot.layout.fittings, robot.layout.lateral.outside
-    (item,) = (one for one in robot.hardware if one.name == f"tie_{role}_leads")
-    low, high = item.look.copy().apply_transform(item.T_body_part).bounds
-    x, z = wire_hole_mm(fittings.left_mm if role == "sensor" else fittings.right_mm)
-    assert ((low + high) / 2.0)[[0, 2]] == pytest.approx([x, z + 5.0], abs=2e-3)
-    assert (high - low) == pytest.approx([5.2, 1.1, 2.5], abs=2e-3)
-    face = outside[1] if outwards > 0.0 else outside[0]
-    assert min(low[1], high[1], key=lambda y: abs(y - face)) == pytest.approx(face, abs=2e-3)
-    assert outwards * ((low + high)[1] / 2.0 - face) > 0.5
-
-
 def test_motor_and_cap_screws_stand_where_the_layout_says() -> None:
     """The shaft from the motor's front to the left, turned with the pinion; screws of 8 mm end under sunk heads."""
     robot = built("kenan-2.0")
@@ -399,24 +274,6 @@ def test_motor_and_cap_screws_stand_where_the_layout_says() -> None:
         assert high[1] == pytest.approx(lateral.motor_cap[1], abs=1e-3)
         head = load_catalogue().screws["M2"].button_head_height_mm
         assert low[1] == pytest.approx(high[1] - head - 8.0, abs=1e-3)
-
-
-def test_the_balance_lead_of_two_cells_lies_under_its_tie_ahead_of_the_battery() -> None:
-    """A tie of 2.5 x 1.1 mm across 10 mm, on a plug 6 mm high; a battery of one cell has no balance lead."""
-    robot, catalogue = built("kenan-2.0"), load_catalogue()
-    layout, chosen = robot.layout, robot.workshop.bought
-    carried = replace(layout.electronics, battery=catalogue.batteries["lipo-2s-180"])
-    found = {item.name: item for item in electronics(replace(layout, electronics=carried), catalogue, chosen)}
-    tie, battery = (
-        found[name].look.copy().apply_transform(found[name].T_body_part).bounds
-        for name in ("tie_balance_lead", "battery")
-    )
-    middle = battery.mean(axis=0)
-    assert tie.mean(axis=0)[:2] == pytest.approx([middle[0] + carried.balance_mm, middle[1]], abs=2e-3)
-    assert tie[0, 2] == pytest.approx(battery[0, 2] + 6.0, abs=2e-3)
-    assert np.ptp(tie, axis=0) == pytest.approx([2.5, 10.0, 1.1], abs=2e-3)
-    assert tie[0, 0] > battery[1, 0]
-    assert "tie_balance_lead" not in {item.name for item in robot.hardware}
 
 
 @pytest.mark.parametrize(("diameter", "across"), [(3.0, 2.5), (4.0, 3.5)])
