@@ -11,7 +11,6 @@ from jumpcad.design import Design
 from jumpcad.dimensions import (
     AXLE_BOSS_MM,
     AXLE_FLOOR_MM,
-    CLEAR_MM,
     GAP_MM,
     PAD_WALL_MM,
     SPACER_RADIUS_MM,
@@ -30,9 +29,10 @@ from jumpcad.layout.drive_places import (
     train_obstacles,
     train_places,
 )
-from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
+from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.fittings import Fittings, fittings_of
 from jumpcad.layout.lateral import Lateral, lateral_stack
+from jumpcad.layout.obstacles import axle_obstacle, cam_obstacles, hub_obstacles, swept_obstacles
 from jumpcad.layout.pin_hole import PinHole, pin_hole
 from jumpcad.layout.room import Obstacle, disc
 from jumpcad.layout.sensor import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
@@ -43,16 +43,11 @@ from jumpcad.layout.stop import (
     stop_obstacles,
     stop_place,
 )
-from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
+from jumpcad.layout.sweep import legs_apart_mm
+from jumpcad.layout.tray_places import electronics_obstacle, standoff_places, tray_place
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array
-
-LEVER_NUT_MM = 4.5
-"""Right of the lever: the lock nut of the roller's screw, 4.0 mm (DIN 985 M3), and the screw's end."""
-LEVER_HEAD_MM = 1.7
-"""Left of the roller: the screw's head, 1.65 mm (ISO 7380-1 M3), rounded up."""
-
 
 Retention = Literal["plates", "clips", "nuts"]
 """What keeps the axles in place: blind bores of the plates, clips in grooves, or screws as axles with lock nuts."""
@@ -186,15 +181,15 @@ def make_layout(
     cam_axis = hub + drive.cam.cam_axis_mm
     _require_legs_apart(linkage, sections, GAP_MM + reserve_mm)
     stop_rad = stop_angle_rad(linkage, sections, stop_rad, GAP_MM + reserve_mm)
-    moving = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD)
+    moving = swept_obstacles(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD)
     require_shaft(drive.train.motor, lateral)
-    beside_hub, front_axle = _hub_obstacles(hub, drive, lateral), _axle("front axle", front, lateral)
-    cam_things = _cam_obstacles(cam_axis, drive, lateral)
+    beside_hub, front_axle = hub_obstacles(hub, drive, lateral), axle_obstacle("front axle", front, lateral)
+    cam_things = cam_obstacles(cam_axis, drive, lateral)
     wheel = drive.train.stages[-1].wheel
     require_gear_room([*beside_hub, front_axle], cam_axis, wheel.tip_radius_mm, lateral.gears[0])
     # close to the springs and to what moves, and without the leg, which meets the stop
-    around_leg = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
-    around_leg += [*_hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
+    around_leg = swept_obstacles(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
+    around_leg += [*hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
     stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, inside, lateral.left_plate, reserve_mm)
     beside_hub += stop_obstacles(stop, inside)
     spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
@@ -247,20 +242,11 @@ def make_layout(
     )
 
 
-def _moving(
-    linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral, reach_rad: float, gap_mm: float = CLEAR_MM
-) -> list[Obstacle]:
-    """Return the room that the links sweep, with a clearance."""
-    lever_y = (-sections.thickness_mm / 2.0 - LEVER_NUT_MM, lateral.cam[1] + LEVER_HEAD_MM)
-    cam = drive.cam
-    return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, gap_mm, reach_rad)
-
-
 def moving_obstacles(layout: Layout) -> list[Obstacle]:
     """Return the room that links, cam and gears sweep, without a clearance."""
     drive, lateral = layout.drive, layout.lateral
-    found = _moving(layout.linkage, layout.sections, drive, lateral, layout.stop.reach_rad, 0.0)
-    turning = _cam_obstacles(layout.cam_axis_mm, drive, lateral)
+    found = swept_obstacles(layout.linkage, layout.sections, drive, lateral, layout.stop.reach_rad, 0.0)
+    turning = cam_obstacles(layout.cam_axis_mm, drive, lateral)
     turning += [] if layout.idler_mm is None else idler_obstacles(layout.idler_mm, drive, lateral)
     found += [o for o in turning if o.name not in ("cam axle", "idler axle")]
     pinion = drive.train.stages[0].pinion.tip_radius_mm
@@ -275,29 +261,3 @@ def _require_legs_apart(linkage: Linkage, sections: Sections, gap_mm: float) -> 
             "lower compression_ratio, or raise d_coef or rest_angle_deg",
             "legs_apart", room,
         )  # fmt: skip
-
-
-def _hub_obstacles(hub: Array, drive: Drive, lateral: Lateral, gap_mm: float = CLEAR_MM) -> list[Obstacle]:
-    """Return both springs, with a gap all around, and the axle that they are on."""
-    coil = drive.spring.outer_diameter_mm / 2.0 + gap_mm
-    return [
-        disc("left spring", hub, coil, lateral.spring_left),
-        disc("right spring", hub, coil, lateral.spring_right),
-        _axle("leg axle", hub, lateral),
-    ]
-
-
-def _cam_obstacles(axis: Array, drive: Drive, lateral: Lateral) -> list[Obstacle]:
-    """Return cam, cam gear, the dog between them and their axle."""
-    wheel = drive.train.stages[-1].wheel
-    return [
-        disc("cam", axis, drive.cam.outer_radius_mm + CLEAR_MM, lateral.cam),
-        disc("cam's dog", axis, drive.dog.outer_mm / 2.0 + CLEAR_MM, (lateral.cam[1], lateral.gears[0][0])),
-        disc("cam gear", axis, wheel.tip_radius_mm + CLEAR_MM, lateral.gears[0]),
-        _axle("cam axle", axis, lateral),
-    ]
-
-
-def _axle(name: str, place: Array, lateral: Lateral) -> Obstacle:
-    """Return an axle with its spacers, from plate to plate."""
-    return disc(name, place, SPACER_RADIUS_MM + CLEAR_MM, lateral.inside)

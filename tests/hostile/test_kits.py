@@ -137,8 +137,9 @@ def test_what_does_not_fit_is_refused_in_one_line(case: str, tmp_path: Path) -> 
 def test_a_battery_that_hits_the_cam_is_refused_with_its_size(tmp_path: Path) -> None:
     """Beside a cam that reaches to the plates' end no tray of 200 x 200 mm has room."""
     from jumpcad.catalogue import load_catalogue
-    from jumpcad.layout.electronics import Electronics, tray_place
+    from jumpcad.layout.electronics import Electronics
     from jumpcad.layout.room import EVERYWHERE, disc
+    from jumpcad.layout.tray_places import tray_place
 
     catalogue = load_catalogue()
     battery = catalogue.batteries["lipo-1s-300"].model_copy(update={"length_mm": 200.0, "height_mm": 200.0})

@@ -26,7 +26,7 @@ from jumpcad.layout.drive_places import (
     train_obstacles,
     train_places,
 )
-from jumpcad.layout.layout import _cam_obstacles as cam_obstacles
+from jumpcad.layout.obstacles import cam_obstacles
 from jumpcad.layout.room import EVERYWHERE, Obstacle, disc
 
 HUB, INSIDE = np.array([-40.0, 0.0]), (-20.0, 20.0)

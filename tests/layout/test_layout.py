@@ -20,7 +20,8 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout import layout as layout_module
 from jumpcad.layout.electronics import Electronics
-from jumpcad.layout.layout import LEVER_HEAD_MM, LEVER_NUT_MM, Layout, _hub_obstacles, make_layout, moving_obstacles
+from jumpcad.layout.layout import Layout, make_layout, moving_obstacles
+from jumpcad.layout.obstacles import LEVER_HEAD_MM, LEVER_NUT_MM, hub_obstacles
 from jumpcad.layout.room import Obstacle
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
@@ -299,7 +300,7 @@ def test_springs_and_axles_keep_the_usual_clearance() -> None:
     layout = plans()["kenan-2.0"]
     lateral, coil = layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
     for given, gap in (((), 0.8), ((0.5,), 0.5)):
-        left, right, axle = _hub_obstacles(layout.hub_mm, layout.drive, lateral, *given)
+        left, right, axle = hub_obstacles(layout.hub_mm, layout.drive, lateral, *given)
         assert (left.radius_mm, right.radius_mm) == pytest.approx((coil + gap, coil + gap))
         assert (left.y_mm, right.y_mm) == (lateral.spring_left, lateral.spring_right)
         assert (axle.radius_mm, axle.y_mm) == (pytest.approx(3.2 + 0.8), lateral.inside)
