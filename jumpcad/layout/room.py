@@ -4,6 +4,7 @@ All motion is in planes parallel to x-z, so an obstacle is a flat cloud that occ
 only collide where their intervals overlap.
 """
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -12,8 +13,8 @@ import numpy.typing as npt
 
 from jumpcad.transforms import Array
 
-EVERYWHERE = (-1e3, 1e3)
-"""An interval of y wider than any robot."""
+EVERYWHERE = (-math.inf, math.inf)
+"""The interval of every y."""
 BAR_SPACING_MM = 4.0
 """Distance between the points of a bar; judgement: notches of 0.4 mm between discs of 5 mm radius."""
 BOX_POINT_MM = 1.0
