@@ -16,6 +16,7 @@ from support.elsewhere import environment
 from support.places import ROOT
 
 from jumpcad.building import build
+from jumpcad.building.assembly import layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
@@ -262,6 +263,13 @@ def test_what_cannot_be_built_is_refused_with_value_and_remedy(case: str) -> Non
 def test_an_unknown_motor_is_a_wrong_request() -> None:
     with pytest.raises(JumpcadError, match=r"no motor 'n20-99' in the catalogue .*did you mean") as caught:
         build(KENAN, changed(bought={"motors": ("n20-99",)}))
+    assert caught.value.exit_code == 2
+
+
+def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
+    """Spacers of 6.4 mm with 0.2 mm of play and walls of 0.8 mm hold axles of 4.4 mm."""
+    with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
+        layout_of(KENAN, changed(bought={"axle_mm": 4.5, "leg_bearing": ""}))
     assert caught.value.exit_code == 2
 
 

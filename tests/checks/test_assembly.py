@@ -17,6 +17,7 @@ from jumpcad.checks.assembly import (
     _covered,
     _findings,
     _in_the_way,
+    _reach,
     _tool,
     _tool_blocked,
     assembly_findings,
@@ -155,6 +156,19 @@ def test_what_stands_in_the_way_covers_its_section(axis: int, sign: float) -> No
     assert _in_the_way(way_past(block("ahead", tuple(size), tuple(low))), cube, path) is None
     low[axis], low[(axis + 2) % 3] = -sign * 10.0 - 2.0, 2.0  # beside it
     assert _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path) is None
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_path_begins_5_mm_before_all_that_is_there(axis: int) -> None:
+    """The cube's front then is as far behind the rear of the rearmost thing; what lies ahead of it all is nearer."""
+    along = np.roll([1.0, 0.0, 0.0], axis)
+    cube = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0))
+    near, far = (block(name, (3.0, 3.0, 3.0), tuple(at * along)) for name, at in (("near", -4.0), ("far", -9.0)))
+    assert _reach(cube, [near, far], along) == pytest.approx(2.0 + 9.0 + 5.0)
+    assert _reach(cube, [near], along) == pytest.approx(2.0 + 4.0 + 5.0)
+    assert _reach(cube, [far], -along) == pytest.approx(5.0)
+    assert _reach(cube, [near, far], -along) == pytest.approx(5.0)
+    assert _reach(cube, [], along) == 0.0
 
 
 @pytest.mark.parametrize(("past", "free"), [("", False), ("post", True), ("post|wall", True), ("po|wall", False)])

@@ -136,3 +136,19 @@ def test_the_table_of_pairs_has_the_circles_of_their_gears():
         assert row["pinion"] >= row["least_teeth"]
         pair = gear_pair(pinion.teeth, teeth, module, 1.0, 0.15)
         assert row["distance_mm"] == pytest.approx(pair.centre_distance_mm)
+
+
+@pytest.mark.parametrize(("tip_min", "root_min"), [(0.45, 2.9), (0.6, 0.0), (0.0, 6.0), (0.0, 8.0)])
+def test_pinions_begin_where_their_tips_print_and_their_root_holds_a_shaft(tip_min, root_min):
+    """All pinions from 12 to 45 teeth that have both, and with each all wheels from as many teeth to 90."""
+    table = _printable((1.0, 1.5), 0.15, tip_min, root_min)
+    for module in (1.0, 1.5):
+        fits = [
+            teeth for teeth in range(12, 46)
+            if (gear := gear_pair(teeth, 90, module, 1.0, 0.15).pinion).root_radius_mm >= root_min
+            and Gear(teeth, module, gear.shift, 1.0, 0.075).tip_thickness_mm >= tip_min
+        ]  # fmt: skip
+        rows = table[table["module"] == module]
+        assert sorted(set(rows["pinion"])) == fits
+        assert set(rows["least_teeth"]) == {fits[0]}
+        assert len(rows) == sum(91 - max(13, teeth) for teeth in fits)
