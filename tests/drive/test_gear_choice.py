@@ -123,6 +123,19 @@ def test_of_two_pairs_the_idlers_wheel_passes_beside_the_cams_axle():
         assert nearest < 2.0, axle  # some are near the limit
 
 
+@pytest.mark.parametrize("far_mm", [22.0, 28.0])
+def test_one_pair_keeps_the_motor_as_far_from_the_cam_as_it_must_be(far_mm):
+    """Some are near that distance; the cam gear's tips and root are within their limits too."""
+    limits, nearest = dataclasses.replace(LIMITS, motor_distance_min_mm=far_mm), math.inf
+    for motor, (pair,) in by_cost(law_of("kenan-2.0"), MOTORS, limits, 1):
+        least = limits.beside(motor).motor_distance_min_mm
+        assert pair.centre_distance_mm >= least - 1e-9
+        assert pair.wheel.tip_radius_mm <= limits.cam_gear_tip_max_mm
+        assert pair.wheel.root_radius_mm >= limits.cam_gear_root_min_mm
+        nearest = min(nearest, pair.centre_distance_mm - least)
+    assert nearest < 1.0
+
+
 def test_the_table_of_pairs_has_the_circles_of_their_gears():
     table = _printable((1.0, 1.25), 0.15, 0.45, 2.9)
     rows = getattr(table, "table", table)

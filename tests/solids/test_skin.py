@@ -125,3 +125,15 @@ def test_the_grid_is_a_micrometre_that_32_bit_floats_hold_up_to_16_metres():
     for far in (0.0, 300.0, 16000.0):
         points = far + GRID_MM * np.arange(-50, 51)
         assert np.array_equal(points.astype(np.float32).astype(float), points)
+
+
+def test_corners_go_to_the_nearest_point_of_the_grid():
+    """Whole micrometres stay what they are, though a float may be a little less; others move by half of one at most."""
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        low, high = np.sort(rng.integers(-90_000, 90_000, (2, 2)), axis=0) * GRID_MM
+        for off in (0.0, 0.4 * GRID_MM, -0.4 * GRID_MM):
+            corners = np.array([low, [high[0], low[1]], high, [low[0], high[1]]])
+            vertices, _ = skin([(0.0, 1.0)], [[corners + off]])
+            assert np.ptp(vertices[:, :2], axis=0) == pytest.approx(high - low, abs=1e-9)
+            assert vertices[:, :2].min(axis=0) == pytest.approx(low, abs=1e-9)
