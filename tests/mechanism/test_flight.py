@@ -106,6 +106,14 @@ def test_a_foot_that_comes_down_flat_keeps_the_momentum_of_the_leg() -> None:
     assert 2.0 * after[2] == pytest.approx(2.0 * before[2] + 0.6 * before[3], rel=1e-9)
 
 
+def test_a_robot_that_stays_on_the_ground_stops_with_its_legs_travel() -> None:
+    """The ground always pushes: of a travel of 0.03 rad not a step more is taken."""
+    chain = Rocking()
+    chain.leg = np.array([0.0, 0.03])
+    stopped = flight._push_off(chain, built("kenan-2.0").bodies["foot"].contacts)  # type: ignore[arg-type]
+    assert 0.03 <= stopped.leg_rad < 0.03 + 1.01 * stopped.leg_rad_s * flight.STEP_S
+
+
 def test_the_energy_of_a_blow_is_that_of_a_turning_body() -> None:
     assert Blow(takeoff_rad=0.0, stop_rad_s=20.0, inertia_kg_m2=1e-4).energy_j == pytest.approx(0.02)
 

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from manifold3d import CrossSection
 
-from jumpcad.solids.skin import GRID_MM, _chains, _conforming, skin
+from jumpcad.solids.skin import GRID_MM, _chains, _conforming, _hits, skin
 
 SQUARE = np.array([[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]])
 HOLE = np.array([[2.0, 2.0], [2.0, 6.0], [6.0, 6.0], [6.0, 2.0]])
@@ -137,3 +137,15 @@ def test_corners_go_to_the_nearest_point_of_the_grid():
             vertices, _ = skin([(0.0, 1.0)], [[corners + off]])
             assert np.ptp(vertices[:, :2], axis=0) == pytest.approx(high - low, abs=1e-9)
             assert vertices[:, :2].min(axis=0) == pytest.approx(low, abs=1e-9)
+
+
+@pytest.mark.parametrize(("long", "high"), [(1000, 1), (900, 7), (7, 900)])
+def test_an_edge_hits_the_squares_that_it_passes_through(long, high):
+    """Squares of one step around the points of the grid: by the separating line of edge and square."""
+    x, y = np.meshgrid(np.arange(long + 1), np.arange(high + 1))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    last = len(points) - 1
+    edge, point = _hits(points, np.array([[0, last]]))
+    assert set(edge) == {0}
+    away = np.abs(points @ np.array([high, -long])) / (long + high)  # of the middle, in half diagonals across the edge
+    assert set(point) == set(np.flatnonzero(away <= 0.5)) - {0, last}
