@@ -337,6 +337,7 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
     The stop lies behind the leg; the springs' pin is where their arms end.
     """
     given: dict[str, set[str]] = {}
+    legs: list[Obstacle] = []
     names = ("stop_place", "spring_pin_place", "train_places", "sensor_place", "tray_place", "standoff_places",
              "spring_boss_mm", "fittings_of")  # fmt: skip
     for name in (*names, "pin_hole"):
@@ -344,10 +345,18 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
 
         def kept(*asked: Any, name: str = name, make: Any = make, place: int = place) -> Any:
             given[name] = {one.name for one in asked[place]}
+            legs.extend(one for one in asked[place] if one.name == "main leg")
             return make(*asked)
 
         monkeypatch.setattr(layout_module, name, kept)
-    plan_again(plans()["geared"])
+    layout = plans()["geared"]
+    plan_again(layout)
+    # the leg is kept free from its loaded pose to 3° beyond its stop
+    ends = np.array([[layout.design.l2_mm, 0.0]])
+    for wind in (layout.design.compression_rad, -layout.stop.angle_rad - math.radians(3.0)):
+        ankle = in_body(geared(), MAIN_LEG, wind, ends)
+        for leg in legs:
+            assert np.hypot(*(leg.points_mm - ankle).T).min() < 0.01
     links, springs = {"main leg", "lever", "front link", "foot"}, {"left spring", "right spring", "leg axle"}
     cam = {"cam", "cam's dog", "cam gear", "cam axle"}
     first = links | springs | cam | {"front axle"}
