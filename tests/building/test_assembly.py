@@ -310,6 +310,20 @@ def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
     assert build(load_design("kenan-2.0"), plain).friction.pin_radius_m == (0.0015,) * 4
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_spacers_keep_the_front_link_and_the_cam_where_they_are(name: str) -> None:
+    """A quarter of a millimetre at either end of what moves along its axle; the cam's spacer stands on the plate."""
+    robot = built(name)
+    low, high = robot.layout.lateral.inside
+    right, link, left, cam, spacer = (
+        placed(robot, one).bounds[:, 1]
+        for one in ("front_spacer_right", "front_link", "front_spacer_left", "cam", "cam_spacer_right")
+    )
+    gaps = [right[0] - low, link[0] - right[1], left[0] - link[1], high - left[1], cam[0] - spacer[1]]
+    assert gaps == pytest.approx(5 * [0.25], abs=1e-3)
+    assert spacer[0] == pytest.approx(low, abs=1e-3)
+
+
 def test_spacers_of_the_idler_have_as_much_play_to_either_side() -> None:
     """Between the right plate and the wheel; that of the cam touches the left plate and leaves the gear its play."""
     robot = geared()
