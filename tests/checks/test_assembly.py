@@ -10,6 +10,7 @@ from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, checked, placed
 
 from jumpcad.building import assembly, build
+from jumpcad.checks import interference
 from jumpcad.checks.assembly import (
     TOLERANCE_MM2,
     Blocked,
@@ -17,6 +18,7 @@ from jumpcad.checks.assembly import (
     _covered,
     _findings,
     _in_the_way,
+    _intended,
     _reach,
     _tool,
     _tool_blocked,
@@ -239,3 +241,17 @@ def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
         assert (free.severity, free.message, free.margin) == ("info", "all is free", free.limit)
         assert free.limit > 0.0
         assert f"{free.limit:g} mm² are allowed" in found.message
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "meet"),
+    [
+        ("cap_screw_2", "body_plate_right", True), ("motor_pinion", "motor_shaft", True),
+        ("toe_left_screw_1", "foot", True), ("stop_pad", "main_leg", True),
+        ("cap_screw_2", "body_plate_left", False), ("motor_pinion", "cam_gear", False), ("battery", "foot", False),
+    ],
+)  # fmt: skip
+def test_what_may_meet_may_do_so_whichever_of_the_two_moves(one: str, other: str, meet: bool) -> None:
+    """A screw cuts its thread, whether it comes to the plate or the plate to it."""
+    assert _intended(one, other) == _intended(other, one) == meet
+    assert interference._intended(one, other) == interference._intended(other, one) == meet

@@ -15,6 +15,9 @@ from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.gears import Gear, least_shift
 from jumpcad.drive.motor import winding_s
 from jumpcad.drive.train import NoTrainError, synthesise_train
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
+from jumpcad.workshop import load_workshop
 
 MOTORS = list(load_catalogue().motors.values())
 SHARE = 0.25 * 0.95 / 1.1
@@ -149,6 +152,23 @@ def test_the_table_of_pairs_has_the_circles_of_their_gears():
         assert row["pinion"] >= row["least_teeth"]
         pair = gear_pair(pinion.teeth, teeth, module, 1.0, 0.15)
         assert row["distance_mm"] == pytest.approx(pair.centre_distance_mm)
+
+
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_what_time_costs_is_that_of_the_battery(kit):
+    """A motor of 6 V on one cell winds more slowly: its gears are chosen by the time that it then takes."""
+    shop, law = load_workshop(), law_of("best-ga")
+    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump())
+    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": bought})))
+    limits, costs = dataclasses.replace(LIMITS, seconds_per_gram=0.3, supply=supply), []
+    for motor, stages in by_cost(law, MOTORS, limits, 2):
+        slower = supply.driven(motor, supply.nominal_v, limits.blocked_nm)
+        radii = [gear.pitch_radius_mm for pair in stages for gear in (pair.pinion, pair.wheel)]
+        grams = 1.27e-3 * math.pi * sum(radius**2 for radius in radii) * limits.face_width_mm
+        seconds = winding_s(law, slower, math.prod(pair.ratio for pair in stages), limits.efficiency(2))
+        costs.append(motor.mass_g + grams + seconds / 0.3)
+    assert len(costs) > 12
+    assert costs == pytest.approx(sorted(costs))
 
 
 @pytest.mark.parametrize(("tip_min", "root_min"), [(0.45, 2.9), (0.6, 0.0), (0.0, 6.0), (0.0, 8.0)])

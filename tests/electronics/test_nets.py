@@ -189,6 +189,18 @@ def test_a_signal_takes_the_least_capable_pin_that_can_do_it(kit: str) -> None:
         taken.add(pin)
 
 
+@pytest.mark.parametrize("bad", ["strapping", "boot_log"])
+def test_pins_that_choose_how_a_chip_boots_are_left_alone(bad: str) -> None:
+    """Though they can do no more than a signal needs, and all others can do more."""
+    chosen = parts("light-1s")
+    able = {f"S{number}": (f"gpio{60 + number}", "pwm", bad) for number in range(4)}
+    able |= {pin: (*does, "adc", "pwm", "i2c", "spi") for pin, does in chosen.controller.pins.items()}
+    board = chosen.controller.model_copy(update={"pins": able})
+    pins = wiring_of(replace(chosen, controller=board), {}).pins
+    assert len(pins) == 4
+    assert not [pin for pin in pins.values() if pin.startswith("S") and pin[1:].isdigit()]
+
+
 @pytest.mark.parametrize("kit", KITS)
 def test_each_signal_has_its_own_pin_that_can_do_it(kit: str) -> None:
     chosen = parts(kit)
