@@ -89,7 +89,6 @@ def largest_torques_nm(
         cam -= step * at_dog / cam_kg_m2
         gear += step * (at_dog - at_head) / gear_kg_m2
         rotor += step * at_head / rotor_kg_m2
-        rotor = motor_rad_s if motor_rad_s > rotor else rotor
         dog, head = dog + step * (cam - gear), head + step * (gear - rotor)
         if head < -backlash_rad:  # the other end of the backlash, where the gear rebounds
             head, gear = -backlash_rad, rotor + rebound * abs(gear - rotor)

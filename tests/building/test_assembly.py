@@ -16,6 +16,7 @@ from support.elsewhere import environment
 from support.places import ROOT
 
 from jumpcad.building import build
+from jumpcad.building.assembly import layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
@@ -265,6 +266,13 @@ def test_an_unknown_motor_is_a_wrong_request() -> None:
     assert caught.value.exit_code == 2
 
 
+def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
+    """Spacers of 6.4 mm with 0.2 mm of play and walls of 0.8 mm hold axles of 4.4 mm."""
+    with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
+        layout_of(KENAN, changed(bought={"axle_mm": 4.5, "leg_bearing": ""}))
+    assert caught.value.exit_code == 2
+
+
 def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
     robot = geared()
     names = {item.name for item in robot.hardware}
@@ -300,6 +308,20 @@ def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
     assert robot.layout.hub_bearing is not None
     assert robot.friction.pin_radius_m == (0.0, 0.0015, 0.0015, 0.0015)
     assert build(load_design("kenan-2.0"), plain).friction.pin_radius_m == (0.0015,) * 4
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_spacers_keep_the_front_link_and_the_cam_where_they_are(name: str) -> None:
+    """A quarter of a millimetre at either end of what moves along its axle; the cam's spacer stands on the plate."""
+    robot = built(name)
+    low, high = robot.layout.lateral.inside
+    right, link, left, cam, spacer = (
+        placed(robot, one).bounds[:, 1]
+        for one in ("front_spacer_right", "front_link", "front_spacer_left", "cam", "cam_spacer_right")
+    )
+    gaps = [right[0] - low, link[0] - right[1], left[0] - link[1], high - left[1], cam[0] - spacer[1]]
+    assert gaps == pytest.approx(5 * [0.25], abs=1e-3)
+    assert spacer[0] == pytest.approx(low, abs=1e-3)
 
 
 def test_spacers_of_the_idler_have_as_much_play_to_either_side() -> None:

@@ -10,6 +10,7 @@ from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, checked, placed
 
 from jumpcad.building import assembly, build
+from jumpcad.checks import interference
 from jumpcad.checks.assembly import (
     TOLERANCE_MM2,
     Blocked,
@@ -17,6 +18,8 @@ from jumpcad.checks.assembly import (
     _covered,
     _findings,
     _in_the_way,
+    _intended,
+    _reach,
     _tool,
     _tool_blocked,
     assembly_findings,
@@ -157,6 +160,19 @@ def test_what_stands_in_the_way_covers_its_section(axis: int, sign: float) -> No
     assert _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path) is None
 
 
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_path_begins_5_mm_before_all_that_is_there(axis: int) -> None:
+    """The cube's front then is as far behind the rear of the rearmost thing; what lies ahead of it all is nearer."""
+    along = np.roll([1.0, 0.0, 0.0], axis)
+    cube = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0))
+    near, far = (block(name, (3.0, 3.0, 3.0), tuple(at * along)) for name, at in (("near", -4.0), ("far", -9.0)))
+    assert _reach(cube, [near, far], along) == pytest.approx(2.0 + 9.0 + 5.0)
+    assert _reach(cube, [near], along) == pytest.approx(2.0 + 4.0 + 5.0)
+    assert _reach(cube, [far], -along) == pytest.approx(5.0)
+    assert _reach(cube, [near, far], -along) == pytest.approx(5.0)
+    assert _reach(cube, [], along) == 0.0
+
+
 @pytest.mark.parametrize(("past", "free"), [("", False), ("post", True), ("post|wall", True), ("po|wall", False)])
 def test_a_part_passes_what_its_move_names_and_nothing_else(past: str, free: bool) -> None:
     """A ring comes along its post; a tool stands on it there too."""
@@ -225,3 +241,17 @@ def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
         assert (free.severity, free.message, free.margin) == ("info", "all is free", free.limit)
         assert free.limit > 0.0
         assert f"{free.limit:g} mm² are allowed" in found.message
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "meet"),
+    [
+        ("cap_screw_2", "body_plate_right", True), ("motor_pinion", "motor_shaft", True),
+        ("toe_left_screw_1", "foot", True), ("stop_pad", "main_leg", True),
+        ("cap_screw_2", "body_plate_left", False), ("motor_pinion", "cam_gear", False), ("battery", "foot", False),
+    ],
+)  # fmt: skip
+def test_what_may_meet_may_do_so_whichever_of_the_two_moves(one: str, other: str, meet: bool) -> None:
+    """A screw cuts its thread, whether it comes to the plate or the plate to it."""
+    assert _intended(one, other) == _intended(other, one) == meet
+    assert interference._intended(one, other) == interference._intended(other, one) == meet

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from manifold3d import Manifold
-from support.built import built, geared
+from support.built import body_in_plane, built, geared
 
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import Moment, components, pose_of
@@ -77,6 +77,23 @@ def test_foot_clearance_fires_on_a_battery_that_sinks(kenan: Robot) -> None:
         hardware.append(replace(item, T_body_part=pose))
     (finding,) = foot_findings(replace(kenan, hardware=tuple(hardware)))
     assert finding.severity == "error"
+    assert "battery" in finding.message
+
+
+@pytest.mark.parametrize("name", ["front_eye_pin", "toe_right_pad"])
+def test_whatever_is_on_the_foot_may_come_too_near(kenan: Robot, name: str) -> None:
+    """A pin or pad of the foot, glued on where the battery is while the springs are loaded."""
+    battery = next(item for item in kenan.hardware if item.name == "battery")
+    x, y, z = battery.T_body_part[:3, :3] @ battery.shape.bounds_mm.mean(axis=0) + battery.T_body_part[:3, 3]
+    there = np.linalg.solve(body_in_plane(kenan, FOOT, kenan.design.compression_rad), [x, z, 1.0])
+    hardware = []
+    for item in kenan.hardware:
+        pose = item.T_body_part.copy()
+        if item.name == name:
+            pose[:3, 3] = [there[0], y, there[1]] - pose[:3, :3] @ item.shape.bounds_mm.mean(axis=0)
+        hardware.append(replace(item, T_body_part=pose))
+    (finding,) = foot_findings(replace(kenan, hardware=tuple(hardware)))
+    assert (finding.severity, finding.value) == ("error", 0.0)
     assert "battery" in finding.message
 
 

@@ -68,6 +68,8 @@ def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
             0.9 - 5.0,
         ),
         ("bridges", [(0.0, 5.0, BLOCK - rectangle((14.0, 30.0))), (5.0, 6.0, BLOCK)], 10.0 - 14.0),
+        # held at both sides, though it stands out beyond them
+        ("bridges", [(0.0, 5.0, BLOCK - rectangle((14.0, 30.0))), (5.0, 6.0, BLOCK + rectangle((14.0, 26.0)))], -4.0),
         ("bridges", [(0.0, 5.0, BLOCK - hole(13.0)), (5.0, 6.0, BLOCK)], 10.0 - 13.0),
     ],
 )

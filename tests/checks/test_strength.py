@@ -229,3 +229,27 @@ def test_what_is_pulled_along_and_at_its_eyes_by_hand(robot: str, request: pytes
     assert found["eye_strength"].value == pytest.approx(eye(largest, thick, 2.0 * sections.eye_radius_mm, bore))
     lug = eye(force / 2.0, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, case.holes.lying(axle))
     assert found["foot_lug_strength"].value == pytest.approx(lug)
+
+
+GROWING = {
+    "leg": ("leg_root_mm", "leg_tip_mm"), "lever": ("lever_root_mm",), "front": ("front_mm",),
+    "thickness": ("thickness_mm",), "lug": ("lug_thickness_mm",), "toe": ("toe_root_mm", "toe_tip_height_mm"),
+    "rail": ("rail_root_mm", "rail_tip_mm"),
+}  # fmt: skip
+"""The sizes that a factor of growth makes larger."""
+
+
+def test_what_grows_for_a_finding_is_what_helps_it(strongest: Robot) -> None:
+    """A tenth more of the section that a finding names takes at least a twentieth of its use."""
+    usual = {found.name: found for found in strength_findings(strongest)}
+    helped = set()
+    for what, sizes in GROWING.items():
+        sections = strongest.layout.sections
+        larger = replace(sections, **{size: 1.1 * getattr(sections, size) for size in sizes})
+        grown = replace(strongest, layout=replace(strongest.layout, sections=larger))
+        for found in strength_findings(grown):
+            if found.grows == what:
+                assert found.use < 0.95 * usual[found.name].use, found.name
+                helped.add(found.name)
+    assert helped == {name for name, found in usual.items() if found.grows in GROWING}
+    assert {"leg_flex", "leg_strength", "lever_strength", "eye_strength", "toe_landing", "leg_sideways"} <= helped

@@ -53,6 +53,15 @@ def test_the_layout_of_the_design_note_has_its_pitch_radii():
 
 
 @pytest.mark.parametrize(("compression_deg", "stiffness"), cam_cases())
+def test_the_largest_torque_at_the_cam_is_the_springs_times_how_fast_the_leg_turns(compression_deg, stiffness):
+    """Virtual work with a leg angle that is differentiated numerically: k·theta·dtheta/dphi, after the ramp."""
+    cam = synthesised(compression_deg, stiffness)
+    phi = np.linspace(0.0, LIMITS.lift_rad, 4001)
+    wind = cam.wind_rad(phi)
+    assert cam.peak_torque_nm == pytest.approx((stiffness * wind * np.gradient(wind, phi))[600:-1].max(), rel=2e-3)
+
+
+@pytest.mark.parametrize(("compression_deg", "stiffness"), cam_cases())
 def test_contact_force_and_spring_do_the_same_work(compression_deg, stiffness):
     """The force that holds the spring, along the numerical normal of the profile, turns the cam by dE/dphi."""
     cam = synthesised(compression_deg, stiffness)

@@ -15,6 +15,9 @@ from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.gears import Gear, least_shift
 from jumpcad.drive.motor import winding_s
 from jumpcad.drive.train import NoTrainError, synthesise_train
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
+from jumpcad.workshop import load_workshop
 
 MOTORS = list(load_catalogue().motors.values())
 SHARE = 0.25 * 0.95 / 1.1
@@ -123,6 +126,19 @@ def test_of_two_pairs_the_idlers_wheel_passes_beside_the_cams_axle():
         assert nearest < 2.0, axle  # some are near the limit
 
 
+@pytest.mark.parametrize("far_mm", [22.0, 28.0])
+def test_one_pair_keeps_the_motor_as_far_from_the_cam_as_it_must_be(far_mm):
+    """Some are near that distance; the cam gear's tips and root are within their limits too."""
+    limits, nearest = dataclasses.replace(LIMITS, motor_distance_min_mm=far_mm), math.inf
+    for motor, (pair,) in by_cost(law_of("kenan-2.0"), MOTORS, limits, 1):
+        least = limits.beside(motor).motor_distance_min_mm
+        assert pair.centre_distance_mm >= least - 1e-9
+        assert pair.wheel.tip_radius_mm <= limits.cam_gear_tip_max_mm
+        assert pair.wheel.root_radius_mm >= limits.cam_gear_root_min_mm
+        nearest = min(nearest, pair.centre_distance_mm - least)
+    assert nearest < 1.0
+
+
 def test_the_table_of_pairs_has_the_circles_of_their_gears():
     table = _printable((1.0, 1.25), 0.15, 0.45, 2.9)
     rows = getattr(table, "table", table)
@@ -136,3 +152,36 @@ def test_the_table_of_pairs_has_the_circles_of_their_gears():
         assert row["pinion"] >= row["least_teeth"]
         pair = gear_pair(pinion.teeth, teeth, module, 1.0, 0.15)
         assert row["distance_mm"] == pytest.approx(pair.centre_distance_mm)
+
+
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_what_time_costs_is_that_of_the_battery(kit):
+    """A motor of 6 V on one cell winds more slowly: its gears are chosen by the time that it then takes."""
+    shop, law = load_workshop(), law_of("best-ga")
+    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump())
+    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": bought})))
+    limits, costs = dataclasses.replace(LIMITS, seconds_per_gram=0.3, supply=supply), []
+    for motor, stages in by_cost(law, MOTORS, limits, 2):
+        slower = supply.driven(motor, supply.nominal_v, limits.blocked_nm)
+        radii = [gear.pitch_radius_mm for pair in stages for gear in (pair.pinion, pair.wheel)]
+        grams = 1.27e-3 * math.pi * sum(radius**2 for radius in radii) * limits.face_width_mm
+        seconds = winding_s(law, slower, math.prod(pair.ratio for pair in stages), limits.efficiency(2))
+        costs.append(motor.mass_g + grams + seconds / 0.3)
+    assert len(costs) > 12
+    assert costs == pytest.approx(sorted(costs))
+
+
+@pytest.mark.parametrize(("tip_min", "root_min"), [(0.45, 2.9), (0.6, 0.0), (0.0, 6.0), (0.0, 8.0)])
+def test_pinions_begin_where_their_tips_print_and_their_root_holds_a_shaft(tip_min, root_min):
+    """All pinions from 12 to 45 teeth that have both, and with each all wheels from as many teeth to 90."""
+    table = _printable((1.0, 1.5), 0.15, tip_min, root_min)
+    for module in (1.0, 1.5):
+        fits = [
+            teeth for teeth in range(12, 46)
+            if (gear := gear_pair(teeth, 90, module, 1.0, 0.15).pinion).root_radius_mm >= root_min
+            and Gear(teeth, module, gear.shift, 1.0, 0.075).tip_thickness_mm >= tip_min
+        ]  # fmt: skip
+        rows = table[table["module"] == module]
+        assert sorted(set(rows["pinion"])) == fits
+        assert set(rows["least_teeth"]) == {fits[0]}
+        assert len(rows) == sum(91 - max(13, teeth) for teeth in fits)

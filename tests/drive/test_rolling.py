@@ -115,6 +115,16 @@ def test_masses_that_join_keep_their_momentum_and_wind_up_what_is_between_them()
     assert torque**2 / (2.0 * given.train_nm_per_rad) == pytest.approx(lost)
 
 
+@pytest.mark.parametrize("slope", [0.2, -0.3])
+def test_at_first_the_leg_goes_on_as_the_lift_turns_it(slope: float) -> None:
+    """By the corner's slope where it begins, at the motor's speed; the lever is bent as in balance."""
+    given = parts(cam_rad_s=3.0)
+    release = _Release(arc(-slope), given)
+    assert release.rate == pytest.approx(3.0 * slope)
+    assert release.wind == given.held_rad(WIND_RAD)
+    assert (release.speed, release.inertia) == (3.0, given.cam_kg_m2)
+
+
 def test_a_play_is_counted_from_where_the_corner_first_drives_the_cam() -> None:
     cam = np.linspace(0.0, 0.5, 401)
     slope = np.where(cam < 0.1, 0.2, -0.2)  # the leg rises at first

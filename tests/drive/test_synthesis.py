@@ -210,6 +210,8 @@ def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):
     limits = dataclasses.replace(LIMITS, cam=cam, train=train)
     only = synthesise(design, dataclasses.replace(limits, more_gap_mm=(0.0,)))
     monkeypatch.setattr(synthesis, "least_tip_mm", lambda *_: 0.0)  # as if one pair were always possible
-    tried = synthesise(design, dataclasses.replace(limits, more_gap_mm=(0.0, 1.0, 2.0)))
+    tried = synthesise(design, dataclasses.replace(limits, more_gap_mm=(0.0, 14.0)))
     assert len(only.train.stages) == len(tried.train.stages) == 2
+    farther = synthesise(design, dataclasses.replace(limits, more_gap_mm=(14.0,)))
     assert tried.cam.geometry.axis_distance_mm == only.cam.geometry.axis_distance_mm
+    assert tried.cam.geometry.axis_distance_mm < farther.cam.geometry.axis_distance_mm

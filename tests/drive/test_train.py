@@ -81,6 +81,10 @@ def test_the_cam_is_fastest_on_a_full_battery(kit):
     full = duty * supply.full_v / motor.voltage_v * motor.no_load_rpm * math.pi / 30
     assert train.cam_speed_rad_s * train.ratio == pytest.approx(full, rel=0.03)
     assert supply.full_v > 1.1 * supply.nominal_v
+    # boards run as long as the motor winds
+    assert supply.boards_w > 0.0
+    assert train.boards_j == pytest.approx(supply.boards_w * train.winding_s)
+    assert train.electrical_j == pytest.approx(train.motor_j + train.boards_j)
 
 
 @pytest.mark.parametrize(("law", "limits"), trains())

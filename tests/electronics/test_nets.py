@@ -189,6 +189,18 @@ def test_a_signal_takes_the_least_capable_pin_that_can_do_it(kit: str) -> None:
         taken.add(pin)
 
 
+@pytest.mark.parametrize("bad", ["strapping", "boot_log"])
+def test_pins_that_choose_how_a_chip_boots_are_left_alone(bad: str) -> None:
+    """Though they can do no more than a signal needs, and all others can do more."""
+    chosen = parts("light-1s")
+    able = {f"S{number}": (f"gpio{60 + number}", "pwm", bad) for number in range(4)}
+    able |= {pin: (*does, "adc", "pwm", "i2c", "spi") for pin, does in chosen.controller.pins.items()}
+    board = chosen.controller.model_copy(update={"pins": able})
+    pins = wiring_of(replace(chosen, controller=board), {}).pins
+    assert len(pins) == 4
+    assert not [pin for pin in pins.values() if pin.startswith("S") and pin[1:].isdigit()]
+
+
 @pytest.mark.parametrize("kit", KITS)
 def test_each_signal_has_its_own_pin_that_can_do_it(kit: str) -> None:
     chosen = parts(kit)
@@ -244,3 +256,13 @@ def test_a_terminal_alone_is_no_net(function: str, net: str) -> None:
     unsaid = replace(chosen, driver=chosen.driver.model_copy(update={"pins": pins}))
     whole, wiring = wiring_of(chosen, {}), wiring_of(unsaid, {})
     assert [one.name for one in wiring.nets] == [one.name for one in whole.nets if one.name != net]
+
+
+@pytest.mark.parametrize(("kit", "pin"), [("light-1s", "VCC"), ("strong-2s", "VM")])
+def test_a_driver_of_two_inputs_gets_the_battery_at_the_one_that_bears_it(kit: str, pin: str) -> None:
+    """One cell has 3.3 to 4.2 V, two have 6.6 to 8.4 V; the controller's voltage behind a regulator is another."""
+    chosen = parts(kit)
+    two = chosen.driver.model_copy(update={"supply_v": {"VCC": (2.7, 5.5), "VM": (5.6, 11.0)}})
+    edges = wires(wiring_of(replace(chosen, driver=two), {})) | {("switch 1", "switch 2")}
+    assert f"driver {pin}" in reached("battery +", edges)
+    assert f"driver {'VM' if pin == 'VCC' else 'VCC'}" not in {end for edge in edges for end in edge}

@@ -180,6 +180,13 @@ def test_room_is_kept_around_all_that_turns() -> None:
     first, last = drive.train.stages
     kept = {one.name: one for one in (*idler_obstacles(place, drive, lateral), *cam_obstacles(place, drive, lateral))}
     kept |= {one.name: one for one in train_obstacles(place, 0.3, None, drive, lateral)}
+    half = np.array(socket_half_mm(drive.train.motor))
+    along, across = np.array([math.cos(0.3), math.sin(0.3)]), np.array([-math.sin(0.3), math.cos(0.3)])
+    from_middle, point = kept["motor"].points_mm - place, kept["motor"].radius_mm
+    reach = np.abs([from_middle @ along, from_middle @ across]).max(axis=1) + point
+    assert reach == pytest.approx(half)
+    assert half[0] != half[1]
+    assert kept["motor"].y_mm == lateral.inside
     between = (lateral.cam[1], lateral.gears[0][0])
     sizes = {
         "idler wheel": (first.wheel.tip_radius_mm, lateral.gears[1]),

@@ -332,6 +332,44 @@ def test_openings_keep_off_what_stands_in_the_body_and_off_the_standoffs_pads(mo
         }
 
 
+def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Links, springs and cam first, whose places the mechanism gives; then one thing after the other.
+
+    The stop lies behind the leg; the springs' pin is where their arms end.
+    """
+    given: dict[str, set[str]] = {}
+    legs: list[Obstacle] = []
+    names = ("stop_place", "spring_pin_place", "train_places", "sensor_place", "tray_place", "standoff_places",
+             "spring_boss_mm", "fittings_of")  # fmt: skip
+    for name in (*names, "pin_hole"):
+        make, place = getattr(layout_module, name), int(name == "pin_hole")
+
+        def kept(*asked: Any, name: str = name, make: Any = make, place: int = place) -> Any:
+            given[name] = {one.name for one in asked[place]}
+            legs.extend(one for one in asked[place] if one.name == "main leg")
+            return make(*asked)
+
+        monkeypatch.setattr(layout_module, name, kept)
+    layout = plans()["geared"]
+    plan_again(layout)
+    # the leg is kept free from its loaded pose to 3° beyond its stop
+    ends = np.array([[layout.design.l2_mm, 0.0]])
+    for wind in (layout.design.compression_rad, -layout.stop.angle_rad - math.radians(3.0)):
+        ankle = in_body(geared(), MAIN_LEG, wind, ends)
+        for leg in legs:
+            assert np.hypot(*(leg.points_mm - ankle).T).min() < 0.01
+    links, springs = {"main leg", "lever", "front link", "foot"}, {"left spring", "right spring", "leg axle"}
+    cam = {"cam", "cam's dog", "cam gear", "cam axle"}
+    first = links | springs | cam | {"front axle"}
+    assert given["stop_place"] == given["pin_hole"] == first - {"main leg"}
+    assert given["spring_pin_place"] == first - springs
+    things = first | {"rest stop", "spring arm", "spring pin", "way of the leg's pin"}
+    train = {"motor", "pinion", "idler wheel", "idler pinion", "idler axle"}
+    for name, more in zip(names[2:], (set(), train, {"sensor"}, {"electronics"}, {"standoff"}, set()), strict=True):
+        things |= more
+        assert given[name] == things, name
+
+
 @pytest.mark.parametrize("axle_mm", [2.0, 3.0])
 def test_walls_around_pins_and_axles_are_those_of_the_plates(axle_mm: float) -> None:
     """2 mm around the springs' pin in its boss, 1.2 mm more of plate around the leg's axle whose bores are blind."""

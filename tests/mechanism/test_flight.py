@@ -106,6 +106,30 @@ def test_a_foot_that_comes_down_flat_keeps_the_momentum_of_the_leg() -> None:
     assert 2.0 * after[2] == pytest.approx(2.0 * before[2] + 0.6 * before[3], rel=1e-9)
 
 
+@pytest.mark.parametrize(("foot_nm", "stays", "turned"), [(0.1, "toe", -1.0), (0.5, "front_eye", 1.0)])
+def test_the_end_of_the_foot_that_would_need_tension_lifts_off(foot_nm: float, stays: str, turned: float) -> None:
+    """The leg's 1 N·m on its inertia of 2 passes 0.3 N·m on: with more a foot lifts its toes, with less its nose."""
+
+    class Tilting(Rocking):
+        def equations(self, state: flight._State) -> flight._Equations:
+            return super().equations(state)._replace(foot_nm=foot_nm)
+
+    chain = Tilting()
+    chain.leg = np.array([0.0, 0.01])
+    lifted = flight._push_off(chain, built("kenan-2.0").bodies["foot"].contacts)  # type: ignore[arg-type]
+    assert lifted.leg_rad >= 0.01
+    assert stays in lifted.pivot.name
+    assert np.sign(lifted.foot_rad) == turned
+
+
+def test_a_robot_that_stays_on_the_ground_stops_with_its_legs_travel() -> None:
+    """The ground always pushes: of a travel of 0.03 rad not a step more is taken."""
+    chain = Rocking()
+    chain.leg = np.array([0.0, 0.03])
+    stopped = flight._push_off(chain, built("kenan-2.0").bodies["foot"].contacts)  # type: ignore[arg-type]
+    assert 0.03 <= stopped.leg_rad < 0.03 + 1.01 * stopped.leg_rad_s * flight.STEP_S
+
+
 def test_the_energy_of_a_blow_is_that_of_a_turning_body() -> None:
     assert Blow(takeoff_rad=0.0, stop_rad_s=20.0, inertia_kg_m2=1e-4).energy_j == pytest.approx(0.02)
 

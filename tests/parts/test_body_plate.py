@@ -46,6 +46,24 @@ def engraved_mm2(name: str, label: str) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_motors_shaft_and_the_sensors_switch_pass_the_left_plate(name: str) -> None:
+    """A shaft of 3 mm with 0.3 mm around it, the switch's case with 0.4 mm; both reach through the whole plate."""
+    layout = built(name).layout
+    sensor, (low, high) = layout.sensor, layout.lateral.left_plate
+    half = np.array(sensor.case_mm) / 2.0 + 0.38
+    case = shapely.affinity.rotate(shapely.box(*-half, *half), sensor.turn_rad, origin=(0.0, 0.0), use_radians=True)
+    opened = shapely.affinity.translate(case.buffer(-0.8).buffer(0.78), *sensor.place_mm)
+    shaft = shapely.Point(*layout.motor_mm).buffer(1.5 + 0.28, 32)
+    mesh = placed(built(name), "body_plate_left")
+    for y in (low + 0.5, (low + high) / 2.0, high - 0.05):
+        plate = region(cut(mesh, y))
+        assert plate.intersection(shaft).area < 1e-3, y
+        assert plate.intersection(opened).area < 1e-3, y
+        assert plate.intersection(shaft.buffer(0.5)).area > 0.5, y
+        assert plate.intersection(opened.buffer(0.5)).area > 5.0, y
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_no_tab_of_a_tray_stands_in_the_opening_for_usb(name: str) -> None:
     """What of the printed trays is in the right plate's thickness lies beside the opening; three tabs hold there."""
     robot = built(name)

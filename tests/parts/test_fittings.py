@@ -52,6 +52,8 @@ def test_openings_are_as_large_as_what_passes_them(robot: Robot) -> None:
     x, z = fittings.switch_mm
     assert knob == (pytest.approx((x, z), abs=2e-3), pytest.approx((8.0, 4.4), abs=2e-3))
     assert [middle for middle, _ in screws] == [pytest.approx((x + side * 7.5, z), abs=2e-3) for side in (-1.0, 1.0)]
+    m2_mm = robot.workshop.fits.m2_clearance_mm  # screws pass the plate and bite into the switch
+    assert [size for _, size in screws] == [pytest.approx((m2_mm, m2_mm), abs=0.01)] * 2
     assert usb == (pytest.approx(tuple(fittings.usb_mm), abs=2e-3), pytest.approx(fittings.usb_size_mm, abs=2e-3))
 
 

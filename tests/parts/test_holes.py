@@ -29,6 +29,8 @@ from support.fits import (
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
+from jumpcad.solids.outline import rectangle
+from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
 
@@ -158,3 +160,19 @@ def test_every_fit_is_added_on_both_sides_of_the_shaft() -> None:
     width = bearing.width_mm
     assert [slab[:2] for slab in slabs] == [(-3.0, width - 3.0), (width - 3.0, 4.0 - width), (4.0 - width, 4.0)]
     assert slabs[1][2].bounds()[2] == pytest.approx((MR63_OUTER - 1.2) / 2.0, abs=0.01)  # 0.6 mm hold its outer ring
+
+
+@pytest.mark.parametrize("first_mm", [0.2, 0.3])
+def test_an_edge_on_the_bed_is_chamfered_layer_by_layer_from_the_first_on(first_mm: float) -> None:
+    """0.4 mm at 45° of a plate of 10 mm: each layer is set back by what the slope has in its middle."""
+    shop = load_workshop()
+    process = shop.process.model_copy(update={"first_layer_mm": first_mm, "layer_height_mm": 0.1})
+    fits = shop.fits.model_copy(update={"first_layer_chamfer_mm": 0.4})
+    holes = HoleSizes.of(shop.model_copy(update={"process": process, "fits": fits}), None)
+    made = holes.chamfered(Stack.of([(0.0, 2.0, rectangle((10.0, 10.0)))]))
+    first, second = made.slabs[:2]
+    assert (first.z0_mm, first.z1_mm) == pytest.approx((0.0, first_mm))
+    assert second.z1_mm - second.z0_mm == pytest.approx(0.1)
+    for slab in (first, second):
+        side = 10.0 - 2.0 * (0.4 - (slab.z0_mm + slab.z1_mm) / 2.0)
+        assert slab.region.area() == pytest.approx(side**2, rel=1e-4)

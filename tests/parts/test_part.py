@@ -5,8 +5,9 @@ import pytest
 from support.built import LONG_TOES, built, geared
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.model import BODY
-from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left, lying_on_right, upright
+from jumpcad.mechanism.mass import MassProperties
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.parts.part import Drawing, Part, Placement, laid, lying_on_left, lying_on_right, upright
 from jumpcad.solids.outline import rectangle
 
 WEDGE = [(2.0, 5.0, rectangle((8.0, 3.0), (4.0, 1.5))), (5.0, 7.0, rectangle((2.0, 3.0), (1.0, 1.5)))]
@@ -62,3 +63,14 @@ def test_a_long_part_fits_the_bed_askew_only() -> None:
         beam.require_bed((160.0, 160.0, 180.0))
     with pytest.raises(CannotBuildError, match="choose a larger printer"):
         beam.require_bed((250.0, 210.0, 5.0))
+
+
+def test_a_part_is_a_copys_mass_and_as_many_as_its_places() -> None:
+    """Copies weigh alike: one ring of 2 g at two places is two rings of 2 g each."""
+    stack, pose = laid(WEDGE)
+    drawing = Drawing("wedge", "body", stack, (Placement(BODY, pose), Placement(FOOT, pose)))
+    part = Part(drawing, "PETG", MassProperties.box(0.002, (0.008, 0.005, 0.003)), "weighed")
+    assert (part.name, part.quantity, part.mass_kg) == ("wedge", 2, 0.002)
+    assert [place.body for place in part.placements] == [BODY, FOOT]
+    assert part.mesh.volume == pytest.approx(84.0)
+    assert part.look.volume == pytest.approx(84.0, rel=0.01)

@@ -7,7 +7,10 @@ import pytest
 from support.built import built, cut, hole_centres, inscribed_diameter, part, placed
 from support.fits import RUNNING, TOLERANCE_MM
 
+from jumpcad.errors import JumpcadError
+from jumpcad.parts.small import require_axle
 from jumpcad.robot import Robot
+from jumpcad.workshop import Workshop, load_workshop
 
 
 @pytest.fixture(scope="module")
@@ -100,3 +103,18 @@ def test_the_motors_cap_has_its_boss_between_two_screws(kenan: Robot) -> None:
         widths.append(holes[centres[1]])
     assert sorted(widths) == pytest.approx([2.4, 4.0], abs=0.05)
     assert max(widths) > 3.8
+
+
+def test_spacers_hold_the_axles_around_which_they_keep_a_wall() -> None:
+    """Tubes of 6.4 mm, 0.2 mm of play and 0.8 mm of wall a side in the default workshop: 4.4 mm."""
+
+    def shop(axle_mm: float, **fits: float) -> Workshop:
+        usual = load_workshop()
+        bought = usual.bought.model_copy(update={"axle_mm": axle_mm})
+        return usual.model_copy(update={"bought": bought, "fits": usual.fits.model_copy(update=fits)})
+
+    require_axle(shop(4.399))
+    require_axle(shop(4.2, sliding_mm=0.29))
+    for wrong, most in ((shop(4.401), "4.4"), (shop(4.4, sliding_mm=0.3), "4.2"), (shop(4.4, wall_min_mm=1.0), "4")):
+        with pytest.raises(JumpcadError, match=rf"is more than {most}, the most with which spacers of 6.4 mm keep"):
+            require_axle(wrong)

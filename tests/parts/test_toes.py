@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapely
 import trimesh
-from support.built import LONG_TOES, built, part, placed
+from support.built import LONG_TOES, built, cut, hole_centres, part, placed
 
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
@@ -114,6 +114,24 @@ def test_cross_screws_are_16_and_30_mm_from_the_toes_root() -> None:
             if item.name.startswith(f"{toe.name}_screw"):
                 places.append(item.look.copy().apply_transform(inverse @ item.T_body_part).bounds[:, 0].mean())
         assert sorted(places) == pytest.approx([16.0, 30.0], abs=0.05)
+
+
+def test_screws_pass_a_toe_from_side_to_side() -> None:
+    """Holes of 3.4 mm at 16 and 30 mm from its root, all through its 7 mm, 0.3 mm from either side too."""
+    robot = built(LONG_TOES)
+    width, holes = robot.layout.sections.toe_width_mm, HoleSizes.of(robot.workshop, None)
+    for name in ("toe_left", "toe_right"):
+        mesh = part(robot, name).mesh
+        joint = mesh.slice_plane([20.0, 0.0, 0.0], [-1.0, 0.0, 0.0])
+        sides, middle = joint.bounds[:, 1], joint_height_mm(robot.layout, holes) / 2.0
+        assert np.ptp(sides) == pytest.approx(width, abs=0.05)
+        for y in (sides[0] + 0.3, sides.mean(), sides[1] - 0.3):
+            opened = hole_centres(cut(mesh, y))
+            for x in (16.0, 30.0):
+                (width_mm,) = (
+                    wide for at, wide in opened.items() if abs(at[0] - x) < 0.1 and abs(at[1] - middle) < 0.5
+                )
+                assert width_mm == pytest.approx(3.4, abs=0.02)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])

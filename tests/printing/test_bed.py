@@ -52,3 +52,20 @@ def test_a_part_too_tall_or_too_long_is_refused_with_its_size():
         bounds = np.array([np.zeros(3), size])
         with pytest.raises(CannotBuildError, match=rf"part leg of {size[0]:.1f}×.*180\.0×120\.0×100\.0 mm"):
             require_bed("leg", bounds, lambda: bounds[:, :2], BED)  # noqa: B023
+
+
+@pytest.mark.parametrize(("long", "turn_deg"), [(230.0, 0.0), (230.0, 90.0), (222.0, 20.0), (260.0, 70.0)])
+def test_what_does_not_fit_misses_by_as_little_as_at_its_best_angle(long, turn_deg):
+    """Tried at every hundredth of a degree: whole degrees are near enough for a quarter of a millimetre."""
+    turn = math.radians(turn_deg)
+    ends = np.outer([0.0, long], [math.cos(turn), math.sin(turn)])
+    bounds = np.array([[*ends.min(axis=0), 0.0], [*ends.max(axis=0), 5.0]])
+    angles = turn + np.radians(np.arange(0.0, 180.0, 0.01))
+    sides = long * np.abs([np.cos(angles), np.sin(angles)])
+    best = (np.array(BED[:2])[:, None] - sides).min(axis=0).max()
+    found = fit_to_bed(bounds, lambda: ends, BED)
+    assert best - 2.0 < found.margin_mm <= best + 1e-6
+    assert found.margin_mm < 0.0
+    at = turn + math.radians(found.angle_deg)
+    size = long * abs(math.cos(at)), long * abs(math.sin(at))
+    assert found.margin_mm == pytest.approx(min(BED[0] - size[0], BED[1] - size[1]))

@@ -69,6 +69,15 @@ def test_a_long_part_lies_askew():
     assert np.linalg.det(turn) == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("size", [(205, 10, 6), (10, 205, 6), (12, 198, 6)])
+def test_a_long_part_lies_along_the_diagonal_of_a_narrow_bed(size):
+    """By 34° or by 56°, as the diagonal of 180 x 120 mm does: less or more than half of a right angle."""
+    (plate,) = packed([box("leg", size)], (180.0, 120.0, 100.0), 5.0)
+    low, high = corners(plate.items[0])
+    assert np.all(low >= -1e-6)
+    assert np.all(high <= np.array([180.0, 120.0, 100.0]) + 1e-6)
+
+
 @pytest.mark.parametrize("size", [(300, 10, 6), (170, 170, 200)])
 def test_a_part_larger_than_the_bed_is_refused(size):
     with pytest.raises(CannotBuildError, match=r"part giant of .* does not fit the bed of 180\.0×180\.0×180\.0 mm"):
@@ -99,6 +108,14 @@ def test_the_beds_edge_stays_free_where_that_takes_no_further_plate():
         lows, highs = zip(*map(corners, plate.items), strict=True)
         assert np.min(lows, axis=0)[:2].min() >= 5.0
         assert (np.array([250.0, 210.0]) - np.max(highs, axis=0)[:2]).min() >= 5.0
+
+
+def test_the_beds_edge_is_used_where_that_saves_a_plate():
+    """Two slabs side by side take 119 of 120 mm; with 5 mm free around them they would need a plate each."""
+    (plate,) = packed([box("slab", (57.0, 100.0, 5.0), quantity=2)], (120.0, 120.0, 50.0), 5.0)
+    assert len(plate.items) == 2
+    assert len(packed([box("slab", (52.0, 100.0, 5.0), quantity=2)], (120.0, 120.0, 50.0), 5.0)) == 1
+    assert len(packed([box("slab", (58.0, 100.0, 5.0), quantity=2)], (120.0, 120.0, 50.0), 5.0)) == 2
 
 
 def test_parts_are_turned_by_a_right_angle_as_needed():

@@ -22,8 +22,16 @@ def test_unknown_temperatures_are_the_users_to_enter() -> None:
 
 def test_instructions_have_the_numbers_of_the_process() -> None:
     shop = load_workshop()
-    process = shop.process.model_copy(update={"infill": 0.35, "perimeters": 5, "solid_below_area_mm2": 12.0})
-    lines = settings_in_words(shop.printer, process)
+    figures = {
+        "infill": 0.35, "perimeters": 5, "solid_below_area_mm2": 12.0, "top_layers": 6, "bottom_layers": 3,
+        "layer_height_mm": 0.15, "first_layer_mm": 0.25, "line_width_mm": 0.44,
+    }  # fmt: skip
+    process = shop.process.model_copy(update=figures)
+    lines = settings_in_words(shop.printer.model_copy(update={"name": "mine", "nozzle_mm": 0.6}), process)
+    assert "printer: mine, nozzle 0.6 mm" in lines
+    assert "layers: 0.15 mm, the first 0.25 mm" in lines
+    assert "width of every line: 0.44 mm" in lines
+    assert "solid layers: 6 at the top, 3 at the bottom" in lines
     assert "perimeters (walls): 5" in lines
     assert any(line.startswith("infill: 35 %") for line in lines)
     assert any("areas below 12 mm² filled solid" in line for line in lines)

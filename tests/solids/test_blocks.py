@@ -84,14 +84,15 @@ def test_a_turned_block_has_turned_sections():
 
 
 def test_blocks_of_the_same_numbers_are_equal_and_others_are_not():
-    def blocks(width=8.0, tip=4.0, angle=0.7, removed=2.0):
+    def blocks(width=8.0, tip=4.0, angle=0.7, removed=2.0, place=(0.0, 0.0)):
         finger = Finger(np.array([3.0, 8.0]), 8.0, 9.0, np.array([-60.0, 40.0]), 5.0, tip)
         bar = Bar(rectangle((20.0, width)), ((1.0, 3.0),))
-        return Blocks((Turned(finger, angle, np.zeros(2)), bar), (Bar(disc(removed), ((0.0, 9.0),)),))
+        return Blocks((Turned(finger, angle, np.array(place)), bar), (Bar(disc(removed), ((0.0, 9.0),)),))
 
     assert blocks() == blocks()
     assert hash(blocks()) == hash(blocks())
-    assert len({blocks(), blocks(width=8.1), blocks(tip=4.1), blocks(angle=0.8), blocks(removed=2.1)}) == 5
+    assert len({blocks(), blocks(width=8.1), blocks(tip=4.1), blocks(angle=0.8), blocks(removed=2.1),
+                blocks(place=(0.1, 0.0)), blocks(place=(0.0, 0.1))}) == 7  # fmt: skip
 
 
 def test_moments_are_those_of_the_sections():

@@ -113,6 +113,14 @@ def test_corners_that_do_not_fit_are_refused(size: tuple[float, float]) -> None:
         outline.rectangle(size, corner_radius_mm=3.0)
 
 
+def test_strips_that_cross_cover_their_crossing_once():
+    """Two of 4 mm at right angles share 4 x 4 mm; three through one place are full there too."""
+    cross = outline.strips([(-10.0, 0.0), (0.0, -10.0)], [(10.0, 0.0), (0.0, 10.0)], 4.0)
+    assert cross.area() == pytest.approx(2 * 80.0 - 16.0)
+    star = outline.strips([(-10.0, 0.0), (0.0, -10.0), (-10.0, -10.0)], [(10.0, 0.0), (0.0, 10.0), (10.0, 10.0)], 4.0)
+    assert (outline.disc(3.9) - star).area() == pytest.approx(0.0, abs=1e-9)
+
+
 @pytest.mark.parametrize("ends", [[(0.0, 0.0)], [(0.0, 0.0), (-20.0, 10.0)]])
 def test_strips_have_square_ends_and_one_width(ends):
     """Every corner lies half of the width beside an end, square to the way to the other end."""

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from manifold3d import CrossSection
 
-from jumpcad.solids.skin import GRID_MM, _chains, _conforming, skin
+from jumpcad.solids.skin import GRID_MM, _chains, _conforming, _hits, skin
 
 SQUARE = np.array([[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]])
 HOLE = np.array([[2.0, 2.0], [2.0, 6.0], [6.0, 6.0], [6.0, 2.0]])
@@ -125,3 +125,27 @@ def test_the_grid_is_a_micrometre_that_32_bit_floats_hold_up_to_16_metres():
     for far in (0.0, 300.0, 16000.0):
         points = far + GRID_MM * np.arange(-50, 51)
         assert np.array_equal(points.astype(np.float32).astype(float), points)
+
+
+def test_corners_go_to_the_nearest_point_of_the_grid():
+    """Whole micrometres stay what they are, though a float may be a little less; others move by half of one at most."""
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        low, high = np.sort(rng.integers(-90_000, 90_000, (2, 2)), axis=0) * GRID_MM
+        for off in (0.0, 0.4 * GRID_MM, -0.4 * GRID_MM):
+            corners = np.array([low, [high[0], low[1]], high, [low[0], high[1]]])
+            vertices, _ = skin([(0.0, 1.0)], [[corners + off]])
+            assert np.ptp(vertices[:, :2], axis=0) == pytest.approx(high - low, abs=1e-9)
+            assert vertices[:, :2].min(axis=0) == pytest.approx(low, abs=1e-9)
+
+
+@pytest.mark.parametrize(("long", "high"), [(1000, 1), (900, 7), (7, 900)])
+def test_an_edge_hits_the_squares_that_it_passes_through(long, high):
+    """Squares of one step around the points of the grid: by the separating line of edge and square."""
+    x, y = np.meshgrid(np.arange(long + 1), np.arange(high + 1))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    last = len(points) - 1
+    edge, point = _hits(points, np.array([[0, last]]))
+    assert set(edge) == {0}
+    away = np.abs(points @ np.array([high, -long])) / (long + high)  # of the middle, in half diagonals across the edge
+    assert set(point) == set(np.flatnonzero(away <= 0.5)) - {0, last}

@@ -150,6 +150,15 @@ def test_a_robot_with_hardly_any_spring_has_the_least_sections() -> None:
     assert sizes.foot_depth_mm == pytest.approx(eye + 1.0)  # the links are 1 mm above the ground
 
 
+@pytest.mark.parametrize("times", [1.0, 1.5, 2.5])
+def test_the_foot_is_as_deep_as_the_higher_of_eyes_and_leg_and_a_millimetre(times: float) -> None:
+    """A leg that tapers to 0.6 of its root's height is higher than its eye once it has grown."""
+    sizes = sections(Linkage(load_design("best-bo")), load_workshop(), growth=Growth(leg=times))
+    assert sizes.leg_tip_mm == pytest.approx(max(6.0, 0.6 * sizes.leg_root_mm))
+    assert sizes.foot_depth_mm == pytest.approx(max(sizes.eye_radius_mm, sizes.leg_tip_mm / 2.0) + 1.0)
+    assert (sizes.leg_tip_mm / 2.0 > sizes.eye_radius_mm) == (times > 1.0)
+
+
 def test_a_weak_section_grows_by_what_it_lacks_at_most_by_a_tenth() -> None:
     """And by two thousandths more; by a whole step where the lack is not known, by the most of what is asked."""
 
