@@ -171,3 +171,15 @@ def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbi
     assert len(found.findings) > 3
     assert made._printed(design).findings == (jumped, broken)
     assert made._printed(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}
+
+
+def test_only_a_printed_robot_of_which_no_other_learns_is_refused_before_it_is_built(monkeypatch):
+    """Stand-ins and what is made otherwise than designed need figures of robots that are built."""
+    for name, verdict in (("refused_first", "tips"), ("_printed", "jump"), ("_capsule", "jump")):
+        monkeypatch.setattr(RobotModel, name, lambda self, design, said=verdict: Evaluation(said))
+    printed, design = robot_model(), load_design("kenan-2.0")
+    assert printed(design).verdict == "tips"
+    assert replace(printed, stand_in=True)(design).verdict == "jump"
+    assert printed(design, {"made.spring_factor": 1.05}).verdict == "jump"
+    assert printed(design, {"process.infill": 0.3}).verdict == "tips"
+    assert robot_model("capsule")(design).verdict == "jump"
