@@ -67,6 +67,24 @@ def test_an_hour_counts_from_what_was_read_to_what_is_computed(monkeypatch):
         assert (clock.is_over(), free.is_over(), reading.is_over()) == (over, False, False)
 
 
+@pytest.mark.parametrize("converged", [True, False])
+def test_a_search_that_ended_by_itself_was_not_cut_off(monkeypatch, converged):
+    """Also where its time is over in the last step."""
+    over = []
+
+    def search(evaluator, task):
+        evaluator.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
+        over.append(True)
+        return converged
+
+    monkeypatch.setattr(study.Clock, "is_over", lambda self: bool(over))
+    monkeypatch.setattr(study, "METHODS", {"bo": SimpleNamespace(ends=True, run=search)})
+    result = run(replace(REQUEST, method="bo", hours=2.0))
+    assert result.converged == converged
+    said = f"ended after 2 h, before {REQUEST.searched} designs: the same command goes on"
+    assert result.notes == ([] if converged else [said])
+
+
 def contents(path):
     """Return all trials of a study without their durations."""
     with StudyStore.read(path) as store:
