@@ -88,6 +88,10 @@ def test_a_robot_has_picture_and_figures(result):
     assert 0.02 < (shown < 200).mean() < 0.9
     assert table(html)["mass"] == f"{1000 * result.robot.mass_kg:.1f} g"
     assert table(html)["spring energy"] == f"{result.robot.spring.energy_j:.3f} J"
+    assert table(html)["longest link"] == f"{result.robot.design.l_max_mm:.1f} mm"
+    assert int(table(html)["printed parts"]) == sum(len(part.placements) for part in result.robot.parts)
+    assert int(table(html)["bought parts"]) == len(result.robot.hardware)
+    assert table(html)["printer"] == "Original Prusa MK4"
     assert len(html) < 100_000
 
 
@@ -106,7 +110,15 @@ def test_jumps_and_evaluations_have_tables(result):
         shown = table(thing._repr_html_())
         assert shown["verdict"] == "jump (pybullet)"
         assert shown["ballistic range"] == f"{result.jump.ballistic_range_m:.3f} m"
-    assert table(result._repr_html_())["winding time"] == f"{result.metrics['winding_time_s']:.1f} s"
+        assert shown["rise of the centre of mass"] == f"{result.jump.com_rise_m:.3f} m"
+        assert shown["mass"] == f"{result.robot.mass_kg:.4f} kg"
+        assert shown["spring energy"] == f"{result.robot.spring.energy_j:.3f} J"
+        assert shown["energy at take-off / spring energy"] == f"{result.jump.takeoff_energy_ratio:.3f}"
+        longest = result.robot.design.l_max_mm / 1000.0
+        assert shown["fitness (range / longest link)"] == f"{result.jump.ballistic_range_m / longest:.2f}"
+    shown, train = table(result._repr_html_()), result.robot.layout.drive.train
+    assert shown["winding time"] == f"{train.winding_s:.1f} s"
+    assert shown["winding energy (electrical)"] == f"{train.electrical_j:.2f} J"
 
 
 def test_a_rejected_design_says_why():

@@ -4,8 +4,9 @@ import math
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
-from support.built import built, geared, part
+from support.built import built, geared, part, placed
 
 from jumpcad.building import build
 from jumpcad.bundle import expected as module
@@ -111,6 +112,19 @@ def test_sizes_are_those_of_the_parts() -> None:
         ("cam_tube", "cam_spacer_right"),
     ):  # fmt: skip
         assert figure(words, name) == pytest.approx(length(tube), abs=0.051)
+    socket, cap = (placed(robot, name).bounds[:, 1] for name in ("body_plate_right", "motor_cap"))
+    assert figure(words, "clamp") == pytest.approx(cap[0] - socket[1], abs=1e-3)  # the cap lies on the motor
+    pins = {
+        item.article: (item.body, *(float(place) for place in item.T_body_part[[0, 2], 3])) for item in robot.hardware
+    }
+    design = robot.design
+    assert pins[words["ankle_pin"]] == ("foot", pytest.approx(0.0), pytest.approx(0.0))
+    assert pins[words["front_pin"]] == ("foot", pytest.approx(design.l4_mm), pytest.approx(0.0))
+    assert pins[words["leg_pin"]][0] == "main_leg"
+    assert (
+        words["axle_length"]
+        == f"{np.ptp([placed(robot, f'body_plate_{side}').bounds[:, 1] for side in ('left', 'right')]):.0f}"
+    )
     wide, long = map(float, words["window"].split(" x "))
     assert words["block"] == f"{wide + 12.0:g} x {long - 1.0:g}"
     assert words["groove"] == f"{wide:g}"

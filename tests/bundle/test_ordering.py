@@ -39,6 +39,26 @@ def test_a_standoff_is_cut_from_the_next_longer_one(length: str, stock: str) -> 
     assert "less than 6 mm of thread" in line
 
 
+@pytest.mark.parametrize(
+    ("length", "stock"),
+    [
+        ("80.5", "0.33"),
+        ("80.6", "0.5"),
+        ("123.0", "0.5"),
+        ("123.1", "1"),
+        ("248.0", "1"),
+        ("248.1", "2"),
+        ("600.0", "3"),
+    ],
+)
+def test_a_rod_is_cut_into_its_pieces_with_a_cut_after_each(length: str, stock: str) -> None:
+    """Four pieces, 2 mm lost at each; shops have rods of 0.33, 0.5 and 1 m, longer needs are whole metres."""
+    robot = with_article(built("kenan-2.0"), r"(spring steel rod \S+ x )[\d.]+( mm)", rf"\g<1>{length}\2")
+    (line,) = (line for line in order_lines(robot) if line.startswith("- spring steel rod"))
+    assert f"rod 3 mm: 4 pieces of {length} mm, +0 / -0.3 mm" in line
+    assert f"cut from a rod of {stock} m, ground" in line
+
+
 def test_a_strip_is_as_long_as_its_pieces_with_a_cut_after_each() -> None:
     """Toes' pads: 2 x (10.4 + 2) + 2 x (9.5 + 2) = 47.8 mm; the stop's: 8 + 2 = 10 mm."""
     robot = built("kenan-2.0")

@@ -2,11 +2,15 @@
 
 import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from jumpcad.bundle.tree import above, few, is_safe, shown, tree, trouble
+from jumpcad.errors import JumpcadError
 
 
 @pytest.fixture
@@ -60,3 +64,30 @@ def test_of_many_paths_three_are_named_and_the_others_counted() -> None:
     assert few(["a", "b", "c"]) == "a, b, c"
     assert few(["a", "b\n", "c", "d", "e"]) == "a, b\\n, c and 2 more"
     assert shown("Käfer.txt") == "Käfer.txt"
+
+
+@pytest.mark.parametrize("away", ["a", "a/file", "link"])
+def test_what_lies_on_another_disk_is_refused_be_it_folder_file_or_link(
+    folder: Path, away: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It could not be moved away with the rest in one step."""
+
+    class Entry:
+        def __init__(self, entry: os.DirEntry[str]) -> None:
+            self.name, self._entry = entry.name, entry
+
+        def stat(self, *, follow_symlinks: bool) -> os.stat_result:
+            assert not follow_symlinks
+            found = list(self._entry.stat(follow_symlinks=False))
+            if Path(self._entry.path) == folder / away:
+                found[2] += 1  # st_dev
+            return os.stat_result(found)
+
+    @contextmanager
+    def scandir(place: Path) -> Iterator[list[Entry]]:
+        with os.scandir(place) as entries:
+            yield [Entry(entry) for entry in entries]
+
+    monkeypatch.setattr("jumpcad.bundle.tree.os", SimpleNamespace(scandir=scandir))
+    with pytest.raises(JumpcadError, match=f"{away} lies on another disk"):
+        tree(folder)

@@ -67,6 +67,8 @@ def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: Calibra
     assert np.array_equal(again.z, first.z)
     assert not np.array_equal(sampled(Model(posterior.model.subjects), 2, **SHORTEST).z, first.z)
     assert first.walkers == 8 * len(posterior.model.parameters)
+    assert first.steps == SHORTEST["steps"] - SHORTEST["steps"] // 3  # a third is burn-in, and is not kept
+    assert len(first.z) == first.steps * first.walkers
 
 
 def test_distance_of_an_unknown_kind_is_wider(subject: Subject, posterior: CalibrationPosterior) -> None:
@@ -125,6 +127,11 @@ def test_hidden_parameters_lie_in_their_intervals(subject: Subject) -> None:
 def test_nothing_to_calibrate_on(subject: Subject) -> None:
     with pytest.raises(JumpcadError, match=r"too little to calibrate on: give at least one \[\[jumps\]\]"):
         fitted(subject, jumps=({"battery_j": (1.5,)},))
+    jumps = ({"distance_mm": (240.0,), "distance_of": "centre-of-mass"},)
+    robots = [measured(subject, jumps=jumps), replace(measured(subject, jumps=({"battery_j": (1.5,)},)), name="other")]
+    for order in (robots, robots[::-1]):
+        with pytest.raises(JumpcadError, match="other: too little to calibrate on"):
+            sampled(Model(order), 1, **SHORTEST)
 
 
 def test_jumps_that_no_robot_does(subject: Subject) -> None:

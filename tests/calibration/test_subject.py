@@ -309,3 +309,16 @@ def test_the_surface_of_a_robot_is_near_its_jumps_from_a_third_to_three_times_th
         np.exp(rng.uniform(np.log(0.31), np.log(2.99), 300)), rng.uniform(0.0, 0.9, 300), rng.uniform(0.2, 1.3, 300),
     )  # fmt: skip
     assert found.at(*points).range_m == pytest.approx(range_m(*points), rel=0.01)
+
+
+def test_equal_words_beside_other_videos_are_other_jumps(tmp_path: Path) -> None:
+    """The points of a video are found beside the measurements: a copy elsewhere has its own, a link the same."""
+    files = [tmp_path / folder / "mine.toml" for folder in ("one", "two")]
+    for file in files:
+        file.parent.mkdir()
+        file.write_text(HEAD + '[[videos]]\npoints = "flight.csv"\npoint = "body"\n')
+    require_each_once(files)
+    again = tmp_path / "one" / "again.toml"
+    again.write_text(files[0].read_text())
+    with pytest.raises(JumpcadError, match=r"again.toml: is given too, under the name .*one"):
+        require_each_once([*files, again])

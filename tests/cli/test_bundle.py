@@ -202,6 +202,7 @@ def test_a_design_is_edited_and_built_again_but_not_over_another_of_its_name(
     code, out, err = run("build", other, "--no-pictures")
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert "exports/robot: holds another design, built after other/robot.toml was last changed" in err
+    assert run("build", other, "-o", bundle, "--no-pictures") == (2, "", err)  # also where the folder is named
     assert (bundle / "manifest.json").read_bytes() == before
     edit(one, 102.0)
     assert run("build", one, "--no-pictures")[0] == 0

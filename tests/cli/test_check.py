@@ -9,10 +9,11 @@ import pytest
 from typer.testing import CliRunner
 
 from jumpcad import checks
+from jumpcad.cli import check as command
 from jumpcad.cli.check import TIGHT, margin_in_words
 from jumpcad.cli.commands import app
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.findings import limit
+from jumpcad.findings import at_most, limit
 from jumpcad.workshop import load_workshop
 
 
@@ -124,3 +125,18 @@ def test_a_limit_that_no_check_has_is_refused_with_the_nearest() -> None:
     result = CliRunner().invoke(app, ["check", "kenan-2.0", "--explain", "leg_strenght"])
     assert isinstance(result.exception, JumpcadError)
     assert "did you mean leg_strength?" in str(result.exception)
+
+
+def test_every_finding_of_an_explained_limit_has_its_own_state_and_remedy(capsys: pytest.CaptureFixture[str]) -> None:
+    findings = [
+        at_most("leg_strength", 9.0, 10.0, "MPa", "the left", "thicken it"),
+        at_most("leg_strength", 13.0, 10.0, "MPa", "the right", "shorten it"),
+        limit("leg_strength", 1.5, "mm", "the third", "leave it"),
+    ]
+    command._print_explained("leg_strength", findings)
+    said = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    assert said[-6:] == [
+        "leg_strength holds, 90 % used, +1 MPa: the left", "remedy thicken it",
+        "leg_strength error, 130 % used, -3 MPa: the right", "remedy shorten it",
+        "leg_strength holds, +1.5 mm: the third", "remedy leave it",
+    ]  # fmt: skip

@@ -11,6 +11,7 @@ from support.searches import NARROW, QUICK, data, refusal, run
 
 from jumpcad.cli import explore
 from jumpcad.errors import JumpcadError
+from jumpcad.search.explore import Sweep
 
 
 def test_views_of_the_space(folder):
@@ -106,3 +107,26 @@ def test_a_map_tells_each_axis_by_its_own_values(monkeypatch):
     for names in ("a", "a,b,c"):
         with pytest.raises(JumpcadError, match="a map has two parameters"):
             explore._mapped("centre", names, 3)
+
+
+def test_a_sweep_tells_the_least_and_the_largest_score_and_how_many_jump(monkeypatch):
+    """Wherever along the parameter they are; choices that are names by them."""
+
+    def trial(score):
+        return SimpleNamespace(score=score, evaluation=SimpleNamespace(verdict="tips" if score is None else "jump"))
+
+    scores = [0.5, None, 2.25, 0.125, 1.0]
+    sweeps = [
+        Sweep("a", np.array([1.0, 2.0, 3.0, 4.0, 5.0]), [trial(score) for score in scores]),
+        Sweep("b", np.array([0.0, 1.0]), [trial(None), trial(None)], ("one", "two")),
+    ]
+    monkeypatch.setattr("jumpcad.search.explore.sweep", lambda *given: sweeps)
+    data, lines, _ = explore._swept("centre", 5)("evaluator")
+    first, second = data["sweeps"]["a"], data["sweeps"]["b"]
+    assert [row["value"] for row in first] == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert [row["score"] for row in first] == scores
+    assert [row["verdict"] for row in first] == ["jump", "tips", "jump", "jump", "jump"]
+    assert [row["value"] for row in second] == ["one", "two"]
+    assert [" ".join(line.split()) for line in lines] == [
+        "a 0.1250 … 2.2500 feasible at 4 of 5 values", "b never feasible feasible at 0 of 2 values",
+    ]  # fmt: skip

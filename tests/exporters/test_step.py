@@ -101,6 +101,18 @@ def test_the_same_bytes_in_another_process(tmp_path: Path) -> None:
 
 
 @needs_step
+def test_faces_within_a_thousandth_of_a_millimetre_are_one(tmp_path: Path) -> None:
+    """As rounding leaves them; farther apart they are two solids."""
+
+    def plate(gap_mm: float) -> Drawing:
+        return drawn(Stack.of([(0.0, 3.0, rectangle((20, 10))), (3.0 + gap_mm, 6.0, rectangle((10, 5)))]))
+
+    assert read(step.write_step(plate(5e-4)), tmp_path).volume == pytest.approx(3.0 * 200.0 + 3.0 * 50.0, rel=1e-3)
+    with pytest.raises(CannotBuildError, match="no valid solid"):
+        step.write_step(plate(5e-3))
+
+
+@needs_step
 def test_faces_that_do_not_close_are_refused() -> None:
     apart = Stack.of([(0, 3, rectangle((5, 5)) + rectangle((5, 5), (20, 0)))])
     with pytest.raises(CannotBuildError, match="part plate is no valid solid as STEP: build without --step"):

@@ -21,6 +21,18 @@ def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path) -> None:
             find_template("robots", wrong)
 
 
+@pytest.mark.parametrize("installed", [True, False])
+def test_templates_lie_in_an_installed_package_or_beside_it_in_a_source_tree(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, installed: bool
+) -> None:
+    """Also where both are there: a wheel brings its own."""
+    package, beside = tmp_path / "jumpcad", tmp_path / "templates"
+    for folder in (beside, package / "templates" if installed else package):
+        folder.mkdir(parents=True)
+    monkeypatch.setattr("importlib.resources.files", lambda name: tmp_path / name)
+    assert templates_folder.__wrapped__() == (package / "templates" if installed else beside)
+
+
 def test_a_bare_name_is_the_template_whatever_lies_in_the_current_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

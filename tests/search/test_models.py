@@ -93,3 +93,38 @@ def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbi
     assert len(found.findings) > 3
     assert made._printed(design).findings == (jumped, broken)
     assert made._printed(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}
+
+
+def test_only_a_printed_robot_of_which_no_other_learns_is_refused_before_it_is_built(monkeypatch):
+    """Stand-ins and what is made otherwise than designed need figures of robots that are built."""
+    for name, verdict in (("refused_first", "tips"), ("_printed", "jump"), ("_capsule", "jump")):
+        monkeypatch.setattr(RobotModel, name, lambda self, design, said=verdict: Evaluation(said))
+    printed, design = robot_model(), load_design("kenan-2.0")
+    assert printed(design).verdict == "tips"
+    assert replace(printed, stand_in=True)(design).verdict == "jump"
+    assert printed(design, {"made.spring_factor": 1.05}).verdict == "jump"
+    assert printed(design, {"process.infill": 0.3}).verdict == "tips"
+    assert robot_model("capsule")(design).verdict == "jump"
+
+
+def test_neighbours_are_the_robot_as_it_may_be_made_half_within_a_percent_half_within_tolerances(monkeypatch):
+    """The design is the same in all: what is printed is not laid out anew. The least of ten scores counts."""
+    looked = []
+    monkeypatch.setattr(
+        RobotModel, "_alone",
+        lambda self, one: looked.append((one, dict(self.made))) or Evaluation("jump", {"fitness": 10.0 + len(looked)}),
+    )  # fmt: skip
+    design = load_design("kenan-2.0")
+    found = replace(robot_model(), neighbours_of="fitness")(design)
+    assert {one for one, _ in looked} == {design}
+    plain, *around = (made for _, made in looked)
+    percent = [made for made in around if "made.spring_factor" not in made]
+    tolerances = [made for made in around if "made.spring_factor" in made]
+    assert plain == {}
+    assert len(percent) == len(tolerances) == models.NEIGHBOURS / 2
+    for made in percent:
+        shares = [abs(value / getattr(design, key.removeprefix("made.")) - 1.0) for key, value in made.items()]
+        assert 0.001 < max(shares) <= 0.01 + 1e-9
+    for made in tolerances:
+        assert made["made.friction_factor"] != 1.0 != made["made.spring_factor"]
+    assert found.metrics["p10"] == 12.0  # of 12 to 21

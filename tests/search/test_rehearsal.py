@@ -8,6 +8,8 @@ import pytest
 from support.proposals import with_less_work
 from support.quick import LIKE, SPACE, quick
 
+from jumpcad.design import load_design
+from jumpcad.findings import Finding
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.fitting import Table
 from jumpcad.search.guess import Guess
@@ -18,7 +20,7 @@ from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.polling import STALLED, Progress
 from jumpcad.search.pool import local_pool
-from jumpcad.search.rehearsal import FAILED, TRIED, Rehearsal
+from jumpcad.search.rehearsal import FAILED, TRIED, Rehearsal, _stayed
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.stand_in import LAID
@@ -251,3 +253,13 @@ def test_a_search_with_guesses_ends_after_so_many_steps_in_a_row_without_a_gain(
     assert idle[-(IDLE - STALLED) :] == list(range(STALLED, IDLE))
     assert min(idle) == STALLED
     assert search(tmp_path / "end.db", task) == trials
+
+
+def test_what_is_learned_of_a_rehearsal_is_of_its_own_variant():
+    """Of design and workshop: it takes its place among the points of the search."""
+    variant = Variant(load_design("best-printable"), {"process.infill": 0.3, "bought.battery": "lipo-1s-300"})
+    findings = (Finding("stop", "error", -0.2, "mm", "too near", "move it"),)
+    trial = _stayed(variant, Evaluation("cannot_build", findings=findings, detail="no room"))
+    assert (trial.variant, trial.key, trial.score) == (variant, variant.key, None)
+    assert trial.evaluation.margins == {"stop": -0.2}
+    assert not trial.evaluation.feasible

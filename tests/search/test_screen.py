@@ -11,6 +11,7 @@ from support.quick import BEST, FIGURES, LIKE, SPACE, Quick, quick
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from jumpcad.errors import JumpcadError
+from jumpcad.findings import Finding
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.fitting import MARK
 from jumpcad.search.guess import Fit, Guess
@@ -202,6 +203,25 @@ def test_a_score_is_corrected_by_the_robots_beside_it_and_known_to_so_many_devia
     )
     found = tier.guess(Variant(BEST), {})
     assert found == Expected(pytest.approx(2.0), pytest.approx(least), pytest.approx(2.0 * 1.1**0.5), False)
+
+
+def test_a_margin_s_error_is_twice_the_worst_of_robots_that_were_held_out() -> None:
+    """Too high or too low by a guess; of robots that cannot be guessed, and of other margins, nothing is known."""
+    found = {0.1: (0.5, 0.4, -9.0), 0.2: (0.2, 0.5, -9.0), 0.3: (-0.1, 0.15, -9.0), 0.4: (7.0, None, -9.0)}
+    near, columns, guesses = [], [], {}
+    for share, (exact, guessed, only) in found.items():
+        design = SPACE.to_design(np.full(SPACE.dimension, share))
+        margins = {"reach": exact, "tips": 1.0, "alone": only}
+        findings = tuple(Finding(name, "info", margin, "", "", "") for name, margin in margins.items())
+        near.append(Trial("ga", 0, len(near), design, Evaluation("jump", {}, findings), 1.0, "m", 0.1))
+        columns.append({"held out": share})
+        guesses[share] = None if guessed is None else Guess(None, {"reach": guessed, "tips": 1.01, "guessed": 5.0})
+    guesser = SimpleNamespace(from_columns=lambda design, held: guesses[held["held out"]])
+    table = SimpleNamespace(trials=near, held_out=lambda: columns)
+    tier = Tier(SPACE, guesser, laid=False)  # type: ignore[arg-type]
+    tier._ratios = {trial.key: None for trial in near}
+    errors = tier._errors(table, near)  # type: ignore[arg-type]
+    assert errors == pytest.approx({"reach": 2.0 * 0.3, "tips": 2.0 * 0.01})
 
 
 def test_of_a_generation_those_are_built_that_may_be_better_than_another_s_least() -> None:

@@ -163,3 +163,21 @@ def test_a_point_has_a_coordinate_and_a_number_of_names_for_every_free_parameter
     assert space.categories == (0,) * 7 + (2,)
     assert [one.name for one in space.parameters if not one.free] == ["c_coef", "bought.leg_bearing"]
     assert space.spread(4, np.random.default_rng(0)).shape == (4, 8)
+
+
+def test_a_space_is_the_same_by_texts_and_by_values():
+    """Names keep the order in which they are given, which numbers them."""
+    by_text = Space.parse(
+        fix=["c_coef=1", "bought.leg_bearing="], bound=["d_coef=0.6:0.7", "body.plate_mm=1.2:2.4"],
+        choose=["stiffness_nmm_per_deg=20,9.2", "bought.battery=lipo-2s-180,lipo-1s-300"], workshop=load_workshop(),
+    )  # fmt: skip
+    by_value = Space.make(
+        {"c_coef": 1, "bought.leg_bearing": ""}, {"d_coef": (0.6, 0.7), "body.plate_mm": (1.2, 2.4)},
+        {"stiffness_nmm_per_deg": [20, 9.2], "bought.battery": ("lipo-2s-180", "lipo-1s-300")},
+        workshop=load_workshop(),
+    )  # fmt: skip
+    assert by_text == by_value
+    named = next(one for one in by_value.free if one.names)
+    assert named.names == ("lipo-2s-180", "lipo-1s-300")
+    near = {"around": load_design("best-ga"), "only": ["d_coef", "e_coef"], "within_percent": 10.0}
+    assert Space.make(**near) == Space.parse(**near) != Space.default()

@@ -8,6 +8,7 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from support.hills import SMALL, Hill
@@ -48,6 +49,40 @@ def test_a_search_is_told_to_be_hopeless_after_fifty_designs_that_fail():
         assert not any(hopeless.warning(trial(n, 1.0 if n == first else None)) for n in range(120))
     hopeless = study.Hopeless()
     assert not any(hopeless.warning(trial(number, phase="pick")) for number in range(120))
+
+
+def test_an_hour_counts_from_what_was_read_to_what_is_computed(monkeypatch):
+    """What is read again between computed trials starts no new hour; reading alone never takes too long."""
+    now = [0.0]
+    monkeypatch.setattr(study, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    clock, free, reading = study.Clock(1.0), study.Clock(0.0), study.Clock(1.0)
+    for at, computed in ((10.0, False), (5000.0, False), (5001.0, True), (5002.0, False)):
+        now[0] = at
+        assert not clock.is_over()
+        clock.see(computed)
+        free.see(computed)
+        reading.see(False)
+    for more, over in ((3599.9, False), (3600.1, True), (1e9, True)):
+        now[0] = 5000.0 + more
+        assert (clock.is_over(), free.is_over(), reading.is_over()) == (over, False, False)
+
+
+@pytest.mark.parametrize("converged", [True, False])
+def test_a_search_that_ended_by_itself_was_not_cut_off(monkeypatch, converged):
+    """Also where its time is over in the last step."""
+    over = []
+
+    def search(evaluator, task):
+        evaluator.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
+        over.append(True)
+        return converged
+
+    monkeypatch.setattr(study.Clock, "is_over", lambda self: bool(over))
+    monkeypatch.setattr(study, "METHODS", {"bo": SimpleNamespace(ends=True, run=search)})
+    result = run(replace(REQUEST, method="bo", hours=2.0))
+    assert result.converged == converged
+    said = f"ended after 2 h, before {REQUEST.searched} designs: the same command goes on"
+    assert result.notes == ([] if converged else [said])
 
 
 def contents(path):

@@ -190,6 +190,11 @@ def test_a_dead_point_in_flight_is_said(jumping: list[Flight]) -> None:
     world = PlanarWorld(one_sided(robot), Settings())
     speed = Motion(0j, 0.0, 60.0)
     world.go_to(world.moment._replace(ankle_m=1j, leg_rad=0.0, speed=speed))
+    moment, steps = world.moment, 0
+    while moment.closed:
+        moment, steps = kernel.advance(world.model, moment, world.settings.dt_s, 1), steps + 1
+    for more in (0, 1, 50):  # it does not go on from there, where the pose is not known
+        assert kernel.advance(world.model, world.moment, world.settings.dt_s, steps + more) == moment
     with pytest.raises(JumpcadError, match=r"into line in flight.*pybullet") as caught:
         world.advance(200)
     assert "\n" not in str(caught.value)

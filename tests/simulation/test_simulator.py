@@ -64,4 +64,13 @@ def test_a_jumps_ratios_are_shares_of_the_springs_energy() -> None:
     left = 1.0 - lossy.energy.release_j / capsules.spring.energy_j
     assert lossy.release_energy_ratio == pytest.approx(left)
     assert 0.0 < left < 1.0
-    assert jump.fitness == pytest.approx(1000.0 * jump.ballistic_range_m / capsules.design.l_max_mm)
+
+
+@pytest.mark.parametrize("change", [{"c_coef": 1.05}, {"e_coef": 1.15}])
+def test_a_jumps_fitness_is_its_range_in_lengths_of_the_longest_of_legs_and_toes(change: dict[str, float]) -> None:
+    design = load_design("kenan-2.0").model_copy(update=change)
+    longest = max(design.l2_mm, design.l3_mm, design.l5_mm)
+    assert longest > 1.01 * design.l2_mm
+    jump = simulate(capsule_robot(design), engine="planar")
+    assert jump.ballistic_range_m is not None
+    assert jump.fitness == pytest.approx(1000.0 * jump.ballistic_range_m / longest)

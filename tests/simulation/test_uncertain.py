@@ -120,6 +120,9 @@ def test_draws_of_a_calibration_are_taken_in_pairs(robot: Robot) -> None:
     pairs = group.values(np.array([[0.0], [0.2499], [0.25], [0.5], [0.75], [1.0 - 1e-9], [1.0]]))
     assert pairs[:, 0].tolist() == [0.9, 0.9, 0.95, 1.0, 0.8, 0.8, 0.8]
     assert pairs[:, 1].tolist() == [0.1, 0.1, 0.2, 0.3, 0.4, 0.4, 0.4]
+    same, changed = group.apply(robot, Settings(ground_friction=0.7), pairs[3])
+    assert same is robot
+    assert (changed.spring_efficiency, changed.pin_friction, changed.ground_friction) == (1.0, 0.3, 0.7)
 
 
 def test_the_polynomial_is_a_cubic() -> None:

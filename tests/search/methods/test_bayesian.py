@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 
+from jumpcad.search.acquisition import Proposal
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.bayesian import default_initial, incumbent, learned_trials, run_bayesian
+from jumpcad.search.methods.bayesian import default_initial, incumbent, learned_trials, run_bayesian, unproposed
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.polling import FARTHEST
 from jumpcad.search.space import Space
@@ -181,3 +182,15 @@ def test_half_as_many_first_designs_where_scores_are_guessed():
     assert [default_initial(Space.default(), 100, guessed=guessed) for guessed in (False, True)] == [24, 12]
     assert default_initial(SMALL, 100, guessed=True) == 5
     assert default_initial(Space.default(), 20, guessed=True) == 10
+
+
+def test_what_is_proposed_is_new_fits_and_is_not_in_the_batch_already(evaluator):
+    """Not evaluated before, by this search or its prior; admitted by the model; with room for its parts."""
+    one = evaluator(prior=evaluator().evaluate([SMALL.to_design([0.1, 0.1, 0.1])], "bo", 0))
+    one.evaluate([SMALL.to_design([0.2, 0.2, 0.2])], "bo", 0)
+    prior, done, taken, tight, free = (SMALL.to_variant([at] * 3) for at in (0.1, 0.2, 0.3, 0.4, 0.5))
+    batch = [Proposal(taken, np.full(3, 0.3), 0.0, 0.0)]
+    admits = unproposed(one, batch, lambda variant: variant.key != tight.key)
+    assert [admits(variant) for variant in (prior, done, taken, tight, free)] == [False] * 4 + [True]
+    assert unproposed(one, [])(tight)
+    assert unproposed(one, [])(taken)
