@@ -1,11 +1,13 @@
 """The objective p10: what nine of ten neighbours reach."""
 
+from dataclasses import replace
+
 import pytest
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import RobotModel, robot_model
 from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
@@ -99,3 +101,26 @@ def test_the_margin_of_neighbours_is_how_many_of_ten_jump_before_one_does_not(mo
     rejected = Slope("capsule", neighbours_of="fitness")(design)
     assert rejected.margins["neighbours"] == pytest.approx(higher[0] / NEIGHBOURS - 1.0)
     assert rejected.metrics["evaluations"] == 2.0 + higher[0]
+
+
+def test_neighbours_are_the_robot_as_it_may_be_made_half_within_a_percent_half_within_tolerances(monkeypatch):
+    """The design is the same in all: what is printed is not laid out anew. The least of ten scores counts."""
+    looked = []
+    monkeypatch.setattr(
+        RobotModel, "_alone",
+        lambda self, one: looked.append((one, dict(self.made))) or Evaluation("jump", {"fitness": 10.0 + len(looked)}),
+    )  # fmt: skip
+    design = load_design("kenan-2.0")
+    found = replace(robot_model(), neighbours_of="fitness")(design)
+    assert {one for one, _ in looked} == {design}
+    plain, *around = (made for _, made in looked)
+    percent = [made for made in around if "made.spring_factor" not in made]
+    tolerances = [made for made in around if "made.spring_factor" in made]
+    assert plain == {}
+    assert len(percent) == len(tolerances) == NEIGHBOURS / 2
+    for made in percent:
+        shares = [abs(value / getattr(design, key.removeprefix("made.")) - 1.0) for key, value in made.items()]
+        assert 0.001 < max(shares) <= 0.01 + 1e-9
+    for made in tolerances:
+        assert made["made.friction_factor"] != 1.0 != made["made.spring_factor"]
+    assert found.metrics["p10"] == 12.0  # of 12 to 21
