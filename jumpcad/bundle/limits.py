@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
+from jumpcad.checks import COSTLY
 from jumpcad.exporters.xml import allowed
 from jumpcad.findings import SHOWN_AS, Finding, errors
 
@@ -29,7 +30,7 @@ def limits(findings: Sequence[Finding]) -> Iterator[str]:
         f"<p>{len(violated)} of {len(findings)} are violated. A bar shows how much of a limit is used; "
         "the mark is the limit. "
     )
-    yield "<code>jumpcad check</code> also looks at printability, and at interference over the whole motion.</p>"
+    yield f"<code>jumpcad check</code> also looks at {COSTLY}.</p>"
     yield from _table([*violated, *(finding for finding in kept if _use(finding) >= 0.5)])
     if far := [finding for finding in kept if _use(finding) < 0.5]:
         yield f"<details><summary>{len(far)} more are kept, less than half used</summary>"
@@ -45,7 +46,8 @@ def verdict_on(findings: Sequence[Finding]) -> tuple[list[str], list[str]]:
     """Return what the top of the page says of limits: a sentence on the violated ones, and a list of the first."""
     violated, kept, _ = _groups(findings)
     if not violated:
-        return [], [f"<p>All {len(findings)} limits are kept. The tightest:</p>", *_list(kept)]
+        more = f"<code>jumpcad check</code> also looks at {COSTLY}"
+        return [], [f"<p>All {len(findings)} limits are kept; {more}. The tightest:</p>", *_list(kept)]
     forbids = bool(errors(violated))
     more = f"The worst of {len(violated)} violated limits" if len(violated) > SHOWN else "Violated"
     return (

@@ -31,7 +31,17 @@ from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.robot import Robot
 
-__all__ = ["CHECKS", "SYMBOLS", "Check", "basis_of", "check", "constraint_findings", "quick_findings"]
+__all__ = [
+    "CHECKS",
+    "COSTLY",
+    "SYMBOLS",
+    "Check",
+    "basis_of",
+    "check",
+    "constraint_findings",
+    "costly_findings",
+    "quick_findings",
+]
 
 SYMBOLS = (
     "M bending moment, F force, T torque, σ and τ bending and shear stress; b, h, t width, height and thickness, A "
@@ -80,6 +90,10 @@ CHECKS = (
 """Every check, in the order of its findings."""
 
 
+COSTLY = "walls and overhangs of the prints, overlaps over the whole motion, and paths and tools of the assembly"
+"""What the checks look at that are not cheap."""
+
+
 def check(robot: Mechanism) -> list[Finding]:
     """Return the findings of every check, limits that are met included; without parts, those of feasibility only."""
     return _findings(robot, CHECKS)
@@ -88,6 +102,11 @@ def check(robot: Mechanism) -> list[Finding]:
 def quick_findings(robot: Mechanism) -> list[Finding]:
     """Return the findings of the cheap checks, feasibility included."""
     return _findings(robot, (check for check in CHECKS if check.cheap))
+
+
+def costly_findings(robot: Robot) -> list[Finding]:
+    """Return the findings that `build` and searches leave out, for they take seconds: see `COSTLY`."""
+    return _findings(robot, (check for check in CHECKS if not check.cheap))
 
 
 def constraint_findings(robot: Robot) -> list[Finding]:

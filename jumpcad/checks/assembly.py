@@ -123,7 +123,9 @@ def assembly_ways(robot: Robot) -> list[Way]:
             movers = [pieces[thing.name] for thing in placed.things]
             along = [travel(robot, thing, placed.move, poses[thing.body]) for thing in placed.things]
             way = Way(step, placed, movers, [], [*there])
-            if placed.move.way == "snapped":
+            if placed.move.way == "bent":
+                paths = [_depth(mover, side) * side for mover, side in zip(movers, along, strict=True)]
+            elif placed.move.way == "snapped":
                 paths = [_snapped(way, mover, side) for mover, side in zip(movers, along, strict=True)]
             else:
                 paths = [_reach(mover, there, side) * side for mover, side in zip(movers, along, strict=True)]

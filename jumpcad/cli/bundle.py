@@ -221,6 +221,9 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
 def _print_facts(facts: dict[str, Any]) -> None:
     from rich.table import Table
 
+    from jumpcad.bundle.inputs import DESIGN, WORKSHOP
+    from jumpcad.checks import COSTLY
+
     table = Table("part", "quantity", "material", "g each", "g", "mass from", box=None, pad_edge=False)
     for column in (1, 3, 4):
         table.columns[column].justify = "right"
@@ -251,7 +254,11 @@ def _print_facts(facts: dict[str, Any]) -> None:
     if facts["violation"]:
         _say("next", f"{facts['violation']}; jumpcad check says more")
         return
-    _say("next", "open its report.html: the jump in 3-D; assembly.html: how to print, order and assemble it")
+    pictured = any(path.startswith(f"{PICTURES}/") for path in facts["files"])
+    what = "the jump in 3-D" if pictured else "its figures"
+    _say("next", f"open its report.html: {what}; assembly.html: how to print, order and assemble it")
+    design, workshop = (escaped(str(Path(facts["folder"], name))) for name in (DESIGN, WORKSHOP))
+    _say("", f"jumpcad check {design} --workshop {workshop} also looks at {COSTLY}")
 
 
 def _say(label: str, text: str) -> None:

@@ -1,11 +1,12 @@
 """`jumpcad optimize`: search for the best printable robot."""
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
 from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import (
     PlotsOption,
@@ -17,7 +18,9 @@ from jumpcad.cli.searching import (
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
+    from jumpcad.findings import Finding
     from jumpcad.search.evaluator import Watch
+    from jumpcad.search.models import RobotModel
     from jumpcad.search.result import Result
     from jumpcad.search.trial import Trial
 
@@ -132,16 +135,30 @@ def optimize(
     if result.winner is not None:
         result.save(design_file, force)
     pictures = _plot(path, plots)
+    violated = _violated(result, robot)
     if as_json:
         written = None if result.winner is None else str(design_file)
-        data = {"study": str(path), "pictures": pictures, "design_file": written}
+        data: dict[str, Any] = {"study": str(path), "pictures": pictures, "design_file": written}
         if space.of_workshop:
             data["workshop_file"] = None if result.winner is None else str(workshop_file(design_file))
+        data["violated"] = [finding.to_dict() for finding in violated]
         print_json(data | result.to_dict())
     else:
-        _print_result(result, design_file)
+        _print_result(result, design_file, violated, options.workshop)
     if result.winner is None:
         raise typer.Exit(1)
+
+
+def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
+    """Return the limits that a printed winner violates, of those that a search does not look at."""
+    from jumpcad.building import build
+    from jumpcad.checks import costly_findings
+    from jumpcad.findings import errors
+
+    if result.winner is None or robot.name != "printed":
+        return []
+    with status("checking the winner …"):
+        return errors(costly_findings(build(result.design, robot.varied(result.winner.workshop).workshop)))
 
 
 def _headed(heading: str, watch: "Watch") -> "Watch":
@@ -166,7 +183,9 @@ def _plot(path: Path, folder: Path | None) -> list[str]:
         return [str(picture) for picture in plot_study(store, folder)]
 
 
-def _print_result(result: "Result", design_file: Path) -> None:
+def _print_result(
+    result: "Result", design_file: Path, violated: "Sequence[Finding]" = (), workshop: str | None = None
+) -> None:
     from jumpcad.search.fronts import energy_j
     from jumpcad.search.result import workshop_file
 
@@ -217,8 +236,14 @@ def _print_result(result: "Result", design_file: Path) -> None:
         if bound.worth is not None:
             change = f"changes the score by {bound.worth:+.4f}"
         print(f"at its {bound.side} bound: {bound.name} = {bound.value:g}; {bound.beyond:g} {change}")
-    workshop = f" --workshop {escaped(str(workshop_file(design_file)))}" if result.winner.workshop else ""
-    print(f"\nnext: jumpcad build {escaped(str(design_file))}{workshop}")
+    used = str(workshop_file(design_file)) if result.winner.workshop else workshop
+    made = escaped(str(design_file)) + (f" --workshop {escaped(used)}" if used else "")
+    for finding in violated:
+        print(f"error: {finding.name}: {finding.message}; {finding.remedy}")
+    if violated:
+        print(f"\nnext: jumpcad check {made}: do not build it as it is; a search does not look at these limits")
+        return
+    print(f"\nnext: jumpcad build {made}")
 
 
 def _counted(reasons: dict[str, int]) -> str:

@@ -68,7 +68,7 @@ def assembly_steps(robot: Robot) -> list[Step]:
     built: dict[str, list[Visual]] = {}
     steps = []
     for plan in ORDER:
-        placed = tuple(_placed(plan, robot, left, built))
+        placed = tuple(_placed(plan, robot, names, left, built))
         if not placed and plan.moves:
             continue
         texts = (_texts(words, names) for words in (plan.text, plan.warnings, plan.checks))
@@ -113,11 +113,15 @@ def _head_up(thing: Visual) -> bool:
     return bool(width[1] > width[0])
 
 
-def _placed(plan: Plan, robot: Robot, left: list[Visual], built: dict[str, list[Visual]]) -> Iterator[Placed]:
+def _placed(
+    plan: Plan, robot: Robot, names: list[str], left: list[Visual], built: dict[str, list[Visual]]
+) -> Iterator[Placed]:
     """Yield a step's moves with the robot's parts; they are taken from `left` and added to `built`, by assembly."""
     there = built.setdefault(plan.onto, [])
     for move in plan.moves:
         if move.retention and robot.layout.retention not in move.retention:
+            continue
+        if move.lacks and _has(names, move.lacks):
             continue
         if move.brings:
             things = list(built.get(move.brings, [])) if move.trial else built.pop(move.brings, [])
@@ -131,8 +135,12 @@ def _placed(plan: Plan, robot: Robot, left: list[Visual], built: dict[str, list[
 
 def _texts(words: Iterable[Words], names: list[str]) -> tuple[str, ...]:
     """Return the texts that apply to a robot with parts of these names."""
+    return tuple(
+        one.text
+        for one in words
+        if (not one.needs or _has(names, one.needs)) and not (one.lacks and _has(names, one.lacks))
+    )
 
-    def has(pattern: str) -> bool:
-        return any(re.fullmatch(pattern, name) for name in names)
 
-    return tuple(one.text for one in words if (not one.needs or has(one.needs)) and not (one.lacks and has(one.lacks)))
+def _has(names: Iterable[str], pattern: str) -> bool:
+    return any(re.fullmatch(pattern, name) for name in names)

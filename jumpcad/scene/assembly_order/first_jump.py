@@ -1,6 +1,6 @@
 """Stage 3: winding without springs, the springs' pin, the foot, the first jump."""
 
-from jumpcad.scene.assembly_order.plan import CLIP, FOOT, PLIERS, ROBOT, Move, Plan, Words, pin_moves
+from jumpcad.scene.assembly_order.plan import CLIP, FOOT, HEX_M3, PLIERS, ROBOT, TOE_PADS, Move, Plan, Words, pin_moves
 
 FIRST_JUMP: tuple[Plan, ...] = (
     Plan(
@@ -83,6 +83,9 @@ FIRST_JUMP: tuple[Plan, ...] = (
             Move("", "from below", brings=FOOT),
             *pin_moves("ankle_pin", "from the right"),
             *pin_moves("front_eye_pin", "from the right"),
+            Move("toe_(left|right)", "from outside"),
+            Move("toe_(left|right)_screw_.*", "head last", tool=HEX_M3),
+            Move(TOE_PADS, "from below"),
         ),
         (
             Words("Set the leg's eye between the lugs where the toes meet and push {ankle_pin} through from the left; "
@@ -90,6 +93,8 @@ FIRST_JUMP: tuple[Plan, ...] = (
             Words("Bend the split pins' ends around the pins and cut off what stands out.",
                   needs="ankle_pin_split_pin"),
             Words("Press the clips into the grooves.", needs="ankle_pin_clip_.*"),
+            Words("Screw the toes to the foot's stubs from outside: {torque_plastic} N·m at most, the thread is cut "
+                  "into plastic.", needs="toe_left"),
         ),
         checks=(Words("The robot stands on nose and toes, the leg on its stop; pressed down, it comes up again, with "
                       "arms narrower than ordered but for the last {slack}° of the leg."),),

@@ -10,6 +10,8 @@ from typing import Literal
 ROBOT, LEG, FOOT, STOP = "robot", "leg", "foot", "rest stop"
 LOWER, UPPER, LEFT = "lower tray", "upper tray", "left plate"
 """Assemblies: the robot is built up on the right plate, the others on the bench."""
+TOE_PADS = "toe_(left|right)_pad"
+"""Pads under the toes' tips, which come on with toes that are parts of their own."""
 
 
 @dataclass(frozen=True)
@@ -45,9 +47,9 @@ class Move:
         A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`, or
         `sideways` for a clip: from any side that is free.
     way
-        How the path is checked. `straight`: along its whole length, on the shapes; `bent`: likewise, for what is bent
-        around parts of `past`; `snapped`: sideways onto a groove, over the part's own size only; `laid`: not at all,
-        for what is soldered or flexible.
+        How the path is checked. `straight`: along its whole length, on the shapes; `bent`: over the part's own size
+        only, for split pins, which pliers bring; `snapped`: likewise, sideways onto a groove; `laid`: not at all, for
+        what is soldered or flexible.
     past
         Pattern of parts that may be in the way, because one of the two yields.
     through
@@ -60,6 +62,8 @@ class Move:
         An assembly of an earlier step that is put on as one piece.
     retention
         The kinds of axle retention with which this move is needed; empty: all.
+    lacks
+        Pattern of things with which this move is made in a later step.
     """
 
     parts: str
@@ -72,6 +76,7 @@ class Move:
     trial: bool = False
     brings: str = ""
     retention: tuple[str, ...] = ()
+    lacks: str = ""
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from jumpcad.scene.assembly_order.plan import (
     LOWER,
     NUT_M3,
     ROBOT,
+    TOE_PADS,
     TORX_M2,
     UPPER,
     Move,
@@ -50,16 +51,15 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
         "foot", "Foot and front link", FOOT,
         (
             Move("foot"),
-            Move("toe_(left|right)", "from outside"),
-            Move("toe_(left|right)_screw_.*", "head last", tool=HEX_M3),
-            Move("nose_pad_.*|toe_(left|right)_pad", "from below", "straight"),
+            Move("nose_pad_.*", "from below"),
+            Move(TOE_PADS, "from below", lacks="toe_left"),
         ),
         (
-            Words("Screw the toes to the foot's stubs from outside: {torque_plastic} N·m at most, the thread is cut "
-                  "into plastic.", needs="toe_(left|right)"),
             Words("Degrease the soles with alcohol. Cut the pads to size and press them on for half a minute: under "
                   "either toe's tip, and around both lugs of the nose, from the sole up its round front. Leave them "
                   "for an hour before the first jump.", needs="nose_pad_.*"),
+            Words("The toes, with their pads, come onto the foot in step {step_feet}, when its pins are in: their "
+                  "screws would be in the pins' way.", needs="toe_left"),
             Words("Open the eyes of the front link with the drill of {eye_drill} mm, as the leg's; the holes of the "
                   "foot must let the pins through without force.", needs=r"front_link(_\d)?"),
         ),
