@@ -106,7 +106,7 @@ WORDS = {
     "verdict": "`jump`, or why there is none",
     "engine": "engine that simulated",
     "fitness": "range over the longest link; 0 without a jump",
-    "ballistic_range_m": "from take-off to where the centre of mass is back at its height",
+    "ballistic_range_m": "from the centre of mass with loaded springs to where it falls back through that height",
     "com_rise_m": "rise of the centre of mass from the loaded pose",
     "release_energy_ratio": "energy when the roller has left the cam, over what was loaded",
     "takeoff_energy_ratio": "mechanical energy at take-off over what was loaded",

@@ -49,7 +49,9 @@ def coupon(
     else:
         for key, change in facts["fits"].items():
             print(f"{key:<28} {change['before']:.3f} -> {change['after']:.3f}")
-        change = "with these fits" if facts["fits"] else "unchanged"
+        for name, change in facts["strengths"].items():
+            print(f"{name} strength_in_plane_mpa".ljust(28), f"{change['before']:.1f} -> {change['after']:.1f}")
+        change = "with these values" if facts["fits"] or facts["strengths"] else "unchanged"
         print(f"{facts['workshop']}: {workshop} {change}")
 
 
@@ -63,7 +65,7 @@ def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
 
 
 def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[str, Any]:
-    """Write the complete workshop with the measured fits; return the changed ones."""
+    """Write the complete workshop with the measured fits; return the changed values."""
     from jumpcad.coupon.readings import Readings, measured_workshop
     from jumpcad.files.outputs import require_target, write_atomically
     from jumpcad.workshop import load_workshop
@@ -77,4 +79,9 @@ def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[
     return {
         "workshop": str(output),
         "fits": {key: {"before": before[key], "after": value} for key, value in changed.items()},
+        "strengths": {
+            name: {"before": one.strength_in_plane_mpa, "after": found.materials[name].strength_in_plane_mpa}
+            for name, one in base.materials.items()
+            if found.materials[name] != one
+        },
     }

@@ -3,6 +3,7 @@
 It is a bundle like a robot's, with a manifest and with the workshop for which it was made.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
-from jumpcad.coupon.readings import JOINT_KEYS
+from jumpcad.coupon.readings import JOINT_KEYS, floor_breaks_n
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.files import templates_folder
 from jumpcad.parts.holes import HoleSizes
@@ -89,6 +90,7 @@ def _guide(workshop: Workshop, holes: HoleSizes) -> str:
             lying=" ".join(engraved(step) for step in steps_mm(workshop.fits.lying_mm)),
             seat=_seat(workshop),
             readings=READINGS,
+            floor_n=math.ceil(floor_breaks_n(workshop)),
         )
     )
 
@@ -126,6 +128,6 @@ def _template(workshop: Workshop, holes: HoleSizes) -> str:
         lines.append(f"# pegs_mm = [{', '.join(f'{peg:.2f}' for peg in PEGS_MM)}]")
     lines += ["", "[joints]"]
     lines += [f"# {key} = {getattr(fits, fit):.2f}" for key, (fit, _) in JOINT_KEYS.items()]
-    lines.append("# floor_n = 70")
+    lines.append(f"# floor_n = {math.ceil(floor_breaks_n(workshop))}")
     lines += ["", "[gears]", f"# turns_freely_mm = {fits.backlash_circumferential_mm:.2f}", ""]
     return "\n".join(lines)

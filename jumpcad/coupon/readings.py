@@ -141,19 +141,22 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
     fits = _fits(readings, workshop)
     if not fits and readings.joints.floor_n is None:
         raise JumpcadError(f"{source}: no reading: fill in at least one, such as axle_press_mm under [gauge.PETG]")
-    data = workshop.model_dump()
-    if readings.joints.floor_n is not None:
+    data, force = workshop.model_dump(), readings.joints.floor_n
+    if force is not None and force < floor_breaks_n(workshop):
         body = data["materials"][workshop.material_name("body")]
-        body["strength_in_plane_mpa"] = min(
-            body["strength_in_plane_mpa"], _floor_mpa(readings.joints.floor_n, workshop)
-        )
+        body["strength_in_plane_mpa"] = round(VON_MISES * force / _sheared_mm2(workshop), 1)
+        said = body["source"].rstrip(".")
+        body["source"] = f"{said}; strength in plane: a bore's floor broke at {force:g} N".removeprefix("; ")
     return Workshop.from_data(data | {"fits": data["fits"] | fits}, source)
 
 
-def _floor_mpa(force_n: float, workshop: Workshop) -> float:
-    """Return the strength (MPa, von Mises) of a blind bore's floor that was sheared off around the axle by a force."""
-    sheared = math.pi * workshop.bought.axle_mm * AXLE_FLOOR_MM
-    return round(VON_MISES * force_n / sheared, 1)
+def floor_breaks_n(workshop: Workshop) -> float:
+    """Return the force (N) on the axle that shears off a blind bore's floor of the body's material around it."""
+    return workshop.material("body").strength_in_plane_mpa * _sheared_mm2(workshop) / VON_MISES
+
+
+def _sheared_mm2(workshop: Workshop) -> float:
+    return math.pi * workshop.bought.axle_mm * AXLE_FLOOR_MM
 
 
 def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:

@@ -1,6 +1,7 @@
 """`jumpcad coupon`: from the coupon through its readings to a workshop that robots are built in."""
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -50,8 +51,21 @@ def test_what_is_told(run: Run) -> None:
     assert code == 0
     assert out.splitlines() == [
         "sliding_mm                   0.200 -> 0.250",
-        "w.toml: gauges/workshop.toml with these fits",
+        "w.toml: gauges/workshop.toml with these values",
     ]
+
+
+def test_a_lowered_strength_is_told(run: Run) -> None:
+    Path("r.toml").write_text("[joints]\nfloor_n = 100")
+    lowered = f"{round(100.0 * math.sqrt(3.0) / (math.pi * 3.0 * 0.8), 1):.1f}"
+    code, out, _ = run("coupon", "--measured", "r.toml", "-o", "w.toml")
+    assert (code, out.splitlines()) == (
+        0,
+        [f"PLA strength_in_plane_mpa    54.0 -> {lowered}", "w.toml: default with these values"],
+    )
+    assert load_workshop(Path("w.toml")).materials["PLA"].strength_in_plane_mpa == float(lowered)
+    Path("r.toml").write_text("[joints]\nfloor_n = 1000")
+    assert run("coupon", "--measured", "r.toml", "-o", "same.toml")[1] == "same.toml: default unchanged\n"
 
 
 @pytest.mark.parametrize(

@@ -74,6 +74,20 @@ def test_joints_are_read_too() -> None:
     assert read("[joints]\nfloor_n = 1000").materials == WORKSHOP.materials
 
 
+def test_a_floor_as_strong_as_the_material_says_changes_nothing_and_a_weaker_one_says_why() -> None:
+    """By hand: PLA's 54 MPa over √3, on pi·3·0.8 mm²."""
+    breaks = 54.0 / math.sqrt(3.0) * math.pi * 3.0 * 0.8
+    before = WORKSHOP.materials["PLA"]
+    assert before.strength_in_plane_mpa == 54.0
+    assert read(f"[joints]\nfloor_n = {breaks + 0.01}").materials == WORKSHOP.materials
+    weaker = read("[joints]\nfloor_n = 200").materials
+    assert weaker["PLA"].strength_in_plane_mpa < 54.0
+    assert weaker["PLA"].source == f"{before.source.rstrip('.')}; strength in plane: a bore's floor broke at 200 N"
+    assert {name: one for name, one in weaker.items() if name != "PLA"} == {
+        name: one for name, one in WORKSHOP.materials.items() if name != "PLA"
+    }
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
