@@ -131,7 +131,6 @@ def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) 
         softer = f'a bought.spring of {rate:.1f} N·mm/° at most, or "" for softer ones made to order'
     if share == 1.0:
         return f"a stronger bought.axle or larger bought.axle_mm, or {softer}"
-    thick = math.ceil(10.0 * bar.diameter_mm * share ** (1.0 / 3.0)) / 10.0
     rods = case.workshop.catalogue.rods.values()
     strong = [rod.name for rod in rods if rod.yield_mpa >= needed and not rod.bore_share]
     kind = (
@@ -142,10 +141,28 @@ def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) 
         else "no shipped rod"
     )
     return (
-        f"{needed:.0f} MPa yield stress ({kind}), bought.axle_mm of {thick:.1f} or "
-        f"more with its bearings, a span between the plates shorter by {100.0 * (1.0 - 1.0 / share):.0f} % (a shorter "
-        f"motor, a narrower battery or board), or {softer}"
+        f"{needed:.0f} MPa yield stress ({kind}), {_thicker(case, name, share)}a span between the plates shorter by "
+        f"{100.0 * (1.0 - 1.0 / share):.0f} % (a shorter motor, a narrower battery or board), or {softer}"
     )
+
+
+def _thicker(case: LoadCase, name: str, share: float) -> str:
+    """Return a diameter that bears so many times the stress, of those that can be bought; empty where there is none.
+
+    Screws as axles, which nuts need, have one diameter, clips and clevis pins a few.
+    """
+    bought, catalogue = case.workshop.bought, case.workshop.catalogue
+    least = case.bars[name].diameter_mm * share ** (1.0 / 3.0)
+    if bought.retention == "nuts":
+        return ""
+    if bought.retention == "clips" or clipped_pins(catalogue, bought):
+        made = [clip.shaft_mm for clip in catalogue.clips.values()]
+    elif name in PINS:
+        made = [pin.diameter_mm for pin in catalogue.clevis_pins.values()]
+    else:
+        return f"bought.axle_mm of {math.ceil(10.0 * least) / 10.0:.1f} or more with its bearings, "
+    enough = min((size for size in made if size >= least), default=None)
+    return "" if enough is None else f"bought.axle_mm of {enough:g} with its bearings, "
 
 
 def _retention(case: LoadCase) -> Iterator[Finding]:

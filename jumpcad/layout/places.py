@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.room import Cloud, Obstacle, clearance
+from jumpcad.layout.room import Cloud, Obstacle, clearance, lacking
 from jumpcad.transforms import Array
 
 TURN_STEPS = 72
@@ -75,6 +75,6 @@ def best_place(
     here, turn = centres_mm[best : best + 1], angles[best : best + 1]
     blocker = min(obstacles, key=lambda obstacle: clearance([obstacle], here, half_mm, turn, y_mm)[0])
     raise CannotBuildError(
-        f"no room for the {what}: {-free[best]:.1f} mm too little beside the {blocker.name}: {remedy}",
+        f"no room for the {what}: {lacking(free[best])} beside the {blocker.name}: {remedy}",
         f"room_{what.replace(' ', '_')}", free[best],
     )  # fmt: skip

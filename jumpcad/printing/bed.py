@@ -10,6 +10,15 @@ from jumpcad.transforms import Array
 
 ROUND_OFF_MM = 1e-6
 
+SMALLER = {
+    "main_leg": "a shorter carrying_link_mm",
+    "front_link": "a shorter carrying_link_mm or a smaller c_coef",
+    "foot": "a shorter carrying_link_mm, or a smaller d_coef or e_coef",
+    "toe": "a shorter carrying_link_mm or a smaller e_coef",
+    "body_plate": "a shorter carrying_link_mm, a smaller d_coef, or a smaller battery or boards",
+}
+"""What to change where a part is too large, by the beginning of its name; other parts are the body's."""
+
 
 @dataclass(frozen=True)
 class BedFit:
@@ -57,10 +66,15 @@ def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_m
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
         raise CannotBuildError(
             f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle: "
-            "choose a larger printer in the workshop, a shorter carrying_link_mm, or a smaller battery or boards",
+            f"choose a larger printer in the workshop, or {_smaller(name)}",
             "bed", found.margin_mm,
         )  # fmt: skip
     return found
+
+
+def _smaller(name: str) -> str:
+    """Return what makes a part smaller."""
+    return next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER["body_plate"])
 
 
 def _at_angles(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[BedFit]:

@@ -167,3 +167,17 @@ def test_a_rod_has_its_yield_stress_over_0_78_as_tensile_strength(kenan: Robot, 
     lasts = math.exp((1.0 - of_way) * math.log(0.77 * tensile) + of_way * math.log(endless))
     allowed = min(2.0 / (1.0 / lasts + 1.0 / tensile), 0.78 * tensile)
     assert finding.limit == pytest.approx(allowed / LOADS)
+
+
+@pytest.mark.parametrize(
+    ("retention", "name", "advised"),
+    [
+        ("nuts", "leg_axle", ""), ("nuts", "foot_pin", ""), ("clips", "leg_axle", ""), ("clips", "foot_pin", ""),
+        ("plates", "leg_axle", "3.1 or more"), ("plates", "foot_pin", "4"),
+    ],
+)  # fmt: skip
+def test_a_thicker_axle_is_advised_only_where_it_can_be_bought(retention: str, name: str, advised: str) -> None:
+    """Of 3 mm, 10 % too weak: screws as axles and clips end at 3 mm, the next clevis pin has 4 mm, rods have any."""
+    case = LoadCase(changed(built("kenan-2.0"), "bought", retention=retention, axle="silver-steel"))
+    words = steel._stronger(case, name, 330.0, 300.0)
+    assert words.partition("bought.axle_mm of ")[2].partition(" with")[0] == advised

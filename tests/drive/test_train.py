@@ -126,6 +126,14 @@ def test_a_motor_that_turns_the_cam_at_no_ratio_is_refused():
         synthesise_train(law_of("best-bo"), [], LIMITS)
 
 
+def test_springs_that_are_too_soft_for_a_motor_are_to_be_stiffer():
+    """A hundredth of the torque: every motor is strong enough, and turns the cam too fast at any ratio that fits."""
+    law = law_of("kenan-2.0")
+    soft = dataclasses.replace(law, stiffness_nm_per_rad=law.stiffness_nm_per_rad / 100.0)
+    with pytest.raises(CannotBuildError, match=r"may give \d+ mN·m.*: raise stiffness_nmm_per_deg.*slower motor$"):
+        synthesise_train(soft, MOTORS, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0))
+
+
 def test_a_train_that_misses_a_limit_is_passed_over(monkeypatch):
     """Whatever comes first as the lightest: here teeth that break, or a motor that is too fast or too weak."""
     law, motor = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]

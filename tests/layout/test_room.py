@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.layout.room import EVERYWHERE, Cloud, bar, box_obstacle, clearance, disc
+from jumpcad.layout.room import EVERYWHERE, Cloud, bar, box_obstacle, clearance, disc, lacking
 
 
 def test_distance_from_a_box_to_a_disc():
@@ -73,3 +73,9 @@ def test_thinned_is_one_disc_in_so_many() -> None:
     cloud = Cloud(np.arange(20.0).reshape(10, 2), np.arange(10.0)).thinned(4)
     assert cloud.radii_mm.tolist() == [0.0, 4.0, 8.0]
     assert cloud.points_mm[:, 0].tolist() == [0.0, 8.0, 16.0]
+
+
+def test_a_tenth_more_than_is_missing_is_said_and_never_nothing() -> None:
+    assert [lacking(room) for room in (-0.01, -0.1, -0.11, -2.0)] == [
+        "0.1 mm too little", "0.1 mm too little", "0.2 mm too little", "2.0 mm too little",
+    ]  # fmt: skip

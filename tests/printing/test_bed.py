@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.printing.bed import fit_to_bed, require_bed
 
@@ -69,3 +70,23 @@ def test_what_does_not_fit_misses_by_as_little_as_at_its_best_angle(long, turn_d
     at = turn + math.radians(found.angle_deg)
     size = long * abs(math.cos(at)), long * abs(math.sin(at))
     assert found.margin_mm == pytest.approx(min(BED[0] - size[0], BED[1] - size[1]))
+
+
+@pytest.mark.parametrize("long", ["main_leg", "front_link", "foot", "toe_left", "body_plate_right"])
+def test_what_is_advised_makes_the_part_smaller_or_the_rest_of_it_no_larger(long: str) -> None:
+    """The lengths of a design that are named, alone, shorten the part."""
+    corners = np.array([[0.0, 0.0], [400.0, 0.0], [400.0, 5.0], [0.0, 5.0]])
+    with pytest.raises(CannotBuildError) as refused:
+        require_bed(long, np.array([[0.0, 0.0, 0.0], [400.0, 5.0, 5.0]]), lambda: corners, BED)
+    advice = str(refused.value).rpartition(": ")[2]
+    base = load_design("best-printable")
+    for name in ("carrying_link_mm", "c_coef", "d_coef", "e_coef"):
+        other = base.model_copy(update={name: 0.95 * getattr(base, name)})
+        shorter = {
+            "main_leg": other.l2_mm < base.l2_mm,
+            "front_link": other.l3_mm < base.l3_mm,
+            "foot": min(other.l4_mm - base.l4_mm, other.l5_mm - base.l5_mm) < 0.0,
+            "toe_left": other.l5_mm < base.l5_mm,
+            "body_plate_right": other.l1_mm < base.l1_mm and name != "c_coef",  # which turns the body too
+        }
+        assert (name in advice) == shorter[long], name
