@@ -131,7 +131,7 @@ def test_springs_that_are_too_soft_for_a_motor_are_to_be_stiffer():
     law = law_of("kenan-2.0")
     soft = dataclasses.replace(law, stiffness_nm_per_rad=law.stiffness_nm_per_rad / 100.0)
     with pytest.raises(CannotBuildError, match=r"may give \d+ mN·m.*: raise stiffness_nmm_per_deg.*slower motor$"):
-        synthesise_train(soft, MOTORS, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0))
+        synthesise_train(soft, MOTORS, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0, cam_speed_max_rad_s=0.1))
 
 
 def test_a_train_that_misses_a_limit_is_passed_over(monkeypatch):
