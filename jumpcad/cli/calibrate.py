@@ -1,5 +1,6 @@
 """`jumpcad calibrate`: calibrates springs, pins, release and drive on measured jumps."""
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -125,7 +126,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
             predicted = _three([factor * value for value in row["predicted"]])
             lines.append(
                 f"  {row['what']} as {row['as']}: {predicted} {unit} predicted with its errors, measured "
-                f"{factor * row['measured']:.3g}, above {100 * row['below_share']:.0f} % of the predictions"
+                f"{factor * row['measured']:.3g}, above {math.floor(100 * row['below_share'] + 1e-9)} % of the predictions"
             )
     errors = [error["largest"] for error in document["model_error"].values()]
     sampler = document["sampler"]

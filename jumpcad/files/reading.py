@@ -74,7 +74,7 @@ def read_text(path: Path, kind: str = "a text file") -> str:
         As `read_bytes`, or if it is not text in UTF-8.
     """
     try:
-        return read_bytes(path, kind).decode("utf-8").replace("\r\n", "\n")
+        return read_bytes(path, kind).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError:
         raise JumpcadError(f"{path}: not a text file in UTF-8") from None
 

@@ -28,7 +28,7 @@ from jumpcad.checks.assembly import (
     tools,
 )
 from jumpcad.checks.interference import Component
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
@@ -38,12 +38,14 @@ from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
+STEEP_TOES = Design.from_vector([135.2, 0.88, 0.71, 1.25, 0.22, 59.6, 28.0, 66.4])
 FOUND = {
     "kenan-2.0": lambda: checked("kenan-2.0"),
     LONG_TOES: lambda: checked(LONG_TOES),
     "strong-2s, screws as axles, two pairs of gears": lambda: assembly_findings(
         _bought("best-bo", kit="strong-2s", retention="nuts", motors=("n20-50",))
     ),
+    "toes, steep, whose screws are beside the ankle's pin": lambda: assembly_findings(build(STEEP_TOES)),
     "clips": lambda: assembly_findings(_bought("best-printable", axle="silver-steel", retention="clips")),
 }
 

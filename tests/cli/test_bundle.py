@@ -16,6 +16,7 @@ from support.pictures import with_few_pictures
 
 from jumpcad import checks
 from jumpcad.bundle import export as bundle_export
+from jumpcad.checks import COSTLY
 from jumpcad.cli.bundle import _facts, _print_facts
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
@@ -331,7 +332,10 @@ def test_build_prints_grams_percent_and_millimetres(capsys: pytest.CaptureFixtur
     assert rows["study's masses"].endswith("does not jump (tips): falls over; longer toes")
     assert rows["written"].endswith("3 files in frog")  # with the manifest
     assert rows["note"].endswith("no room for the name")
-    assert "open its report.html" in rows["next"]
+    assert "open its report.html: its figures;" in rows["next"]
+    assert lines[-1].strip() == f"jumpcad check frog/design.toml --workshop frog/workshop.toml also looks at {COSTLY}"
+    _print_facts(facts | {"files": ["a", "pictures/rest.png"]})
+    assert "report.html: the jump in 3-D;" in capsys.readouterr().out
     _print_facts(facts | {"violated": [wrong], "violation": "1 of its 9 limits is violated"})
     said = capsys.readouterr().out
     assert "error" in said

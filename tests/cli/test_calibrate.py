@@ -138,7 +138,7 @@ def test_a_calibration_is_told_in_millimetres_joules_and_per_cent() -> None:
         "residuals": [residual | row, residual | battery | {"of": "battery"}],
         "predictions": {"j": {
             "ballistic_range_m": [0.1, 0.12, 0.14], "com_rise_m": [0.05, 0.06, 0.07],
-            "beside": [row | {"below_share": 0.62}],
+            "beside": [row | {"below_share": 0.6296}],
         }},
         "model_error": {"k": {"largest": 0.012}, "l": {"largest": 0.034}},
         "sampler": {"effective": 812.4, "converged": True}, "settings": "mine.toml",

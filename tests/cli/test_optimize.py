@@ -16,6 +16,8 @@ from typer.testing import CliRunner
 from jumpcad.cli import optimize
 from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, load_design
+from jumpcad.findings import Finding
+from jumpcad.search.models import robot_model
 from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.widening import Widened
 
@@ -131,6 +133,36 @@ def test_robust_scores_stand_under_their_headings(capsys):
     for heading, score in (("itself", "3.0000"), ("±1 %", "2.0000"), ("lengths", "1.0000")):
         end = lines[head].index(heading) + len(heading)
         assert lines[head + 1][:end].endswith(score)
+
+
+def test_a_winner_that_cannot_be_made_is_told_with_its_workshop(capsys, monkeypatch):
+    """Its limits are those that take seconds; what was searched in a workshop is built, or checked, in that one."""
+    design = load_design("kenan-2.0")
+    trial = SimpleNamespace(design=design, score=1.5, workshop={})
+    request = SimpleNamespace(
+        aim=SimpleNamespace(neighbours_of=""), searched=9, space=SimpleNamespace(size=1000), is_front=False,
+        objective="range",
+    )  # fmt: skip
+    result = SimpleNamespace(
+        request=request, evaluations=9, trials=[trial] * 9, rejected={}, converged=False, notes=[], best=trial,
+        winner=trial, candidates=[], score=1.5, design=design, widened=[], bounds=[],
+    )  # fmt: skip
+    wrong = Finding("assembly_paths", "error", -1.0, "mm²", "a toe blocks the path", "raise d_coef")
+    kept, built = Finding("walls", "info", 1.0, "mm", "", ""), []
+    monkeypatch.setattr("jumpcad.building.build", lambda *given: built.append(given))
+    monkeypatch.setattr("jumpcad.checks.costly_findings", lambda _: [kept, wrong])
+    fine = robot_model("printed", "fine")
+    assert optimize._violated(result, fine) == [wrong]
+    assert built == [(design, fine.workshop)]
+    assert optimize._violated(result, robot_model("capsule")) == []
+    optimize._print_result(result, Path("won.toml"), [wrong], "fine")
+    assert capsys.readouterr().out.splitlines()[-3:] == [
+        "error: assembly_paths: a toe blocks the path; raise d_coef", "",
+        "next: jumpcad check won.toml --workshop fine: do not build it as it is; a search does not look at these "
+        "limits",
+    ]  # fmt: skip
+    optimize._print_result(result, Path("won.toml"), [], "fine")
+    assert capsys.readouterr().out.splitlines()[-1] == "next: jumpcad build won.toml --workshop fine"
 
 
 def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):

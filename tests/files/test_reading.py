@@ -112,3 +112,10 @@ def test_nonsense_from_strangers_is_one_short_line(tmp_path: Path, text: str, re
     told = str(caught.value).replace(str(tmp_path), "")
     assert told.isprintable()
     assert len(told) < 500
+
+
+def test_a_byte_order_mark_before_the_text_is_no_part_of_it(tmp_path: Path) -> None:
+    """Editors on Windows write one."""
+    file = tmp_path / "design.toml"
+    file.write_bytes(b"\xef\xbb\xbfrest = 45.0\r\n")
+    assert read_toml(file) == ({"rest": 45.0}, "rest = 45.0\n")
