@@ -124,9 +124,10 @@ def _lines(document: dict[str, Any]) -> list[str]:
         for row in found["beside"]:
             factor, unit = UNITS[row["what"]]
             predicted = _three([factor * value for value in row["predicted"]])
+            below = math.floor(100 * row["below_share"] + 1e-9)
             lines.append(
                 f"  {row['what']} as {row['as']}: {predicted} {unit} predicted with its errors, measured "
-                f"{factor * row['measured']:.3g}, above {math.floor(100 * row['below_share'] + 1e-9)} % of the predictions"
+                f"{factor * row['measured']:.3g}, above {below} % of the predictions"
             )
     errors = [error["largest"] for error in document["model_error"].values()]
     sampler = document["sampler"]
