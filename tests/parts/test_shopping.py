@@ -22,7 +22,7 @@ from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.parts.shopping import _d_shaft, _electronics, _standoffs
+from jumpcad.parts.shopping import _d_shaft, _electronics, _soldered, _standoffs
 from jumpcad.parts.toes import toes
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
@@ -184,6 +184,19 @@ def test_coil_and_leg_arm_are_one_wire_at_rest(preload_deg: float) -> None:
         along, chord = ends[1][:2] - ends[0][:2], (coil[-1] - coil[-2])[[0, 2]]
         cosine = along @ chord / np.linalg.norm(along) / np.linalg.norm(chord)
         assert cosine > math.cos(math.radians(9.0))  # a chord of 15° is turned by half of that
+
+
+@pytest.mark.parametrize("regulator", ["pololu", ""])
+def test_a_diode_is_bought_where_there_is_a_regulator_before_it(regulator: str) -> None:
+    """Whatever the workshop names; what else it names is there with its own mass."""
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update=shop.catalogue.kits["strong-2s"].model_dump())
+    bought = bought if regulator else bought.model_copy(update={"regulator": ""})
+    found = {name: grams for name, _, grams in _soldered(built("kenan-2.0").layout, shop.catalogue, bought, {"plug"})}
+    assert ("diode" in found) == bool(regulator)
+    assert "plug" not in found
+    for role in ("switch", "capacitor", "sensor"):
+        assert found[role] == shop.catalogue.components[getattr(bought, role)].mass_g
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
