@@ -336,6 +336,7 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
 
     The stop lies behind the leg; the springs' pin is where their arms end.
     """
+    layout = plans()["geared"]
     given: dict[str, set[str]] = {}
     legs: list[Obstacle] = []
     names = ("stop_place", "spring_pin_place", "train_places", "sensor_place", "tray_place", "standoff_places",
@@ -349,7 +350,6 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
             return make(*asked)
 
         monkeypatch.setattr(layout_module, name, kept)
-    layout = plans()["geared"]
     plan_again(layout)
     # the leg is kept free from its loaded pose to 3° beyond its stop
     ends = np.array([[layout.design.l2_mm, 0.0]])
