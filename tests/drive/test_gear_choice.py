@@ -114,8 +114,8 @@ def test_of_two_pairs_every_pinion_bears_the_torque_with_the_losses_behind_it():
 def test_of_two_pairs_the_idlers_wheel_passes_beside_the_cams_axle():
     """Its tips keep the radius of the axle with its spacers from the cam's axis, as large as that may be."""
     law = law_of("best-bo")
-    for axle, idler in ((3.0, 0.0), (8.0, 25.0), (12.0, 35.0)):
-        limits = dataclasses.replace(LIMITS, axle_mm=axle, idler_distance_min_mm=idler)
+    for axle, idler, motor in ((3.0, 0.0, 12.0), (8.0, 25.0, 45.0), (12.0, 35.0, 60.0)):
+        limits = dataclasses.replace(LIMITS, axle_mm=axle, idler_distance_min_mm=idler, motor_distance_min_mm=motor)
         nearest = math.inf
         for _, (first, last) in itertools.islice(by_cost(law, MOTORS, limits, 2), 60):
             room = last.centre_distance_mm - first.wheel.tip_radius_mm - axle

@@ -186,6 +186,19 @@ def test_coil_and_leg_arm_are_one_wire_at_rest(preload_deg: float) -> None:
         assert cosine > math.cos(math.radians(9.0))  # a chord of 15° is turned by half of that
 
 
+def test_wire_of_which_no_length_is_known_weighs_as_for_half_a_metre() -> None:
+    shop = load_workshop()
+    wire = shop.catalogue.components[shop.bought.wire]
+    weighed = []
+    for length in (500.0, None, 1000.0):
+        known = dict(shop.catalogue.components) | {wire.name: wire.model_copy(update={"length_mm": length})}
+        catalogue = replace(shop.catalogue, components=known)
+        soldered = _soldered(built("kenan-2.0").layout, catalogue, shop.bought, set())
+        weighed.append(sum(grams for name, _, grams in soldered if name.startswith("wire_")))
+    assert weighed[1] == pytest.approx(weighed[0])
+    assert weighed[2] == pytest.approx(weighed[0] / 2.0)
+
+
 @pytest.mark.parametrize("regulator", ["pololu", ""])
 def test_a_diode_is_bought_where_there_is_a_regulator_before_it(regulator: str) -> None:
     """Whatever the workshop names; what else it names is there with its own mass."""
