@@ -154,6 +154,22 @@ def test_the_table_of_pairs_has_the_circles_of_their_gears():
         assert row["distance_mm"] == pytest.approx(pair.centre_distance_mm)
 
 
+@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize("changed", [{"pinion_root_min_mm": 7.0}, {"tip_min_mm": 0.6}, {"modules_mm": (1.5,)}])
+def test_gears_that_are_offered_print_and_hold_their_shafts(count, changed):
+    """Tips as wide, roots as thick, and modules such as the limits have them."""
+    limits, offered = dataclasses.replace(LIMITS, **changed), 0
+    for motor, stages in by_cost(law_of("kenan-2.0"), MOTORS, limits, count):
+        for pair in stages:
+            assert pair.pinion.root_radius_mm >= limits.beside(motor).pinion_root_min_mm - 1e-9
+            assert Gear(pair.pinion.teeth, pair.module_mm, pair.pinion.shift, 1.0, 0.075).tip_thickness_mm >= (
+                limits.tip_min_mm
+            )
+            assert pair.module_mm in limits.modules_mm
+            offered += 1
+    assert offered
+
+
 @pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
 def test_what_time_costs_is_that_of_the_battery(kit):
     """A motor of 6 V on one cell winds more slowly: its gears are chosen by the time that it then takes."""

@@ -152,6 +152,7 @@ def test_between_the_tables_angles_the_equations_go_on_without_a_step(name: str)
     robot = built(name)
     chain = flight._Chain(robot.bodies, robot.linkage, robot.spring, 0.1)
     toe = robot.bodies["foot"].contacts[1]
+    assert (chain.leg[0], chain.leg[-1]) == (-robot.design.compression_rad, 0.1)
 
     def at(leg_rad: float) -> np.ndarray:
         return np.array(chain.equations(flight._State(leg_rad, 0.02, 9.0, 2.0, toe)))

@@ -26,6 +26,13 @@ def test_a_wire_is_as_long_as_its_way_with_slack_in_whole_centimetres(one: str, 
         )
 
 
+def test_inside_a_wire_goes_from_where_one_lead_ends_to_where_the_other_does() -> None:
+    """Wherever the trays are: 10 + 20 + 5 mm apart, and 30 mm of slack."""
+    at = np.array([100.0, -50.0, 40.0])
+    ways = {"controller": [at], "driver": [at + np.array([10.0, -20.0, 5.0])]}
+    assert _lead_mm(ways, "controller", "driver") == _lead_mm(ways, "driver", "controller") == 70.0
+
+
 def test_no_wire_is_cut_for_legs_of_a_part_and_the_batterys_own_plug() -> None:
     far = {
         name: [np.array([100.0 * number, 0.0, 0.0])] for number, name in enumerate(("battery", "plug", "controller"))
