@@ -113,6 +113,13 @@ def test_a_cell_of_unknown_resistance_has_0_15_ohm() -> None:
     assert battery.model_copy(update={"resistance_ohm": None}).ohm == pytest.approx(2 * 0.15)
 
 
+@pytest.mark.parametrize(("volts", "cells"), [(1.2, 1), (3.2, 1), (3.7, 1), (6.4, 2), (7.4, 2), (11.1, 3), (12.8, 3)])
+def test_a_battery_has_as_many_cells_as_its_voltage_says_and_one_at_least(volts: float, cells: int) -> None:
+    """3.7 V of lithium polymer, 3.2 V of iron phosphate; a single cell of any other kind is one."""
+    battery = load_catalogue().batteries["lipo-2s-180"].model_copy(update={"voltage_v": volts})
+    assert battery.cells == cells
+
+
 def test_voltages_ascend() -> None:
     data = load_catalogue().boards["xiao-esp32c3"].model_dump(exclude_none=True)
     for volts, taken in (((3.0, 3.001), True), ((3.0, 3.0), False), ((4.0, 3.0), False)):

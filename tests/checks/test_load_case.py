@@ -2,6 +2,7 @@
 
 import io
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from jumpcad.strength.loads import toe_load_n
 from jumpcad.workshop import load_workshop
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-bo"])
 def test_the_arms_forces_turn_leg_and_plates_with_the_springs_torque(name: str) -> None:
     """A pin is pushed away from the hub, square to its arm; winding is counter-clockwise seen from the right.
 
@@ -122,7 +123,7 @@ def test_the_springs_torque_is_rate_times_turn(name: str) -> None:
     assert LoadCase(built(name)).torque_nmm == pytest.approx(torque)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-bo"])
 def test_a_blow_on_one_toe_meets_less_than_the_whole_mass(name: str) -> None:
     """A body struck at x, y: 1/(1 + x²/k_y² + y²/k_x²) of it, with radii of gyration from its tensor."""
     case = LoadCase(built(name))
@@ -132,7 +133,7 @@ def test_a_blow_on_one_toe_meets_less_than_the_whole_mass(name: str) -> None:
     assert case.toe_blow_n == pytest.approx(case.landing_n / turned)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-bo"])
 def test_pins_and_toes_bear_the_most_that_a_push_off_has(name: str) -> None:
     """On its way the pins' forces change; the ankle bears the springs' torque over the leg, and the force along it."""
     case, design = LoadCase(built(name)), load_design(name)
@@ -147,6 +148,24 @@ def test_pins_and_toes_bear_the_most_that_a_push_off_has(name: str) -> None:
     both = toe_load_n(forces, design, 1000.0 * built(name).foot_depth_m)
     assert case.toes_n == pytest.approx(both.max())
     assert both.min() < 0.8 * case.toes_n
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_dog_is_as_long_as_the_cam_gear_is_wide_wherever_that_lies(name: str) -> None:
+    """Longer jaws are bent more; the boss, which is a tube, is twisted alike."""
+    robot = built(name)
+    lateral = robot.layout.lateral
+
+    def stress(low_mm: float, wide: float) -> float:
+        gears = ((low_mm, low_mm + wide), *lateral.gears[1:])
+        moved = replace(robot.layout, lateral=replace(lateral, gears=gears))
+        return LoadCase(replace(robot, layout=moved)).dog_stress_mpa(1.0)
+
+    low, high = lateral.gears[0]
+    assert stress(low, high - low) == LoadCase(robot).dog_stress_mpa(1.0)
+    assert stress(low + 7.0, high - low) == pytest.approx(stress(low, high - low))
+    assert stress(low, 4.0 * (high - low)) > 1.5 * stress(low, high - low)
+    assert LoadCase(robot).dog_stress_mpa(2.0) == pytest.approx(2.0 * LoadCase(robot).dog_stress_mpa(1.0))
 
 
 def _toe_from_body_mm(robot: Robot) -> tuple[float, float]:

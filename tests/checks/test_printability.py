@@ -100,6 +100,14 @@ def test_silent_on_what_prints(kenan: Robot, slabs: Slabs) -> None:
             assert findings[name].margin == pytest.approx(findings[name].value - least_mm)
 
 
+def test_of_a_plain_block_no_width_is_told_as_found(kenan: Robot) -> None:
+    """Nothing is narrower than twice the least: how much wider it is, is not known; the limit is."""
+    findings = found(kenan, Stack.of([(0.0, 5.0, BLOCK)]))
+    for name, least_mm in (("walls", 0.8), ("holes", 1.6), ("pins", 3.0)):
+        assert (findings[name].value, findings[name].limit) == (None, least_mm)
+        assert findings[name].message.startswith(f"no {'column' if name == 'pins' else name[:-1]} is under")
+
+
 def test_steps_of_45_degrees_are_no_overhang_and_steeper_ones_are(kenan: Robot) -> None:
     def steps(out_mm: float) -> Stack:
         return Stack.of([(0.2 * step, 0.2 * step + 0.2, disc(10.0 + 2.0 * out_mm * step)) for step in range(10)])

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -68,6 +69,20 @@ def test_the_land_presses_the_plunger_before_the_drop_and_nowhere_else(make: Cal
     assert found["sensor_overtravel"].margin == pytest.approx(below.min() - axial - TOTAL_MM, abs=0.01)
     assert found["sensor_free"].margin == pytest.approx(outside.min() - axial - FREE_MM, abs=0.01)
     assert found["sensor_ready"].margin == pytest.approx(robot.workshop.seats.sensor_reserve_deg)
+
+
+@pytest.mark.parametrize("cam_rad_s", [0.5, 30.0, 40.0])
+def test_the_motor_stands_before_the_next_lift_though_it_runs_on(cam_rad_s: float) -> None:
+    """0.06 s at the cam's speed after the sensor has opened at the latest; the lift takes 310°."""
+    robot = built("kenan-2.0")
+    layout, sensor = robot.layout, robot.layout.sensor
+    train = replace(layout.drive.train, cam_speed_rad_s=cam_rad_s)
+    quick = replace(robot, layout=replace(layout, drive=replace(layout.drive, train=train)))
+    (found,) = (one for one in sensor_findings(quick) if one.name == "sensor_open")
+    opens, scatter = math.degrees(sensor.open_rad), math.degrees(sensor.scatter_rad)
+    left = 50.0 - opens - scatter - math.degrees(0.06 * cam_rad_s)
+    assert found.value == pytest.approx(min(opens - scatter, left))
+    assert (left < opens - scatter) == (cam_rad_s > 1.0)
 
 
 def test_the_firmware_waits_for_the_same_angle() -> None:

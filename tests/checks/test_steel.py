@@ -118,6 +118,7 @@ def test_a_pin_that_is_too_weak_is_answered_with_what_is_strong_enough() -> None
         assert f"bought.axle of {rods} with" in words, "solid rods of 1370, 400 and 480 MPa for a tube of 210 MPa"
     assert steel._stronger(case, "leg_axle", 200.0, 300.0).startswith("a stronger bought.axle")
     assert "no stronger pins" in steel._stronger(case, "foot_pin", 600.0, 300.0)
+    assert "(no shipped rod)" in steel._stronger(case, "leg_axle", 3.0 * 300.0, 300.0)  # 4110 MPa
 
 
 @pytest.mark.parametrize("robot", ["kenan", "strongest"])

@@ -231,6 +231,16 @@ def test_what_is_pulled_along_and_at_its_eyes_by_hand(robot: str, request: pytes
     assert found["foot_lug_strength"].value == pytest.approx(lug)
 
 
+def test_legs_with_a_bar_are_checked_as_bars(kenan: Robot) -> None:
+    """Their printed beam ends in a socket: flex and buckling are those of the bar, each told once."""
+    bar = kenan.workshop.catalogue.bars["carbon-tube-4x2"]
+    names = [found.name for found in strength_findings(replace(kenan, layout=replace(kenan.layout, leg_bar=bar)))]
+    printed = {found.name for found in strength_findings(kenan)}
+    assert len(set(names)) == len(names)
+    assert printed - set(names) == {"leg_flex", "front_link_buckling"}
+    assert {"leg_bar_flex", "front_bar_buckling", "leg_bar_strength", "leg_bar_bond"} <= set(names) - printed
+
+
 GROWING = {
     "leg": ("leg_root_mm", "leg_tip_mm"), "lever": ("lever_root_mm",), "front": ("front_mm",),
     "thickness": ("thickness_mm",), "lug": ("lug_thickness_mm",), "toe": ("toe_root_mm", "toe_tip_height_mm"),

@@ -54,7 +54,8 @@ def test_a_roller_that_is_too_large_is_refused_with_what_misses():
     """One of 60 mm leaves no room for the fall, one of 100 mm none for a lever; the diameter that is named fits one."""
     with pytest.raises(CannotBuildError, match=r"misses: .* mm short.*a smaller bought\.roller"):
         synthesised(40, 0.6, replace(LIMITS, roller_radius_mm=30.0))
-    with pytest.raises(CannotBuildError, match=r"no lever from .* to 45 mm") as refused:
+    least = LIMITS.hub_radius_mm + 50.0 + LIMITS.clearance_mm  # the roller stays clear of the hub
+    with pytest.raises(CannotBuildError, match=rf"no lever from {least:.1f} mm .* to 45 mm") as refused:
         synthesised(40, 0.6, replace(LIMITS, roller_radius_mm=50.0))
     named = float(str(refused.value).partition("less than ")[2].partition(" mm")[0])
     for more, words in ((-0.1, "no cam winds"), (0.1, "no lever from")):

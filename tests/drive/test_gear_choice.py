@@ -114,8 +114,8 @@ def test_of_two_pairs_every_pinion_bears_the_torque_with_the_losses_behind_it():
 def test_of_two_pairs_the_idlers_wheel_passes_beside_the_cams_axle():
     """Its tips keep the radius of the axle with its spacers from the cam's axis, as large as that may be."""
     law = law_of("best-bo")
-    for axle, idler in ((3.0, 0.0), (8.0, 25.0), (12.0, 35.0)):
-        limits = dataclasses.replace(LIMITS, axle_mm=axle, idler_distance_min_mm=idler)
+    for axle, idler, motor in ((3.0, 0.0, 12.0), (8.0, 25.0, 45.0), (12.0, 35.0, 60.0)):
+        limits = dataclasses.replace(LIMITS, axle_mm=axle, idler_distance_min_mm=idler, motor_distance_min_mm=motor)
         nearest = math.inf
         for _, (first, last) in itertools.islice(by_cost(law, MOTORS, limits, 2), 60):
             room = last.centre_distance_mm - first.wheel.tip_radius_mm - axle
@@ -152,6 +152,22 @@ def test_the_table_of_pairs_has_the_circles_of_their_gears():
         assert row["pinion"] >= row["least_teeth"]
         pair = gear_pair(pinion.teeth, teeth, module, 1.0, 0.15)
         assert row["distance_mm"] == pytest.approx(pair.centre_distance_mm)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize("changed", [{"pinion_root_min_mm": 7.0}, {"tip_min_mm": 0.6}, {"modules_mm": (1.5,)}])
+def test_gears_that_are_offered_print_and_hold_their_shafts(count, changed):
+    """Tips as wide, roots as thick, and modules such as the limits have them."""
+    limits, offered = dataclasses.replace(LIMITS, **changed), 0
+    for motor, stages in by_cost(law_of("kenan-2.0"), MOTORS, limits, count):
+        for pair in stages:
+            assert pair.pinion.root_radius_mm >= limits.beside(motor).pinion_root_min_mm - 1e-9
+            assert Gear(pair.pinion.teeth, pair.module_mm, pair.pinion.shift, 1.0, 0.075).tip_thickness_mm >= (
+                limits.tip_min_mm
+            )
+            assert pair.module_mm in limits.modules_mm
+            offered += 1
+    assert offered
 
 
 @pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])

@@ -8,6 +8,7 @@ import pytest
 from scipy import integrate
 from support.built import built
 
+from jumpcad.drive import rolling
 from jumpcad.drive.corner import Corner, roll_over
 from jumpcad.drive.rolling import ReleaseParts, _Release, roll
 
@@ -159,3 +160,16 @@ def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:
     inertia = float(given.leg.at(np.array(rolled.wind_rad))[0])
     swing = 0.5 * inertia * rolled.wind_rad_s**2
     assert rolled.kept_j == pytest.approx(given.spring.stored_j(-rolled.wind_rad) + swing)
+
+
+@pytest.mark.parametrize(("impact_nm", "met_nm", "kick_nm"), [(5.0, 0.1, 5.0), (5.0, 9.0, 9.0)])
+def test_the_larger_of_a_cams_impact_and_of_what_it_meets_later_is_the_kick(
+    monkeypatch: pytest.MonkeyPatch, impact_nm: float, met_nm: float, kick_nm: float
+) -> None:
+    """The gear strikes the rotor, and the corner, still below the roller, pushes cam and gear on to it."""
+    monkeypatch.setattr(rolling, "largest_torques_nm", lambda *_: (1.0, impact_nm))
+    monkeypatch.setattr(_Release, "_join", lambda self, inertia: met_nm)
+    monkeypatch.setattr(_Release, "_push_off", lambda self, end: None)
+    release = _Release(arc(0.1), parts(play_rad=0.1, backlash_rad=0.05))
+    release.run()
+    assert (release.blow_nm, release.kick_nm) == (1.0, kick_nm)

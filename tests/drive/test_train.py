@@ -63,6 +63,13 @@ def test_the_motor_stays_within_what_its_maker_allows(law, limits):
     losses = 0.85 * 0.9 ** len(train.stages)
     torque = law.energy_j / (law.lift_rad - law.ramp_rad / 2) / train.ratio / losses
     assert torque == pytest.approx(train.motor_torque_nm)
+    findings = {finding.name: finding for finding in train.findings}
+    allowed = min(LIMITS.stall_share * train.motor.stall_torque_nm, LIMITS.torque_max_nm)
+    assert (findings["motor_torque"].value, findings["motor_torque"].limit) == pytest.approx((torque, allowed))
+    speed = train.motor.no_load_rpm * math.pi / 30 / train.ratio
+    assert (findings["cam_speed"].value, findings["cam_speed"].limit) == pytest.approx(
+        (speed, limits.cam_speed_max_rad_s)
+    )
     assert torque <= 0.25 * train.motor.stall_torque_nm
     assert torque <= 0.196
     assert train.motor.no_load_rpm * math.pi / 30 / train.ratio <= limits.cam_speed_max_rad_s

@@ -258,6 +258,20 @@ def test_a_terminal_alone_is_no_net(function: str, net: str) -> None:
     assert [one.name for one in wiring.nets] == [one.name for one in whole.nets if one.name != net]
 
 
+@pytest.mark.parametrize("kit", KITS)
+def test_the_sensors_contact_is_pulled_up_where_the_controller_reads_it(kit: str) -> None:
+    """One wire from pin, contact and resistor; the resistor's other end has the controller's own supply."""
+    chosen = parts(kit)
+    wiring = wiring_of(chosen, {})
+    (ready,) = (net for net in wiring.nets if net.name == "ready")
+    joined = {str(terminal) for terminal in ready.terminals}
+    assert {f"controller {wiring.pins['ready']}", "pull-up resistor 1"} < joined
+    (contact,) = (one for one in joined if one.startswith("sensor "))
+    assert contact != "sensor COM"
+    assert len(joined) == 3
+    assert "pull-up resistor 2" in reached(f"controller {chosen.controller.with_function('out')[0]}", wires(wiring))
+
+
 @pytest.mark.parametrize(("kit", "pin"), [("light-1s", "VCC"), ("strong-2s", "VM")])
 def test_a_driver_of_two_inputs_gets_the_battery_at_the_one_that_bears_it(kit: str, pin: str) -> None:
     """One cell has 3.3 to 4.2 V, two have 6.6 to 8.4 V; the controller's voltage behind a regulator is another."""

@@ -337,11 +337,12 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
 
     The stop lies behind the leg; the springs' pin is where their arms end.
     """
+    layout = plans()["geared"]
     given: dict[str, set[str]] = {}
     legs: list[Obstacle] = []
     names = ("stop_place", "spring_pin_place", "train_places", "sensor_place", "tray_place", "standoff_places",
              "spring_boss_mm", "fittings_of")  # fmt: skip
-    for name in (*names, "pin_hole"):
+    for name in (*names, "pin_hole", "require_gear_room"):
         make, place = getattr(layout_module, name), int(name == "pin_hole")
 
         def kept(*asked: Any, name: str = name, make: Any = make, place: int = place) -> Any:
@@ -350,7 +351,6 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
             return make(*asked)
 
         monkeypatch.setattr(layout_module, name, kept)
-    layout = plans()["geared"]
     plan_again(layout)
     # the leg is kept free from its loaded pose to 3° beyond its stop
     ends = np.array([[layout.design.l2_mm, 0.0]])
@@ -363,6 +363,7 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
     first = links | springs | cam | {"front axle"}
     assert given["stop_place"] == given["pin_hole"] == first - {"main leg"}
     assert given["spring_pin_place"] == first - springs
+    assert given["require_gear_room"] == springs | {"front axle"}
     things = first | {"rest stop", "spring arm", "spring pin", "way of the leg's pin"}
     train = {"motor", "pinion", "idler wheel", "idler pinion", "idler axle"}
     for name, more in zip(names[2:], (set(), train, {"sensor"}, {"electronics"}, {"standoff"}, set()), strict=True):

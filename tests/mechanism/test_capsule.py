@@ -78,6 +78,9 @@ def test_the_ground_is_a_radius_below_the_feet(name: str) -> None:
     balls = [ball for body in robot.bodies.values() for ball in body.contacts]
     assert [ball.radius_m for ball in balls] == pytest.approx(5 * [radius])
     assert {ball.centre_m[2] for ball in balls} == {0.0}
+    pivots = [ball.centre_m.tolist() for ball in robot.bodies[BODY].contacts]
+    half = design.l1_mm / 2000.0  # the body is the capsule between its pivots
+    assert pivots == [pytest.approx([-half, 0.0, 0.0]), pytest.approx([half, 0.0, 0.0])]
 
 
 def test_joints_have_their_own_ranges() -> None:

@@ -144,3 +144,24 @@ def test_springs_that_pull_back_beyond_rest_slow_the_leg(name: str) -> None:
     assert slow.takeoff_rad < math.radians(1.0)
     work = 0.5 * robot.spring.stiffness_nm_per_rad * stop**2
     assert quick.energy_j - slow.energy_j == pytest.approx(work, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "best-bo"])
+def test_between_the_tables_angles_the_equations_go_on_without_a_step(name: str) -> None:
+    """Just before an angle of the table and just behind it; midway they are between those of both its neighbours."""
+    robot = built(name)
+    chain = flight._Chain(robot.bodies, robot.linkage, robot.spring, 0.1)
+    toe = robot.bodies["foot"].contacts[1]
+    assert (chain.leg[0], chain.leg[-1]) == (-robot.design.compression_rad, 0.1)
+
+    def at(leg_rad: float) -> np.ndarray:
+        return np.array(chain.equations(flight._State(leg_rad, 0.02, 9.0, 2.0, toe)))
+
+    number = len(chain.leg) // 3
+    before, node, behind = chain.leg[number - 1 : number + 2]
+    step = 1e-9
+    scale = np.abs(at(node)) + 1e-9
+    assert (np.abs(at(node + step) - at(node - step)) < 1e-5 * scale).all()
+    for low, high in ((before, node), (node, behind)):
+        middle, ends = at((low + high) / 2.0), np.array([at(low + step), at(high - step)])
+        assert (np.abs(middle - ends.mean(axis=0)) < 0.02 * scale).all()

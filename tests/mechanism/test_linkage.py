@@ -175,3 +175,19 @@ def test_rates_of_the_closed_loop_equal_central_differences() -> None:
             assert [foot, front] == pytest.approx(by_leg, rel=1e-5, abs=1e-5)
             x, z = (ahead.ankle_mm - behind.ankle_mm)[0] / (2 * step)
             assert ankle == pytest.approx(complex(x, z), rel=1e-5)
+
+
+def test_the_loop_is_nearest_to_parting_at_an_end_of_the_travel_or_where_the_leg_crosses_the_body() -> None:
+    """Of the triangle inequality at a thousand angles, for legs that are loaded beyond the body's line too."""
+    rng, beyond = np.random.default_rng(3), 0
+    for vector in rng.uniform(LOWER, UPPER, (60, len(LOWER))):
+        far = {"compression_ratio": 0.99, "c_coef": rng.uniform(0.95, 1.3), "rest_angle_deg": rng.uniform(10.0, 50.0)}
+        design = Design.from_vector(vector).model_copy(update=far)
+        if design.assembly_margin_mm <= 0.0:
+            continue
+        linkage = Linkage(design)
+        diagonal = linkage.diagonal_mm(np.linspace(-design.compression_rad, 0.0, 2001))
+        margin = min(diagonal.min() - abs(linkage.l3 - linkage.l4), linkage.l3 + linkage.l4 - diagonal.max())
+        assert linkage.closing_margin_mm() == pytest.approx(margin, abs=1e-3)
+        beyond += design.compression_rad > linkage.rest_rad + 0.1
+    assert beyond > 5

@@ -28,10 +28,14 @@ def test_vectors_are_complex_numbers() -> None:
     assert dot(np.array(3.0 + 4.0j), np.array(-1.0 + 2.0j)) == 5.0
 
 
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0"])
 @pytest.mark.parametrize("share", [0.0, 0.6, 1.0])
-def test_bodies_are_where_the_law_of_cosines_puts_them(share: float) -> None:
-    """Centres of mass, seen from the ankle along the foot: distances and angles of an independent solution."""
-    robot = built("kenan-2.0")
+def test_bodies_are_where_the_law_of_cosines_puts_them(share: float, name: str) -> None:
+    """Centres of mass, seen from the ankle along the foot: distances and angles of an independent solution.
+
+    The foot of kenan-2.0 never turns; that of kenan-1.0 does.
+    """
+    robot = built(name)
     wind = share * robot.design.compression_rad
     place, turn = (row[0] for row in seen_from_foot(robot.bodies, robot.linkage, np.array([-wind])))
     foot = body_in_plane(robot, FOOT, wind)

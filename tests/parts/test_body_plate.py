@@ -13,7 +13,7 @@ from jumpcad.building import build
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.dimensions import MOTOR_CAP_MM, MOTOR_CLAMP_MM
-from jumpcad.drive.socket import socket_half_mm
+from jumpcad.drive.socket import socket_half_mm, window_mm
 from jumpcad.parts.body_plate import (
     _covers,
     _drawing,
@@ -61,6 +61,21 @@ def test_the_motors_shaft_and_the_sensors_switch_pass_the_left_plate(name: str) 
         assert plate.intersection(opened).area < 1e-3, y
         assert plate.intersection(shaft.buffer(0.5)).area > 0.5, y
         assert plate.intersection(opened.buffer(0.5)).area > 5.0, y
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_right_plate_is_open_behind_the_motors_terminals(name: str) -> None:
+    """Through its whole thickness, its closed bores' floor too: the middle of the motor's rear, turned as it is."""
+    layout = built(name).layout
+    half, (low, high) = np.array(window_mm(layout.drive.train.motor)) / 2.0 - 0.05, layout.lateral.right_plate
+    window = shapely.affinity.rotate(
+        shapely.box(*-half, *half), layout.motor_angle_rad, origin=(0.0, 0.0), use_radians=True
+    )
+    window = shapely.affinity.translate(window.buffer(-1.0).buffer(0.9), *layout.motor_mm)
+    mesh = placed(built(name), "body_plate_right")
+    assert window.area > 10.0
+    for y in (low + 0.5, (low + high) / 2.0, high - 0.1):
+        assert region(cut(mesh, y)).intersection(window).area < 1e-3, y
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

@@ -115,6 +115,18 @@ def test_the_socket_is_bent_by_what_is_left_of_the_torque_at_its_floor() -> None
     assert socket.value == pytest.approx(torque * height / 2.0 / second, rel=1e-6)
 
 
+@pytest.mark.parametrize("worst", ["bar_bending_mpa", "bar_sideways_mpa", "bar_shear_mpa"])
+def test_whichever_stress_of_a_bar_is_nearest_to_its_limit_counts(worst: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Bending in the plane of motion or across it as it is, shear by how much less of it the bar bears."""
+    case = LoadCase(robot("carbon-tube-4x2"))
+    bar = BARS["carbon-tube-4x2"]
+    for name in ("bar_bending_mpa", "bar_sideways_mpa", "bar_shear_mpa"):
+        monkeypatch.setattr(leg_bar, name, lambda *_, mpa=90.0 if name == worst else 0.1: mpa)
+    (found,) = (one for one in leg_bar_findings(case) if one.name == "leg_bar_strength")
+    share = bar.strength_mpa / bar.shear_mpa if worst == "bar_shear_mpa" else 1.0
+    assert found.value == pytest.approx(90.0 * share)
+
+
 def test_a_bar_that_is_too_weak_is_found() -> None:
     """Half of best-printable's torque is more than a tube of 4 x 3 mm bears in shear at its socket."""
     (found,) = [

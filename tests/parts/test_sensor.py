@@ -117,6 +117,9 @@ def test_the_mounts_ears_are_2_mm_high_however_far_the_base_stands_out(robot: Ro
         if height < 2.0:  # ears as wide as their round ends, up to the mount's walls
             ear = found.intersection(shapely.box(length / 2.0 + 1.5, -50.0, length / 2.0 + 3.2, 50.0))
             assert (ear.bounds[1], ear.bounds[3]) == pytest.approx((-2.6, 2.6), abs=0.02), height
+            at, wall = layout.sensor.ear_mm, length / 2.0 + MOUNT_PLAY_MM
+            neck = shapely.box(wall + 0.5, -2.58, at, 2.58) - shapely.Point(at, 0.0).buffer(1.4)
+            assert neck.difference(found).area < 1e-2, height
         opened = case if height < base_mm else case.buffer(-0.9, join_style="mitre")
         assert found.intersection(opened).area < 1e-3, height
         closed = case.difference(opened) if height > base_mm else case.buffer(0.0).difference(case)

@@ -12,7 +12,7 @@ from support.built import built
 from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import load_catalogue
 from jumpcad.parts.fittings import wire_hole_mm
-from jumpcad.parts.wired import electronics
+from jumpcad.parts.wired import _soldered, electronics
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -151,3 +151,29 @@ def test_the_balance_lead_of_two_cells_lies_under_its_tie_ahead_of_the_battery()
     assert np.ptp(tie, axis=0) == pytest.approx([2.5, 10.0, 1.1], abs=2e-3)
     assert tie[0, 0] > battery[1, 0]
     assert "tie_balance_lead" not in {item.name for item in robot.hardware}
+
+
+def test_wire_of_which_no_length_is_known_weighs_as_for_half_a_metre() -> None:
+    shop = load_workshop()
+    wire = shop.catalogue.components[shop.bought.wire]
+    weighed = []
+    for length in (500.0, None, 1000.0):
+        known = dict(shop.catalogue.components) | {wire.name: wire.model_copy(update={"length_mm": length})}
+        catalogue = replace(shop.catalogue, components=known)
+        soldered = _soldered(built("kenan-2.0").layout, catalogue, shop.bought, set())
+        weighed.append(sum(grams for name, _, grams in soldered if name.startswith("wire_")))
+    assert weighed[1] == pytest.approx(weighed[0])
+    assert weighed[2] == pytest.approx(weighed[0] / 2.0)
+
+
+@pytest.mark.parametrize("regulator", ["pololu", ""])
+def test_a_diode_is_bought_where_there_is_a_regulator_before_it(regulator: str) -> None:
+    """Whatever the workshop names; what else it names is there with its own mass."""
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update=shop.catalogue.kits["strong-2s"].model_dump())
+    bought = bought if regulator else bought.model_copy(update={"regulator": ""})
+    found = {name: grams for name, _, grams in _soldered(built("kenan-2.0").layout, shop.catalogue, bought, {"plug"})}
+    assert ("diode" in found) == bool(regulator)
+    assert "plug" not in found
+    for role in ("switch", "capacitor", "sensor"):
+        assert found[role] == shop.catalogue.components[getattr(bought, role)].mass_g

@@ -66,9 +66,9 @@ def test_absolute_feed_begins_at_zero():
 @pytest.mark.parametrize(("mode", "back", "on"), [("M82", "E.5", "E1.5"), ("M83", "E-.5", "E1")])
 def test_filament_that_is_drawn_back_on_the_way_lays_no_line(mode, back, on):
     """As wiping does: the nozzle goes on while filament is drawn back; moving in height alone lays none either."""
-    lines = [mode, ";HEIGHT:0.2", "G1 X0 Y0 Z.2", "G1 X10 E1", f"G1 X20 {back}", f"G1 X30 {on}"]
+    lines = [mode, ";HEIGHT:0.2", "G1 X0 Y0 Z.2", "G1 Y10 E1", f"G1 X20 {back}", f"G1 X30 {on}"]
     up = "G1 Z.4 E2" if mode == "M82" else "G1 Z.4 E.5"
     path = read_gcode("\n".join([*lines, up, "; filament_diameter = 1.75"]))
     assert path.filament_mm == pytest.approx([1.0, 1.0])
     assert path.starts_mm[:, 0].tolist() == [0.0, 20.0]
-    assert path.ends_mm[:, 0].tolist() == [10.0, 30.0]
+    assert path.ends_mm[:, :2].tolist() == [[0.0, 10.0], [30.0, 10.0]]

@@ -128,3 +128,27 @@ def test_without_the_program_there_is_a_way_out(monkeypatch, tmp_path):
 def test_durations_have_days_hours_minutes_and_seconds(stand_in, tmp_path, text, seconds):
     stand_in(writing(GCODE.replace("1h 2m 3s", text)))
     assert sliced(tmp_path).time_s == seconds
+
+
+def test_each_setting_of_the_slicer_has_the_workshops_own_number() -> None:
+    """By PrusaSlicer's names (its command line reference); no two numbers are alike here."""
+    shop = load_workshop()
+    printer = shop.printer.model_copy(update={"bed_mm": (211.0, 199.0, 187.0), "nozzle_mm": 0.5})
+    figures = {
+        "layer_height_mm": 0.15, "first_layer_mm": 0.25, "line_width_mm": 0.44, "perimeters": 5, "top_layers": 7,
+        "bottom_layers": 6, "infill": 0.35, "solid_below_area_mm2": 12.0,
+    }  # fmt: skip
+    material = shop.material("links").model_copy(update={"density_g_cm3": 1.31})
+    settings = slicer_settings(printer, shop.process.model_copy(update=figures), material)
+    said = {
+        "max_print_height": 187.0, "nozzle_diameter": 0.5, "filament_diameter": 1.75, "filament_density": 1.31,
+        "layer_height": 0.15, "first_layer_height": 0.25, "perimeters": 5, "top_solid_layers": 7,
+        "bottom_solid_layers": 6, "solid_infill_below_area": 12.0, "skirts": 0, "brim_width": 0, "support_material": 0,
+        "elefant_foot_compensation": 0, "ensure_vertical_shell_thickness": 0,
+    }  # fmt: skip
+    assert {key: float(settings[key]) for key in said} == said
+    assert settings["bed_shape"] == "0x0,211x0,211x199,0x199"
+    assert settings["fill_density"] == "35%"
+    widths = {key: value for key, value in settings.items() if key.endswith("extrusion_width")}
+    assert len(widths) == 7
+    assert set(widths.values()) == {"0.44"}

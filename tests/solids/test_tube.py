@@ -12,10 +12,11 @@ OCTAGON = SIDES / 2.0 * math.sin(2.0 * math.pi / SIDES)
 """Area of a section over its radius squared."""
 
 
-def test_a_straight_tube_is_a_prism() -> None:
-    mesh = tube(np.array([[1.0, 0.0, 0.0], [1.0, 0.0, 9.0]]), 2.0)
+@pytest.mark.parametrize("diameter", [0.8, 2.0, 3.0])
+def test_a_straight_tube_is_a_prism(diameter: float) -> None:
+    mesh = tube(np.array([[1.0, 0.0, 0.0], [1.0, 0.0, 9.0]]), diameter)
     assert mesh.is_watertight
-    assert mesh.volume == pytest.approx(9.0 * OCTAGON, rel=1e-5)
+    assert mesh.volume == pytest.approx(9.0 * OCTAGON * (diameter / 2.0) ** 2, rel=1e-5)
 
 
 def test_a_helix_is_closed_and_stays_within_its_wire() -> None:

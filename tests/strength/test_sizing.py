@@ -216,3 +216,4 @@ def test_toes_and_rails_bear_the_ground_under_the_pads(pad: str) -> None:
         by_hand = math.sqrt(6.0 * tips / 2.0 * arm * LOADS / (width * 15.0))
         assert height > 3.2
         assert height == pytest.approx(math.ceil(100.0 * by_hand) / 100.0)
+    assert sizes.ground_mm == pytest.approx(ground)

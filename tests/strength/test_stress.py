@@ -26,6 +26,15 @@ from jumpcad.workshop import load_workshop
 SHELL = Shell(1.35, 0.9, 0.2)
 
 
+@pytest.mark.parametrize(("width", "height"), [(6.0, 1.7), (1.5, 9.0), (1.0, 1.0)])
+@pytest.mark.parametrize("upright", [False, True])
+def test_a_bar_that_is_all_shell_is_solid(width: float, height: float, upright: bool) -> None:
+    """Walls of 1.35 mm on either side or layers of 0.9 mm fill what is thinner than both."""
+    thin, solid = Beam(width, height, SHELL, upright), Beam(width, height)
+    assert thin.area_mm2 == pytest.approx(solid.area_mm2) == pytest.approx(width * height)
+    assert thin.second_moment_mm4 == pytest.approx(width * height**3 / 12.0)
+
+
 def second_moment(width: np.ndarray, z: np.ndarray) -> float:
     return float(np.trapezoid(width * z**2, z))
 
