@@ -113,6 +113,8 @@ def test_verify_finds_what_was_changed(run: Run, bundle: Path, tmp_path: Path) -
     (tmp_path / "b" / "notes.txt").write_text("mine")
     code, out, _ = run("verify", tmp_path / "b")
     assert (code, out) == (1, "design.toml: changed\nnotes.txt: added, not in the manifest\n")
+    code, out, _ = run("verify", tmp_path / "b", "--json")
+    assert (code, json.loads(out)["differences"]) == (1, ["design.toml: changed"])
     run("build", "kenan-2.0", "-o", tmp_path / "b", "--no-pictures", "--force")
     code, out, _ = run("verify", tmp_path / "b", "--json")
     assert code == 0

@@ -27,6 +27,14 @@ def test_unit_cube_and_designs_correspond(unit):
     assert space.to_unit(space.to_design(unit)) == pytest.approx(unit, abs=1e-9)  # of values with ten decimals
 
 
+def test_a_design_out_of_bounds_is_out_of_the_cube():
+    """By as many ranges as it is beyond: 90 mm of 100 to 200 are -0.1, 225 mm are 1.25."""
+    space = Space.default()
+    middle = space.to_design(np.full(8, 0.5))
+    for length, expected in ((90.0, -0.1), (225.0, 1.25)):
+        assert space.to_unit(middle.model_copy(update={"carrying_link_mm": length}))[0] == pytest.approx(expected)
+
+
 def test_values_are_what_a_person_would_write():
     space = Space.default()
     written = [f"{value!r}" for value in space.to_design(np.full(8, 0.59972)).to_vector()]
