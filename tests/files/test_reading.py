@@ -112,3 +112,13 @@ def test_nonsense_from_strangers_is_one_short_line(tmp_path: Path, text: str, re
     told = str(caught.value).replace(str(tmp_path), "")
     assert told.isprintable()
     assert len(told) < 500
+
+
+def test_two_hundred_dots_are_the_most_of_a_line_but_comments_have_as_many_as_they_like(tmp_path: Path) -> None:
+    """Also comments that are indented, as those of lists are; dots of several lines are not added."""
+    file, numbers = tmp_path / "a.toml", ", ".join(["0.5"] * 200)
+    file.write_text(f"a = [{numbers}]\n  # {'.' * 500}\n#{'.' * 500}\nb = [{numbers}]\n")
+    assert read_toml(file)[0] == {"a": [0.5] * 200, "b": [0.5] * 200}
+    file.write_text(f"a = 1\nb = [{numbers}, 0.5]\n")
+    with pytest.raises(JumpcadError, match="line 2 has more than 200 dots"):
+        read_toml(file)
