@@ -1,6 +1,7 @@
 """A public function works with any argument, or says in one line what it takes."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -111,6 +112,22 @@ def test_a_whole_number_is_taken_for_any_number_and_a_text_is_not() -> None:
     assert (doubled(2), doubled(2.5)) == (4.0, 5.0)
     with pytest.raises(JumpcadError, match=r"doubled\(\) takes .* as length_mm, not '2'"):
         doubled("2")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("truth", [True, False])
+def test_a_truth_is_no_number_of_anything(truth: bool) -> None:
+    """Though Python counts with it: neither a whole number nor any other, nor one of several."""
+
+    @typed
+    def counted(
+        count: int = 1, length_mm: float = 1.0, ends_mm: Sequence[float] = (), share: float | None = None
+    ) -> float:
+        return count * length_mm
+
+    assert counted(2, 3) == 6
+    for wrong in ({"count": truth}, {"length_mm": truth}, {"ends_mm": [1.0, truth]}, {"share": truth}):
+        with pytest.raises(JumpcadError, match=rf"as {next(iter(wrong))}, not .*{truth} \(bool\)"):
+            counted(**wrong)  # type: ignore[arg-type]
 
 
 def test_a_record_checks_its_fields() -> None:

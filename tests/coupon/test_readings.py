@@ -74,6 +74,14 @@ def test_joints_are_read_too() -> None:
     assert read("[joints]\nfloor_n = 1000").materials == WORKSHOP.materials
 
 
+@pytest.mark.parametrize("joint", ["dog", "socket", "tray"])
+def test_of_running_fits_the_widest_of_any_joint_counts(joint: str) -> None:
+    """Each alone too: parts of one robot have one fit."""
+    assert read(f"[joints]\n{joint}_sliding_mm = 0.25").fits.sliding_mm == 0.25
+    others = "\n".join(f"{one}_sliding_mm = 0.15" for one in ("dog", "socket", "tray") if one != joint)
+    assert read(f"[joints]\n{others}\n{joint}_sliding_mm = 0.2").fits.sliding_mm == 0.2
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

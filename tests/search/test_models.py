@@ -6,6 +6,7 @@ import sys
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from jumpcad.design import load_design
@@ -206,3 +207,9 @@ def test_neighbours_are_the_robot_as_it_may_be_made_half_within_a_percent_half_w
     for made in tolerances:
         assert made["made.friction_factor"] != 1.0 != made["made.spring_factor"]
     assert found.metrics["p10"] == 12.0  # of 12 to 21
+
+
+def test_versions_are_of_what_is_installed():
+    """What is not there has none, so that a study knows where it was installed later."""
+    found = models.versions("numpy", "no-such-package-of-jumpcad")
+    assert found == {"numpy": np.__version__, "no-such-package-of-jumpcad": "none"}
