@@ -70,6 +70,21 @@ def test_a_name_in_place_of_a_design_says_how_to_load_it() -> None:
     )
 
 
+def test_what_makes_an_object_is_called_by_its_class() -> None:
+    """Nobody calls `__init__`."""
+
+    class Leg:
+        @typed
+        def __init__(self, length_mm: float) -> None:
+            self.length_mm = length_mm
+
+    assert Leg(3).length_mm == 3
+    with pytest.raises(JumpcadError, match=r"Leg\(\) takes .* as length_mm, not 'long' \(str\)"):
+        Leg("long")  # type: ignore[arg-type]
+    with pytest.raises(JumpcadError, match=r"Leg\(self, length_mm\): missing a required argument: 'length_mm'"):
+        Leg()  # type: ignore[call-arg]
+
+
 def test_missing_and_unknown_arguments_are_named() -> None:
     with pytest.raises(JumpcadError, match=r"build\(design, workshop=None, name='robot'\): missing .*'design'"):
         jumpcad.build()

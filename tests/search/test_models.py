@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
 from jumpcad.findings import Finding
 from jumpcad.paper import published
 from jumpcad.search import models
@@ -213,3 +213,12 @@ def test_versions_are_of_what_is_installed():
     """What is not there has none, so that a study knows where it was installed later."""
     found = models.versions("numpy", "no-such-package-of-jumpcad")
     assert found == {"numpy": np.__version__, "no-such-package-of-jumpcad": "none"}
+
+
+@pytest.mark.parametrize(
+    "vector", [[100, 1.0, 0.833, 0.934, 0.2, 70, 5, 40], [100, 1.0, 0.833, 0.2, 0.755, 70, 29.5, 40]]
+)
+def test_a_capsule_robot_that_is_too_weak_or_tips_is_not_admitted(vector):
+    """Its masses follow from the design; those of others are only known from what is built or published."""
+    design = Design.from_vector(vector)
+    assert [robot_model(name).admits(design) for name in ("capsule", "printed", "published")] == [False, True, True]

@@ -189,3 +189,12 @@ def test_a_space_is_the_same_by_texts_and_by_values():
     assert named.names == ("lipo-2s-180", "lipo-1s-300")
     near = {"around": load_design("best-ga"), "only": ["d_coef", "e_coef"], "within_percent": 10.0}
     assert Space.make(**near) == Space.parse(**near) != Space.default()
+
+
+def test_bounds_are_given_from_the_lower_to_the_upper():
+    """The other way round is a mistake, not a range."""
+    for text, ends in (("c_coef=1.1:0.9", (1.1, 0.9)), ("c_coef=1:1", (1, 1))):
+        with pytest.raises(JumpcadError, match="is an empty range: the first must be less than the second"):
+            Space.make(bounds={"c_coef": ends})
+        with pytest.raises(JumpcadError, match="is an empty range"):
+            Space.parse(bound=[text])
