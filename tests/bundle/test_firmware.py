@@ -129,3 +129,18 @@ def test_the_notes_say_what_the_sensors_contact_does(level: int, does: str) -> N
     (own,) = (text for path, text in firmware_files(robot) if path.endswith("README.md"))
     does = "opens" if numbers(robot)["READY_LEVEL"] else "closes"
     assert f"The sensor's contact {does} when it is pressed" in own
+
+
+def test_the_notes_have_the_numbers_of_the_program(robot: Robot) -> None:
+    """Times in seconds, voltages as they are, the cap of PWM in percent."""
+    values = numbers(robot)
+    names = ("WIND_S", "WIND_MAX_S", "MIN_V", "EMPTY_V", "CAP", "LANDING_S")
+    text = _filled(" ".join(f"{{{name}}}" for name in names), robot, values)
+    found = dict(zip(names, map(float, text.split()), strict=True))
+    assert found["WIND_S"] == pytest.approx(robot.layout.drive.train.winding_s, abs=0.051)
+    for name, key, factor in (
+        ("WIND_MAX_S", "WIND_MAX_MS", 1000.0), ("MIN_V", "BATTERY_MIN_V", 1.0), ("EMPTY_V", "BATTERY_EMPTY_V", 1.0),
+        ("CAP", "PWM_CAP", 0.01), ("LANDING_S", "LANDING_MS", 1000.0),
+    ):  # fmt: skip
+        assert factor * found[name] == pytest.approx(values[key]), name
+    assert found["EMPTY_V"] < found["MIN_V"]

@@ -5,7 +5,7 @@ from PIL import Image
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import require_free
-from jumpcad.search.figures import panels, save_figure
+from jumpcad.search.figures import labels, panels, save_figure
 
 
 def test_an_unwritable_folder_is_one_line(tmp_path):
@@ -35,3 +35,12 @@ def test_panels_fill_rows_of_four_and_none_is_empty(count: int, rows: int, colum
     assert figure.get_size_inches().tolist() == [3.0 * columns, 2.0 * rows]
     places = {(one.get_subplotspec().rowspan.start, one.get_subplotspec().colspan.start) for one in axes}
     assert places == {divmod(index, columns) for index in range(count)}
+
+
+def test_axes_and_panels_are_named_each_by_its_own_words() -> None:
+    _, (named, plain) = panels(2)
+    labels(named, "rest angle (°)", "range (m)", "one")
+    labels(plain, "mass (g)", "rise (m)")
+    assert [(one.get_xlabel(), one.get_ylabel(), one.get_title()) for one in (named, plain)] == [
+        ("rest angle (°)", "range (m)", "one"), ("mass (g)", "rise (m)", ""),
+    ]  # fmt: skip
