@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from jumpcad.design import Design, load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.paper import published
 from jumpcad.search import models
@@ -222,3 +223,10 @@ def test_a_capsule_robot_that_is_too_weak_or_tips_is_not_admitted(vector):
     """Its masses follow from the design; those of others are only known from what is built or published."""
     design = Design.from_vector(vector)
     assert [robot_model(name).admits(design) for name in ("capsule", "printed", "published")] == [False, True, True]
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "planar"])
+def test_the_published_robot_has_no_engine_to_choose(engine):
+    with pytest.raises(JumpcadError, match=f"engine {engine}: the published simulation exists in pybullet alone"):
+        robot_model("published", engine=engine)
+    assert robot_model("published", engine="pybullet") == robot_model("published")

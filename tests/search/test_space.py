@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.hills import FIXED
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.errors import JumpcadError
@@ -95,6 +96,28 @@ def test_contains_knows_ranges_fixed_values_and_choices():
     assert space.contains(design)
     for change in ({"c_coef": 1.01}, {"stiffness_nmm_per_deg": 10.0}, {"carrying_link_mm": 201.0}):
         assert not space.contains(design.model_copy(update=change))
+
+
+def test_a_variant_of_other_values_of_the_workshop_is_not_in_the_space():
+    """As many as there are, of other keys or in another order, are not those that are searched."""
+    space = Space.parse(bound=["body.plate_mm=1.2:2.4", "process.infill=0.1:0.5"], workshop=load_workshop())
+    design = Space.default().to_design(np.full(8, 0.5))
+    own = {"body.plate_mm": 1.5, "process.infill": 0.3}
+    assert space.contains(Variant(design, own))
+    for other in (
+        {"body.plate_mm": 1.5, "body.stop_deg": 4.0},
+        dict(reversed(own.items())),
+        {"body.plate_mm": 1.5},
+        {},
+    ):
+        assert not space.contains(Variant(design, other))
+
+
+def test_points_outside_of_the_cube_are_moved_to_its_faces():
+    points = np.array([[-0.2, 0.5, 1.0 + 1e-9], [0.0, 1.3, 0.7]])
+    space = Space.parse(fix=FIXED)
+    assert space.snap(points).tolist() == [[0.0, 0.5, 1.0], [0.0, 1.0, 0.7]]
+    assert points[0, 0] == -0.2
 
 
 def test_a_space_survives_its_record():
