@@ -1,6 +1,7 @@
 """A public function works with any argument, or says in one line what it takes."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -69,6 +70,21 @@ def test_a_name_in_place_of_a_design_says_how_to_load_it() -> None:
     )
 
 
+def test_what_makes_an_object_is_called_by_its_class() -> None:
+    """Nobody calls `__init__`."""
+
+    class Leg:
+        @typed
+        def __init__(self, length_mm: float) -> None:
+            self.length_mm = length_mm
+
+    assert Leg(3).length_mm == 3
+    with pytest.raises(JumpcadError, match=r"Leg\(\) takes .* as length_mm, not 'long' \(str\)"):
+        Leg("long")  # type: ignore[arg-type]
+    with pytest.raises(JumpcadError, match=r"Leg\(self, length_mm\): missing a required argument: 'length_mm'"):
+        Leg()  # type: ignore[call-arg]
+
+
 def test_missing_and_unknown_arguments_are_named() -> None:
     with pytest.raises(JumpcadError, match=r"build\(design, workshop=None, name='robot'\): missing .*'design'"):
         jumpcad.build()
@@ -111,6 +127,22 @@ def test_a_whole_number_is_taken_for_any_number_and_a_text_is_not() -> None:
     assert (doubled(2), doubled(2.5)) == (4.0, 5.0)
     with pytest.raises(JumpcadError, match=r"doubled\(\) takes .* as length_mm, not '2'"):
         doubled("2")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("truth", [True, False])
+def test_a_truth_is_no_number_of_anything(truth: bool) -> None:
+    """Though Python counts with it: neither a whole number nor any other, nor one of several."""
+
+    @typed
+    def counted(
+        count: int = 1, length_mm: float = 1.0, ends_mm: Sequence[float] = (), share: float | None = None
+    ) -> float:
+        return count * length_mm
+
+    assert counted(2, 3) == 6
+    for wrong in ({"count": truth}, {"length_mm": truth}, {"ends_mm": [1.0, truth]}, {"share": truth}):
+        with pytest.raises(JumpcadError, match=rf"as {next(iter(wrong))}, not .*{truth} \(bool\)"):
+            counted(**wrong)  # type: ignore[arg-type]
 
 
 def test_a_record_checks_its_fields() -> None:

@@ -9,7 +9,7 @@ from support.built import built
 from support.decimals import decimals
 
 from jumpcad.building import build
-from jumpcad.bundle.firmware import WORDS, firmware_files, numbers, release_share, start_v
+from jumpcad.bundle.firmware import WORDS, _filled, firmware_files, numbers, release_share, start_v
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
@@ -118,3 +118,29 @@ def test_a_motor_that_hardly_turns_is_given_ten_times_as_long_as_without_a_load(
     weak = replace(robot, layout=replace(robot.layout, drive=replace(drive, train=train)))
     idle_ms = 1000.0 * seconds_a_turn(robot, battery.range_v[0], 0.0)
     assert numbers(weak)["WIND_MAX_MS"] == pytest.approx(1.5 * 10.0 * idle_ms, rel=0.01)
+
+
+@pytest.mark.parametrize(("level", "does"), [(1, "opens"), (0, "closes")])
+def test_the_notes_say_what_the_sensors_contact_does(level: int, does: str) -> None:
+    """It joins its pin to ground, and a resistor pulls the pin up: an open contact reads 1."""
+    robot = built("kenan-2.0")
+    values = numbers(robot) | {"READY_LEVEL": level}
+    assert f"The sensor's contact {does} when it is pressed" in _filled("- {SENSOR}", robot, values)
+    (own,) = (text for path, text in firmware_files(robot) if path.endswith("README.md"))
+    does = "opens" if numbers(robot)["READY_LEVEL"] else "closes"
+    assert f"The sensor's contact {does} when it is pressed" in own
+
+
+def test_the_notes_have_the_numbers_of_the_program(robot: Robot) -> None:
+    """Times in seconds, voltages as they are, the cap of PWM in percent."""
+    values = numbers(robot)
+    names = ("WIND_S", "WIND_MAX_S", "MIN_V", "EMPTY_V", "CAP", "LANDING_S")
+    text = _filled(" ".join(f"{{{name}}}" for name in names), robot, values)
+    found = dict(zip(names, map(float, text.split()), strict=True))
+    assert found["WIND_S"] == pytest.approx(robot.layout.drive.train.winding_s, abs=0.051)
+    for name, key, factor in (
+        ("WIND_MAX_S", "WIND_MAX_MS", 1000.0), ("MIN_V", "BATTERY_MIN_V", 1.0), ("EMPTY_V", "BATTERY_EMPTY_V", 1.0),
+        ("CAP", "PWM_CAP", 0.01), ("LANDING_S", "LANDING_MS", 1000.0),
+    ):  # fmt: skip
+        assert factor * found[name] == pytest.approx(values[key]), name
+    assert found["EMPTY_V"] < found["MIN_V"]

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from jumpcad.bundle.folder import write_folder
-from jumpcad.bundle.manifest import open_bundle, unlisted, verify
+from jumpcad.bundle.manifest import Bundle, open_bundle, unlisted, verify
 from jumpcad.errors import JumpcadError
 
 SHA = "0" * 64
@@ -55,6 +55,27 @@ def test_what_is_no_manifest_is_refused_in_one_line(tmp_path: Path, text: str | 
 )  # fmt: skip
 def test_a_value_that_cannot_be_makes_it_none(tmp_path: Path, change: dict[str, Any]) -> None:
     refused(tmp_path, json.dumps(GOOD | change))
+
+
+@pytest.mark.parametrize("text", ['"\\ud800"', "1e999", "-1e999", "NaN", '["\\udc00x"]', '{"\\ud800": 1}'])
+def test_what_no_reader_of_json_has_makes_it_none_wherever_it_stands(tmp_path: Path, text: str) -> None:
+    """Half of a character, a number beyond all numbers; a whole character and a large number are read."""
+    refused(tmp_path, json.dumps(GOOD)[:-1] + f', "note": {text}}}')
+    (tmp_path / "manifest.json").write_text(json.dumps(GOOD | {"note": ["\U0001f438", 1e300]}))
+    assert open_bundle(tmp_path).manifest["note"] == ["\U0001f438", 1e300]
+
+
+def test_a_file_that_cannot_be_read_is_wrong(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on a damaged disk."""
+    write_folder(tmp_path / "b", "frog", {}, [("a.md", "a"), ("b.md", "b")], False)
+
+    def unchanged(bundle: Bundle, path: str) -> bool:
+        if path == "a.md":
+            raise OSError(5, "Input/output error")
+        return True
+
+    monkeypatch.setattr(Bundle, "is_unchanged", unchanged)
+    assert verify(tmp_path / "b") == ["a.md: cannot be read (Input/output error)"]
 
 
 def test_another_format_is_named(tmp_path: Path) -> None:

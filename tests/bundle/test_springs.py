@@ -129,3 +129,9 @@ def test_the_manifest_has_the_preload_in_degrees() -> None:
     drive = replace(robot.layout.drive, spring=replace(robot.layout.drive.spring, preload_rad=math.radians(7.5)))
     facts = spring_facts(replace(robot, layout=replace(robot.layout, drive=drive)))
     assert [one["preload_deg"] for one in facts] == [7.5, 7.5]
+    plain = spring_facts(robot)
+    assert [one["turns"] for one in facts] == [one["turns"] for one in plain]  # of the relaxed body
+    for one in plain:
+        (article,) = {item.article for item in robot.hardware if f", {one['hand']} hand" in item.article}
+        assert f"{one['rate_nmm_per_deg']:.2f} N·mm/°, wire {one['wire_mm']:g} mm" in article
+        assert f"diameter {one['inside_diameter_mm']:.2f} mm, {one['turns']:.2f} turns" in article

@@ -1,6 +1,7 @@
 """A robot that was not calibrated on: its own properties stay open, shared ones follow the calibration."""
 
 import math
+import tomllib
 from dataclasses import replace
 from typing import Any
 
@@ -93,6 +94,16 @@ def test_settings_are_read_back(posterior: CalibrationPosterior, tmp_path: Any) 
     assert load_settings(str(path)).ground_friction is None
     assert len(settings.draws.spring_efficiency) == len(settings.draws.pin_friction) == SAVED
     assert settings.model_copy(update={"draws": Settings().draws}).spring_efficiency == settings.spring_efficiency
+
+
+def test_the_draws_of_a_file_are_spread_over_the_whole_chain(posterior: CalibrationPosterior) -> None:
+    """From the first to the last, in pairs: neighbours are of the same walkers and alike."""
+    kept, found = tomllib.loads(settings_toml(posterior))["draws"], posterior.values
+    rows = np.linspace(0, len(posterior.z) - 1, 100).astype(int)
+    assert len(posterior.z) > 10 * len(rows)
+    for key in ("spring_efficiency", "pin_friction"):
+        low, high = _limits(key)
+        assert kept[key] == pytest.approx(np.clip(found[key][rows], low, high), abs=6e-5)
 
 
 def test_an_easier_floor_explains_a_jump_that_slipped(posterior: CalibrationPosterior, subject: Subject) -> None:

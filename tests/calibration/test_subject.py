@@ -15,6 +15,7 @@ from jumpcad.calibration.subject import (
     Subject,
     _require_energy,
     _require_unit,
+    _with_weights,
     load_subject,
     renamed,
     require_each_once,
@@ -25,6 +26,7 @@ from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump
 from jumpcad.transforms import Array
+from jumpcad.workshop import load_workshop
 
 HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
 FAR, HIGH = '[[jumps]]\ndistance_of = "first-touchdown"\n', '[[jumps]]\nheight_of = "rise"\n'
@@ -318,7 +320,22 @@ def test_equal_words_beside_other_videos_are_other_jumps(tmp_path: Path) -> None
         file.parent.mkdir()
         file.write_text(HEAD + '[[videos]]\npoints = "flight.csv"\npoint = "body"\n')
     require_each_once(files)
+    link = tmp_path / "two" / "link.toml"
+    link.symlink_to(files[0])
+    with pytest.raises(JumpcadError, match=r"link.toml: is given too, under the name .*one"):
+        require_each_once([*files, link])
     again = tmp_path / "one" / "again.toml"
     again.write_text(files[0].read_text())
     with pytest.raises(JumpcadError, match=r"again.toml: is given too, under the name .*one"):
         require_each_once([*files, again])
+
+
+def test_parts_that_the_workshop_has_weighed_stay_so_and_those_of_the_measurements_count_more() -> None:
+    shop = load_workshop()
+    mass = shop.mass.model_copy(update={"weighed_g": {"cam": 1.5, "foot": 9.0}})
+    weighed = shop.model_copy(update={"mass": mass})
+    assert _with_weights(weighed, {"foot": 10.0, "main_leg": 20.0}).mass.weighed_g == {
+        "cam": 1.5, "foot": 10.0, "main_leg": 20.0,
+    }  # fmt: skip
+    assert _with_weights(weighed, {}) is weighed
+    assert weighed.mass.weighed_g == {"cam": 1.5, "foot": 9.0}

@@ -22,7 +22,9 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import at_most
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY_NAMES
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism
+from jumpcad.robot import Robot
+from jumpcad.simulation import Jump
 
 
 def test_a_bundle_has_what_the_contract_says(bundle: Path) -> None:
@@ -114,6 +116,8 @@ def test_verify_finds_what_was_changed(run: Run, bundle: Path, tmp_path: Path) -
     (tmp_path / "b" / "notes.txt").write_text("mine")
     code, out, _ = run("verify", tmp_path / "b")
     assert (code, out) == (1, "design.toml: changed\nnotes.txt: added, not in the manifest\n")
+    code, out, _ = run("verify", tmp_path / "b", "--json")
+    assert (code, json.loads(out)["differences"]) == (1, ["design.toml: changed"])
     run("build", "kenan-2.0", "-o", tmp_path / "b", "--no-pictures", "--force")
     code, out, _ = run("verify", tmp_path / "b", "--json")
     assert code == 0
@@ -242,6 +246,28 @@ def test_a_robot_that_tips_is_refused_and_written_anyway(run: Run, tmp_path: Pat
     assert not (tmp_path / "b").exists()
     assert run(*command, "--anyway")[0] == 0
     assert (tmp_path / "b" / "manifest.json").is_file()
+
+
+@pytest.mark.parametrize(("printed", "capsule"), [("jump", "no_takeoff"), ("no_takeoff", "jump")])
+def test_whether_the_printed_robot_jumps_decides(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, printed: str, capsule: str
+) -> None:
+    """Not the one with the study's masses."""
+
+    def jump(robot: Mechanism, engine: str) -> Jump:
+        return Jump(printed if isinstance(robot, Robot) else capsule, engine, robot.mass_kg, robot.spring.energy_j)
+
+    def export(*_: object) -> None:
+        raise JumpcadError("begun")
+
+    monkeypatch.setattr("jumpcad.simulation.simulate", jump)
+    monkeypatch.setattr("jumpcad.bundle.export.export", export)
+    code, _, err = run("build", "kenan-2.0", "-o", tmp_path / "b")
+    if printed == "jump":
+        assert (code, err) == (2, "jumpcad: begun\n")
+    else:
+        assert code == 1
+        assert "does not jump (no_takeoff)" in err
 
 
 @pytest.mark.parametrize(("name", "option"), [("ender-3", "--printer ender-3"), ("PLA", "--material PLA")])

@@ -169,6 +169,7 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     """What a moved bound is worth, why it is not, and what was not looked at; the front by its springs' energy."""
     design = load_design("kenan-2.0")
     trial = SimpleNamespace(design=design, score=1.5, workshop={"body.plate_mm": 2.4, "bought.spring": ""})
+    weaker = SimpleNamespace(design=load_design("kenan-1.0"), score=0.75)
     aim = SimpleNamespace(neighbours_of="")
     request = SimpleNamespace(
         aim=aim, searched=180, until_percent=0.05, space=SimpleNamespace(size=1000), is_front=True, objective="range",
@@ -176,7 +177,7 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     )  # fmt: skip
     result = SimpleNamespace(
         request=request, evaluations=10, trials=[trial] * 7, rejected={"loop": 2, "tips": 1}, converged=True,
-        notes=["a note"], best=trial, winner=trial, hypervolume=0.25, front=[trial], candidates=[], score=1.5,
+        notes=["a note"], best=trial, winner=trial, hypervolume=0.25, front=[trial, weaker], candidates=[], score=1.5,
         design=design,
         widened=[
             Widened("c_coef", "upper", 1.2, 1.3, 0.125), Widened("d_coef", "lower", 0.5, 0.4, None, "tips"),
@@ -197,7 +198,8 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
         "range against spring energy; hypervolume 0.2500",
     ]
     assert told[4] == f"{design.spring_energy_j:.4f} J 1.5000"
-    assert told[5:7] == ["best range 1.5000", "won.toml: range 1.5000"]
+    assert told[5] == f"{weaker.design.spring_energy_j:.4f} J 0.7500"
+    assert told[6:8] == ["best range 1.5000", "won.toml: range 1.5000"]
     assert {"body.plate_mm 2.4", "bought.spring ''"} < set(told)
     assert told[-7:-1] == [
         "widened: c_coef, upper bound 1.2 to 1.3: +0.1250",

@@ -100,3 +100,20 @@ def test_a_bundle_in_a_folder_that_is_called_like_a_study_is_a_bundle(
     copy = shutil.copytree(bundle, tmp_path / "robots.db")
     assert run("report", copy) == (0, f"{copy / 'report.html'}\n", "")
     assert (copy / "report.html").read_text().startswith("kenan-2.0 ")
+
+
+def test_a_page_that_is_edited_while_another_is_drawn_is_not_replaced(
+    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copy = shutil.copytree(bundle, tmp_path / "kenan-2.0")
+
+    def drawn(*_: object) -> str:
+        (copy / "report.html").write_text("mine")
+        return "drawn"
+
+    monkeypatch.setattr("jumpcad.bundle.export.report_page", drawn)
+    code, out, err = run("report", copy)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert (copy / "report.html").read_text() == "mine"
+    assert run("report", copy, "--force")[0] == 0
+    assert (copy / "report.html").read_text() == "drawn"

@@ -14,7 +14,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper import published
-from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation import Jump, Settings, simulate
 
 
 @pytest.fixture
@@ -183,3 +183,23 @@ def test_published_quantities_are_printed_each_by_its_name(command: Run, monkeyp
     assert [(one[1].strip(), float(one[2])) for one in told if one] == [
         ("published distance", 0.25), ("published height", 0.125), ("energy", 0.0625),
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(("second", "code"), [("jump", 0), ("no_takeoff", 1)])
+def test_of_two_engines_both_must_jump_and_the_second_is_compared_with_the_first(
+    run: Run, monkeypatch: pytest.MonkeyPatch, second: str, code: int
+) -> None:
+    """1.1 m are 10 % more than 1.0 m; 1.0 would be 9.1 % less than 1.1."""
+    reach = {"pybullet": 1.0, "mujoco": 1.1 if second == "jump" else None}
+
+    def jumps(robot: object, settings: object, engines: list[str]) -> list[Jump]:
+        verdicts = zip(engines, ("jump", second), strict=True)
+        return [Jump(verdict, name, 0.1, 0.2, ballistic_range_m=reach[name]) for name, verdict in verdicts]
+
+    monkeypatch.setattr(module, "_jumps", jumps)
+    told = run("simulate", "kenan-2.0", "--capsule", "--engine", "both")
+    assert told[0] == code
+    assert ("range of mujoco: +10.000 % from that of pybullet" in told[1]) == (second == "jump")
+    found = json.loads(run("simulate", "kenan-2.0", "--capsule", "--engine", "both", "--json")[1])
+    assert found["range_difference_percent"] == (pytest.approx(10.0) if second == "jump" else None)
+    assert list(found["engines"]) == ["pybullet", "mujoco"]

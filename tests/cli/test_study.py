@@ -1,9 +1,16 @@
 """`jumpcad study`, with the capsule robot."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from support.searches import QUICK, data, refusal, run
+from support.studies import IDENTITY, trials
+
+from jumpcad.cli import study
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.store import StudyStore
 
 
 def test_studies_compare_and_export(folder, monkeypatch):
@@ -24,3 +31,24 @@ def test_studies_compare_and_export(folder, monkeypatch):
     assert data("study", "0.db", "--plots", "pics") == summary | {"pictures": ["pics/a"]}
     assert "pictures" not in summary
     assert drawn == [Path("pics")]
+
+
+def test_a_summary_counts_what_was_searched_apart_from_what_lies_around_the_best():
+    """The best is the best that was searched; its neighbours may score more. Trials are numbered as they stand."""
+    lost = Evaluation("quarantined", detail="its worker was lost")
+    *searched, last = trials(17)
+    searched.append(replace(last, evaluation=lost, score=None))
+    around = [replace(trial, score=99.0) for trial in trials(3, "robust", 1)]
+    with StudyStore.write(None, IDENTITY) as store:
+        store.append([*searched, *around])
+        summary = study._summary(Path("s.db"), store, 2)
+    scores = sorted((trial.score for trial in searched if trial.score is not None), reverse=True)
+    assert 2 < len(scores) < 16
+    assert (summary["evaluations"], summary["other_evaluations"]) == (17, 3)
+    assert summary["refused"] == {"loop": 16 - len(scores), "quarantined": 1}
+    assert summary["evaluation_time_s"] == pytest.approx(20 * 0.1)
+    assert summary["best"]["score"] == scores[0]
+    assert [one["score"] for one in summary["top"]] == scores[:2]
+    for one in summary["top"]:
+        assert searched[one["trial"] - 1].score == one["score"]
+    assert [one["design"] for one in summary["quarantined"]] == [last.design.model_dump()]

@@ -1,5 +1,6 @@
 """The coupon's folder: the same bytes for the same workshop, and no readings lost."""
 
+import json
 import re
 import shutil
 from pathlib import Path
@@ -9,7 +10,7 @@ import pytest
 from jumpcad.coupon import export
 from jumpcad.coupon.export import _guide, export_coupon
 from jumpcad.coupon.joints import joint_pieces
-from jumpcad.coupon.pieces import coupon_holes
+from jumpcad.coupon.pieces import coupon_holes, pieces
 from jumpcad.errors import JumpcadError
 from jumpcad.workshop import load_workshop
 
@@ -51,3 +52,17 @@ def test_the_guide_names_the_material_in_which_each_piece_is_printed(role: str) 
     assert {"taps", "shaft_bores", "lying_holes", "dog_pockets", "axle_floor", "seat"} <= said.keys()
     assert {name: made[name] for name in said} == said
     assert f"gears in {roles['gears']}" in _guide(workshop, holes)
+
+
+def test_the_coupon_weighs_what_its_pieces_weigh_each_in_its_material(coupon: Path) -> None:
+    """Printed solid they would weigh more, as shells alone less."""
+    workshop, manifest = load_workshop("fine"), json.loads((coupon / "manifest.json").read_text())
+    holes = coupon_holes(workshop)
+    made = pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
+    lines = {line["name"]: line for line in manifest["masses"]}
+    assert manifest["mass_kg"] == pytest.approx(sum(line["quantity"] * line["mass_kg"] for line in lines.values()))
+    assert lines.keys() == {piece.name for piece in made}
+    for piece in made:
+        line, solid_kg = lines[piece.name], 1e-6 * workshop.materials[piece.material].density_g_cm3 * piece.mesh.volume
+        assert (line["material"], line["quantity"], line["kind"]) == (piece.material, 1, "printed")
+        assert 0.4 * solid_kg < line["mass_kg"] < 1.02 * solid_kg

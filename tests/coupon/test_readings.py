@@ -88,6 +88,14 @@ def test_a_floor_as_strong_as_the_material_says_changes_nothing_and_a_weaker_one
     }
 
 
+@pytest.mark.parametrize("joint", ["dog", "socket", "tray"])
+def test_of_running_fits_the_widest_of_any_joint_counts(joint: str) -> None:
+    """Each alone too: parts of one robot have one fit."""
+    assert read(f"[joints]\n{joint}_sliding_mm = 0.25").fits.sliding_mm == 0.25
+    others = "\n".join(f"{one}_sliding_mm = 0.15" for one in ("dog", "socket", "tray") if one != joint)
+    assert read(f"[joints]\n{others}\n{joint}_sliding_mm = 0.2").fits.sliding_mm == 0.2
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

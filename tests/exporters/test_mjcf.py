@@ -4,6 +4,7 @@ import itertools
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +18,8 @@ from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.model import BODY, BODY_NAMES
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
 
@@ -125,6 +128,24 @@ def test_mujoco_reads_angles_in_radians() -> None:
     model = mujoco.MjModel.from_xml_string(write_mjcf(pulling))
     assert model.qpos_spring[model.joint(robot.spring.joint).qposadr[0]] == pytest.approx(0.1)
     assert not model.joint(robot.spring.joint).limited[0]
+
+
+@pytest.mark.parametrize("write", [write_mjcf, write_robot])
+def test_as_it_is_loaded_the_robot_stands_on_the_ground_at_rest(write: Callable[[Robot], str]) -> None:
+    """Without a key frame, every body is where its pose at rest has it."""
+    mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")
+    model = mujoco.MjModel.from_xml_string(without_meshes(write(robot)))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for name, pose in body_poses(robot).items():
+        np.testing.assert_allclose(data.body(name).xpos, pose[:3, 3], atol=1e-7)
+        np.testing.assert_allclose(data.body(name).xmat.reshape(3, 3), pose[:3, :3], atol=1e-6)
+    lowest = min(
+        data.body(name).xpos[2] + (data.body(name).xmat.reshape(3, 3) @ contact.centre_m)[2] - contact.radius_m
+        for name, body in robot.bodies.items()
+        for contact in body.contacts
+    )
+    assert lowest == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.mark.parametrize("gravity_m_s2", [9.81, 1.62])

@@ -147,6 +147,23 @@ def test_sensors_are_on_the_body_the_joints_and_under_the_foot(robot: Robot, mod
     np.testing.assert_allclose(data.site("imu").xpos, data.body(BODY).xpos)
 
 
+def test_the_velocity_of_the_centre_of_mass_is_how_its_place_changes(model: Any) -> None:
+    """Of the whole robot, all of which moves here; an angle's sensor is that of its own joint."""
+    data, step = at_key(model, "wound"), 1e-6
+    data.qvel[:] = np.random.default_rng(0).normal(size=model.nv)
+    mujoco.mj_forward(model, data)
+    velocity, before, places = (
+        one.copy() for one in (data.sensor("com_velocity").data, data.sensor("com").data, data.qpos)
+    )
+    mujoco.mj_integratePos(model, places, data.qvel, step)
+    data.qpos[:] = places
+    mujoco.mj_forward(model, data)
+    np.testing.assert_allclose((data.sensor("com").data - before) / step, velocity, rtol=1e-4, atol=1e-4)
+    for joint in JOINTS:
+        assert data.sensor(f"{joint}_angle").data[0] == data.joint(joint).qpos[0]
+    assert len({round(float(data.joint(joint).qpos[0]), 6) for joint in JOINTS}) == 3
+
+
 def test_what_is_seen_hangs_on_its_body_in_its_colour(robot: Robot) -> None:
     """Meshes in millimetres from beside the URDF, each once; a material for every colour, by its hexadecimal name."""
     root = ET.fromstring(write_robot(robot, visuals(robot)))

@@ -69,6 +69,18 @@ def test_items_lie_where_they_were_packed(model, plate):
         np.testing.assert_allclose(found, expected, atol=1e-5)
 
 
+def test_triangles_face_outwards(model, plate):
+    """Counter-clockwise from outside, as the standard asks: the volume that they enclose is positive, the part's."""
+    meshes = {placed.part.name: placed.part.mesh for placed in plate.items}
+    for item in model.iter(f"{CORE}object"):
+        corners = np.array([[float(v.get(axis)) for axis in "xyz"] for v in item.iter(f"{CORE}vertex")])
+        faces = np.array([[int(t.get(name)) for name in ("v1", "v2", "v3")] for t in item.iter(f"{CORE}triangle")])
+        a, b, c = corners[faces].transpose(1, 0, 2)
+        volume = np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0
+        assert volume == pytest.approx(meshes[item.get("name")].volume, rel=1e-4)
+        assert volume > 0.0
+
+
 def test_the_picture_and_the_settings_are_where_slicers_look_for_them(plate):
     """Open Packaging Conventions: a relationship names the thumbnail, and every suffix has a content type."""
     with zipfile.ZipFile(io.BytesIO(write_threemf(plate, SETTINGS, PICTURE))) as package:

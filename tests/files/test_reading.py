@@ -119,3 +119,13 @@ def test_a_byte_order_mark_before_the_text_is_no_part_of_it(tmp_path: Path) -> N
     file = tmp_path / "design.toml"
     file.write_bytes(b"\xef\xbb\xbfrest = 45.0\r\n")
     assert read_toml(file) == ({"rest": 45.0}, "rest = 45.0\n")
+
+
+def test_two_hundred_dots_are_the_most_of_a_line_but_comments_have_as_many_as_they_like(tmp_path: Path) -> None:
+    """Also comments that are indented, as those of lists are; dots of several lines are not added."""
+    file, numbers = tmp_path / "a.toml", ", ".join(["0.5"] * 200)
+    file.write_text(f"a = [{numbers}]\n  # {'.' * 500}\n#{'.' * 500}\nb = [{numbers}]\n")
+    assert read_toml(file)[0] == {"a": [0.5] * 200, "b": [0.5] * 200}
+    file.write_text(f"a = 1\nb = [{numbers}, 0.5]\n")
+    with pytest.raises(JumpcadError, match="line 2 has more than 200 dots"):
+        read_toml(file)

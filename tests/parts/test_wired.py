@@ -13,6 +13,7 @@ from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import load_catalogue
 from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.wired import _soldered, electronics
+from jumpcad.workshop import load_workshop
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

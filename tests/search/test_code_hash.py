@@ -90,3 +90,11 @@ def test_a_function_uses_as_many_values_as_the_message_says(monkeypatch: pytest.
     assert len(code_hash(using(1900))) == 64
     with pytest.raises(JumpcadError, match="uses more than 2000 values; keep long lists in an array of numpy's"):
         code_hash(using(2000))
+
+
+def test_a_script_is_no_library_wherever_the_program_lies_that_runs_it() -> None:
+    """What runs here as `__main__` is an installed package; its functions would be an objective's own code."""
+    assert not code_hash_module._is_library("__main__")
+    assert not code_hash_module._is_library("no_such_module")
+    for known in ("sys", "json", "numpy", "jumpcad.design"):
+        assert code_hash_module._is_library(known)

@@ -54,6 +54,15 @@ def test_feasibility_map_shows_the_border(evaluator):
         assert {trial.evaluation.verdict for trial in line} == ({"loop"} if y > 0.7 else {"jump"})
 
 
+def test_a_sweep_has_so_many_values_from_bound_to_bound(evaluator):
+    """Evenly; all other parameters are those of the design around which it goes."""
+    for one, parameter in zip(sweep(evaluator(), CENTRE, 5), SMALL.free, strict=True):
+        assert one.values == pytest.approx(np.linspace(parameter.lower, parameter.upper, 5))
+        assert len(one.trials) == 5
+        for value, trial in zip(one.values, one.trials, strict=True):
+            assert trial.design == CENTRE.model_copy(update={one.parameter: value})
+
+
 def test_choices_are_swept_as_they_are(evaluator):
     space = Space.parse(choose=["stiffness_nmm_per_deg=9.2,12,20"])
     swept = {one.parameter: one.values.tolist() for one in sweep(evaluator(space=space), CENTRE, 3)}

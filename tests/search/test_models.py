@@ -6,7 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.paper import published
 from jumpcad.search.models import RobotModel, robot_model
@@ -105,3 +106,19 @@ def test_only_a_printed_robot_of_which_no_other_learns_is_refused_before_it_is_b
     assert printed(design, {"made.spring_factor": 1.05}).verdict == "jump"
     assert printed(design, {"process.infill": 0.3}).verdict == "tips"
     assert robot_model("capsule")(design).verdict == "jump"
+
+
+@pytest.mark.parametrize(
+    "vector", [[100, 1.0, 0.833, 0.934, 0.2, 70, 5, 40], [100, 1.0, 0.833, 0.2, 0.755, 70, 29.5, 40]]
+)
+def test_a_capsule_robot_that_is_too_weak_or_tips_is_not_admitted(vector):
+    """Its masses follow from the design; those of others are only known from what is built or published."""
+    design = Design.from_vector(vector)
+    assert [robot_model(name).admits(design) for name in ("capsule", "printed", "published")] == [False, True, True]
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "planar"])
+def test_the_published_robot_has_no_engine_to_choose(engine):
+    with pytest.raises(JumpcadError, match=f"engine {engine}: the published simulation exists in pybullet alone"):
+        robot_model("published", engine=engine)
+    assert robot_model("published", engine="pybullet") == robot_model("published")

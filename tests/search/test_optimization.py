@@ -1,6 +1,7 @@
 """`jumpcad.optimize`: the search of the command line, in one call."""
 
 import json
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -78,3 +79,15 @@ def test_wrong_arguments_are_one_line(folder, options, message):
         jumpcad.optimize(**({"model": "capsule", "evaluations": 2} | options))
     assert "\n" not in str(error.value)
     assert list(folder.iterdir()) == []
+
+
+def test_a_search_is_around_a_design_however_it_is_named(folder, monkeypatch):
+    """By a template's name, a file's path as a text or as a path, or the design itself."""
+    monkeypatch.setattr("jumpcad.search.optimization.run_study", lambda request, *_: request)
+    design = jumpcad.load_design("best-ga")
+    (folder / "own.toml").write_text(design.to_toml())
+    spaces = [
+        jumpcad.optimize(around=around, within_percent=10, model="capsule", workers=0).space
+        for around in ("best-ga", "own.toml", Path("own.toml"), folder / "own.toml", design)
+    ]
+    assert spaces == [jumpcad.search.Space.parse(around=design, within_percent=10)] * 5

@@ -43,7 +43,9 @@ def test_a_narrowed_range_stays_within_what_a_design_can_be():
     angle = SearchParameter("rest_angle_deg", 20.0, 70.0)
     near = narrowed(angle, 50.0, 10.0)
     assert (near.lower, near.upper) == pytest.approx((45.0, 55.0))
-    assert narrowed(angle, 88.0, 10.0).upper == 90.0
+    assert (narrowed(angle, 88.0, 10.0).lower, narrowed(angle, 88.0, 10.0).upper) == pytest.approx((83.0, 90.0))
+    assert (narrowed(angle, 6.0, 10.0).lower, narrowed(angle, 6.0, 10.0).upper) == pytest.approx((5.0, 11.0))
+    assert narrowed(angle, 45.0, 100.0).width == pytest.approx(85.0)  # the width to either side, within 5 to 90
 
 
 @pytest.mark.parametrize("text", ["l1_mm", "body_joint_mm=100", "body_joint_mm=90:100:110", "body.plate_mm=2"])

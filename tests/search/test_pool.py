@@ -6,6 +6,7 @@ import select
 import subprocess
 import sys
 import textwrap
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -152,6 +153,30 @@ def test_dask_loses_nothing_when_a_worker_is_killed(tmp_path):
         found, _ = evaluate(dask_pool(cluster.scheduler_address), Trap(way="kill", once=tmp_path / "died"))
         assert (tmp_path / "died").exists()
         assert found == [Hill()(design) for design in DESIGNS]
+
+
+@pytest.mark.parametrize("threads", [(), (1, 2)])
+def test_a_dask_scheduler_is_let_go_when_the_pool_is_closed_or_it_has_no_workers(monkeypatch, threads):
+    """As many designs at a time as its workers have threads; what runs is not waited for."""
+    told = []
+    executor = SimpleNamespace(shutdown=lambda wait: told.append(("shutdown", wait)), submit=InProcess().submit)
+    client = SimpleNamespace(
+        scheduler_info=lambda n_workers: {"workers": {str(n): {"nthreads": count} for n, count in enumerate(threads)}},
+        get_executor=lambda pure: executor, close=lambda: told.append("closed"),
+    )  # fmt: skip
+    resolved = SimpleNamespace(resolve_address=lambda address: address)
+    scheduler = SimpleNamespace(comm=resolved, Client=lambda address, **_: client)
+    monkeypatch.setitem(sys.modules, "distributed", scheduler)
+    if not threads:
+        with pytest.raises(JumpcadError, match="the Dask scheduler at tcp://a has no workers: start some"):
+            dask_pool("tcp://a")
+        assert told == ["closed"]
+        return
+    with dask_pool("tcp://a") as pool:
+        assert pool.workers == 3
+        assert len(list(pool.evaluate(Hill(), GOOD[:2]))) == 2
+        assert told == []
+    assert told == [("shutdown", False), "closed"]
 
 
 def test_dask_that_does_not_answer(monkeypatch):

@@ -263,3 +263,14 @@ def test_what_is_learned_of_a_rehearsal_is_of_its_own_variant():
     assert (trial.variant, trial.key, trial.score) == (variant, variant.key, None)
     assert trial.evaluation.margins == {"stop": -0.2}
     assert not trial.evaluation.feasible
+
+
+def test_of_what_did_not_hold_the_last_are_learned():
+    """Those that were passed over at the start stand before those that were tried."""
+    rehearsal = object.__new__(Rehearsal)
+    rehearsal._passed_over = {(float(number),): number for number in range(FAILED)}
+    rehearsal._tried = lambda trials, tried: iter(tried)
+    rehearsal._failure = lambda number: None if number % 2 else number
+    found = rehearsal.failures([], [1000, 1001, 1002])
+    assert found == [*range(2, FAILED), 1000, 1002]
+    assert rehearsal.failures([], []) == list(range(FAILED))

@@ -9,6 +9,7 @@ from support.hills import SMALL, Hill
 import jumpcad
 from jumpcad.cli import optimize
 from jumpcad.errors import JumpcadError
+from jumpcad.search.methods import FRONTS
 from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request, plan_stages
 from jumpcad.search.space import Space
@@ -104,3 +105,9 @@ def test_half_of_a_search_that_widens_goes_on_in_three_steps_from_moved_bounds()
         assert [stage.method for stage in stages] == [method, "bo", "bo", "bo"]
         assert [stage.evaluations for stage in stages] == [90, 30, 30, 30]
         assert [stage.widen for stage in stages] == [False, True, True, True]
+
+
+@pytest.mark.parametrize("method", FRONTS)
+def test_a_front_has_no_bounds_to_widen(method: str) -> None:
+    with pytest.raises(JumpcadError, match=f"widen: does not apply to {method}, which has no best design"):
+        Request(SMALL, Hill(), method=method, widen=True)

@@ -278,3 +278,11 @@ def test_what_joins_off_an_edge_stands_in_the_order_of_its_robustness(evaluator)
     assert scores == sorted(scores, reverse=True)
     assert ranked[-1].trial.design == edge
     assert ranked[-1].rejections["loop"] > 0
+
+
+def test_who_was_not_examined_is_no_candidate(evaluator):
+    """One evaluation is no pair of neighbours: nothing is known of any, and none is evaluated."""
+    one = evaluator(model=Spiked())
+    one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.8)], "bo", 0)
+    assert rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=1) == []
+    assert len(one.trials) == 2

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.hills import FIXED
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.errors import JumpcadError
@@ -25,6 +26,14 @@ def test_default_space_is_the_published_box():
 def test_unit_cube_and_designs_correspond(unit):
     space = Space.default()
     assert space.to_unit(space.to_design(unit)) == pytest.approx(unit, abs=1e-9)  # of values with ten decimals
+
+
+def test_a_design_out_of_bounds_is_out_of_the_cube():
+    """By as many ranges as it is beyond: 90 mm of 100 to 200 are -0.1, 225 mm are 1.25."""
+    space = Space.default()
+    middle = space.to_design(np.full(8, 0.5))
+    for length, expected in ((90.0, -0.1), (225.0, 1.25)):
+        assert space.to_unit(middle.model_copy(update={"carrying_link_mm": length}))[0] == pytest.approx(expected)
 
 
 def test_values_are_what_a_person_would_write():
@@ -87,6 +96,28 @@ def test_contains_knows_ranges_fixed_values_and_choices():
     assert space.contains(design)
     for change in ({"c_coef": 1.01}, {"stiffness_nmm_per_deg": 10.0}, {"carrying_link_mm": 201.0}):
         assert not space.contains(design.model_copy(update=change))
+
+
+def test_a_variant_of_other_values_of_the_workshop_is_not_in_the_space():
+    """As many as there are, of other keys or in another order, are not those that are searched."""
+    space = Space.parse(bound=["body.plate_mm=1.2:2.4", "process.infill=0.1:0.5"], workshop=load_workshop())
+    design = Space.default().to_design(np.full(8, 0.5))
+    own = {"body.plate_mm": 1.5, "process.infill": 0.3}
+    assert space.contains(Variant(design, own))
+    for other in (
+        {"body.plate_mm": 1.5, "body.stop_deg": 4.0},
+        dict(reversed(own.items())),
+        {"body.plate_mm": 1.5},
+        {},
+    ):
+        assert not space.contains(Variant(design, other))
+
+
+def test_points_outside_of_the_cube_are_moved_to_its_faces():
+    points = np.array([[-0.2, 0.5, 1.0 + 1e-9], [0.0, 1.3, 0.7]])
+    space = Space.parse(fix=FIXED)
+    assert space.snap(points).tolist() == [[0.0, 0.5, 1.0], [0.0, 1.0, 0.7]]
+    assert points[0, 0] == -0.2
 
 
 def test_a_space_survives_its_record():
@@ -181,3 +212,12 @@ def test_a_space_is_the_same_by_texts_and_by_values():
     assert named.names == ("lipo-2s-180", "lipo-1s-300")
     near = {"around": load_design("best-ga"), "only": ["d_coef", "e_coef"], "within_percent": 10.0}
     assert Space.make(**near) == Space.parse(**near) != Space.default()
+
+
+def test_bounds_are_given_from_the_lower_to_the_upper():
+    """The other way round is a mistake, not a range."""
+    for text, ends in (("c_coef=1.1:0.9", (1.1, 0.9)), ("c_coef=1:1", (1, 1))):
+        with pytest.raises(JumpcadError, match="is an empty range: the first must be less than the second"):
+            Space.make(bounds={"c_coef": ends})
+        with pytest.raises(JumpcadError, match="is an empty range"):
+            Space.parse(bound=[text])

@@ -16,7 +16,7 @@ from support.places import TESTS
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.rows import APPLICATION_ID, COLUMNS, own_tables, to_row
+from jumpcad.search.rows import APPLICATION_ID, COLUMNS, FORMATS, own_tables, to_row
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 
@@ -290,6 +290,14 @@ def test_a_study_in_a_folder_that_may_not_be_written_to(tmp_path):
             place.chmod(mode)
         tmp_path.chmod(0o755)
     assert os.listdir(tmp_path) == ["s.db"]
+
+
+@pytest.mark.parametrize("number", [0, -1, max(FORMATS) + 1])
+def test_only_formats_that_there_were_are_read(tmp_path, number):
+    path = edited(tmp_path / "s.db", f"PRAGMA user_version = {number}")
+    for open_it in (StudyStore.read, lambda file: StudyStore.write(file, IDENTITY)):
+        with pytest.raises(JumpcadError, match=f"format {number}; this version of jumpcad reads {max(FORMATS)}"):
+            open_it(path)
 
 
 @pytest.mark.parametrize("version", [1, 2, 3])

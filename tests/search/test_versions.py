@@ -3,6 +3,7 @@
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from jumpcad.search import versions
@@ -56,3 +57,9 @@ print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.split() == [], done.stderr
+
+
+def test_versions_are_of_what_is_installed():
+    """What is not there has none, so that a study knows where it was installed later."""
+    found = versions.versions("numpy", "no-such-package-of-jumpcad")
+    assert found == {"numpy": np.__version__, "no-such-package-of-jumpcad": "none"}

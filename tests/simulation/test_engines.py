@@ -13,7 +13,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, engines, simulate
-from jumpcad.simulation.engines import EngineEntry, default_engine, engine_named
+from jumpcad.simulation.engines import EngineEntry, default_engine, engine_named, require_engine
 from jumpcad.simulation.mechanics import Mechanics
 
 ENGINES = ["pybullet", "mujoco"]
@@ -138,3 +138,10 @@ def test_what_an_engine_writes_while_it_loads_is_not_seen(capfd: pytest.CaptureF
     os.write(2, b"after\n")
     assert capfd.readouterr().err == "before\nafter\n"
     assert not files or len(list(Path("/proc/self/fd").iterdir())) == files
+
+
+@pytest.mark.parametrize("name", ["PyBullet", "MUJOCO", "Planar", "", "bullet", "planar "])
+def test_an_engine_is_known_by_its_own_name_alone(name: str) -> None:
+    """As it is a key of studies and files."""
+    with pytest.raises(JumpcadError, match="is not an engine; there are pybullet, mujoco and planar"):
+        require_engine(name)

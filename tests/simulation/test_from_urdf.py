@@ -67,6 +67,7 @@ def element(tag: str, **attributes: str) -> str:
         (element("sphere", radius="-1"), "radius = -1: must be"),
         (element("axis", xyz="1 0 0"), "joint leg: must be revolute about the axis 0 1 0"),
         (element("limit", lower="3"), "lower = 3 must be less than upper"),
+        (element("limit", lower="2", upper="2"), "lower = 2 must be less than upper = 2"),
         (element("limit", effort="-1"), "joint leg: effort = -1: must be"),
         (element("limit", effort="1.1e6"), r"joint leg: effort = 1.1e\+06: must be"),
         (element("limit", velocity="0"), "joint leg: velocity = 0: must be"),

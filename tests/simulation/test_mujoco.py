@@ -4,12 +4,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.machines import let_go
+from support.machines import let_go, rubbing, stopped
 
 from jumpcad.errors import JumpcadError
+from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named
+from jumpcad.strength.pin_friction import pin_torque_nm
 
 
 @pytest.mark.parametrize("key", ["restitution", "drag_per_s"])
@@ -45,8 +47,9 @@ def test_the_pad_pushes_against_the_legs_opening(kenan: Robot) -> None:
 
 def test_the_pad_stops_the_leg_in_mujoco_and_not_its_limit(kenan: Robot) -> None:
     """A limit with critical damping would throw the leg back; every contact has a row for its normal, two to slide."""
-    pytest.importorskip("mujoco")
-    with engine_named("mujoco").world(kenan, Settings()) as world:
+    mujoco, robot = pytest.importorskip("mujoco"), stopped(kenan)
+    assert mujoco.MjModel.from_xml_string(write_mjcf(robot)).joint("leg").limited[0]
+    with engine_named("mujoco").world(robot, Settings()) as world:
         assert int(world.model.joint("leg").limited[0]) == 0
         assert world.loaded()
         world.advance(40)
@@ -54,3 +57,15 @@ def test_the_pad_stops_the_leg_in_mujoco_and_not_its_limit(kenan: Robot) -> None
         assert abs(world.slip_j) < 0.01 * kenan.spring.energy_j
         contacts = world.data.nefc - world.data.ne - world.data.nf - world.data.nl
         assert contacts == world._rows * world.data.ncon
+
+
+def test_the_pins_rub_once_and_at_the_leg(kenan: Robot) -> None:
+    """Their torque is that of the leg's joint (`pin_torque_nm`), beside what the settings ask of every joint."""
+    pytest.importorskip("mujoco")
+    robot = rubbing(kenan, pin=0.2)
+    pins = pin_torque_nm(robot, 0.2)
+    assert pins > 1e-4
+    with engine_named("mujoco").world(robot, Settings(joint_friction_nm=0.003)) as world:
+        assert world._dry_nm == pytest.approx([0.003 + pins, 0.003, 0.003])
+    with engine_named("mujoco").world(kenan, Settings()) as world:
+        assert world._dry_nm.tolist() == [0.0, 0.0, 0.0]

@@ -1,6 +1,7 @@
 """The planar mechanism against rigid bodies that pins hold together, and against the laws of motion."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -262,6 +263,22 @@ def test_a_one_sided_spring_does_not_pull_back(kenan: Robot) -> None:
     assert reach[1] > 1.2 * reach[0] > 0.0
 
 
+@pytest.mark.parametrize("preload_rad", [0.0, 0.1])
+def test_springs_push_by_hooke_from_where_they_are_relaxed(kenan: Robot, preload_rad: float) -> None:
+    """Torque k·(preload - angle), energy half of that times the angle; one that only pushes has none beyond."""
+    pulling = replace(kenan, spring=replace(kenan.spring, preload_rad=preload_rad))
+    pushing, stiffness = one_sided(kenan, preload_rad), kenan.spring.stiffness_nm_per_rad
+    for robot, pulls in ((pulling, True), (pushing, False)):
+        model = model_of(robot)
+        for angle in (-0.6, 0.0, preload_rad - 0.01, preload_rad + 0.2):
+            left = preload_rad - angle if pulls else max(preload_rad - angle, 0.0)
+            assert kernel.spring_torque(model, angle) == pytest.approx(stiffness * left)
+            still = moving(model, angle)._replace(speed=Motion(0j, 0.0, 0.0))
+            slack = model._replace(stiffness_nm_per_rad=0.0)
+            held = kernel.energy(model, still) - kernel.energy(slack, still)
+            assert held == pytest.approx(0.5 * stiffness * left**2, abs=1e-12)
+
+
 def test_a_stop_holds_the_leg_and_keeps_momentum(kenan: Robot) -> None:
     """In the air: the pad takes the leg's energy, ½·k·x² = ½·I·v², but no momentum and no spin of the robot."""
     seconds, robot = 0.02, stopped(one_sided(kenan))
@@ -466,3 +483,25 @@ def test_who_has_not_flown_for_a_while_after_its_springs_came_to_rest_does_not_j
     found = kernel.push_off(world.model, world.moment, FINE.dt_s, 0.1, 0.0, within_s, FINE.max_time_s, 16)
     assert not found.flown
     assert (found.steps - steps) * FINE.dt_s == pytest.approx(within_s, abs=1.5 * FINE.dt_s)
+
+
+def test_the_energy_at_take_off_is_audited_however_seldom_others_are(kenan: Robot) -> None:
+    """It is what damping, impact and slip have left of the springs'."""
+    world = PlanarWorld(kenan, FINE)
+    found = kernel.push_off(world.model, world.moment, FINE.dt_s, 0.004, 0.0, 0.1, FINE.max_time_s, 10**9)
+    assert found.flown
+    change = kernel.energy(world.model, found.moment) - kernel.energy(world.model, world.moment)
+    assert found.worst_gain_j == pytest.approx(change, abs=1e-12)
+    assert -0.5 * kenan.spring.energy_j < found.worst_gain_j < 0.0
+
+
+def test_a_robot_whose_leg_stops_before_its_springs_are_at_rest_flies(kenan: Robot) -> None:
+    """Against a hard stop 0.1 rad before rest: the leg extends no further, and the springs push on nothing else."""
+    world = PlanarWorld(stopped(kenan, -0.1, 1e4), replace_damping(FINE))
+    found = world.push_off()
+    assert found.flown
+    world.go_to(found.moment)
+    world.advance(round(0.004 / FINE.dt_s))
+    assert -0.11 < world.moment.leg_rad < -0.05
+    assert not world.loaded()
+    assert kernel.rising(world.model, world.moment)

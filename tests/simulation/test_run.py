@@ -188,3 +188,22 @@ def test_touchdown_is_looked_for_after_every_step_of_the_flight(kenan: Robot, mo
     assert set(asked[:first]) == {round(0.004 / settings.dt_s)}
     assert set(asked[first:]) == {1}
     assert len(asked) - first > 0.1 / settings.dt_s  # a flight of a tenth of a second at least
+
+
+def test_who_stays_is_as_fast_as_its_springs_made_it() -> None:
+    """At the end of the push-off, not when it stands again; √(g·height) would leave the ground (Froude number 1)."""
+    run = object.__new__(Run)
+    run.settings = Settings()
+    speeds: dict[str, float] = {"spent": 0.6, "still": 0.0}
+    run.mechanics = SimpleNamespace(  # type: ignore[assignment]
+        velocity_m_s=lambda state: np.array([0.8 * speeds[state], 0.0, 0.6 * speeds[state]]),
+        centre_of_mass_m=lambda state: np.array([0.0, 0.0, 0.05 if state == "spent" else 0.02]),
+    )
+    run.world = SimpleNamespace(state=lambda: "still")  # type: ignore[assignment]
+    for spent, speed, height_m in (("spent", 0.6, 0.05), (None, 0.0, 0.02)):
+        run._spent = spent  # type: ignore[assignment]
+        found, needed = run.standing(), math.sqrt(9.81 * height_m)
+        assert (found.name, found.severity) == ("no_takeoff", "error")
+        assert (found.value, found.limit, found.margin) == pytest.approx((speed, needed, speed - needed))
+    speeds["spent"], run._spent = 0.9, "spent"  # type: ignore[assignment]
+    assert run.standing().margin == 0.0  # faster than needed, and still it stays

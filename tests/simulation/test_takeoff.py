@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -139,3 +140,22 @@ def test_who_stays_on_the_ground_is_told_the_speed_that_leaves_it(
     assert (finding.name, finding.severity) == ("no_takeoff", "error")
     assert (finding.value, finding.limit) == pytest.approx((speed_m_s, needed))
     assert finding.margin == pytest.approx(0.0 if enough else speed_m_s - needed)
+
+
+@pytest.mark.parametrize(
+    ("up_m_s", "clear_m", "asked_m", "flies"),
+    [
+        (1e-9, 0.0, 0.0, True), (0.0, 1.0, 0.0, False), (-1e-9, 1.0, 0.0, False),
+        (1.0, 0.002, 0.002, True), (1.0, 0.0019, 0.002, False), (-0.05, 0.01, 0.002, False),
+    ],
+)  # fmt: skip
+def test_a_robot_flies_that_rises_and_has_cleared_the_ground(
+    up_m_s: float, clear_m: float, asked_m: float, flies: bool
+) -> None:
+    """By its centre of mass and its lowest sphere; any clearance will do where none is asked for."""
+    run = object.__new__(Run)
+    run.clearance_m = asked_m
+    run.mechanics = SimpleNamespace(  # type: ignore[assignment]
+        velocity_m_s=lambda _: np.array([3.0, 0.0, up_m_s]), clearance_m=lambda _: clear_m
+    )
+    assert run._flies(None) == flies  # type: ignore[arg-type]

@@ -163,3 +163,20 @@ def test_shares_of_a_resample_are_those_of_its_jumps_alone() -> None:
     assert found == pytest.approx(_first_order(inputs, 100.0 + 7.0 * figures, rows))
     assert found[0, 0] > 0.7 > 0.4 > found[1, 0]
     assert found[1, 1] > 0.95
+
+
+def test_eight_of_ten_resamples_lie_in_the_interval(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a hundred that count from 0 to 99, those from 9.9 to 89.1; the share itself is that of the whole sample."""
+    asked: list[int] = []
+
+    def shares(inputs: dict[str, np.ndarray], figures: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        asked.append(len(asked))
+        return np.full((len(inputs), figures.shape[1]), float(asked[-1]))
+
+    monkeypatch.setattr(uncertain, "_first_order", shares)
+    monkeypatch.setattr(uncertain, "_jump", lambda *_: (0.2, 0.1))
+    found = uncertain_jump(robot, Settings(), "planar", samples=16)
+    assert len(asked) == 101
+    for group in found.first_order:
+        assert set(found.first_order[group].values()) == {100.0}
+        assert all(ends == pytest.approx([9.9, 89.1]) for ends in found.interval[group].values())

@@ -202,9 +202,14 @@ def test_the_answer_at_once_is_the_capsule_robots() -> None:
 
 
 def test_the_workshop_can_be_changed(studio: Studio) -> None:
+    """The panel names the one that is used, which at first is the first; what is there to choose is all."""
+    assert studio.choice.options == ("default", "fine")
+    assert studio.choice.value == "default"
+    assert studio.workshop == load_workshop("default")
     studio.choice.value = "fine"
-    studio._change_workshop()
+    assert studio._change_workshop() == "workshop fine"
     assert studio.workshop == load_workshop("fine")
+    assert {key: slider.value for key, slider in studio.sliders.items()} == load_design("kenan-2.0").model_dump()
 
 
 def test_it_ends_with_its_thread_and_keeps_no_robot(studio: Studio) -> None:

@@ -1,15 +1,18 @@
 """PyGAD through the evaluator."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from support.hills import SMALL, TOP
+from support.hills import FIXED, SMALL, TOP
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.genetic import ScreenedFitness, find_preset, run_genetic
+from jumpcad.search.methods.genetic import ScreenedFitness, evolve, find_preset, run_genetic
 from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
+from jumpcad.workshop import load_workshop
 
 
 def best(trials):
@@ -95,3 +98,21 @@ def test_what_a_screen_leaves_out_has_the_score_that_was_guessed():
         trial = Trial("ga", 0, 0, design, Evaluation(SCREENED, metrics), None, "m", 0.0)
         assert fitness.fitness(trial) == score
     assert fitness.fitness(Trial("ga", 0, 0, design, Evaluation("jump"), 3.5, "m", 0.0)) == 3.5
+
+
+@pytest.mark.parametrize("batteries", ["lipo-2s-180,lipo-1s-300", "lipo-1s-300"])
+def test_names_have_no_order_for_the_genetic_algorithm_however_few_they_are(monkeypatch, batteries):
+    """Two are as little on a scale as many; numbers, choices of them too, are on one."""
+    asked = {}
+    monkeypatch.setattr("pygad.GA", lambda **given: asked.update(given) or SimpleNamespace(run=lambda: None))
+    space = Space.parse(
+        fix=FIXED, bound=["body.plate_mm=1.2:2.4"], choose=[f"bought.battery={batteries}", "process.infill=0.2,0.4"],
+        workshop=load_workshop(),
+    )  # fmt: skip
+    fitness = SimpleNamespace(left=3, evaluator=SimpleNamespace(space=space))
+    evolve(fitness, space.spread(4, np.random.default_rng(0)), {}, 5)
+    named = [parameter.name == "bought.battery" for parameter in space.free]
+    assert asked["gene_categorical"] == named
+    assert sum(named) == ("," in batteries)
+    assert asked["random_seed"] == 5
+    assert np.shape(asked["initial_population"]) == (4, space.dimension) == (4, len(asked["gene_space"]))
