@@ -311,6 +311,18 @@ def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_sensors_place_knows_the_workshops_errors_and_how_far_the_cam_runs_on(name: str) -> None:
+    """From contact to standstill the cam turns as fast as with a full battery; errors and reserve as they are named."""
+    robot = built(name)
+    seats, needs = robot.workshop.seats, robot.layout.sensor.needs
+    assert needs.stop_rad == pytest.approx(robot.layout.drive.train.cam_speed_rad_s * seats.sensor_stop_s, rel=1e-4)
+    assert (needs.axial_mm, needs.along_mm) == (seats.sensor_axial_mm, seats.sensor_along_mm)
+    assert needs.reserve_rad == pytest.approx(math.radians(seats.sensor_reserve_deg))
+    assert needs.layer_mm == robot.workshop.process.layer_height_mm
+    assert needs.part.name == robot.workshop.bought.sensor
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_spacers_keep_the_front_link_and_the_cam_where_they_are(name: str) -> None:
     """A quarter of a millimetre at either end of what moves along its axle; the cam's spacer stands on the plate."""
     robot = built(name)

@@ -57,6 +57,14 @@ def test_the_weaker_of_stall_share_and_gearbox_limits_the_torque() -> None:
     assert allowed_nm(MOTOR, replace(LIMITS, stall_share=0.2, torque_max_nm=0.01)) == 0.01
 
 
+def test_a_motor_gives_at_most_six_tenths_of_what_it_stalls_with_on_an_empty_battery() -> None:
+    supply = Supply(1.0, 3.7, 4.2, 0.5, 0.1, 1.0)
+    limits = replace(LIMITS, supply=supply, stall_share=0.9, torque_max_nm=9.0)
+    stall = supply.driven(MOTOR, 1.0, limits.blocked_nm).stall_torque_nm
+    assert 0.0 < stall < 0.9 * MOTOR.stall_torque_nm
+    assert allowed_nm(MOTOR, limits) == pytest.approx(0.6 * stall)
+
+
 def test_the_least_ratio_is_that_of_torque_or_of_speed() -> None:
     """A strong spring asks for torque, through the losses of cam and pairs; a weak one only for a slow cam."""
     strong, weak = law(10.0), law(1e-6)

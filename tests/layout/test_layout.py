@@ -340,6 +340,7 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
     layout = plans()["geared"]
     given: dict[str, set[str]] = {}
     legs: list[Obstacle] = []
+    intervals: dict[str, list[Any]] = {}
     names = ("stop_place", "spring_pin_place", "train_places", "sensor_place", "tray_place", "standoff_places",
              "spring_boss_mm", "fittings_of")  # fmt: skip
     for name in (*names, "pin_hole", "require_gear_room"):
@@ -347,6 +348,7 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
 
         def kept(*asked: Any, name: str = name, make: Any = make, place: int = place) -> Any:
             given[name] = {one.name for one in asked[place]}
+            intervals[name] = [one for one in asked if isinstance(one, tuple) and len(one) == 2]
             legs.extend(one for one in asked[place] if one.name == "main leg")
             return make(*asked)
 
@@ -364,6 +366,10 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
     assert given["stop_place"] == given["pin_hole"] == first - {"main leg"}
     assert given["spring_pin_place"] == first - springs
     assert given["require_gear_room"] == springs | {"front axle"}
+    # the stop's tabs are in both plates, and beside the left one are the gears; the others are between the plates
+    assert intervals["stop_place"] == [layout.lateral.inside, layout.lateral.left_plate]
+    assert all(intervals[name] == [layout.lateral.inside] for name in ("spring_pin_place", "tray_place"))
+    assert intervals["require_gear_room"] == [layout.lateral.gears[0]]
     things = first | {"rest stop", "spring arm", "spring pin", "way of the leg's pin"}
     train = {"motor", "pinion", "idler wheel", "idler pinion", "idler axle"}
     for name, more in zip(names[2:], (set(), train, {"sensor"}, {"electronics"}, {"standoff"}, set()), strict=True):

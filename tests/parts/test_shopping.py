@@ -139,6 +139,24 @@ def test_standoff_screws_go_through_the_plate_into_the_standoff(assembled_robot:
             assert 1.0 < sign * (head - outer) < 3.0
 
 
+def test_a_springs_arms_take_a_wires_room_beside_the_plate_and_beside_the_leg(assembled_robot: Robot) -> None:
+    layout = assembled_robot.layout
+    spring, lateral = layout.drive.spring, layout.lateral
+    for side, (low, high) in (("left", lateral.spring_left), ("right", lateral.spring_right)):
+        for thing, hub, right in zip(
+            named(assembled_robot, f"spring_{side}"),
+            (layout.hub_mm, np.zeros(2)),
+            (side == "right", side == "left"),
+            strict=True,
+        ):
+            corners = trimesh.transform_points(thing.solid.to_mesh64().vert_properties[:, :3], thing.T_body_part)
+            out = np.hypot(*(corners[:, ::2] - hub).T) > spring.outer_diameter_mm / 2.0 + 1e-3
+            first = low if right else high - spring.wire_mm
+            assert [corners[out, 1].min(), corners[out, 1].max()] == pytest.approx(
+                [first, first + spring.wire_mm], abs=1e-4
+            )
+
+
 def test_springs_are_seen_as_wire_within_the_room_that_is_kept_for_them(assembled_robot: Robot) -> None:
     """The room's round outlines are polygons, within which the wire is up to what their chords cut off.
 

@@ -8,6 +8,7 @@ from support.built import built, cut, hole_centres, inscribed_diameter, part, pl
 from support.fits import RUNNING, TOLERANCE_MM
 
 from jumpcad.errors import JumpcadError
+from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.small import require_axle
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
@@ -118,3 +119,15 @@ def test_spacers_hold_the_axles_around_which_they_keep_a_wall() -> None:
     for wrong, most in ((shop(4.401), "4.4"), (shop(4.4, sliding_mm=0.3), "4.2"), (shop(4.4, wall_min_mm=1.0), "4")):
         with pytest.raises(JumpcadError, match=rf"is more than {most}, the most with which spacers of 6.4 mm keep"):
             require_axle(wrong)
+
+
+def test_the_caps_screws_have_their_heads_in_its_outer_face(kenan: Robot) -> None:
+    """Counterbores of 4 mm, 1.6 mm deep, for M2 heads of 3.8 mm (ISO 14580); below them holes that the screws pass."""
+    y0, y1 = kenan.layout.lateral.motor_cap
+    cap, ears = placed(kenan, "motor_cap"), ear_places(kenan.layout)
+    assert len(ears) == 2
+    m2 = kenan.workshop.fits.m2_clearance_mm
+    for y, diameter in ((y1 - 0.3, 4.0), (y1 - 1.5, 4.0), (y1 - 1.7, m2), (y0 + 0.3, m2)):
+        segments = cut(cap, y)
+        for ear in ears:
+            assert inscribed_diameter(segments, ear) == pytest.approx(diameter, abs=TOLERANCE_MM), y
