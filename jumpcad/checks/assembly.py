@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jumpcad.checks.interference import INTENDED, Component, shared_volume_mm3
+from jumpcad.checks.interference import Component, may_share, shared_volume_mm3
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
@@ -163,7 +163,7 @@ def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
     for other in way.there:
         other_low, other_high = _extent(other)
         apart = bool((low >= other_high).any() or (other_low >= high).any())
-        if apart or _passes(way.placed, other.name) or _intended(mover.name, other.name):
+        if apart or _passes(way.placed, other.name) or may_share(mover.name, other.name):
             continue
         share = _covered(mover, room, other, path_mm) / min(length, _depth(other, path_mm / length))
         if share > TOLERANCE_MM2:
@@ -264,8 +264,3 @@ def _tool(tool: Tool, fastener: Component, side: Array) -> Component:
 
 def _passes(placed: Placed, name: str) -> bool:
     return bool(placed.move.past) and re.fullmatch(placed.move.past, name) is not None
-
-
-def _intended(a: str, b: str) -> bool:
-    pairs = ((a, b), (b, a))
-    return any(x.startswith(first) and y.startswith(second) for x, y in pairs for first, second, _ in INTENDED)

@@ -138,7 +138,7 @@ def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
         for i, j in _near(boxes):
             a, b = pieces[i], pieces[j]
             fixed = a.body == b.body and a.name not in TURNING and b.name not in TURNING
-            if (fixed and (i, j) in settled) or _intended(a.name, b.name):
+            if (fixed and (i, j) in settled) or may_share(a.name, b.name):
                 continue
             settled.add((i, j))
             volume = shared_volume_mm3(a, poses[i], b, poses[j])
@@ -222,7 +222,7 @@ def _near(boxes: list[Array]) -> Iterator[tuple[int, int]]:
     yield from zip(*np.nonzero(np.triu(meet, 1)), strict=True)
 
 
-def _intended(a: str, b: str) -> bool:
+def may_share(a: str, b: str) -> bool:
     """Tell whether two pieces may share volume."""
     pairs = ((a, b), (b, a))
     return any(x.startswith(first) and y.startswith(second) for x, y in pairs for first, second, _ in INTENDED)

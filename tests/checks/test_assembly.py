@@ -18,12 +18,12 @@ from jumpcad.checks.assembly import (
     _covered,
     _findings,
     _in_the_way,
-    _intended,
     _reach,
     _tool,
     _tool_blocked,
     assembly_findings,
     assembly_ways,
+    may_share,
     paths,
     tools,
 )
@@ -255,5 +255,5 @@ def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
 )  # fmt: skip
 def test_what_may_meet_may_do_so_whichever_of_the_two_moves(one: str, other: str, meet: bool) -> None:
     """A screw cuts its thread, whether it comes to the plate or the plate to it."""
-    assert _intended(one, other) == _intended(other, one) == meet
-    assert interference._intended(one, other) == interference._intended(other, one) == meet
+    assert may_share(one, other) == may_share(other, one) == meet
+    assert interference.may_share(one, other) == interference.may_share(other, one) == meet
