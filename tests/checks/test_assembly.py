@@ -10,7 +10,6 @@ from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, checked, placed
 
 from jumpcad.building import assembly, build
-from jumpcad.checks import interference
 from jumpcad.checks.assembly import (
     TOLERANCE_MM2,
     Blocked,
@@ -23,11 +22,10 @@ from jumpcad.checks.assembly import (
     _tool_blocked,
     assembly_findings,
     assembly_ways,
-    may_share,
     paths,
     tools,
 )
-from jumpcad.checks.interference import Component
+from jumpcad.checks.interference import Component, may_share
 from jumpcad.design import Design, load_design
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
@@ -256,4 +254,3 @@ def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
 def test_what_may_meet_may_do_so_whichever_of_the_two_moves(one: str, other: str, meet: bool) -> None:
     """A screw cuts its thread, whether it comes to the plate or the plate to it."""
     assert may_share(one, other) == may_share(other, one) == meet
-    assert interference.may_share(one, other) == interference.may_share(other, one) == meet
