@@ -82,5 +82,4 @@ class Record(TomlTable):
 
 
 def _line_error(location: tuple[str, ...], value: Any, reason: str) -> InitErrorDetails:
-    message = reason.replace("{", "{{").replace("}", "}}")
-    return InitErrorDetails(type=PydanticCustomError("value_error", message), loc=location, input=value)
+    return InitErrorDetails(type=PydanticCustomError("value_error", reason), loc=location, input=value)

@@ -10,7 +10,7 @@ import pytest
 
 from jumpcad.calibration.likelihood import CalibrationParameter, Datum, Model, Predicted
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.posterior import CalibrationPosterior, _residual, _verdict, sampled
+from jumpcad.calibration.posterior import CalibrationPosterior, _residual, _verdict, require_data, sampled
 from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, SPRING_EFFICIENCY
 from jumpcad.calibration.subject import Subject
 from jumpcad.calibration.surface import JumpAt
@@ -236,3 +236,13 @@ def test_each_robot_has_its_own_energy(subject: Subject) -> None:
     kept = 0.95 * (0.4 + 0.6 * 0.5)
     by_mass = [kept / (1.0 + deviation * math.hypot(0.2, 0.01)) for deviation in (1.0, 0.0, -1.0)]
     assert found["other"] == pytest.approx(np.quantile(by_mass, (0.1, 0.5, 0.9)))
+
+
+@pytest.mark.parametrize(
+    "jump", [{"distance_mm": (240.0,), "distance_of": "unknown"}, {"height_mm": (80.0,), "height_of": "rise"}]
+)
+def test_a_distance_or_a_height_is_enough_to_calibrate_on(subject: Subject, jump: dict[str, Any]) -> None:
+    """Both tell of the springs' energy; that of the battery tells of the drive alone."""
+    require_data(Model([measured(subject, jumps=(jump,))]))
+    with pytest.raises(JumpcadError, match="too little"):
+        require_data(Model([measured(subject, jumps=({"battery_j": (1.5,)},))]))

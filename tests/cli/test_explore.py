@@ -130,3 +130,22 @@ def test_a_sweep_tells_the_least_and_the_largest_score_and_how_many_jump(monkeyp
     assert [" ".join(line.split()) for line in lines] == [
         "a 0.1250 … 2.2500 feasible at 4 of 5 values", "b never feasible feasible at 0 of 2 values",
     ]  # fmt: skip
+
+
+def test_importance_is_that_of_all_that_was_sampled_the_largest_first(monkeypatch):
+    """Only the components have a view of the best designs alone."""
+    asked = []
+    found = SimpleNamespace(
+        names=("a", "b", "c"), mean=np.array([0.1, 0.7, 0.4]), deviation=np.array([0.01, 0.02, 0.03]), r_squared=0.9,
+        designs=3,
+    )  # fmt: skip
+    monkeypatch.setattr("jumpcad.search.explore.sample", lambda *given: asked.append(given) or ["one", "two", "three"])
+    monkeypatch.setattr("jumpcad.search.explore.elite", lambda trials: trials[:1])
+    monkeypatch.setattr("jumpcad.search.explore.importance", lambda *given: asked.append(given) or found)
+    data, lines, _ = explore._sampled("importance", 30, 5)("evaluator")
+    assert asked == [("evaluator", 30, 5), ("evaluator", ["one", "two", "three"], 5)]
+    assert list(data["importance"].items()) == [("b", 0.7), ("c", 0.4), ("a", 0.1)]
+    assert [line.split()[:4] for line in lines[:3]] == [
+        ["b", "0.700", "±", "0.020"], ["c", "0.400", "±", "0.030"], ["a", "0.100", "±", "0.010"],
+    ]  # fmt: skip
+    assert "(3 of 3 designs jump)" in lines[3]

@@ -14,7 +14,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper import published
-from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.simulation import Jump, Settings, load_settings, simulate
 
 
 @pytest.fixture
@@ -203,3 +203,14 @@ def test_of_two_engines_both_must_jump_and_the_second_is_compared_with_the_first
     found = json.loads(run("simulate", "kenan-2.0", "--capsule", "--engine", "both", "--json")[1])
     assert found["range_difference_percent"] == (pytest.approx(10.0) if second == "jump" else None)
     assert list(found["engines"]) == ["pybullet", "mujoco"]
+
+
+@pytest.mark.parametrize("trajectory", [False, True])
+@pytest.mark.parametrize("flight", [False, True])
+def test_a_flight_is_simulated_only_where_it_is_asked_for(flight: bool, trajectory: bool) -> None:
+    """A trajectory alone ends at take-off; all else is as the settings say."""
+    plain = load_settings("fine")
+    found = module._settings("fine", flight, trajectory)
+    assert found.flight == ("simulated" if flight else plain.flight) == ("simulated" if flight else "ballistic")
+    assert found.trajectory == trajectory
+    assert found.dt_s == plain.dt_s

@@ -14,7 +14,7 @@ from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_order.plan import Move, Words
-from jumpcad.scene.assembly_steps import REST, SIDES, _texts, assembly_steps, travel
+from jumpcad.scene.assembly_steps import REST, SIDES, Step, _texts, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import pose_about_y, pose_about_z
 
@@ -167,3 +167,11 @@ def test_words_are_said_of_a_robot_that_has_what_they_need_and_lacks_what_they_l
 ) -> None:
     """Patterns of whole names."""
     assert _texts([Words("so", needs, lacks)], ["gear_1", "gear_2"]) == (("so",) if said else ())
+
+
+def test_what_is_only_tried_or_brought_from_earlier_steps_is_not_added() -> None:
+    def placed(thing: str, brings: str = "", trial: bool = False) -> SimpleNamespace:
+        return SimpleNamespace(move=SimpleNamespace(brings=brings, trial=trial), things=(thing,))
+
+    step = SimpleNamespace(placed=[placed("tried", trial=True), placed("brought", brings="gears"), placed("put on")])
+    assert Step.added.fget(step) == ("put on",)  # type: ignore[attr-defined]

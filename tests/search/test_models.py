@@ -7,12 +7,14 @@ from types import SimpleNamespace
 import pytest
 
 from jumpcad.design import Design, load_design
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.paper import published
 from jumpcad.search.models import RobotModel, robot_model
 from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.refusal import room_findings
 from jumpcad.search.tolerances import Making
+from jumpcad.search.variant import Variant
 from jumpcad.settings import load_settings
 from jumpcad.workshop import load_workshop
 
@@ -91,7 +93,9 @@ def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbi
     design = load_design("kenan-2.0")
     found = plain._printed(design)
     assert found.findings[:3] == (jumped, kept, broken)
-    assert len(found.findings) > 3
+    reserve_mm = plain.workshop.safety.room_reserve_mm
+    assert found.findings[3:] == tuple(room_findings(small_robot.layout, reserve_mm))
+    assert found.findings[3:] != tuple(room_findings(small_robot.layout, reserve_mm + 1.0))
     assert made._printed(design).findings == (jumped, broken)
     assert made._printed(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}
 
@@ -122,3 +126,21 @@ def test_the_published_robot_has_no_engine_to_choose(engine):
     with pytest.raises(JumpcadError, match=f"engine {engine}: the published simulation exists in pybullet alone"):
         robot_model("published", engine=engine)
     assert robot_model("published", engine="pybullet") == robot_model("published")
+
+
+def test_a_variant_is_laid_out_in_its_own_workshop(monkeypatch):
+    """What has no room there is a verdict, as are values that do not go together."""
+    asked = []
+
+    def layout_of(design, workshop):
+        asked.append((design, workshop.process.infill))
+        raise CannotBuildError("no room")
+
+    monkeypatch.setattr("jumpcad.building.layout_of", layout_of)
+    model, design = robot_model(), load_design("kenan-2.0")
+    for values, infill in (({}, model.workshop.process.infill), ({"process.infill": 0.123}, 0.123)):
+        found = model.laid_out(Variant(design, values))
+        assert (found.verdict, found.detail) == ("cannot_build", "no room")
+        assert asked[-1] == (design, infill)
+    assert model.laid_out(Variant(design, {"process.infill": 7.0})).verdict == "workshop"
+    assert len(asked) == 2

@@ -84,6 +84,17 @@ def test_what_is_given_twice_is_refused(changes: tuple[str, str], named: str) ->
         changed_parameters([read_change("fix", text) for text in changes], load_workshop())
 
 
+@pytest.mark.parametrize("workshop", [None, load_workshop()], ids=["capsule", "printed"])
+@pytest.mark.parametrize("kind", ["fix", "bound", "choose"])
+def test_a_name_that_no_parameter_has_is_not_passed_over(kind, workshop):
+    with pytest.raises(
+        JumpcadError, match=r"'carrying_lnk_mm' is not a parameter of a design.*did you mean carrying_link_mm"
+    ):
+        changed_parameters([Change(kind, "carrying_lnk_mm", (100.0, 120.0))], workshop)
+    with pytest.raises(JumpcadError, match="made in no workshop" if workshop is None else "did you mean body.plate_mm"):
+        changed_parameters([Change(kind, "body.plate", (1.0, 2.0))], workshop)
+
+
 @pytest.mark.parametrize(
     ("parameter", "record"),
     [

@@ -1,5 +1,7 @@
 """What a search found."""
 
+from collections import Counter
+
 import pytest
 
 import jumpcad
@@ -23,6 +25,8 @@ def test_where_nothing_jumps_the_trials_are_kept_and_the_design_is_asked_for_in_
     )
     assert len(found.trials) == 12
     assert found.winner is None
+    assert found.rejected == Counter(reason for trial in found.trials for reason in trial.evaluation.reasons)
+    assert sum(found.rejected.values()) >= 12
     for ask in (lambda: found.design, lambda: found.score, lambda: found.save(tmp_path / "w.toml")):
         with pytest.raises(CannotBuildError, match=r"none of 12 designs jumps \(.*: widen the bounds"):
             ask()

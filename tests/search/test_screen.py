@@ -224,6 +224,20 @@ def test_a_margin_s_error_is_twice_the_worst_of_robots_that_were_held_out() -> N
     assert errors == pytest.approx({"reach": 2.0 * 0.3, "tips": 2.0 * 0.01})
 
 
+def test_the_nearest_robots_are_those_that_differ_least_in_what_they_differ_most() -> None:
+    """A tenth of the range in all is nearer than three tenths in one; the best itself comes first."""
+    middle = np.full(SPACE.dimension, 0.5)
+    one, far = middle.copy(), middle.copy()
+    one[0], far[1] = 0.8, 0.0
+    points = [far, one, middle + 0.1, middle, middle - 0.2]
+    trials = [
+        Trial("ga", 0, place, SPACE.to_design(point), Evaluation("jump"), 2.0 if place == 3 else 1.0, "m", 0.1)
+        for place, point in enumerate(points)
+    ]
+    tier = Tier(SPACE, lambda *_: None, laid=False)  # type: ignore[arg-type]
+    assert [trial.place for trial in tier._nearest(trials)] == [3, 2, 4, 1, 0]
+
+
 def test_of_a_generation_those_are_built_that_may_be_better_than_another_s_least() -> None:
     """With its layout one scores 1.3 at least and 1.7 at most: 1.4 may be more, 1.2 cannot."""
     variants = [SPACE.to_variant(np.full(SPACE.dimension, share)) for share in (0.1, 0.2, 0.3)]

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.machines import let_go, one_sided, rubbing, stopped
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
@@ -230,3 +231,16 @@ def test_no_principal_moment_exceeds_the_other_two_together(turn_deg: float) -> 
     for order in itertools.permutations((1e-5, 2e-5, 3.1e-5)):
         assert "none can be more than the other two together" in refusal(*order)
     assert "must be more than 0" in refusal(-1e-9, 2e-5, 2e-5)
+
+
+@pytest.mark.parametrize("machine", [stopped, let_go, rubbing, one_sided], ids=lambda make: make.__name__)
+def test_what_a_robot_has_beside_its_links_is_read_back_each_without_the_others(
+    read: Callable[..., Robot], machine: Callable[[Robot], Robot]
+) -> None:
+    robot = machine(KENAN)
+    found = read(write_urdf(robot), write_loop(robot))
+    for key in ("stop", "roller_off", "friction"):
+        assert (getattr(found, key) is None) == (getattr(robot, key) is None)
+        if getattr(robot, key) is not None:
+            assert getattr(found, key) == getattr(robot, key)
+    assert found.spring == robot.spring

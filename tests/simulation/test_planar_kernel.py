@@ -505,3 +505,14 @@ def test_a_robot_whose_leg_stops_before_its_springs_are_at_rest_flies(kenan: Rob
     assert -0.11 < world.moment.leg_rad < -0.05
     assert not world.loaded()
     assert kernel.rising(world.model, world.moment)
+
+
+def test_a_push_off_tells_how_near_the_body_came_to_the_ground(kenan: Robot) -> None:
+    """The least of all steps up to take-off: nearer than it is at the end."""
+    world = PlanarWorld(kenan, FINE)
+    found, moment, gaps = world.push_off(), world.moment, []
+    for _ in range(found.steps):
+        moment = kernel.advance(world.model, moment, FINE.dt_s, 1)
+        gaps.append(moment.belly_gap_m)
+    assert found.belly_gap_m == pytest.approx(min(gaps), rel=1e-12)
+    assert found.belly_gap_m < 0.8 * found.moment.belly_gap_m
