@@ -26,6 +26,8 @@ from jumpcad.transforms import Array, chained
 
 AROUND = ("from the front", "from behind", "from above", "from below")
 """Sides from which a clip may be put on."""
+OF_FOOT = ("ankle_pin", "toe_")
+"""Beginnings of the names of what the foot's toes may stand in the way of."""
 TOLERANCE_MM2 = 0.05
 """Section that may be shared along a path: facets of circles that touch, as of an axle in its bore."""
 BEYOND_MM = 5.0
@@ -92,6 +94,8 @@ def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]
             f"{TOLERANCE_MM2:g} mm² are allowed"
         )
         remedy = "raise carrying_link_mm or d_coef (a longer body), or choose another bought.retention"
+        if one.name.startswith(OF_FOOT):
+            remedy = "lower ground_link_angle_deg (toes that point more ahead)"
         margin = TOLERANCE_MM2 - one.share_mm2
         yield Finding(name, "error", margin, "mm²", message, remedy, value=one.share_mm2, limit=TOLERANCE_MM2)
     if not blocked:

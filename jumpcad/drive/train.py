@@ -109,7 +109,7 @@ def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) 
     torque = law.peak_torque_nm / limits.cam_efficiency
     allowed = max(allowed_nm(motor, limits) for motor in motors)
     remedy = "lower stiffness_nmm_per_deg or compression_ratio, or allow a stronger motor"
-    if torque < allowed:  # the motor is strong enough, and too fast
+    if torque < allowed * limits.pair_efficiency:  # the motor is strong enough, and too fast
         remedy = "raise stiffness_nmm_per_deg or compression_ratio, or allow a slower motor"
     raise NoTrainError(
         f"no motor turns the cam: it needs {1000 * torque:.0f} mN·m, the strongest allowed motor may give "

@@ -228,6 +228,15 @@ def test_what_does_not_move_is_not_in_the_way(length: float, blocked: bool) -> N
     assert (found is not None) == blocked
 
 
+def test_toes_in_the_way_of_the_ankle_are_to_point_more_ahead() -> None:
+    """Nearly sideways they stand before its pin; ten degrees less leave it free, which is what is advised."""
+    sideways = Design.from_vector([134.6, 0.909, 0.846, 1.202, 0.491, 60.6, 23.7, 76.0])
+    blocked = errors(assembly_findings(build(sideways)))
+    assert blocked
+    assert all("lower ground_link_angle_deg" in one.remedy for one in blocked)
+    assert not errors(assembly_findings(build(sideways.model_copy(update={"ground_link_angle_deg": 66.0}))))
+
+
 def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
     blocked = Blocked(SimpleNamespace(title="Close the body"), "leg_axle", "body_plate_left", 2.5)
     for name, what in (("assembly_paths", "path"), ("tool_access", "tool")):
