@@ -43,10 +43,11 @@ def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(robot: 
 
 
 def test_colours_are_linear_light() -> None:
-    """IEC 61966-2-1: half of the code value is 21.4 % of the light, and the ends stay."""
+    """IEC 61966-2-1: half of the code value is 21.4 % of the light, dark ones are in proportion, and the ends stay."""
     assert linear_light(0.5) == pytest.approx(0.214041, abs=1e-6)
     assert [linear_light(part) for part in (0.0, 1.0)] == [0.0, 1.0]
     assert linear_light(0.04045) == pytest.approx(0.0031308, rel=1e-4)
+    assert linear_light(0.02) == pytest.approx(0.02 / 12.92)
 
 
 def test_colours_of_a_glb_have_six_decimals(robot: Robot) -> None:
