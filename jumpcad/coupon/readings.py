@@ -141,12 +141,14 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
     fits = _fits(readings, workshop)
     if not fits and readings.joints.floor_n is None:
         raise JumpcadError(f"{source}: no reading: fill in at least one, such as axle_press_mm under [gauge.PETG]")
-    data, force = workshop.model_dump(), readings.joints.floor_n
-    if force is not None and force < floor_breaks_n(workshop):
+    data = workshop.model_dump()
+    if (force := readings.joints.floor_n) is not None:
         body = data["materials"][workshop.material_name("body")]
-        body["strength_in_plane_mpa"] = round(VON_MISES * force / _sheared_mm2(workshop), 1)
-        said = body["source"].rstrip(".")
-        body["source"] = f"{said}; strength in plane: a bore's floor broke at {force:g} N".removeprefix("; ")
+        strength_mpa = round(VON_MISES * force / _sheared_mm2(workshop), 1)
+        if strength_mpa < body["strength_in_plane_mpa"]:
+            said = body["source"].rstrip(".")
+            body["strength_in_plane_mpa"] = strength_mpa
+            body["source"] = f"{said}; strength in plane: a bore's floor broke at {force:g} N".removeprefix("; ")
     return Workshop.from_data(data | {"fits": data["fits"] | fits}, source)
 
 

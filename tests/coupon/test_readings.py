@@ -80,6 +80,7 @@ def test_a_floor_as_strong_as_the_material_says_changes_nothing_and_a_weaker_one
     before = WORKSHOP.materials["PLA"]
     assert before.strength_in_plane_mpa == 54.0
     assert read(f"[joints]\nfloor_n = {breaks + 0.01}").materials == WORKSHOP.materials
+    assert read(f"[joints]\nfloor_n = {breaks - 0.01}").materials == WORKSHOP.materials  # 54.0 MPa too
     weaker = read("[joints]\nfloor_n = 200").materials
     assert weaker["PLA"].strength_in_plane_mpa < 54.0
     assert weaker["PLA"].source == f"{before.source.rstrip('.')}; strength in plane: a bore's floor broke at 200 N"
