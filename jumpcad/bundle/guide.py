@@ -24,6 +24,7 @@ from jumpcad.scene.step_views import label_of
 from jumpcad.scene.visuals import Visual
 
 PRINT, BUY = "## Print", "## Buy"
+NO_PICTURES = "Written with `--no-pictures`: where it speaks of a picture, build without that option."
 
 
 def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
@@ -36,6 +37,7 @@ def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
         f"{1000.0 * robot.mass_kg:.1f} g. Left and right are as seen from behind the robot. Read all of it before you "
         "start: plan an evening for printing and ordering, and an afternoon for assembly. Torques and forces of hands "
         "are judgements.",
+        *(() if pictures else ("", NO_PICTURES)),
         *_tables(bill_of_materials(robot)),
         *print_lines(robot),
         *order_lines(robot),

@@ -51,6 +51,7 @@ def order_lines(robot: Robot) -> Iterator[str]:
     for *_, colour, length in wires(robot):
         total[colour] += length
     yield from _bearings(robot)
+    yield from _screw_axles(robot)
     lengths = ", ".join(f"{colour} {length / 1000.0:.2f} m" for colour, length in sorted(total.items()) if length)
     yield (
         f"- wire AWG 28, silicone: {lengths}, ends included; the bill has each rounded up to 0.1 m: buy 0.2 m more "
@@ -200,6 +201,15 @@ def _bearings(robot: Robot) -> Iterator[str]:
     )
     if listed:
         yield f"- ball bearings with two metal shields (suffix ZZ; open ones may be narrower): {listed}"
+
+
+def _screw_axles(robot: Robot) -> Iterator[str]:
+    """Yield where screws that serve as axles are found: they are longer than the norm's longest of their size."""
+    if robot.layout.retention == "nuts":
+        yield (
+            "- screws M3 as axles: ISO 4762 lists M3 up to 30 mm; longer ones of the same dimensions are sold as "
+            "ISO 4762 or DIN 912, strength class 12.9. Their smooth shank is what turns: not threaded up to the head"
+        )
 
 
 def _plug(robot: Robot) -> Iterator[str]:

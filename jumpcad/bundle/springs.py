@@ -121,8 +121,9 @@ def spring_order(robot: Robot) -> Iterator[str]:
     )
     yield (
         f"- loaded from {math.degrees(spring.preload_rad):.1f}° to {math.degrees(spring.wound_rad):.1f}°, closing, to "
-        f"{spring.torque_nmm:.0f} N·mm each; {spring.stress_mpa:.0f} MPa at most ({allowable_mpa(robot):.0f} MPa "
-        f"allowed; EN 13906-3, inner fibre), {most * spring.stress_mpa:.0f} MPa with the largest torque accepted"
+        f"{spring.torque_nmm:.0f} N·mm each; {spring.stress_mpa:.0f} MPa ({spring.allowable_mpa:.0f} MPa allowed; "
+        f"EN 13906-3, inner fibre), {most * spring.stress_mpa:.0f} MPa with the largest torque accepted "
+        f"({allowable_mpa(robot):.0f} MPa allowed, the reserve for loads used up)"
     )
     if spring.preload_rad > 0.0:
         without = 1000.0 * spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)

@@ -82,7 +82,7 @@ def pin_hole(
             blocker = min(others, key=lambda one: room_mm([one]))
             raise CannotBuildError(
                 f"no way for the leg's springs' pin through the left plate: {lacking(room)} beside the "
-                f"{blocker.name}: raise d_coef, or lower stiffness_nmm_per_deg (a smaller spring)",
+                f"{blocker.name}: raise d_coef, or take a smaller spring (lower stiffness_nmm_per_deg, or another bought.spring)",
                 "pin_way", room,
             )  # fmt: skip
     return found

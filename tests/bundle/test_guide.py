@@ -47,6 +47,8 @@ def test_the_guide_names_all_that_the_bill_names(robot: Robot) -> None:
     assert any(line.startswith("the ") for line in put)  # what was put together before has no count
     assert not any(re.match(r"\d+ × the ", line) for line in put)
     assert "pictures/" not in guide
+    assert "--no-pictures" in guide
+    assert "--no-pictures" not in write_guide(robot, ["step-12"])
     assert "![Foot and front link](pictures/step-2-pads.png)" in write_guide(robot, ["step-2-pads", "step-12"])
 
 
@@ -170,6 +172,14 @@ def test_a_rod_is_long_enough_for_all_its_pieces(length: str, stock: str) -> Non
     assert f"4 pieces of {length} mm" in line
     assert f"cut from a rod of {stock} m" in line
     assert 4.0 * (float(length) + 2.0) <= 1000.0 * float(stock)
+
+
+def test_screws_as_axles_are_longer_than_the_norm_lists() -> None:
+    robot = built("kenan-2.0")
+    screwed = replace(robot, layout=replace(robot.layout, retention="nuts"))
+    assert any("ISO 4762 lists M3 up to 30 mm" in line for line in order_lines(screwed))
+    assert min(robot.workshop.catalogue.screws["M3 long"].lengths_mm) > 30.0
+    assert not any("screws M3 as axles" in line for line in order_lines(robot))
 
 
 def test_the_strap_goes_once_around_battery_and_tray() -> None:

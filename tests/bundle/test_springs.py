@@ -76,9 +76,15 @@ def test_the_manifest_has_both_springs_with_their_pins(robot: Robot) -> None:
 def test_the_order_names_stress_and_life(robot: Robot) -> None:
     """EN 13906-3: 32·M/(pi·d³) with q = (4w² - w - 1)/(4w(w - 1)) of the inner fibre, w = D/d of the loaded coil."""
     text, spring = "\n".join(spring_order(robot)), robot.layout.drive.spring
-    loaded = re.search(r"(\d+) MPa at most \((\d+) MPa allowed; EN 13906-3, inner fibre\), (\d+) MPa with", text)
+    loaded = re.search(
+        r"(\d+) MPa \((\d+) MPa allowed; EN 13906-3, inner fibre\), (\d+) MPa with .* \((\d+) MPa allowed, the reserve",
+        text,
+    )
     assert loaded is not None
-    stress, allowed, most = map(float, loaded.groups())
+    stress, computed, most, allowed = map(float, loaded.groups())
+    (wire,) = (one for one in spring.findings if one.name == "spring_stress")
+    assert wire.message.endswith(f"{stress:.0f} of {computed:.0f} MPa")
+    assert allowed == pytest.approx((1.0 + robot.workshop.safety.stress_reserve) * computed, abs=1.2)
     index = spring.arms.mean_mm / spring.wire_mm
     inner = (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
     assert stress == pytest.approx(inner * 32.0 * spring.torque_nmm / (math.pi * spring.wire_mm**3), rel=0.03)
