@@ -12,7 +12,8 @@ from jumpcad.checks.load_case import IN_PLANE, ONE_TOE, LoadCase, stress_finding
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.findings import Basis, Finding
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
-from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm
+from jumpcad.strength.loads import rail_moment_nmm, rail_twist_nmm, toe_moment_nmm
+from jumpcad.strength.sizing import TWIST_FACTOR, rail_middle_mm
 from jumpcad.strength.stress import STATIONS, VON_MISES, Beam, bar_shear_mpa, eye_stress_mpa, tapered_stress_mpa
 
 WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the links"
@@ -26,6 +27,12 @@ BASIS = {
         f"largest M·h/(2·I) along a rail ≤ {IN_PLANE}; M falls evenly from F·x/2 at the ankle to 0, {TIPS}, x its "
         "distance behind the ankle",
         "Shigley 3-10; loads: inverse dynamics of the push-off (Norton, Design of Machinery, ch. 11)",
+    ),
+    "rail_twist": Basis(
+        f"√3·T/(b·c²)·(3 + 1.8·c/b) ≤ strength_in_plane_mpa/{TWIST_FACTOR:g} (MPa); T = F·(y - y0)/2, {TIPS}, y and y0 "
+        "distances of tip and rail from the robot's middle, b and c long and short side of the rail at the ankle",
+        "torsion: Shigley 3-12; distortion energy; the factor: judgement, the neck beside the ankle is short and the "
+        "pin takes a part",
     ),
     "toe_landing": Basis(
         f"largest M·h/(2·I) along a toe ≤ {IN_PLANE}; M falls evenly from F·l5 at its root to 0, {ONE_TOE}",
@@ -66,6 +73,13 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
     yield stress_finding(
         "rail_strength", "the foot's rails in bending at release", stress, case.allowable_mpa, remedy, "rail"
     )
+    middle = rail_middle_mm(sections.thickness_mm, sections.lug_thickness_mm)
+    shear = bar_shear_mpa(rail_twist_nmm(design, toes, middle), sections.lug_thickness_mm, sections.rail_root_mm)
+    yield stress_finding(
+        "rail_twist", "the foot's rails twisted beside the ankle at release", VON_MISES * float(shear),
+        case.workshop.material("links").strength_in_plane_mpa / TWIST_FACTOR,
+        f"lower ground_link_angle_deg, or {remedy}", "rail",
+    )  # fmt: skip
     blow = case.toe_blow_n
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
     yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, remedy, "toe")

@@ -82,7 +82,8 @@ def pin_hole(
             blocker = min(others, key=lambda one: room_mm([one]))
             raise CannotBuildError(
                 f"no way for the leg's springs' pin through the left plate: {lacking(room)} beside the "
-                f"{blocker.name}: raise d_coef, or take a smaller spring (lower stiffness_nmm_per_deg, or another bought.spring)",
+                f"{blocker.name}: raise d_coef, or take a smaller spring (lower stiffness_nmm_per_deg, or another "
+                "bought.spring)",
                 "pin_way", room,
             )  # fmt: skip
     return found

@@ -15,7 +15,7 @@ from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
-from jumpcad.parts.toes import lying_hole, on_the_foot
+from jumpcad.parts.toes import PIN_END_MM, lying_hole, on_the_foot
 from jumpcad.printing.bed import fit_to_bed
 from jumpcad.solids.blocks import Bar, Block, Blocks
 from jumpcad.solids.outline import Region, circle_points, disc, hull, polygon, rectangle, union
@@ -36,8 +36,6 @@ LINK_GAP_MM = 1.0
 SOLE_LENGTH, NOSE_AHEAD = 1.6, 0.42
 """How far a lug's sole reaches behind (and ahead of the ankle) and ahead of the front eye, in depths of the foot.
 Judgement for the first; a flank of 45° that touches the round nose reaches the sole 0.42 depths ahead."""
-PIN_END_MM = 7.0
-"""Diameter cut out of the toes around the ends of the ankle's pin: a clip of 6.3 mm (DIN 6799), or a head of 5 mm."""
 SOLE_HEIGHT_MM = 1.0
 """Height of a lug's straight sole; judgement."""
 

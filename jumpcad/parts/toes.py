@@ -30,6 +30,11 @@ GRIP_MM, GRIP_WIDTH_MM, GRIP_PITCH_MM = 0.4, 0.8, 2.4
 """
 GRIP_EDGE_MM = 1.0
 """Distance from a groove's end to the edge of the toe's tip; judgement: two printed lines."""
+PIN_END_MM = 7.0
+"""Diameter cut out of the toes around the ends of the ankle's pin: a clip of 6.3 mm (DIN 6799), or a head of 5 mm."""
+NOTCH_MM = 4.0
+"""Along the pin, beyond the boss, over which that may cut into a toe; judgement: bending there is at most 1.3 times
+that of the whole toe (Kenan 1.0, measured on the mesh), and the pin can be pushed in past the toe."""
 ROOF = 1.15
 """Height of a lying hole's flat roof over its radius: it leaves a flat of a quarter of the width."""
 
@@ -108,10 +113,24 @@ def lying_hole(diameter_mm: float, place_mm: tuple[float, float]) -> Region:
 
 
 def _toe(layout: Layout, name: str, sign: float) -> Toe:
-    sections = layout.sections
-    root = np.array([0.0, sign * (sections.thickness_mm / 2.0 + GAP_MM + sections.toe_width_mm / 2.0)])
-    along = toe_tip_mm(layout.design) * (1.0, sign) - root
+    """Return a toe whose root is beside the ankle, or as far behind as it takes to leave the ankle's pin its way."""
+    sections, tip = layout.sections, toe_tip_mm(layout.design)
+    beside = sections.thickness_mm / 2.0 + GAP_MM + sections.toe_width_mm / 2.0
+    sideways = math.atan2(tip[1] - beside, -tip[0])
+    root = np.array([-_behind_mm(sideways, sections.toe_width_mm), beside]) * (1.0, sign)
+    along = tip * (1.0, sign) - root
     return Toe(name, sign, root, math.atan2(along[1], along[0]), float(np.hypot(*along)))
+
+
+def _behind_mm(sideways_rad: float, width_mm: float) -> float:
+    """Return how far behind the ankle the root of a toe is that points sideways by an angle from straight back.
+
+    With the root at a distance b, its front edge is w/2·tan(a/2) - b before the ankle at the boss's face, and goes back
+    by 1/tan(a) along the pin: `NOTCH_MM` beyond the face it is to be half of `PIN_END_MM` behind.
+    """
+    sin, cos = math.sin(sideways_rad), math.cos(sideways_rad)
+    missing = PIN_END_MM / 2.0 * sin + width_mm / 2.0 * (1.0 - cos) - NOTCH_MM * cos
+    return missing / sin if missing > 0.0 else 0.0
 
 
 def _drawing(layout: Layout, holes: HoleSizes, toe: Toe) -> Drawing:

@@ -82,6 +82,7 @@ REASONS = {
     "toe_bar_strength": "the bar across a toe's tip would break",
     "toe_joint_strength": "the toes would break at their screw holes",
     "rail_strength": "the foot's rails would break in bending at release",
+    "rail_twist": "the foot's rails would break under the twist of their toes at release",
     "plate_seat": "the plates would be crushed under axles and pins",
     "leg_axle_strength": "the leg's axle would bend for good under the loaded springs",
     "cam_axle_strength": "the cam's axle would bend for good under the loaded springs",

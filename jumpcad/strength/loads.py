@@ -167,6 +167,15 @@ def rail_moment_nmm(design: Design, toes_n: float) -> float:
     return 0.5 * toes_n * toe_reach_mm(design)[0]
 
 
+def rail_twist_nmm(design: Design, toes_n: float, rail_mm: float) -> float:
+    """Return the torque in one of the two rails at the ankle when both toe tips carry a force together.
+
+    It is that of the tip's force about the rail's middle, `rail_mm` from that of the robot: the web before the ankle
+    leads it to the other rail, whose toe turns the other way.
+    """
+    return 0.5 * toes_n * max(0.0, toe_reach_mm(design)[1] - rail_mm)
+
+
 def toe_reach_mm(design: Design) -> tuple[float, float]:
     """Return how far behind the ankle and how far from the middle a toe's tip is."""
     x, y = toe_tip_mm(design)

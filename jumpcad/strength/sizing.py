@@ -13,14 +13,23 @@ from types import MappingProxyType
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_MM
+from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_MM
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
-from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_load_n, toe_moment_nmm
+from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, rail_twist_nmm, toe_load_n, toe_moment_nmm
 from jumpcad.strength.stop import BLOW_FACTOR, PEAK_SHARE
-from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm, tapered_stress_mpa
+from jumpcad.strength.stress import (
+    STATIONS,
+    VON_MISES,
+    Beam,
+    Shell,
+    height_for_mm,
+    tapered_energy_nmm,
+    tapered_stress_mpa,
+    twisted_height_mm,
+)
 from jumpcad.workshop import Fits, Workshop
 
 TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
@@ -46,6 +55,9 @@ RAIL_MIN_MM, TOE_MIN_MM, TOE_TIP_MIN_MM = 3.2, 3.2, 2.4
 """Least heights; judgement: 16 and 12 layers of 0.2 mm."""
 LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 """Height at the tip over that at the root. With half or more, moment over section falls from the root on."""
+TWIST_FACTOR = 2.0
+"""Strength of a rail over its shear beside the ankle; judgement: less than `safety.printed_factor`, since the neck
+between boss and web is 1.2 mm long and the ankle's pin takes a part of the torque."""
 DOG_MM_PER_NMM = 1.45
 """Diameter of the cam's dog over the cube root of the springs' torque, as shafts are sized (Shigley 7-4); judgement:
 with it the jaws of all templates withstand the impact at the end of their play."""
@@ -201,6 +213,8 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     toes = RESERVE * float(toe_load_n(forces, design, depth + pad).max())
     toe = height_for_mm(toe_moment_nmm(design, toes), TOE_WIDTH_MM, allowable, shell, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
+    twist = VON_MISES * rail_twist_nmm(design, toes, rail_middle_mm(thickness, lug))
+    rail = max(rail, twisted_height_mm(twist, lug, material.strength_in_plane_mpa / TWIST_FACTOR))
     toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
     rail_root = _in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
     return Sections(
@@ -265,6 +279,11 @@ def _stop_mm(workshop: Workshop, energy_j: float, width_mm: float, shell: Shell)
     moment = BLOW_FACTOR * force * max(STOP_SPAN_MM - width_mm / 2.0, 0.0) / 4.0
     strength = workshop.material("links").strength_in_plane_mpa
     return max(STOP_MIN_MM, STOP_SEAT_MM + height_for_mm(moment, STOP_PAD_MM, strength, shell))
+
+
+def rail_middle_mm(thickness_mm: float, lug_mm: float) -> float:
+    """Return how far the middle of a rail is from that of the robot: beside the leg, with a gap."""
+    return thickness_mm / 2.0 + GAP_MM + lug_mm / 2.0
 
 
 def dog_inside_mm(fits: Fits, axle_mm: float) -> float:

@@ -161,6 +161,19 @@ def bar_shear_mpa(torque_nmm: float | Array, width_mm: float | Array, height_mm:
     return stress
 
 
+def twisted_height_mm(torque_nmm: float, width_mm: float, stress_mpa: float) -> float:
+    """Return the other side of a rectangular bar whose `bar_shear_mpa` is a given stress; 0 without a torque.
+
+    With b, the side asked for, and a, the known one: S·a²·b² = T·(3·b + 1.8·a) where b ≥ a, T·(1.8·b + 3·a) else.
+    """
+    for along, across in ((3.0, 1.8), (1.8, 3.0)):
+        half = along * torque_nmm / (2.0 * stress_mpa * width_mm**2)
+        height = half + math.sqrt(half**2 + across * torque_nmm / (stress_mpa * width_mm))
+        if height >= width_mm:
+            break
+    return height
+
+
 def buckling_load_n(bar: Beam, length_mm: float, modulus_mpa: float) -> float:
     """Return Euler's load of a bar with a hinge at either end, pi²·E·I/l²."""
     return float(math.pi**2 * modulus_mpa * bar.second_moment_mm4 / length_mm**2)

@@ -44,6 +44,18 @@ def test_toes_and_rails_are_cantilevers(solid: LoadCase) -> None:
     assert stresses["rail_strength"] == pytest.approx(tapered_mpa(both / 2.0, behind, *rail), rel=5e-3)
 
 
+def test_a_rail_is_twisted_by_what_its_toes_tip_is_beside_it(solid: LoadCase) -> None:
+    """A lug of 4 mm, half a gap of 1 mm beside the leg; √3·T/(b·c²)·(3 + 1.8·c/b), to half the strength of PETG."""
+    design, sections = solid.robot.design, solid.layout.sections
+    beside = design.l5_mm * math.sin(math.radians(design.ground_link_angle_deg)) - sections.thickness_mm / 2.0 - 2.5
+    short, long = sorted((4.0, sections.rail_root_mm))
+    twisted = math.sqrt(3.0) * solid.toes_n / 2.0 * beside / (long * short**2) * (3.0 + 1.8 * short / long)
+    (twist,) = (finding for finding in foot_findings(solid) if finding.name == "rail_twist")
+    assert twist.value == pytest.approx(twisted)
+    assert twist.margin == pytest.approx(45.0 / 2.0 - twisted)
+    assert twist.grows == "rail"
+
+
 def test_a_bar_across_a_toe_is_bent_and_twists_the_toes_tip(solid: LoadCase) -> None:
     """5 mm wide and as high as the tip: 6·M/(b·h²), or √3·M/(b·c²)·(3 + 1.8·c/b) with b the longer side."""
     height, moment = solid.layout.sections.toe_tip_height_mm, 20.0 * solid.toe_blow_n

@@ -9,12 +9,15 @@ import shapely
 import trimesh
 from support.built import LONG_TOES, built, cut, hole_centres, part, placed
 
+from jumpcad.building import build
+from jumpcad.design import load_design
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.toes import _bar, joint_height_mm, lying_hole, toes, toes_apart
+from jumpcad.parts.toes import _bar, _behind_mm, joint_height_mm, lying_hole, toes, toes_apart
 from jumpcad.solids.outline import hole
+from jumpcad.workshop import load_workshop
 
 
 def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
@@ -26,6 +29,41 @@ def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
         np.testing.assert_allclose(tip[:2], reach, atol=1e-9)
         beside = layout.sections.thickness_mm / 2.0 + 0.5 + layout.sections.toe_width_mm / 2.0  # leg, gap, half a toe
         assert toe.root_mm.tolist() == pytest.approx([0.0, sign * beside])
+
+
+@pytest.mark.parametrize("angle_deg", [38.0, 55.0, 65.0, 80.0])
+def test_toes_keep_their_height_beside_the_ankles_pin(angle_deg: float) -> None:
+    """The printed foot, cut across a toe: its section modulus is that of the whole toe, or a quarter less at most.
+
+    The pin's ends and its way are cut out of the toes, 7 mm wide; toes that point sideways begin behind it.
+    """
+    design = load_design("best-bo").model_copy(update={"ground_link_angle_deg": angle_deg})
+    robot = build(design, load_workshop(), "toes")
+    toe, sections = toes(robot.layout)[0], robot.layout.sections
+    mesh, along = part(robot, "foot").drawing.mesh, np.array([math.cos(toe.angle_rad), math.sin(toe.angle_rad), 0.0])
+    for u in (4.0, 5.0, 6.0, 8.0, 12.0, 20.0):
+        across = np.array([-along[1], along[0], 0.0])
+        frame = np.eye(4)
+        frame[:3, :] = np.column_stack([across, [0.0, 0.0, 1.0], along, [*toe.root_mm, 0.0] + u * along])
+        cut = mesh.section(plane_origin=frame[:3, 3], plane_normal=along)
+        flat = shapely.union_all(cut.to_2D(np.linalg.inv(frame))[0].polygons_full)
+        flat = flat.intersection(shapely.box(-3.6, -1.0, 3.6, 30.0))
+        strips = [flat.intersection(shapely.box(-9.0, z, 9.0, z + 0.05)).area for z in np.arange(0.0, 12.0, 0.05)]
+        heights = np.arange(0.025, 12.0, 0.05)
+        middle = np.dot(strips, heights) / sum(strips)
+        least = np.dot(strips, (heights - middle) ** 2) / max(flat.bounds[3] - middle, middle - flat.bounds[1])
+        height = sections.toe_root_mm + (sections.toe_tip_height_mm - sections.toe_root_mm) * u / toe.length_mm
+        assert least > 0.75 * sections.toe_width_mm * height**2 / 6.0, u
+
+
+def test_only_toes_that_the_pin_would_cut_deeply_begin_behind_the_ankle() -> None:
+    """7 mm wide: the front edge is 3.5·tan(a/2) - b before the ankle at the boss's face, 3.5 mm behind it 4 mm on."""
+    for degrees in (5.0, 36.0, 50.0, 70.0, 89.0, 95.0):
+        angle = math.radians(degrees)
+        needed = 3.5 * math.tan(angle / 2.0) + 3.5 - 4.0 / math.tan(angle)
+        assert _behind_mm(angle, 7.0) == pytest.approx(max(0.0, needed))
+    assert _behind_mm(math.radians(36.0), 7.0) == 0.0
+    assert _behind_mm(0.0, 7.0) == 0.0
 
 
 @pytest.mark.parametrize("diameter", [2.9, 3.4])

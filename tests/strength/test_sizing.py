@@ -195,10 +195,12 @@ def test_a_section_leaps_to_where_the_limit_is_once_it_is_known_what_growing_hel
 
 
 @pytest.mark.parametrize("pad", ["", "tpu-2"])
-def test_toes_and_rails_bear_the_ground_under_the_pads(pad: str) -> None:
+@pytest.mark.parametrize(("angle_deg", "bends"), [(16.0, True), (38.0, True), (75.0, False)])
+def test_toes_and_rails_bear_the_ground_under_the_pads(pad: str, angle_deg: float, bends: bool) -> None:
     """Solid bars, 1.15 times the load of both tips, half of it on either: b·h²·S/6, 7 mm wide toes, 4 mm wide rails.
 
-    The ground's force along the ground has a longer arm with a pad under the feet.
+    A rail is bent by what a tip is behind it, and twisted by what it is beside it, 5.5 or 6.5 mm from the middle, with
+    half its strength: √3·T·(3 + 1.8·c/b)/(b·c²). The ground's force along the ground has a longer arm with a pad.
     """
     shop = load_workshop()
     solid = shop.model_copy(
@@ -207,13 +209,25 @@ def test_toes_and_rails_bear_the_ground_under_the_pads(pad: str) -> None:
             "ground": shop.ground.model_copy(update={"pad": pad}),
         }
     )
-    linkage = Linkage(load_design("best-bo"))
-    sizes = sections(linkage, solid)
+    linkage = Linkage(load_design("best-bo").model_copy(update={"ground_link_angle_deg": angle_deg}))
+    sizes, length = sections(linkage, solid), linkage.design.l5_mm
     ground = sizes.foot_depth_mm + (2.0 if pad else 0.0)
     tips = 1.15 * toe_load_n(push_off(linkage, TYPICAL_BODY), linkage.design, ground).max()
-    back = linkage.design.l5_mm * math.cos(math.radians(linkage.design.ground_link_angle_deg))
-    for height, width, arm in ((sizes.toe_root_mm, 7.0, linkage.design.l5_mm), (sizes.rail_root_mm, 4.0, back)):
-        by_hand = math.sqrt(6.0 * tips / 2.0 * arm * LOADS / (width * 15.0))
-        assert height > 3.2
-        assert height == pytest.approx(math.ceil(100.0 * by_hand) / 100.0)
+
+    def bent_mm(arm: float, width: float) -> float:
+        return math.sqrt(6.0 * tips / 2.0 * arm * LOADS / (width * 15.0))
+
+    assert sizes.toe_root_mm == pytest.approx(math.ceil(100.0 * bent_mm(length, 7.0)) / 100.0)
+    angle, height = math.radians(angle_deg), sizes.rail_root_mm
+    bending = bent_mm(length * math.cos(angle), 4.0)
+    torque = tips / 2.0 * (length * math.sin(angle) - (sizes.thickness_mm / 2.0 + 2.5))
+    short, long = sorted((4.0, height))
+    shear = math.sqrt(3.0) * torque / (long * short**2) * (3.0 + 1.8 * short / long)
+    assert height > 3.2
+    if bends:
+        assert height == pytest.approx(math.ceil(100.0 * bending) / 100.0)
+        assert shear < 22.5
+    else:
+        assert height > bending + 0.1
+        assert shear == pytest.approx(45.0 / 2.0, rel=2e-3)
     assert sizes.ground_mm == pytest.approx(ground)
