@@ -57,7 +57,7 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
         f"{robot.layout.axle_mm + REAMED_MM:g} mm through it by hand. One in which a rod rocks by more than 0.3 mm, "
         "or a bearing that falls out of its seat: a thin coat of super glue on the wall, left to harden before the "
         "rod goes in. More than a few such: the printer's fits differ from those computed. Print the fit coupon "
-        "(`jumpcad coupon -o coupon`), write its readings into `coupon/readings.toml`, then "
+        "(`jumpcad coupon --workshop workshop.toml -o coupon`), write its readings into `coupon/readings.toml`, then "
         "`jumpcad coupon --measured coupon/readings.toml --workshop workshop.toml -o mine.toml` and "
         "`jumpcad build design.toml --workshop mine.toml`: workshop.toml and design.toml are in this folder."
     )

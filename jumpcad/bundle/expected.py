@@ -127,21 +127,35 @@ def _measured(wiring: Wiring, volts: float) -> dict[str, str]:
 
 
 def _springs(robot: Robot) -> dict[str, str]:
-    """Return what hands feel of the springs."""
+    """Return what hands feel of the springs; with the leg on its stop they are less loaded than at rest."""
     spring = robot.layout.drive.spring
-    preload = math.degrees(spring.preload_rad)
+    at_stop = math.degrees(spring.preload_rad - robot.layout.stop.angle_rad)
     per_deg_n, (narrower, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
     return {
-        "slack": f"{max(0.0, narrower - preload):.0f}",
+        "near_stop": _near_stop(max(0.0, -at_stop), max(0.0, narrower - at_stop)),
         "wider": f"{wider:.0f}",
-        "arm_n": f"{max(1.0, (preload + wider) * per_deg_n):.0f}",
+        "arm_n": f"{max(1.0, (at_stop + wider) * per_deg_n):.0f}",
         "pin_hole": f"{robot.layout.pin_hole.diameter_mm:.1f}",
-        "preload": f"{preload:.1f}",
-        "preload_n": f"{preload * per_deg_n:.1f}",
+        "preload": f"{max(0.0, at_stop):.1f}",
+        "preload_n": f"{max(0.0, at_stop) * per_deg_n:.1f}",
         "energy": f"{robot.spring.energy_j:.2f}",
         "push_ms": f"{1000.0 * robot.release.push_off_s:.0f}",
         "foot_n": f"{2.0 * spring.torque_nmm / robot.design.carrying_link_mm:.1f}",
     }
+
+
+def _near_stop(ordered_deg: float, narrow_deg: float) -> str:
+    """Return where the leg is slack: before its stop, with springs as ordered and with the narrowest arms accepted."""
+    if ordered_deg > 0.0:
+        return (
+            f"Near its stop the leg is slack, for {ordered_deg:.0f}° with springs as ordered, for up to "
+            f"{narrow_deg:.0f}° with arms narrower than ordered: that is no fault."
+        )
+    if narrow_deg > 0.0:
+        return (
+            f"With arms narrower than ordered the leg is slack for up to {narrow_deg:.0f}° before its stop: no fault."
+        )
+    return "The springs push it against its stop."
 
 
 def _sizes(robot: Robot) -> dict[str, str]:

@@ -111,7 +111,7 @@ def after_use(chosen: Chosen) -> Iterator[str]:
     hours = battery.capacity_mah / 1000.0 * battery.voltage_v / supply.boards_w
     yield from ("", "## After use", "")
     yield (
-        "- Release the springs: `jump`; where they are partly loaded, `wind` first. The leg then lies on its stop. "
+        "- Release the springs: `jump`; where they are partly loaded, `wind` first. The leg is then back at its stop. "
         "Where nothing turns, see the next section."
     )
     yield f"- {switching_off(chosen)}, unplug the battery: boards left on empty a full one in {hours:.0f} h."

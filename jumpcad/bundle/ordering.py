@@ -139,7 +139,7 @@ def print_lines(robot: Robot) -> Iterator[str]:
     yield from (
         "",
         "Where jumpcad, the program that wrote this bundle, is installed, print its fit coupon first (`jumpcad coupon "
-        "-o coupon`): it shows which diameters "
+        "--workshop workshop.toml -o coupon`, with this folder's workshop.toml): it shows which diameters "
         "and clearances your printer makes. It is tested with the rods, bearings, motor and screws of this order "
         "(coupon.md has the list): order, print the coupon, test it when they are there, and then print the robot. "
         "Without it the fits are tried by hand (When things "
@@ -153,9 +153,10 @@ def weigh_lines(robot: Robot) -> Iterator[str]:
     """Yield the guide's section on what to weigh, with the table of a workshop to write it into."""
     yield from ("", "## Weigh and write back", "")
     yield (
-        "Weigh every printed part to 0.1 g, and write the grams of one piece into your workshop file (`jumpcad new "
-        "my-workshop.toml --workshop default` makes one). `jumpcad build DESIGN --workshop my-workshop.toml` then "
-        f"computes the jump with them. Computed here: {1000.0 * robot.mass_kg:.1f} g for the whole robot."
+        "Weigh every printed part to 0.1 g, and write the grams of one piece into a copy of this folder's "
+        "workshop.toml, in place of its table `[mass.weighed_g]`. `jumpcad build design.toml --workshop "
+        "my-workshop.toml -o weighed`, with the copy's name, then computes the jump with them. Computed here: "
+        f"{1000.0 * robot.mass_kg:.1f} g for the whole robot."
     )
     yield from ("", "```toml", "[mass.weighed_g]")
     yield from (f"{part.name} = {1000.0 * part.mass_kg:.2f}" for part in robot.parts)
@@ -209,6 +210,11 @@ def _screw_axles(robot: Robot) -> Iterator[str]:
         yield (
             "- screws M3 as axles: ISO 4762 lists M3 up to 30 mm; longer ones of the same dimensions are sold as "
             "ISO 4762 or DIN 912, strength class 12.9. Their smooth shank is what turns: not threaded up to the head"
+        )
+        low, high = robot.layout.lateral.outside
+        yield (
+            f"- {len(robot.layout.axles) + 1} rods of {robot.layout.axle_mm:g} mm, {high - low:.0f} mm long, any "
+            "material, straight and deburred: they try the fits, and stand in for the axles until the screws come"
         )
 
 

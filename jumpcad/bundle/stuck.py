@@ -44,6 +44,7 @@ def stuck_items(robot: Robot) -> tuple[str, ...]:
         "under the roller, where it is far from the drop. Nothing yields within five minutes: leave the leg tied. "
         "Print a new pinion later.",
         "Then slacken the cord slowly, from the side, feet away from you; a knot that does not open is cut with a "
-        "long knife, no hand in the leg's way. The leg goes to its stop. Only when it lies there, and springs back "
-        "when pulled a little, is anything taken apart.",
+        "long knife, no hand in the leg's way. The leg goes back to its stop. Only when it hangs there, slack or "
+        "pushed by a preload alone, is anything taken apart; with a preload first the springs' pin of the leg, as "
+        "First winding and first jump says.",
     )

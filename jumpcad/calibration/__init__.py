@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from jumpcad.calibration.posterior import calibrate as calibrate
     from jumpcad.calibration.prediction import explanations as explanations
     from jumpcad.calibration.prediction import predicted_jump as predicted_jump
+    from jumpcad.calibration.settings_file import elsewhere as elsewhere
     from jumpcad.calibration.settings_file import settings_toml as settings_toml
     from jumpcad.calibration.subject import Subject as Subject
     from jumpcad.calibration.subject import load_subject as load_subject
@@ -26,6 +27,7 @@ _HOMES = {
     "Model": "likelihood",
     "Subject": "subject",
     "calibrate": "posterior",
+    "elsewhere": "settings_file",
     "explanations": "prediction",
     "load_measurements": "measurements",
     "load_subject": "subject",

@@ -1,5 +1,7 @@
 """The calibrated settings as TOML: medians, for a single jump, and draws, for `jumpcad simulate --uncertain`."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from jumpcad.calibration.posterior import CalibrationPosterior
@@ -15,8 +17,7 @@ KEYS = ("spring_efficiency", "pin_friction")
 def settings_toml(posterior: CalibrationPosterior) -> str:
     """Return the settings file of a calibration.
 
-    The friction of the floor is written only if there was one robot and its floor was tested. Mass and rate of the
-    springs are not settings: they belong to workshop and design.
+    Floor, masses and rate of the springs are not settings: they belong to workshop and design, see `elsewhere`.
     """
     values = {key: np.clip(np.round(posterior.values[key], DIGITS), *_limits(key)) for key in KEYS}
     names = ", ".join(subject.name for subject in posterior.model.subjects)
@@ -25,12 +26,23 @@ def settings_toml(posterior: CalibrationPosterior) -> str:
         drive = float(np.median(posterior.values["drive_efficiency"]))
         comment.append(f"# Drive: the battery gives what jumpcad build says of the winding, over {drive:.2f}.")
     settings = {key: round(float(np.median(found)), DIGITS) for key, found in values.items()}
-    (first, *others) = posterior.model.subjects
-    if not others and first.floor.shape == "lognormal":
-        settings["ground_friction"] = round(float(np.median(posterior.values[f"floor:{first.name}"])), DIGITS)
     chosen = np.linspace(0, len(posterior.z) - 1, SAVED).astype(int)
     draws = {key: found[chosen].tolist() for key, found in values.items()}
     return sealed("\n".join(comment) + "\n" + to_toml({**settings, "draws": draws}))
+
+
+def elsewhere(posterior: CalibrationPosterior) -> Iterator[str]:
+    """Yield where what a calibration found of one robot is to be written: its tested floor, its springs' rate."""
+    for subject in posterior.model.subjects:
+        name, robot = subject.name, subject.robot
+        if subject.floor.shape == "lognormal":
+            key = "friction" if robot.workshop.ground.pad else "bare_friction"
+            yield f"{name}, in its workshop: [ground] {key} = {np.median(posterior.values[f'floor:{name}']):.2f}"
+        factor, stock = float(np.median(posterior.values[f"rate:{subject.pair}"])), robot.workshop.stock_spring
+        if stock is None:
+            yield f"{name}, in its design: stiffness_nmm_per_deg = {factor * robot.design.stiffness_nmm_per_deg:.3g}"
+        else:
+            yield f"{name}, in [springs.{stock.name}]: rate_nmm_per_deg = {factor * stock.rate_nmm_per_deg:.3g}"
 
 
 def _limits(key: str) -> tuple[float, float]:

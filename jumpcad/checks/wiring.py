@@ -11,6 +11,8 @@ from jumpcad.findings import Basis, Finding, Severity, at_least
 
 OWN_PULL_UP_OHM = 45_000
 """Of a pin of the ESP32 family; its data sheet."""
+CUT_OFF = ("switch", "plug")
+"""What takes the battery off the boards."""
 SHEETS = "data sheets of the boards: templates/hardware/electronics.toml"
 BASIS = {
     "wiring_pins": Basis(
@@ -25,6 +27,10 @@ BASIS = {
         "Ohm; data sheets of switch and controller",
     ),
     "wiring_ground": Basis("every board has a terminal in the net of the battery's minus; 0, or -1", "net list"),
+    "wiring_cut_off": Basis(
+        "a switch and a plug lie between battery and boards; 0, or -1",
+        "judgement: a program that hangs may drive the motor, or hold loaded springs",
+    ),
     "wiring_capacitor": Basis(
         "a capacitor lies at the driver's supply; 0, or -1", "judgement: usual at a motor driver"
     ),
@@ -36,7 +42,7 @@ BASIS = {
 
 
 def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
-    """Yield `wiring_pins`, `wiring_strapping`, `wiring_contact`, `wiring_ground` and `wiring_capacitor`."""
+    """Yield the findings of `BASIS`; `wiring_contact` and `wiring_diode` where there is a sensor, or a regulator."""
     yield _enough_pins(chosen, wiring)
     yield _fit_pins(chosen, wiring)
     yield from _contact_current(chosen, wiring)
@@ -46,6 +52,13 @@ def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
         "wiring_ground", not lacking, "error",
         "every board is connected to the battery's minus" if not lacking else f"no ground at {', '.join(lacking)}",
         'give the board a pin with "ground"',
+    )  # fmt: skip
+    missing = [role for role in CUT_OFF if role not in chosen.components]
+    yield _yes_or_no(
+        "wiring_cut_off", not missing, "error",
+        f"no {' and no '.join(missing)}: a motor that the program does not stop runs on" if missing
+        else "switch and plug cut off the battery",
+        " and ".join(f"name one in bought.{role}" for role in missing or CUT_OFF),
     )  # fmt: skip
     yield _yes_or_no(
         "wiring_capacitor", "capacitor" in chosen.components, "warning",

@@ -38,7 +38,7 @@ def calibrate(
 ) -> None:
     """Calibrate springs, pins, release and drive on measured jumps, and show what the data do not determine."""
     from jumpcad.calibration import calibrate as run
-    from jumpcad.calibration import load_subject, predicted_jump, settings_toml
+    from jumpcad.calibration import elsewhere, load_subject, predicted_jump, settings_toml
     from jumpcad.calibration.plots import PICTURES
     from jumpcad.calibration.subject import renamed, require_each_once
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
@@ -60,8 +60,8 @@ def calibrate(
             }
         }
     if output:
+        document |= {"settings": str(output), "elsewhere": list(elsewhere(posterior))}
         write_atomically(output, settings_toml(posterior))
-        document["settings"] = str(output)
     if plots:
         document["pictures"] = _pictures(posterior, plots)
     if as_json:
@@ -138,6 +138,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
     if not sampler["converged"]:
         lines.append("the chains have not converged: quantiles are inaccurate; give more measurements")
     if "settings" in document:
+        lines += [f"not in the settings file: {line}" for line in document["elsewhere"]]
         lines.append(f"{document['settings']}: jumpcad simulate DESIGN --uncertain --settings {document['settings']}")
     return lines
 

@@ -63,7 +63,7 @@ def assembly_steps(robot: Robot) -> list[Step]:
     """Return the steps that a robot needs; everything on it is put on in exactly one of them."""
     left = list(visuals(robot))
     layout = robot.layout
-    names = [thing.name for thing in left] + ["preload"] * (layout.drive.spring.preload_rad > 0.0)
+    names = [thing.name for thing in left] + ["preload"] * (layout.drive.spring.preload_rad > layout.stop.angle_rad)
     names += ["spring_boss"] * (layout.spring_boss_mm > 0.0)
     built: dict[str, list[Visual]] = {}
     steps = []

@@ -60,7 +60,7 @@ class MujocoWorld:
         rubs = coefficients(mechanism, settings)
         self._dt_s = settings.dt_s / SUBSTEPS
         self._damping_nms = rubs.joint_damping_nms_per_rad
-        self._dry_nm = np.full(len(mechanism.joints), settings.joint_friction_nm)
+        self._dry_nm = np.full(len(mechanism.joints), float(settings.joint_friction_nm))
         self._dry_nm[LEG] += pin_torque_nm(mechanism, rubs.pin)
         self.joint_damping_j = self.slip_j = 0.0
         self._loaded = True

@@ -181,14 +181,15 @@ class Run:
 
         It flies once it has been in the air for `AIRBORNE_S` and cleared the ground by `clearance_m`, rising, and the
         springs are spent: the leg joint has come to rest, or opens no more. A hop before that is a part of the
-        push-off.
+        push-off, unless the robot stays in the air up to its highest point, where the leg may creep open against dry
+        friction.
         """
         world, settings = self.world, self.settings
         half_wound = -self.mechanism.spring.wind_rad / 2
         hold = max(1, round(AIRBORNE_S / settings.dt_s))
         deadline = settings.max_time_s
         leg_rad = -math.inf
-        airborne = 0
+        airborne, rose = 0, False
         left = 0.0, self.start, 0.0, 0.0
         while True:
             # In the first half of the springs' travel nothing leaves the ground, so contacts are not looked up.
@@ -202,14 +203,24 @@ class Run:
                 deadline = min(deadline, self.time_s + TAKEOFF_WITHIN_S)
             if self.time_s > deadline or not self.sound:
                 return None
-            spent = leg_rad >= 0 or leg_rad <= before
-            if spent and airborne >= hold and self._flies(world.state()):
-                return self._takeoff(*left)
+            if airborne < hold:
+                rose = False
+            elif leg_rad >= 0 or leg_rad <= before:
+                if self._flies(world.state()):
+                    return self._takeoff(*left)
+            elif airborne % hold == 0:
+                rises = self._rises(world.state())
+                if rose and not rises and self.mechanics.clearance_m(world.state()) >= self.clearance_m > 0.0:
+                    return self._takeoff(*left)
+                rose = rises
 
     def _flies(self, state: State) -> bool:
         """Tell whether a robot in the air rises, and has cleared the ground."""
-        rises = float(self.mechanics.velocity_m_s(state)[2]) > 0.0
-        return rises and (self.clearance_m == 0.0 or self.mechanics.clearance_m(state) >= self.clearance_m)
+        cleared = self.clearance_m == 0.0 or self.mechanics.clearance_m(state) >= self.clearance_m
+        return self._rises(state) and cleared
+
+    def _rises(self, state: State) -> bool:
+        return float(self.mechanics.velocity_m_s(state)[2]) > 0.0
 
     def _fly(self) -> None:
         """Advance to the first touchdown, and to the published study's last contact if asked for."""

@@ -103,7 +103,8 @@ class BoughtParts(ElectricalParts):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
     `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
-    it names itself override the kit's. An empty name leaves a part out. `pins` are pins of the controller for `motor`,
+    it names itself override the kit's. An empty name leaves a part out, such as a
+    regulator; a robot without switch or plug is refused. `pins` are pins of the controller for `motor`,
     `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
     `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.

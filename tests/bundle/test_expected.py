@@ -10,7 +10,7 @@ from support.built import built, geared, part, placed
 
 from jumpcad.building import build
 from jumpcad.bundle import expected as module
-from jumpcad.bundle.expected import expected, filled
+from jumpcad.bundle.expected import _near_stop, expected, filled
 from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
@@ -69,7 +69,10 @@ def test_one_pair_of_gears_turns_the_cam_against_the_motor_and_two_with_it() -> 
 
 @pytest.mark.parametrize("preload_deg", [0.0, 4.0])
 def test_what_hands_feel_of_the_springs_follows_from_hookes_law(preload_deg: float) -> None:
-    """A spring of k N·mm/° pushes with k times its angle over the lever; both on the leg's pin at the hub."""
+    """A spring of k N·mm/° pushes with k times its angle over the lever; both on the leg's pin at the hub.
+
+    With the leg on its stop, 3° past rest, a spring is loaded by 3° less.
+    """
     design, shop = load_design("kenan-2.0"), load_workshop()
     preloaded = shop.spring.model_copy(update={"preload_deg": preload_deg})
     robot = build(design, shop.model_copy(update={"spring": preloaded}))
@@ -80,16 +83,28 @@ def test_what_hands_feel_of_the_springs_follows_from_hookes_law(preload_deg: flo
     wider = math.floor(0.1 * wound_deg)
     assert words["stroke"] == f"{compression_deg:.0f}"
     assert words["lift"] == "310"
-    assert (words["slack"], words["wider"]) == (f"{10.0 - preload_deg:.0f}", f"{wider}")
-    assert figure(words, "preload") == preload_deg
-    assert figure(words, "preload_n") == pytest.approx(preload_deg * rate / spring.arms.lever_mm, abs=0.051)
-    assert figure(words, "arm_n") == pytest.approx((preload_deg + wider) * rate / spring.arms.lever_mm, abs=0.51)
+    at_stop = preload_deg - 3.0
+    slack = (
+        "for 3° with springs as ordered, for up to 13° with arms" if not preload_deg else "slack for up to 9° before"
+    )
+    assert slack in words["near_stop"]
+    assert words["wider"] == f"{wider}"
+    assert figure(words, "preload") == max(0.0, at_stop)
+    assert figure(words, "preload_n") == pytest.approx(max(0.0, at_stop) * rate / spring.arms.lever_mm, abs=0.051)
+    arm_n = max(1.0, (at_stop + wider) * rate / spring.arms.lever_mm)
+    assert figure(words, "arm_n") == pytest.approx(arm_n, abs=0.51)
     assert figure(words, "foot_n") == pytest.approx(2.0 * rate * wound_deg / design.carrying_link_mm, abs=0.051)
     joules = rate * math.radians(1.0) * (wound_deg**2 - preload_deg**2) / 1000.0
     assert figure(words, "energy") == pytest.approx(joules, abs=0.0051)
     assert figure(words, "push_ms") == pytest.approx(1000.0 * robot.release.push_off_s, abs=0.51)
     assert figure(words, "pin_hole") == pytest.approx(robot.layout.pin_hole.diameter_mm, abs=0.051)
     assert figure(words, "dog_play") == pytest.approx(math.degrees(robot.layout.drive.dog.play_rad), abs=0.51)
+
+
+def test_springs_with_much_preload_push_the_leg_against_its_stop() -> None:
+    """With 13° and more even the narrowest arms, 10° less, are loaded on a stop 3° past rest."""
+    assert _near_stop(0.0, 0.0) == "The springs push it against its stop."
+    assert "no fault" in _near_stop(0.0, 0.4)
 
 
 def test_sizes_are_those_of_the_parts() -> None:

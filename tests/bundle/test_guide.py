@@ -236,17 +236,18 @@ def test_a_preload_and_stock_springs_are_in_the_order() -> None:
     assert "- the preload adds 132 N·mm to the loaded torque of each" in guide  # 26.36 · 5
 
 
-@pytest.mark.parametrize(("name", "newtons"), [("kenan-2.0", 2), ("best-bo", 6)])
+@pytest.mark.parametrize(("name", "newtons"), [("kenan-2.0", 1), ("best-bo", 2)])
 def test_both_plates_hold_the_springs_pin_before_an_arm_is_pushed(name: str, newtons: int) -> None:
     """An arm that is too wide is pushed aside at its pin with moment over lever; both plates are screwed on by then.
 
-    The widest that is used would load a spring of the computed rate by 10 % more.
+    The widest that is used would load a spring of the computed rate by 10 % more; with the leg on its stop, 3° past
+    rest, it is 3° less in the way. Fingers are told 1 N at least.
     """
     robot = built(name)
     spring, guide = robot.layout.drive.spring, write_guide(robot)
     wound = math.degrees(spring.wound_rad)
     wider = math.floor(0.1 * wound)
-    assert newtons == round(wider * spring.rate_nmm_per_deg / spring.arms.lever_mm)
+    assert newtons == max(1, round((wider - 3.0) * spring.rate_nmm_per_deg / spring.arms.lever_mm))
     assert f"then the right one's; {newtons} N at most" in guide
     places = [
         guide.index(title) for title in ("left plate for good", "without springs\n", "The springs' pin in the leg\n")

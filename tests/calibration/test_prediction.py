@@ -12,7 +12,7 @@ from jumpcad.calibration.likelihood import Model
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, sampled
 from jumpcad.calibration.prediction import explanations, growth, predicted_jump
-from jumpcad.calibration.settings_file import SAVED, _limits, settings_toml
+from jumpcad.calibration.settings_file import SAVED, _limits, elsewhere, settings_toml
 from jumpcad.calibration.subject import Subject
 from jumpcad.errors import JumpcadError
 from jumpcad.settings import Settings, load_settings
@@ -88,12 +88,23 @@ def test_settings_are_read_back(posterior: CalibrationPosterior, tmp_path: Any) 
     path.write_text(settings_toml(posterior))
     settings = load_settings(path)
     assert settings.spring_efficiency == pytest.approx(np.median(posterior.values["spring_efficiency"]), abs=1e-4)
-    assert settings.ground_friction == pytest.approx(np.tan(np.radians(38.0)), rel=0.1)
-    several = Model([*posterior.model.subjects, *posterior.model.subjects])  # each on a floor of its own
-    path.write_text(settings_toml(replace(posterior, model=several)))
-    assert load_settings(str(path)).ground_friction is None
+    assert settings.ground_friction is None  # the workshop's: a calibrated robot may jump on another floor
     assert len(settings.draws.spring_efficiency) == len(settings.draws.pin_friction) == SAVED
     assert settings.model_copy(update={"draws": Settings().draws}).spring_efficiency == settings.spring_efficiency
+
+
+def test_what_is_no_setting_is_told_with_its_place(posterior: CalibrationPosterior) -> None:
+    """The floor on which the robot slips at 38°, and the design's stiffness times what was found."""
+    floor, rate = elsewhere(posterior)
+    subject, found = posterior.model.subjects[0], posterior.values
+    key = "friction" if subject.robot.workshop.ground.pad else "bare_friction"
+    assert floor.startswith(f"kenan-2.0, in its workshop: [ground] {key} = ")
+    assert float(floor.split(" = ")[1]) == pytest.approx(math.tan(math.radians(38.0)), rel=0.1)
+    assert rate.startswith("kenan-2.0, in its design: stiffness_nmm_per_deg = ")
+    stiffness = np.median(found[f"rate:{subject.pair}"]) * subject.robot.design.stiffness_nmm_per_deg
+    assert float(rate.split(" = ")[1]) == pytest.approx(stiffness, rel=5e-3)
+    (line,) = elsewhere(replace(posterior, model=Model([subject.remeasured(Measurements(**SAID, jumps=JUMPS))])))
+    assert "ground" not in line
 
 
 def test_the_draws_of_a_file_are_spread_over_the_whole_chain(posterior: CalibrationPosterior) -> None:

@@ -173,6 +173,8 @@ OWN = '[bought]\ncontroller = "mine"\n[boards.mine]\nlike = "xiao-esp32c3"\nsour
         ('[bought]\ncapacitor = ""', "wiring_capacitor", "warning", "no capacitor"),
         ('[bought]\nkit = "strong-2s"\ndiode = ""', "wiring_diode", "error", "needs a diode at 5V"),
         ('[bought]\nsensor = ""', "wiring_pins", "error", "no sensor"),
+        ('[bought]\nswitch = ""', "wiring_cut_off", "error", "no switch: a motor that the program does not stop"),
+        ('[bought]\nplug = ""', "wiring_cut_off", "error", "no plug: a motor that the program does not stop"),
     ],
 )
 def test_what_is_missing_is_named(text: str, name: str, severity: str, words: str, workshop: Write) -> None:

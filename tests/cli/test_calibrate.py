@@ -142,6 +142,7 @@ def test_a_calibration_is_told_in_millimetres_joules_and_per_cent() -> None:
         }},
         "model_error": {"k": {"largest": 0.012}, "l": {"largest": 0.034}},
         "sampler": {"effective": 812.4, "converged": True}, "settings": "mine.toml",
+        "elsewhere": ["k, in its workshop: [ground] friction = 0.79"],
     }  # fmt: skip
     lines = _lines(document)
     assert [" ".join(line.split()) for line in lines[1:]] == [
@@ -155,6 +156,7 @@ def test_a_calibration_is_told_in_millimetres_joules_and_per_cent() -> None:
         "distance as resting-place: 200…240…300 mm predicted with its errors, measured 250, "
         "above 62 % of the predictions",
         "812 independent draws; ranges of interpolated jumps are within 3.4 % of the engine's",
+        "not in the settings file: k, in its workshop: [ground] friction = 0.79",
         "mine.toml: jumpcad simulate DESIGN --uncertain --settings mine.toml",
     ]
 

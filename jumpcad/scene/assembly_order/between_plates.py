@@ -171,7 +171,9 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
                   "tolerance: try it at the springs' pin, the others are covered from end to end. The leg still "
                   "swings freely.", lacks=".*_axle_(nut|clip_1)"),
             Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
-                  "tolerance. The leg still swings freely.", needs=".*_axle_(nut|clip_1)"),
+                  "tolerance. The leg still swings freely.", needs=".*_axle_clip_1"),
+            Words("The screws can be moved along a little: their nuts touch the plate, but do not press it. The leg "
+                  "still swings freely.", needs=".*_axle_nut"),
             Words("The sensor's check of step {step_left} once more, battery unplugged: multimeter between the "
                   "controller's ground and its pin of the sensor, {free} where the cam does not press it; and neither "
                   "lead has contact with a standoff's screw.", needs="sensor"),

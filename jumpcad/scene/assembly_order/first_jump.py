@@ -58,8 +58,8 @@ FIRST_JUMP: tuple[Plan, ...] = (
                   "Both plates hold the springs' other pin.", needs="preload"),
             Words("Turn the pin until its cross hole points forwards, put the split pin through it from the front, "
                   "bend its ends around the pin and cut off what stands out.", needs="leg_spring_pin_split_pin"),
-            Words("Press the second clip into the groove at the pin's right end, from the front; an arm that "
-                  "touches the pliers gives way, the springs are slack.",
+            Words("Press the second clip into the groove at the pin's right end, from the front; hold an arm that "
+                  "touches the pliers aside.",
                   needs="leg_spring_pin_clip_.*"),
         ),
         (
@@ -72,9 +72,8 @@ FIRST_JUMP: tuple[Plan, ...] = (
                   "pin bent on the right, and pushed from either side it stays.", needs="leg_spring_pin_split_pin"),
             Words("The plate does not keep the pin, at rest its hole is open: both clips are in their grooves, and "
                   "pushed from either side it stays.", needs="leg_spring_pin_clip_.*"),
-            Words("The leg lies on its stop and springs back to it when its end is pulled forward a little: {foot_n} N "
-                  "there would load it completely, so do not. With arms narrower than ordered it is slack near the "
-                  "stop, for {slack}° at most, and springs back from there on; that is no fault."),
+            Words("The leg springs back when its end is pulled forward; {foot_n} N there would load it completely, so "
+                  "pull no further than you feel it. {near_stop}"),
         ),
     ),
     Plan(
@@ -96,8 +95,7 @@ FIRST_JUMP: tuple[Plan, ...] = (
             Words("Screw the toes to the foot's stubs from outside: {torque_plastic} N·m at most, the thread is cut "
                   "into plastic.", needs="toe_left"),
         ),
-        checks=(Words("The robot stands on nose and toes, the leg on its stop; pressed down, it comes up again, with "
-                      "arms narrower than ordered but for the last {slack}° of the leg."),),
+        checks=(Words("The robot stands on nose and toes; pressed down, it comes up again. {near_stop}"),),
     ),
     Plan(
         "jump", "First winding and first jump", ROBOT, (),
@@ -111,6 +109,10 @@ FIRST_JUMP: tuple[Plan, ...] = (
             Words("Wound springs stay loaded when the battery is empty or unplugged. To slacken them, hold the robot "
                   "by its plates, feet away from you and free, and release: `jump`. Never take it apart while the leg "
                   "is off its stop."),
+            Words("On the stop, too, the springs are loaded by {preload}°. Before the left plate comes off, take out "
+                  "the springs' pin of the leg: clips or split pin off, then push it out to the left with a thin rod, "
+                  "the arms held with a small screwdriver ({preload_n} N each) until they lie on nothing.",
+                  needs="preload"),
             Words("`fault: sensor pressed too early`: a lead of the sensor is broken, the springs may be partly "
                   "loaded. Nothing in the leg's way, type `wind`, then `jump`, until the leg falls: each turns the cam "
                   "a little. Then mend the lead.", needs="wiring_resistor_pull_up"),
