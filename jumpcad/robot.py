@@ -4,7 +4,7 @@ import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn, Self
 
 from jumpcad.drive.release import Release
 from jumpcad.errors import JumpcadError
@@ -35,6 +35,21 @@ class Robot(Mechanism):
     layout: Layout
     release: Release
     stop_blow: StopBlow
+
+    def __copy__(self) -> Self:
+        """Return the robot itself: it does not change."""
+        return self
+
+    def __deepcopy__(self, memo: object) -> Self:
+        """Return the robot itself: it does not change."""
+        return self
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse to be pickled: regions and solids live in a library that writes them with other last digits."""
+        raise JumpcadError(
+            "a Robot cannot be pickled or sent to another process: send its design and workshop and build it there; "
+            "evaluate(...).to_dict() is plain data"
+        )
 
     if TYPE_CHECKING:
 

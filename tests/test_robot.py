@@ -1,5 +1,7 @@
 """A printed robot is a mechanism whose bodies are made of its parts."""
 
+import copy
+import pickle
 import re
 
 import pytest
@@ -33,6 +35,14 @@ def test_a_robot_cannot_be_without_parts() -> None:
     capsules = capsule_robot(built("kenan-2.0").design)
     with pytest.raises(TypeError, match="'parts', 'hardware', 'workshop', 'layout', 'release', and 'stop_blow'"):
         Robot(**vars(capsules))
+
+
+def test_a_robot_is_shared_and_not_pickled() -> None:
+    robot = built("kenan-2.0")
+    assert copy.deepcopy([robot])[0] is copy.copy(robot) is robot
+    with pytest.raises(JumpcadError, match=r"send its design and workshop .*to_dict\(\) is plain data"):
+        pickle.dumps({"robot": robot})
+    assert pickle.loads(pickle.dumps(robot.design)) == robot.design
 
 
 @pytest.mark.parametrize("name", ["/", "..", "a/b", "a\nb", "\x1b[31m", "a.", "x" * 5000, "\ud800", " frog"])

@@ -4,6 +4,8 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from jumpcad.cli.output import typed
+
 if TYPE_CHECKING:
     from jumpcad.design import Design
     from jumpcad.workshop import Workshop
@@ -29,7 +31,7 @@ def commented_design(design: "Design", origin: str, file: str) -> str:
 
     lines = [
         f"# A jumping robot in eight numbers, copied from {origin}.",
-        f"# How far it jumps: jumpcad simulate {file}; everything to print and buy: jumpcad build {file}",
+        f"# How far it jumps: jumpcad simulate {typed(file)}; everything to print and buy: jumpcad build {typed(file)}",
         "# A range is the one that a search goes through; numbers outside of it are allowed.",
         "",
     ]

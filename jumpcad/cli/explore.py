@@ -175,7 +175,9 @@ def _sampled(view: str, samples: int, seed: int) -> View:
                 f"R² on designs held out: {found.r_squared:.3f} ({found.designs} of {len(trials)} designs jump)"
             )
             if found.r_squared < LEAST_R_SQUARED:
-                lines.append("R² is too low to say what is important: raise --samples, or narrow the bounds")
+                note = "R² is too low to say what is important: raise --samples, or narrow the bounds"
+                data["note"] = note
+                lines.append(note)
             return data, lines, {"importance": lambda: plots.importance(found)}
         best = elite(trials)
         views = {"sampled": components(evaluator, trials), "elite": components(evaluator, best)}

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status, typed
 from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import (
     PlotsOption,
@@ -237,7 +237,7 @@ def _print_result(
             change = f"changes the score by {bound.worth:+.4f}"
         print(f"at its {bound.side} bound: {bound.name} = {bound.value:g}; {bound.beyond:g} {change}")
     used = str(workshop_file(design_file)) if result.winner.workshop else workshop
-    made = escaped(str(design_file)) + (f" --workshop {escaped(used)}" if used else "")
+    made = typed(str(design_file)) + (f" --workshop {typed(used)}" if used else "")
     for finding in violated:
         print(f"error: {finding.name}: {finding.message}; {finding.remedy}")
     if violated:

@@ -9,6 +9,7 @@ import json
 import math
 import os
 import re
+import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from threading import Event, Thread
@@ -40,6 +41,11 @@ class OutputClosed(Exception):
 def escaped(text: str) -> str:
     """Return text on one line, its control characters as in a Python string: a line feed as \\n."""
     return re.sub(CONTROL_PATTERN, _escape, text)
+
+
+def typed(file: str) -> str:
+    """Return a file's name as it is typed in a shell, on one line."""
+    return shlex.quote(escaped(file))
 
 
 def shortened(text: str) -> str:

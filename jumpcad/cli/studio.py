@@ -1,7 +1,5 @@
 """`jumpcad studio`: sliders and the robot in a browser."""
 
-import contextlib
-import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -35,7 +33,7 @@ def studio(
 ) -> None:
     """Change the eight numbers in a browser and see the robot that they give, wind and jump (extra `studio`)."""
     try:
-        import viser
+        from jumpcad.studio.server import own_server
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
     from jumpcad.collecting import collect_usually
@@ -50,8 +48,7 @@ def studio(
     )
     shops = dict.fromkeys(name for name in (workshop, own, *template_names("workshops")) if name is not None)
     name = Path(design).name.removesuffix(".toml").removesuffix(STUDY)
-    with contextlib.redirect_stdout(io.StringIO()):  # its banner has the address too
-        server = viser.ViserServer(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
+    server = own_server(port)
     shown = Studio(opened, name, list(shops), server, Path.cwd(), points, number)
     shown.start()
     print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio; the browser needs WebGL)")

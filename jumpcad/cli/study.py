@@ -123,9 +123,9 @@ def _print_one(summary: dict[str, Any]) -> None:
     identity = summary["identity"]
     about = f"{identity['method']} on the {identity['model']['name']} robot, {identity['objective']}"
     print(f"{escaped(summary['study'])}: {about}")
-    print(
-        f"{summary['evaluations']} of {summary['planned']} designs, and {summary['other_evaluations']} around the best"
-    )
+    whole = f" of {summary['planned']}" if summary["planned"] else ""
+    around = f", and {summary['other_evaluations']} around the best" if whole else ""
+    print(f"{summary['evaluations']}{whole} designs{around}")
     for name, count in summary["refused"].items():
         print(f"  rejected {count:6d}  {name}")
     for note in summary["notes"]:

@@ -32,8 +32,9 @@ class MujocoEngine:
 
     def __init__(self) -> None:
         self._mujoco = import_mujoco()
-        # By default it writes a file into the current folder; the audit reports runs that diverge.
-        self._mujoco.set_mju_user_warning(lambda text: None)
+        # By default it writes a file into the current folder; the audit reports runs that diverge. MuJoCo keeps what it
+        # is given until after Python's end: a function of this module would keep all that the module refers to.
+        self._mujoco.set_mju_user_warning(str)
 
     @contextmanager
     def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["MujocoWorld"]:

@@ -29,11 +29,11 @@ def test_a_template_comes_in_the_default_workshop() -> None:
 class Server:
     """A server that ends at once."""
 
-    def __init__(self, **given: object) -> None:
-        self.given = given
+    def __init__(self, port: int) -> None:
+        self.port = port
 
-    def get_port(self) -> object:
-        return self.given["port"]
+    def get_port(self) -> int:
+        return self.port
 
     def sleep_forever(self) -> None:
         """Do nothing."""
@@ -55,8 +55,8 @@ def opened(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[tuple[object
             """Do nothing."""
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setitem(sys.modules, "viser", SimpleNamespace(ViserServer=Server))
     monkeypatch.setitem(sys.modules, "jumpcad.studio", SimpleNamespace(Studio=Studio))
+    monkeypatch.setitem(sys.modules, "jumpcad.studio.server", SimpleNamespace(own_server=Server))
     monkeypatch.setattr("jumpcad.cli.studio._point", lambda file, trial, shop: ("design", "its", "points", trial or 7))
     return found
 
@@ -70,7 +70,7 @@ def test_a_design_is_opened_with_the_workshops_to_choose_from(opened: list[tuple
     assert shops[0] == "default"
     assert sorted(shops) == sorted(template_names("workshops"))
     assert isinstance(server, Server)
-    assert (server.given["host"], server.given["port"]) == ("127.0.0.1", 8123)
+    assert server.port == 8123
 
 
 def test_a_file_that_ends_in_db_is_a_study_and_a_folder_is_not(

@@ -14,6 +14,7 @@ from support.browsers import PHONE, browser, needs_browser, require_quiet, wait,
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Points, Studio  # noqa: E402
+from jumpcad.studio.server import own_server  # noqa: E402
 
 pytestmark = needs_browser
 KEYS = webdriver.common.keys.Keys
@@ -25,7 +26,7 @@ CHANGED = 2.0
 
 @pytest.fixture(scope="module")
 def studio(study: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    server = own_server(0)
     server.scene.configure_environment_map(None)  # with it, and with shadows, software rendering takes 20 s
     server.scene.configure_default_lights(cast_shadow=False)
     points = Points(study)
