@@ -210,3 +210,36 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
         f"at its upper bound: e_coef = 1; 1.1 is {NOT_EXAMINED}",
     ]
     assert told[-1] == "next: jumpcad build won.toml --workshop won-workshop.toml"
+
+
+def test_a_winner_s_limits_are_looked_at_in_its_own_workshop(monkeypatch):
+    """The values that the search varied too."""
+    design, built = load_design("kenan-2.0"), []
+    monkeypatch.setattr("jumpcad.building.build", lambda *given: built.append(given))
+    monkeypatch.setattr("jumpcad.checks.costly_findings", lambda _: [])
+    trial = SimpleNamespace(workshop={"body.plate_mm": 2.25})
+    assert optimize._violated(SimpleNamespace(winner=trial, design=design), robot_model("printed", "fine")) == []
+    ((asked, workshop),) = built
+    fine = robot_model("printed", "fine").workshop
+    assert asked == design
+    assert workshop == fine.model_copy(update={"body": fine.body.model_copy(update={"plate_mm": 2.25})})
+
+
+def test_the_heading_comes_once_before_the_first_trial(capsys):
+    seen = []
+    watch = optimize._headed("the heading", lambda *given: seen.append((capsys.readouterr().out, *given)))
+    watch("one", True)
+    watch("two", False)
+    assert seen == [("the heading\n", "one", True), ("", "two", False)]
+
+
+def test_the_document_names_files_and_violated_limits(folder, monkeypatch):
+    """And all that the result says; a file of its own for the workshop only where the search varied it."""
+    wrong = Finding("assembly_paths", "error", -1.0, "mm²", "a toe blocks the path", "raise d_coef")
+    monkeypatch.setattr(optimize, "_violated", lambda result, robot: [wrong])
+    found = data("optimize", "ga", *QUICK, *NARROW, "--evaluations", 12, "--study", "s.db", "-o", "b.toml")
+    assert (found["study"], found["design_file"], found["pictures"]) == ("s.db", "b.toml", [])
+    assert found["violated"] == [wrong.to_dict()]
+    assert (found["method"], found["objective"], found["searched"]) == ("ga", "fitness", 12)
+    assert "workshop_file" not in found
+    assert found["winner"]["design"] == load_design("b.toml").model_dump()

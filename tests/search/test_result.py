@@ -164,5 +164,5 @@ def test_the_winners_design_is_written_and_its_workshop_beside_it(tmp_path: Path
     assert not (tmp_path / "won.toml").exists()
     made.save(tmp_path / "won.toml", force=True)
     assert load_workshop(tmp_path / "won-workshop.toml").body.plate_mm == 2.75
-    with pytest.raises(JumpcadError, match="must end in .toml"):
+    with pytest.raises(JumpcadError, match=r"must end in \.toml"):
         plain.save(tmp_path / "won.txt")

@@ -221,3 +221,24 @@ def test_bounds_are_given_from_the_lower_to_the_upper():
             Space.make(bounds={"c_coef": ends})
         with pytest.raises(JumpcadError, match="is an empty range"):
             Space.parse(bound=[text])
+
+
+def test_a_part_of_the_space_keeps_what_is_fixed_and_all_choices():
+    """Choices and names are not narrowed: the nearest might be none. What is not named has the centre's value."""
+    space = Space.parse(
+        fix=[*FIXED[:-1], "body.stop_deg=5"], bound=["body.plate_mm=1.6:2.4"],
+        choose=["stiffness_nmm_per_deg=10,20,30", "bought.battery=lipo-2s-180,lipo-1s-300"], workshop=load_workshop(),
+    )  # fmt: skip
+    centre = space.to_variant(np.full(space.dimension, 0.5)).changed({"bought.battery": "lipo-1s-300"})
+    near = space.near(centre, (), 10.0)
+    parts = dict(zip([one.name for one in near.parameters], near.parameters, strict=True))
+    wholes = dict(zip([one.name for one in space.parameters], space.parameters, strict=True))
+    assert parts["stiffness_nmm_per_deg"] == wholes["stiffness_nmm_per_deg"]
+    assert parts["bought.battery"] == wholes["bought.battery"]
+    assert parts["body.stop_deg"] == wholes["body.stop_deg"]
+    assert [parts["body.plate_mm"].lower, parts["body.plate_mm"].upper] == pytest.approx([1.92, 2.08])
+    held = space.near(centre, ("body.plate_mm",), None)
+    assert [one.name for one in held.free] == ["body.plate_mm"]
+    assert held.to_variant([0.5]) == centre
+    assert held.to_variant([0.5]).workshop["bought.battery"] == "lipo-1s-300"
+    assert space.near(centre, ("c_coef",), None) is None

@@ -28,7 +28,8 @@ NAN = float("nan")
          "The best is number 10 of 10. The last fifth of the search raised the best score by 0.8 %: going on promises "
          "little."),
         ([-2.0] * 8 + [-1.0, -3.0],
-         "The best is number 9 of 10. The last fifth of the search raised the best score by 100.0 %: going on may pay."),
+         "The best is number 9 of 10. The last fifth of the search raised the best score by 100.0 %: going on may "
+         "pay."),
     ],
 )  # fmt: skip
 def test_a_history_tells_what_its_last_fifth_gained(scores: Sequence[float], said: str) -> None:
@@ -38,7 +39,10 @@ def test_a_history_tells_what_its_last_fifth_gained(scores: Sequence[float], sai
 
 @pytest.mark.parametrize(
     ("number", "said"),
-    [(70.0, "70° at the upper end"), (20.0, "20° at the lower end"), (20.04, "20.04° at the lower end"), (20.06, "20.06°")],
+    [
+        (70.0, "70° at the upper end"), (20.0, "20° at the lower end"), (20.04, "20.04° at the lower end"),
+        (20.06, "20.06°"),
+    ],
 )  # fmt: skip
 def test_the_best_value_is_told_with_the_end_that_it_lies_on(number: float, said: str) -> None:
     """To a thousandth of the range, here 0.05°."""
@@ -46,7 +50,11 @@ def test_the_best_value_is_told_with_the_end_that_it_lies_on(number: float, said
     found = _best(SearchParameter("rest_angle_deg", 20.0, 70.0), number)
     assert found == (f"{value}, at {end} of the range" if at else value)
     names = SearchParameter.of_names("bought.battery", ["one", "two"])
-    assert (_best(names, 1.0), _end(names, 0.0), _end(SearchParameter("c_coef", 0.8, 1.2), 1.2)) == ("two", "one", "1.2")
+    assert (_best(names, 1.0), _end(names, 0.0), _end(SearchParameter("c_coef", 0.8, 1.2), 1.2)) == (
+        "two",
+        "one",
+        "1.2",
+    )
 
 
 def trial(*unit: float) -> Trial:

@@ -52,7 +52,9 @@ def test_three_that_are_clear_matter_most_the_largest_first() -> None:
     )
     alone = Importance(("c_coef",), np.array([0.1]), np.array([0.05]), 0.9, 40)
     assert _matters(alone) == "c_coef matters most."
-    assert _matters(replace(alone, deviation=np.array([0.1]))) == "No more than their error, so perhaps nothing: c_coef."
+    assert (
+        _matters(replace(alone, deviation=np.array([0.1]))) == "No more than their error, so perhaps nothing: c_coef."
+    )
 
 
 @pytest.mark.parametrize(("share", "width"), [(0.0, 0), (0.25, 25), (1.0, 100), (-0.5, 0), (1.5, 100)])
@@ -82,13 +84,16 @@ def test_a_score_rises_where_it_gains_more_than_a_twentieth_of_a_per_cent(worth:
     bound = ActiveBound("c_coef", "upper", 1.2, 1.25, worth)
     for score in (2.0, -2.0):
         said = _gains(known(replace(WON, score=score), bounds=(bound,)))
-        assert said == ("Here it rises beyond that of c_coef." if rises else "Here it rises beyond none that was examined.")
+        assert said == (
+            "Here it rises beyond that of c_coef." if rises else "Here it rises beyond none that was examined."
+        )
     assert "did not examine them" in _gains(known(WON, bounds=(replace(bound, worth=None, reason=NOT_EXAMINED),)))
 
 
 def test_a_bound_stands_in_its_row_with_units() -> None:
     bounds = (
-        ActiveBound("rest_angle_deg", "upper", 70.0, 72.5, 0.5), ActiveBound("body.plate_mm", "lower", 1.6, 1.5, None, "x"),
+        ActiveBound("rest_angle_deg", "upper", 70.0, 72.5, 0.5),
+        ActiveBound("body.plate_mm", "lower", 1.6, 1.5, None, "x"),
     )  # fmt: skip
     said = text(active(known(WON, bounds=bounds)))
     assert "rest_angle_ deg upper 70° 72.5° +0.5 m (+25.0 %)".replace("_ ", "_") in said.replace("_ ", "_")

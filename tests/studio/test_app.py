@@ -19,7 +19,7 @@ from jumpcad.workshop import load_workshop
 
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
-from jumpcad.studio import Points, Studio, app  # noqa: E402
+from jumpcad.studio import Points, Studio, app, inputs  # noqa: E402
 from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
 from jumpcad.studio.app import BY_NUMBER  # noqa: E402
 
@@ -243,3 +243,36 @@ def test_a_bundle_of_the_studio_has_pictures(studio: Studio, monkeypatch: pytest
     monkeypatch.setattr(app, "printed_answer", lambda *_: SimpleNamespace(robot=robot))
     assert studio._build() == f"built {tmp_path / 'kenan-2.0-studio'}"
     assert asked == [studio.design, tmp_path / "kenan-2.0-studio", True]
+
+
+def test_each_button_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    groups: list[SimpleNamespace] = []
+
+    def group(label: str, options: tuple[str, ...]) -> SimpleNamespace:
+        groups.append(SimpleNamespace(options=options, acts=[]))
+        groups[-1].on_click = groups[-1].acts.append
+        return groups[-1]
+
+    monkeypatch.setattr(server.gui, "add_button_group", group)
+    for name in ("_keep", "_reset", "_save", "_build"):
+        monkeypatch.setattr(Studio, name, lambda self, done=name: done)
+    shown = Studio(load_design("kenan-2.0"), "kenan-2.0", ["default"], server, tmp_path)
+    (buttons,), told = groups, {}
+    for name in buttons.options:
+        buttons.value = name
+        buttons.acts[0](None)
+        told[name] = shown.status.content
+    server.stop()
+    assert told == {
+        "Keep as ghost": "_keep", "Reset": "_reset", "Save design": "_save", "Build bundle": "_build",
+    }  # fmt: skip
+
+
+def test_sliders_have_ends_steps_and_hints_of_their_own(studio: Studio) -> None:
+    """Each parameter's, as it is described."""
+    for key, value in load_design("kenan-2.0").model_dump().items():
+        slider = studio.sliders[key]
+        assert (slider.min, slider.max) == inputs.slider_ends(key, value)
+        assert slider.step == inputs.slider_step(slider.max - slider.min)
+        assert (slider.label, slider.hint) == (key, Design.model_fields[key].description)
