@@ -243,3 +243,39 @@ def test_the_document_names_files_and_violated_limits(folder, monkeypatch):
     assert (found["method"], found["objective"], found["searched"]) == ("ga", "fitness", 12)
     assert "workshop_file" not in found
     assert found["winner"]["design"] == load_design("b.toml").model_dump()
+
+
+def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_s(capsys):
+    """All ten first candidates stand there, with their neighbours; notes and the number of all evaluations too."""
+    best, winner = load_design("best-ga"), load_design("kenan-2.0")
+    trials = [SimpleNamespace(design=one, score=score, workshop={}) for one, score in ((best, 3.0), (winner, 2.0))]
+    candidates = [
+        SimpleNamespace(
+            trial=SimpleNamespace(score=2.0 + n), parameters_score=1.0 + n, print_score=0.5 + n, neighbours=16 - n,
+            rejections={"loop": 2, "tips": 1} if n == 0 else {},
+        )
+        for n in range(12)
+    ]  # fmt: skip
+    request = SimpleNamespace(
+        aim=SimpleNamespace(neighbours_of=""), searched=20, space=SimpleNamespace(size=1000), is_front=False,
+        objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"),
+    )  # fmt: skip
+    result = SimpleNamespace(
+        request=request, evaluations=30, trials=trials, rejected={}, converged=False, notes=["one", "two"],
+        best=trials[0], winner=trials[1], candidates=candidates, score=2.0, design=winner, widened=[], bounds=[],
+    )  # fmt: skip
+    optimize._print_result(result, Path("won.toml"))
+    told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
+    assert told[:5] == [
+        "2 designs evaluated, and 28 for the robust pick; rejected: none", "note: one", "note: two",
+        "best range 3.0000",
+        "score that nine of ten neighbours reach, parameters ±1 %, or lengths ±0.2 mm:",
+    ]  # fmt: skip
+    assert told[6] == "2.0000 1.0000 0.5000 16, loop 2, tips 1"
+    assert told[6:16] == [told[6], *(f"{2 + n}.0000 {1 + n}.0000 {n}.5000 {16 - n}, none" for n in range(1, 10))]
+    assert told[16] == "won.toml: range 2.0000"
+    assert told[17:25] == [f"{name} {value:.5g}" for name, value in winner.model_dump().items()]
+    assert told[25:] == ["next: jumpcad build won.toml"]
+    request.aim.neighbours_of = "range"
+    optimize._print_result(result, Path("won.toml"))
+    assert "2 designs evaluated, in 30 evaluations with their neighbours; rejected: none" in capsys.readouterr().out

@@ -264,3 +264,29 @@ def test_one_document_has_the_jump_its_heading_and_its_uncertainty(capsys: pytes
     )  # fmt: skip
     module._report(heading, [JUMP], True, None)
     assert "uncertain" not in json.loads(capsys.readouterr().out)
+
+
+def ranges(*values: float | None) -> list[Jump]:
+    return [Jump("jump", "x", 0.1, 0.2, ballistic_range_m=value) for value in values]
+
+
+@pytest.mark.parametrize(
+    ("values", "percent"),
+    [((0.5, 0.6), 20.0), ((0.6, 0.5), -100.0 / 6.0), ((0.5,), None), ((None, 0.5), None), ((0.5, None), None)],
+)
+def test_two_ranges_differ_by_a_share_of_the_first(values: tuple[float | None, ...], percent: float | None) -> None:
+    found = module._difference_percent(ranges(*values))
+    assert found == (None if percent is None else pytest.approx(percent))
+
+
+def test_engines_are_those_asked_for_or_the_first_that_is_there(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert module._engines("both") == ["pybullet", "mujoco"]
+    assert module._engines("planar") == ["planar"]
+    monkeypatch.setattr(module, "default_engine", lambda: "pybullet")
+    assert module._engines(None) == ["pybullet"]
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(module, "default_engine", lambda: "mujoco")
+    assert module._engines(None) == ["mujoco"]
+    assert capsys.readouterr().err == "jumpcad: pybullet is not installed; simulated with mujoco\n"

@@ -146,6 +146,7 @@ def test_spread_points_fill_the_cube_evenly():
         ({"choose": ["c_coef=1,,2"]}, "'' is not a number"),
         ({"fix": ["c_coef=1"], "bound": ["c_coef=0.9:1.1"]}, "given twice"),
         ({"only": ["c_coef"]}, "around which"),
+        ({"within_percent": 10.0}, "around which"),
         ({"fix": [f"{name}={limits.lower}" for name, limits in SEARCH_BOUNDS.items()]}, "nothing is left to search"),
     ],
 )
