@@ -7,12 +7,15 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+import typer
 from support.commands import Run
 from support.places import ROOT
 from typer.main import get_command
 
+from jumpcad.cli import commands
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
 from jumpcad.version import __version__
@@ -177,3 +180,16 @@ def test_pipes_and_no_color_get_plain_text(folder: Path) -> None:
         done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **more}, check=True)
         assert "\x1b" not in done.stdout
         assert "ender-3" in done.stdout
+
+
+@pytest.mark.parametrize(("ended", "code"), [(0, 0), (None, 0), (3, 3)])
+def test_options_that_end_the_program_themselves_keep_their_exit_code(ended: int | None, code: int) -> None:
+    """As those of completion do."""
+
+    def make_context(name: str, arguments: list[str]) -> None:
+        assert (name, arguments) == ("jumpcad", ["--show-completion"])
+        raise SystemExit(ended)
+
+    with pytest.raises(typer.Exit) as end:
+        commands._context(SimpleNamespace(make_context=make_context), ["--show-completion"])
+    assert end.value.exit_code == code

@@ -98,6 +98,29 @@ def test_contains_knows_ranges_fixed_values_and_choices():
         assert not space.contains(design.model_copy(update=change))
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "contained"),
+    [
+        ("d_coef", 0.9 + 1e-11, True),
+        ("d_coef", 0.9 + 1e-8, False),
+        ("d_coef", 0.5 - 1e-11, True),
+        ("d_coef", 0.5 - 1e-8, False),
+        ("stiffness_nmm_per_deg", 20.0 + 1e-9, True),
+        ("stiffness_nmm_per_deg", 20.0 - 1e-6, False),
+        ("stiffness_nmm_per_deg", 15.0, False),
+        ("ground_link_angle_deg", 30.0 + 1e-9, True),
+        ("ground_link_angle_deg", 30.0 + 1e-6, False),
+        ("ground_link_angle_deg", 30.0 - 1e-6, False),
+    ],
+)
+def test_a_space_ends_at_its_bounds_choices_and_fixed_values(name, value, contained):
+    """To a thousand-millionth of the range, or of a value that is fixed: rounding, not another design."""
+    space = Space.parse(fix=["ground_link_angle_deg=30"], choose=["stiffness_nmm_per_deg=10,20"])
+    inside = space.to_design(np.full(space.dimension, 0.5))
+    assert space.contains(inside)
+    assert space.contains(inside.model_copy(update={name: value})) == contained
+
+
 def test_a_variant_of_other_values_of_the_workshop_is_not_in_the_space():
     """As many as there are, of other keys or in another order, are not those that are searched."""
     space = Space.parse(bound=["body.plate_mm=1.2:2.4", "process.infill=0.1:0.5"], workshop=load_workshop())

@@ -1,7 +1,7 @@
 """The studio without a browser: a real viser server, its sliders, what it shows and says."""
 
 import queue
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -276,3 +276,30 @@ def test_sliders_have_ends_steps_and_hints_of_their_own(studio: Studio) -> None:
         assert (slider.min, slider.max) == inputs.slider_ends(key, value)
         assert slider.step == inputs.slider_step(slider.max - slider.min)
         assert (slider.label, slider.hint) == (key, Design.model_fields[key].description)
+
+
+def test_what_a_person_changes_is_acted_on(study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each slider asks for the new design; workshop, list of points and number open what they say."""
+    acts: dict[object, Callable[[], object]] = {}
+    monkeypatch.setattr(app, "when_changed", lambda handle, act: acts.update({handle.label: act}))
+    server, points = viser.ViserServer(host="127.0.0.1", port=0, verbose=False), Points(study)
+    shown = Studio(points.trial(1).design, "four", ["fine", "of the study"], server, tmp_path, points)
+    assert {key for key, act in acts.items() if act == shown._ask} == set(shown.sliders)
+    shown.sliders["e_coef"].value = 1.1
+    shown.player.button.label = "Pause"
+    acts["e_coef"]()
+    assert (shown._wanted, shown.player.button.label) == (shown.design, "Play")
+    assert shown.quick.content == capsule_answer(shown.design)
+    shown.choice.value = "of the study"
+    acts["workshop"]()
+    assert (shown.workshop, shown.status.content) == (load_workshop(), "workshop of the study")
+    shown.best.value = "best 3: 1 body lengths (trial 4)"
+    acts["point"]()
+    assert (shown.number, shown.design, shown.trial.value) == (4, points.trial(4).design, 4)
+    shown.trial.value = 3
+    acts["trial"]()
+    assert (shown.number, shown.design, shown.best.value) == (3, points.trial(3).design, points.listed_as(3, ""))
+    shown.best.value = BY_NUMBER
+    acts["point"]()
+    assert shown.number == 3
+    server.stop()
