@@ -11,7 +11,8 @@ import pytest
 from support.calibrations import with_coarse_calibration
 from support.commands import Run
 
-from jumpcad.cli.calibrate import _document, _lines
+from jumpcad.calibration import plots
+from jumpcad.cli.calibrate import _document, _lines, _pictures
 from jumpcad.cli.uncertain import uncertain_lines
 from jumpcad.errors import JumpcadError
 from jumpcad.files.templates import templates_folder
@@ -201,3 +202,12 @@ def test_a_document_has_every_figure_of_the_posterior_under_its_name() -> None:
             "seed": 7, "walkers": 12, "steps": 345, "autocorrelation": 6.5, "effective": 637.0, "converged": False
         },
     }  # fmt: skip
+
+
+def test_each_picture_is_drawn_under_its_own_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(plots, "parameters", lambda posterior: ("parameters", posterior))
+    monkeypatch.setattr(plots, "measurements", lambda posterior: ("measurements", posterior))
+    monkeypatch.setattr("jumpcad.search.figures.save_figure", lambda figure, folder, name: (folder / name, figure))
+    assert _pictures("p", Path("pics")) == [  # type: ignore[arg-type]
+        str((Path("pics") / name, (name, "p"))) for name in ("parameters", "measurements")
+    ]

@@ -18,6 +18,7 @@ from typer.main import get_command
 from jumpcad.cli import commands
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
+from jumpcad.findings import Finding
 from jumpcad.version import __version__
 
 HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklearn", "matplotlib", "pygad")
@@ -193,3 +194,15 @@ def test_options_that_end_the_program_themselves_keep_their_exit_code(ended: int
     with pytest.raises(typer.Exit) as end:
         commands._context(SimpleNamespace(make_context=make_context), ["--show-completion"])
     assert end.value.exit_code == code
+
+
+def test_an_answer_that_is_no_is_exit_code_1_without_an_error(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a robot with a violated limit: what was found stands on standard output."""
+    wrong = [Finding("walls", "error", -1.0, "mm", "too thin", "thicken it")]
+    monkeypatch.setattr("jumpcad.building.build", lambda *_: None)
+    monkeypatch.setattr("jumpcad.checks.check", lambda _: wrong)
+    code, out, err = run("check", "kenan-2.0")
+    assert (code, err) == (1, "")
+    assert "too thin" in out
+    wrong.clear()
+    assert run("check", "kenan-2.0")[0] == 0

@@ -27,8 +27,8 @@ NAN = float("nan")
         ([2.0] * 8 + [1.0, 2.0 / 0.992],
          "The best is number 10 of 10. The last fifth of the search raised the best score by 0.8 %: going on promises "
          "little."),
-        ([1.0] * 7 + [2.0, 1.0, 1.5],
-         "The best is number 8 of 10. The last fifth of the search found nothing better: going on promises little."),
+        ([1.0] * 15 + [2.0] + [1.5] * 4,
+         "The best is number 16 of 20. The last fifth of the search found nothing better: going on promises little."),
         ([-2.0] * 8 + [-1.0, -3.0],
          "The best is number 9 of 10. The last fifth of the search raised the best score by 100.0 %: going on may "
          "pay."),

@@ -16,7 +16,7 @@ from support.studies import IDENTITY
 from jumpcad.design import load_design
 from jumpcad.search import study_lessons, study_page
 from jumpcad.search.explore import Importance
-from jumpcad.search.fronts import front
+from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.replay import Known, known
@@ -410,3 +410,16 @@ def test_the_page_tells_what_happened_and_what_evaluated():
         store.note("a worker was lost")
         said = words(study_page._notes(store))
     assert said == "Notes of the run a worker was lost Evaluated with numpy 2.0.1, code 0123456789ab."
+
+
+def test_the_area_of_a_long_front_is_that_of_all_its_designs():
+    """A hundred of them are shown."""
+    store, found = made_up("nsga2")
+    many = [shown_trial(1.0 + n, n, compression_ratio=0.2 + 0.001 * n) for n in range(150)]
+    numbers = {trial.position: n for n, trial in enumerate(many, start=1)}
+    whole = replace(found, trials=many, numbers=numbers)
+    with store:
+        said = words(study_page._best(store, whole, study_page._shown(whole, True)))
+    assert f"The area below its line, up to 1.5 J, is {hypervolume(many):.4g} m·J (hypervolume)" in said
+    assert "100 of its 150 designs are shown, evenly chosen along it." in said
+    assert "The page opens on design 100 (trial 150), the one with the highest score" in said

@@ -240,9 +240,14 @@ def test_a_bundle_of_the_studio_has_pictures(studio: Studio, monkeypatch: pytest
 
     monkeypatch.setattr(app, "export", export)
     robot = built("kenan-2.0")
-    monkeypatch.setattr(app, "printed_answer", lambda *_: SimpleNamespace(robot=robot))
+    made: list[object] = []
+    monkeypatch.setattr(app, "printed_answer", lambda *given: made.append(given) or SimpleNamespace(robot=robot))
     assert studio._build() == f"built {tmp_path / 'kenan-2.0-studio'}"
     assert asked == [studio.design, tmp_path / "kenan-2.0-studio", True]
+    studio.sliders["e_coef"].value = 1.0
+    studio.workshop = load_workshop("fine")
+    studio._build()
+    assert made[1] == (studio.design, load_workshop("fine"), "kenan-2.0")
 
 
 def test_each_button_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
