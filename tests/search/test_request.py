@@ -200,3 +200,24 @@ def test_what_is_not_asked_for_follows_from_method_and_robot():
     own = Request.make(SMALL, capsule, "ga", lambda figures: 1.0)
     assert own.own is own.aim
     assert own.identity([])["objective_code"] == own.aim.code != ""
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"method": "pareto"}, "bought.spring: a front against spring energy takes springs made to order"),
+        ({"method": "nsga2"}, "bought.spring: a front against spring energy takes springs made to order"),
+        ({"method": "gaa"}, "'gaa' is not one of the methods ga.bo, ga, bo, pareto, paper, nsga2"),
+        ({"preset": "fast"}, "'fast' is not one of the presets recommended, published"),
+        ({"objective": "reach"}, "'reach' is not one of the objectives"),
+        ({"batch": 0}, "batch = 0 must be at least 1"), ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
+        ({"model": robot_model("published"), "objective": "rise"}, "the objective rise needs com_rise_m"),
+        ({"model": robot_model("capsule"), "objective": "p10-jumps-per-joule"}, "needs electrical_energy_j"),
+    ],
+)  # fmt: skip
+def test_what_does_not_go_together_is_refused_before_anything_is_evaluated(asked, said):
+    space = Space.parse(choose=["bought.spring=,9271K589"], workshop=robot_model().workshop)
+    usual = {"space": space, "model": robot_model(), "objective": "range", "method": "ga", "evaluations": 40}
+    assert Request(**usual).method == "ga"
+    with pytest.raises(JumpcadError, match=said):
+        Request(**usual | asked)

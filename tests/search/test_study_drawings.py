@@ -20,6 +20,7 @@ NAN = float("nan")
         ([NAN, NAN], "None jumps."),
         ([1.0, 3.0, NAN], "The best is number 2 of 3."),
         ([NAN] * 8 + [1.0, 2.0], "The best is number 10 of 10."),
+        ([1.0] * 8 + [2.0], "The best is number 9 of 9."),
         ([1.0, 3.0] + [2.0] * 8,
          "The best is number 2 of 10. The last fifth of the search found nothing better: going on promises little."),
         ([2.0] * 8 + [2.5, 1.0],

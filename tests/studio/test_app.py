@@ -290,6 +290,8 @@ def test_what_a_person_changes_is_acted_on(study: Path, tmp_path: Path, monkeypa
     server, points = viser.ViserServer(host="127.0.0.1", port=0, verbose=False), Points(study)
     shown = Studio(points.trial(1).design, "four", ["fine", "of the study"], server, tmp_path, points)
     assert {key for key, act in acts.items() if act == shown._ask} == set(shown.sliders)
+    assert (shown.best.value, shown.trial.value) == (points.listed_as(1, ""), 1)
+    assert shown.point.content == points.to_text(1)
     shown.sliders["e_coef"].value = 1.1
     shown.player.button.label = "Pause"
     acts["e_coef"]()
