@@ -166,3 +166,22 @@ def test_limits_stand_in_the_order_of_their_severity_and_use(capsys: pytest.Capt
     told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
     assert told[-3:-1] == ["holds slack 10 % +9 N found slack", "holds far +2 mm found far"]
     assert "spare" not in told[-1]
+
+
+def test_all_limits_of_a_kind_are_explained_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As they stand in the reference; the exit code is that of these alone."""
+    findings = [
+        at_most(name, value, 10.0, "MPa", "found", "change")
+        for name, value in (("gear_strength_1", 9.0), ("gear_strength_2", 8.0), ("leg_strength", 12.0))
+    ]
+    monkeypatch.setattr("jumpcad.building.build", lambda *_: None)
+    monkeypatch.setattr("jumpcad.checks.check", lambda _: findings)
+    for asked, names, code in (
+        ("gear_strength_*", ["gear_strength_1", "gear_strength_2"], 0), ("gear_strength_2", ["gear_strength_2"], 0),
+        ("leg_strength", ["leg_strength"], 1),
+    ):  # fmt: skip
+        result = CliRunner().invoke(app, ["check", "kenan-2.0", "--explain", asked, "--json"])
+        told = json.loads(result.output)
+        assert ([one["name"] for one in told["findings"]], result.exit_code) == (names, code)
+        assert [one["use"] for one in told["findings"]] == [one.use for one in findings if one.name in names]
+        assert (told["design"], told["workshop"]) == ("kenan-2.0", "default")
