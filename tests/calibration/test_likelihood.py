@@ -246,3 +246,24 @@ def test_what_does_not_jump_is_not_believed() -> None:
     robot = measured_robot(jumps=({"distance_mm": (200.0,), "distance_of": "centre-of-mass"},))
     robot.surface = SimpleNamespace(at=lambda *_: JumpAt(np.nan * ONE, ONE, ONE, ONE))
     assert Model([robot]).log_probability(np.zeros((1, 5))).tolist() == [-math.inf]
+
+
+def test_of_several_robots_all_measurements_count() -> None:
+    """Each with what its own robot does: together they are as probable as one after the other."""
+    robots = [
+        measured_robot(jumps=({"distance_mm": (200.0,), "distance_of": "centre-of-mass"},)),
+        measured_robot("b", jumps=({"distance_mm": (150.0,), "distance_of": "centre-of-mass"},)),
+    ]
+    model = Model(robots)
+    assert [(datum.subject, datum.value) for datum in model.data] == [
+        ("a", pytest.approx(0.2)),
+        ("b", pytest.approx(0.15)),
+    ]
+    z = np.array([[0.3, -0.2, 0.5, -1.0, 0.4, 0.1, 0.7, -0.6]])
+    keys = [one.key for one in model.parameters]
+    parts = []
+    for robot in robots:
+        alone = Model([robot])
+        own = z[:, [keys.index(one.key) for one in alone.parameters]]
+        parts.append(alone.log_probability(own) + 0.5 * (own**2).sum(axis=1))
+    assert model.log_probability(z) == pytest.approx(parts[0] + parts[1] - 0.5 * (z**2).sum(axis=1))

@@ -368,3 +368,23 @@ def test_build_prints_grams_percent_and_millimetres(capsys: pytest.CaptureFixtur
     assert "tips: falls over; longer toes" in said
     assert "1 of its 9 limits is violated; jumpcad check says more" in said
     assert "open its report.html" not in said
+
+
+@pytest.mark.parametrize("verdict", ["jump", "tips"])
+def test_a_robot_that_does_not_jump_is_drawn_and_its_jump_is_not(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, verdict: str
+) -> None:
+    jumps = verdict == "jump"
+    monkeypatch.setattr("jumpcad.cli.bundle.printed_robot", lambda *_: SimpleNamespace(name="frog"))
+    monkeypatch.setattr("jumpcad.bundle.renders.renders", lambda _: {"rest": b"still", "exploded": b"apart"})
+    monkeypatch.setattr("jumpcad.bundle.renders.jump_gif", lambda robot, path: b"moving " + path)
+    jump = SimpleNamespace(verdict=verdict, trajectory=b"path" if jumps else None)
+    monkeypatch.setattr("jumpcad.simulation.simulate", lambda *_: jump)
+    code, out, err = run("render", "kenan-2.0", "--json")
+    files = ["exploded.png", *(["jump.gif"] if jumps else []), "rest.png"]
+    assert (code, err) == (0, "")
+    assert json.loads(out) == {"folder": "frog-pictures", "files": files, "verdict": verdict}
+    drawn = {file.name: file.read_bytes() for file in (tmp_path / "frog-pictures").iterdir()}
+    assert drawn == {"rest.png": b"still", "exploded.png": b"apart"} | ({"jump.gif": b"moving path"} if jumps else {})
+    _, out, _ = run("render", "kenan-2.0", "-o", "other")
+    assert out.splitlines() == [*(f"other/{name}" for name in files), *([] if jumps else ["no jump.gif: tips"])]

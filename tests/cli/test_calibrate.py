@@ -3,13 +3,16 @@
 import json
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 from typing import NoReturn
 
+import numpy as np
 import pytest
 from support.calibrations import with_coarse_calibration
 from support.commands import Run
 
-from jumpcad.cli.calibrate import _lines
+from jumpcad.calibration import plots
+from jumpcad.cli.calibrate import _document, _lines, _pictures
 from jumpcad.cli.uncertain import uncertain_lines
 from jumpcad.errors import JumpcadError
 from jumpcad.files.templates import templates_folder
@@ -178,3 +181,35 @@ def test_what_is_uncertain_is_told_in_millimetres_the_largest_share_first() -> N
         "floor 0.80, 0.20", "mass 0.10, 0.30",
     ]  # fmt: skip
     assert not any("at all" in line for line in uncertain_lines(found | {"jumps_share": 1.0}))
+
+
+def test_a_document_has_every_figure_of_the_posterior_under_its_name() -> None:
+    """The model's error is that of each robot's surface: its median, and its largest."""
+    subjects = [
+        SimpleNamespace(name=name, surface=SimpleNamespace(error=error, errors=np.array([error, 5.0 * error])))
+        for name, error in (("k", 0.01), ("l", 0.02))
+    ]
+    posterior = SimpleNamespace(
+        model=SimpleNamespace(subjects=subjects), summaries=lambda: ["s"], energies=lambda: {"k": [1.0]},
+        correlated=lambda: [("a", "b", 0.75)], residuals=lambda: ["r"], walkers=12, steps=345, autocorrelation=6.5,
+        effective=637.0, converged=False,
+    )  # fmt: skip
+    assert _document(posterior, 7) == {  # type: ignore[arg-type]
+        "robots": ["k", "l"], "parameters": ["s"], "energy_per_mass": {"k": [1.0]}, "together": [["a", "b", 0.75]],
+        "residuals": ["r"],
+        "model_error": {
+            "k": {"median": 0.01, "largest": pytest.approx(0.05)}, "l": {"median": 0.02, "largest": pytest.approx(0.1)}
+        },
+        "sampler": {
+            "seed": 7, "walkers": 12, "steps": 345, "autocorrelation": 6.5, "effective": 637.0, "converged": False
+        },
+    }  # fmt: skip
+
+
+def test_each_picture_is_drawn_under_its_own_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(plots, "parameters", lambda posterior: ("parameters", posterior))
+    monkeypatch.setattr(plots, "measurements", lambda posterior: ("measurements", posterior))
+    monkeypatch.setattr("jumpcad.search.figures.save_figure", lambda figure, folder, name: (folder / name, figure))
+    assert _pictures("p", Path("pics")) == [  # type: ignore[arg-type]
+        str((Path("pics") / name, (name, "p"))) for name in ("parameters", "measurements")
+    ]

@@ -140,3 +140,48 @@ def test_every_finding_of_an_explained_limit_has_its_own_state_and_remedy(capsys
         "leg_strength error, 130 % used, -3 MPa: the right", "remedy shorten it",
         "leg_strength holds, +1.5 mm: the third", "remedy leave it",
     ]  # fmt: skip
+
+
+def test_limits_stand_in_the_order_of_their_severity_and_use(capsys: pytest.CaptureFixture[str]) -> None:
+    """A limit without a share counts as used up where it has no margin, else as not used at all."""
+    findings = [
+        at_most("slack", 1.0, 10.0, "N", "found slack", "loosen"), at_most("tight", 9.0, 10.0, "N", "found tight", "a"),
+        at_most("edge", 8.0, 10.0, "N", "found edge", "b"), limit("apart", 0.001, "mm", "found apart", "c"),
+        limit("far", 2.0, "mm", "found far", "d"), at_most("worst", 30.0, 10.0, "N", "found worst", "mend it"),
+        at_most("bad", 12.0, 10.0, "N", "found bad", "turn it"),
+        limit("warned", -1.0, "mm", "found warned", "look at it", violated="warning"),
+    ]  # fmt: skip
+    order = ["worst", "bad", "warned", "apart", "tight", "edge", "slack", "far"]
+    assert [one.name for one in sorted(findings, key=command._order)] == order
+    assert [one.name for one in findings if command.is_tight(one)][:3] == ["tight", "edge", "apart"]
+    command._print_table(sorted(findings, key=command._order), False)
+    told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    assert told[1:] == [
+        "error worst 300 % -20 N found worst → mend it", "error bad 120 % -2 N found bad → turn it",
+        "warning warned -1 mm found warned → look at it", "tight apart at the limit found apart",
+        "tight tight 90 % +1 N found tight", "tight edge 80 % +2 N found edge",
+        "2 errors, 1 warnings, 5 limits hold", "2 of them hold with more than 20 % to spare: --all shows them",
+    ]  # fmt: skip
+    command._print_table(sorted(findings, key=command._order), True)
+    told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    assert told[-3:-1] == ["holds slack 10 % +9 N found slack", "holds far +2 mm found far"]
+    assert "spare" not in told[-1]
+
+
+def test_all_limits_of_a_kind_are_explained_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As they stand in the reference; the exit code is that of these alone."""
+    findings = [
+        at_most(name, value, 10.0, "MPa", "found", "change")
+        for name, value in (("gear_strength_1", 9.0), ("gear_strength_2", 8.0), ("leg_strength", 12.0))
+    ]
+    monkeypatch.setattr("jumpcad.building.build", lambda *_: None)
+    monkeypatch.setattr("jumpcad.checks.check", lambda _: findings)
+    for asked, names, code in (
+        ("gear_strength_*", ["gear_strength_1", "gear_strength_2"], 0), ("gear_strength_2", ["gear_strength_2"], 0),
+        ("leg_strength", ["leg_strength"], 1),
+    ):  # fmt: skip
+        result = CliRunner().invoke(app, ["check", "kenan-2.0", "--explain", asked, "--json"])
+        told = json.loads(result.output)
+        assert ([one["name"] for one in told["findings"]], result.exit_code) == (names, code)
+        assert [one["use"] for one in told["findings"]] == [one.use for one in findings if one.name in names]
+        assert (told["design"], told["workshop"]) == ("kenan-2.0", "default")

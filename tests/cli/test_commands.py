@@ -7,14 +7,18 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+import typer
 from support.commands import Run
 from support.places import ROOT
 from typer.main import get_command
 
+from jumpcad.cli import commands
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
+from jumpcad.findings import Finding
 from jumpcad.version import __version__
 
 HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklearn", "matplotlib", "pygad")
@@ -177,3 +181,28 @@ def test_pipes_and_no_color_get_plain_text(folder: Path) -> None:
         done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **more}, check=True)
         assert "\x1b" not in done.stdout
         assert "ender-3" in done.stdout
+
+
+@pytest.mark.parametrize(("ended", "code"), [(0, 0), (None, 0), (3, 3)])
+def test_options_that_end_the_program_themselves_keep_their_exit_code(ended: int | None, code: int) -> None:
+    """As those of completion do."""
+
+    def make_context(name: str, arguments: list[str]) -> None:
+        assert (name, arguments) == ("jumpcad", ["--show-completion"])
+        raise SystemExit(ended)
+
+    with pytest.raises(typer.Exit) as end:
+        commands._context(SimpleNamespace(make_context=make_context), ["--show-completion"])
+    assert end.value.exit_code == code
+
+
+def test_an_answer_that_is_no_is_exit_code_1_without_an_error(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a robot with a violated limit: what was found stands on standard output."""
+    wrong = [Finding("walls", "error", -1.0, "mm", "too thin", "thicken it")]
+    monkeypatch.setattr("jumpcad.building.build", lambda *_: None)
+    monkeypatch.setattr("jumpcad.checks.check", lambda _: wrong)
+    code, out, err = run("check", "kenan-2.0")
+    assert (code, err) == (1, "")
+    assert "too thin" in out
+    wrong.clear()
+    assert run("check", "kenan-2.0")[0] == 0

@@ -77,3 +77,33 @@ def test_a_template_is_described_by_one_sentence() -> None:
             assert "#" not in words
             assert ". " not in words
             assert not words.endswith(".")
+
+
+def test_engines_are_installed_where_their_package_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The planar engine needs none."""
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "mujoco" else name)
+    assert described("engines") == {"pybullet": "installed", "mujoco": "not installed", "planar": "installed"}
+
+
+def test_what_can_be_bought_or_aimed_at_is_described() -> None:
+    """Kits by their parts, objectives by meaning and unit, all other parts as the catalogue does."""
+    catalogue = load_workshop().catalogue
+    kit = catalogue.kits[load_workshop().bought.kit]
+    words = described("kits")[load_workshop().bought.kit]
+    assert words == f"{', '.join(kit.motors)}; {kit.battery}; {kit.controller}; {kit.driver}"
+    assert described("objectives")["rise"] == "rise of the centre of mass (m)"
+    for kind in ("boards", "components", "rods", "pads"):
+        parts = getattr(catalogue, kind)
+        assert described(kind) == {name: part.description.rstrip(",") for name, part in parts.items()}
+        assert all(described(kind).values())
+
+
+def test_every_kind_is_told_once_with_where_it_is_used(run: Run) -> None:
+    _, out, _ = run("list")
+    assert [line for line in out.splitlines() if line and not line.startswith(" ")] == [
+        f"{kind} ({use})" for kind, use in USED_AS.items()
+    ]
+    _, out, _ = run("list", "engines", "--json")
+    assert json.loads(out) == {
+        "engines": [{"name": name, "description": words} for name, words in described("engines").items()]
+    }

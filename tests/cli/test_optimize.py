@@ -210,3 +210,72 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
         f"at its upper bound: e_coef = 1; 1.1 is {NOT_EXAMINED}",
     ]
     assert told[-1] == "next: jumpcad build won.toml --workshop won-workshop.toml"
+
+
+def test_a_winner_s_limits_are_looked_at_in_its_own_workshop(monkeypatch):
+    """The values that the search varied too."""
+    design, built = load_design("kenan-2.0"), []
+    monkeypatch.setattr("jumpcad.building.build", lambda *given: built.append(given))
+    monkeypatch.setattr("jumpcad.checks.costly_findings", lambda _: [])
+    trial = SimpleNamespace(workshop={"body.plate_mm": 2.25})
+    assert optimize._violated(SimpleNamespace(winner=trial, design=design), robot_model("printed", "fine")) == []
+    ((asked, workshop),) = built
+    fine = robot_model("printed", "fine").workshop
+    assert asked == design
+    assert workshop == fine.model_copy(update={"body": fine.body.model_copy(update={"plate_mm": 2.25})})
+
+
+def test_the_heading_comes_once_before_the_first_trial(capsys):
+    seen = []
+    watch = optimize._headed("the heading", lambda *given: seen.append((capsys.readouterr().out, *given)))
+    watch("one", True)
+    watch("two", False)
+    assert seen == [("the heading\n", "one", True), ("", "two", False)]
+
+
+def test_the_document_names_files_and_violated_limits(folder, monkeypatch):
+    """And all that the result says; a file of its own for the workshop only where the search varied it."""
+    wrong = Finding("assembly_paths", "error", -1.0, "mm²", "a toe blocks the path", "raise d_coef")
+    monkeypatch.setattr(optimize, "_violated", lambda result, robot: [wrong])
+    found = data("optimize", "ga", *QUICK, *NARROW, "--evaluations", 12, "--study", "s.db", "-o", "b.toml")
+    assert (found["study"], found["design_file"], found["pictures"]) == ("s.db", "b.toml", [])
+    assert found["violated"] == [wrong.to_dict()]
+    assert (found["method"], found["objective"], found["searched"]) == ("ga", "fitness", 12)
+    assert "workshop_file" not in found
+    assert found["winner"]["design"] == load_design("b.toml").model_dump()
+
+
+def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_s(capsys):
+    """All ten first candidates stand there, with their neighbours; notes and the number of all evaluations too."""
+    best, winner = load_design("best-ga"), load_design("kenan-2.0")
+    trials = [SimpleNamespace(design=one, score=score, workshop={}) for one, score in ((best, 3.0), (winner, 2.0))]
+    candidates = [
+        SimpleNamespace(
+            trial=SimpleNamespace(score=2.0 + n), parameters_score=1.0 + n, print_score=0.5 + n, neighbours=16 - n,
+            rejections={"loop": 2, "tips": 1} if n == 0 else {},
+        )
+        for n in range(12)
+    ]  # fmt: skip
+    request = SimpleNamespace(
+        aim=SimpleNamespace(neighbours_of=""), searched=20, space=SimpleNamespace(size=1000), is_front=False,
+        objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"),
+    )  # fmt: skip
+    result = SimpleNamespace(
+        request=request, evaluations=30, trials=trials, rejected={}, converged=False, notes=["one", "two"],
+        best=trials[0], winner=trials[1], candidates=candidates, score=2.0, design=winner, widened=[], bounds=[],
+    )  # fmt: skip
+    optimize._print_result(result, Path("won.toml"))
+    told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
+    assert told[:5] == [
+        "2 designs evaluated, and 28 for the robust pick; rejected: none", "note: one", "note: two",
+        "best range 3.0000",
+        "score that nine of ten neighbours reach, parameters ±1 %, or lengths ±0.2 mm:",
+    ]  # fmt: skip
+    assert told[6] == "2.0000 1.0000 0.5000 16, loop 2, tips 1"
+    assert told[6:16] == [told[6], *(f"{2 + n}.0000 {1 + n}.0000 {n}.5000 {16 - n}, none" for n in range(1, 10))]
+    assert told[16] == "won.toml: range 2.0000"
+    assert told[17:25] == [f"{name} {value:.5g}" for name, value in winner.model_dump().items()]
+    assert told[25:] == ["next: jumpcad build won.toml"]
+    request.aim.neighbours_of = "range"
+    optimize._print_result(result, Path("won.toml"))
+    assert "2 designs evaluated, in 30 evaluations with their neighbours; rejected: none" in capsys.readouterr().out

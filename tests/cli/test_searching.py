@@ -1,11 +1,17 @@
 """Options that all searches share, with the capsule robot."""
 
 import os
+from dataclasses import replace
 
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
 
+from jumpcad.cli.searching import SearchOptions, require_plots, require_study
 from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.search.figures import PICTURES
+from jumpcad.settings import load_settings
+from jumpcad.workshop import load_workshop
 
 
 def test_without_a_study_file_each_request_has_its_own(folder):
@@ -93,3 +99,42 @@ def test_a_winner_that_somebody_edited_is_kept(folder):
     (folder / "pics" / "history.svg").write_text("<svg/>")
     assert "history.svg: exists already" in refusal("study", "s.db", "--plots", "pics")
     assert (folder / "pics" / "history.svg").read_text() == "<svg/>"
+
+
+def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):
+    (tmp_path / "old.db").touch()
+    for fine in (None, tmp_path / "new.db", tmp_path / "old.db"):
+        require_study(fine)
+    (tmp_path / "folder.db").mkdir()
+    for wrong, said in (
+        ("s.sqlite", "must end in .db"), ("none/s.db", "there is no folder"),
+        ("folder.db", "is there already and is no file"),
+    ):  # fmt: skip
+        with pytest.raises(JumpcadError, match=said):
+            require_study(tmp_path / wrong)
+
+
+@pytest.mark.parametrize("name", [f"{name}{end}" for name in PICTURES for end in (".svg", ".png")])
+def test_no_picture_of_one_s_own_is_replaced_unless_it_is_forced(tmp_path, name):
+    require_plots(tmp_path / "new", False)
+    require_plots(None, False)
+    (tmp_path / name).write_bytes(b"mine")
+    with pytest.raises(JumpcadError, match=f"{name}: exists already"):
+        require_plots(tmp_path, False)
+    require_plots(tmp_path, True)
+    with pytest.raises(JumpcadError, match="is there already and is no folder"):
+        require_plots(tmp_path / name, True)
+
+
+def test_options_describe_model_pool_and_files():
+    options = SearchOptions("printed", workshop="light", settings="fine", engine="planar", workers=0, limit=12.5)
+    model = options.robot_model()
+    assert (model.name, model.engine) == ("printed", "planar")
+    assert (model.workshop, model.settings) == (load_workshop("light"), load_settings("fine"))
+    assert options.inputs() == {"--workshop": "light", "--settings": "fine"}
+    with replace(options, workers=3).pool() as pool:
+        assert (pool.workers, pool._limit_s) == (3, 12.5)
+    with options.pool() as pool:
+        assert pool.workers == 1
+    with pytest.raises(JumpcadError, match="workers and dask exclude each other"):
+        replace(options, dask="tcp://here:1").pool()

@@ -12,9 +12,11 @@ from jumpcad.cli import simulate as module
 from jumpcad.cli.uncertain import uncertain_lines
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper import published
 from jumpcad.simulation import Jump, Settings, load_settings, simulate
+from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities
 
 
 @pytest.fixture
@@ -214,3 +216,77 @@ def test_a_flight_is_simulated_only_where_it_is_asked_for(flight: bool, trajecto
     assert found.flight == ("simulated" if flight else plain.flight) == ("simulated" if flight else "ballistic")
     assert found.trajectory == trajectory
     assert found.dt_s == plain.dt_s
+
+
+JUMP = Jump(
+    "jump", "planar", 0.125, 0.5, 7.125, 0.75, 0.25, 0.9375, 0.8125, 2.875, 61.25, 0.0625, 0.6875,
+    EnergyBudget(0.11, 0.12, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09), PublishedQuantities(None, 0.375),
+)  # fmt: skip
+"""A made-up jump with a number of its own in every place."""
+
+
+def test_every_figure_of_a_jump_is_told_with_its_name_and_unit(capsys: pytest.CaptureFixture[str]) -> None:
+    heading = {"design": "d", "model": "printed", "settings": "fine"}
+    module._report(heading, [JUMP], False, None)
+    assert [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()] == [
+        "d, printed robot, settings fine", "planar: jump",
+        "ballistic range 0.7500 m", "rise of the centre of mass 0.2500 m", "touchdown distance 0.6875 m",
+        "take-off speed 2.875 m/s", "take-off angle 61.2°", "take-off after 0.0625 s",
+        "energy released / spring energy 0.9375", "energy at take-off / spring energy 0.8125",
+        "spring energy 0.5000 J", "mass 0.1250 kg", "fitness (range / longest link) 7.125",
+        "where the spring energy is at take-off (J):",
+        "of the centre of mass: the jump 0.2700", "turning and swinging about the centre of mass 0.0300",
+        "still in the springs 0.0500", "lost between cam and roller 0.0600", "lost in the joints' friction 0.0700",
+        "lost by slipping on the ground 0.0800", "lost in impacts and rounding 0.0900",
+        "published base distance none", "published base height 0.3750 m",
+    ]  # fmt: skip
+
+
+def test_a_jump_that_is_none_is_told_with_what_to_change_and_no_figures(capsys: pytest.CaptureFixture[str]) -> None:
+    wrong = Finding("tips", "error", -1.0, "mm", "it falls over", "turn the toes")
+    fine = Finding("loop", "info", 1.0, "mm", "it closes", "")
+    module._report({"design": "d", "model": "URDF", "settings": "s"}, [
+        Jump("tips", "mujoco", 0.125, 0.5, findings=(fine, wrong))
+    ], False, None)  # fmt: skip
+    assert [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()] == [
+        "d, URDF robot, settings s", "mujoco: tips", "it falls over; turn the toes", "spring energy 0.5000 J",
+        "mass 0.1250 kg", "fitness (range / longest link) 0.000",
+    ]  # fmt: skip
+
+
+def test_one_document_has_the_jump_its_heading_and_its_uncertainty(capsys: pytest.CaptureFixture[str]) -> None:
+    heading = {"design": "d", "model": "printed", "settings": "fine"}
+    module._report(heading, [JUMP], True, {"jumps": 8})
+    found = json.loads(capsys.readouterr().out)
+    assert found == json.loads(json.dumps(heading | JUMP.to_dict() | {"uncertain": {"jumps": 8}}))
+    assert (found["ballistic_range_m"], found["energy"]["slip_j"], found["published"]["base_height_m"]) == (
+        0.75, 0.08, 0.375
+    )  # fmt: skip
+    module._report(heading, [JUMP], True, None)
+    assert "uncertain" not in json.loads(capsys.readouterr().out)
+
+
+def ranges(*values: float | None) -> list[Jump]:
+    return [Jump("jump", "x", 0.1, 0.2, ballistic_range_m=value) for value in values]
+
+
+@pytest.mark.parametrize(
+    ("values", "percent"),
+    [((0.5, 0.6), 20.0), ((0.6, 0.5), -100.0 / 6.0), ((0.5,), None), ((None, 0.5), None), ((0.5, None), None)],
+)
+def test_two_ranges_differ_by_a_share_of_the_first(values: tuple[float | None, ...], percent: float | None) -> None:
+    found = module._difference_percent(ranges(*values))
+    assert found == (None if percent is None else pytest.approx(percent))
+
+
+def test_engines_are_those_asked_for_or_the_first_that_is_there(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert module._engines("both") == ["pybullet", "mujoco"]
+    assert module._engines("planar") == ["planar"]
+    monkeypatch.setattr(module, "default_engine", lambda: "pybullet")
+    assert module._engines(None) == ["pybullet"]
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(module, "default_engine", lambda: "mujoco")
+    assert module._engines(None) == ["mujoco"]
+    assert capsys.readouterr().err == "jumpcad: pybullet is not installed; simulated with mujoco\n"

@@ -14,7 +14,8 @@ from support.slicers import OBEDIENT, pretend_slicer, three_parts, with_seams_be
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle, verify
-from jumpcad.cli.slicing import _print_sliced
+from jumpcad.bundle.sliced import SlicedPart, SlicedPlate
+from jumpcad.cli.slicing import _print_sliced, slice_facts
 from jumpcad.printing.prusaslicer import slicer_program
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -284,3 +285,25 @@ def test_a_part_that_is_heavier_than_the_model_by_a_twentieth_is_printed_so(caps
     assert ["foot", "1", "PETG", "10.50", "10.00", "+5.0", "%", "0:01", "h"] in rows
     assert ["plate-1-PETG", "PETG", "10.50", "0:01", "h"] in rows
     assert ["all", "10.50", "0:01", "h"] in rows
+
+
+def test_the_document_has_every_mass_and_time_under_its_name() -> None:
+    """Sums are of plates, which hold all copies of the parts; the model's mass differs by a share of the sliced one."""
+    part = SlicedPart("foot", "PETG", 2, 10.0, 10.5, 60.0)
+    plates = (SlicedPlate("one", "PETG", 21.5, 125.0), SlicedPlate("two", "PLA", 3.25, 40.0))
+    found = SimpleNamespace(
+        version="2.5.0", ignored={"infill": ("0.2", "0.3")}, parts=(part,), plates=plates, billed=True
+    )
+    assert slice_facts(Path("frog"), found, Path("w.toml")) == {  # type: ignore[arg-type]
+        "bundle": "frog", "slicer": "2.5.0", "ignored": {"infill": {"asked": "0.2", "used": "0.3"}},
+        "parts": [{
+            "name": "foot", "material": "PETG", "quantity": 2, "grams": 10.0, "modelled_grams": 10.5, "time_s": 60.0,
+            "difference": pytest.approx(0.05),
+        }],
+        "plates": [
+            {"name": "one", "material": "PETG", "grams": 21.5, "time_s": 125.0},
+            {"name": "two", "material": "PLA", "grams": 3.25, "time_s": 40.0},
+        ],
+        "grams": 24.75, "time_s": 165.0, "workshop": "w.toml", "written": True,
+    }  # fmt: skip
+    assert slice_facts(Path("frog"), found, None)["workshop"] is None  # type: ignore[arg-type]

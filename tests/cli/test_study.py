@@ -9,6 +9,7 @@ from support.searches import QUICK, data, refusal, run
 from support.studies import IDENTITY, trials
 
 from jumpcad.cli import study
+from jumpcad.design import load_design
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.store import StudyStore
 
@@ -52,3 +53,41 @@ def test_a_summary_counts_what_was_searched_apart_from_what_lies_around_the_best
     for one in summary["top"]:
         assert searched[one["trial"] - 1].score == one["score"]
     assert [one["design"] for one in summary["quarantined"]] == [last.design.model_dump()]
+
+
+def summary(**changes: object) -> dict[str, object]:
+    """Return a made-up summary with a number of its own in every place."""
+    design = load_design("best-ga")
+    top = [
+        {"trial": 7, "score": 2.5, "phase": "bo", "design": design.model_dump(),
+         "workshop": {"body.plate_mm": 2.0, "bought.spring": "x"}},
+        {"trial": 3, "score": 1.25, "phase": "ga", "design": design.model_dump()},
+    ]  # fmt: skip
+    identity = {"method": "ga+bo", "model": {"name": "capsule"}, "objective": "range", "seed": 5}
+    plain = {
+        "study": "s.db", "identity": identity, "planned": 40, "evaluations": 31, "other_evaluations": 12,
+        "refused": {"tips": 6, "loop": 2}, "evaluation_time_s": 9.0, "best": top[0], "top": top, "notes": ["a note"],
+    }  # fmt: skip
+    return plain | changes
+
+
+def test_a_study_is_told_with_every_count_in_its_place(capsys: pytest.CaptureFixture[str]) -> None:
+    study._print_one(summary())
+    values = " ".join(f"{value:.5g}" for value in load_design("best-ga").to_vector())
+    assert [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()] == [
+        "s.db: ga+bo on the capsule robot, range",
+        "31 of 40 designs, and 12 around the best",
+        "rejected 6 tips",
+        "rejected 2 loop",
+        "note: a note",
+        f"1. 2.5000 bo {values} body.plate_mm=2 bought.spring=x (trial 7)",
+        f"2. 1.2500 ga {values} (trial 3)",
+    ]
+
+
+def test_studies_are_compared_by_their_best(capsys: pytest.CaptureFixture[str]) -> None:
+    study._print_comparison([summary(), summary(study="t.db", best=None)])
+    assert capsys.readouterr().out.splitlines() == [
+        "s.db: best range 2.5000 in 31 designs (ga+bo, capsule, seed 5)",
+        "t.db: best range none in 31 designs (ga+bo, capsule, seed 5)",
+    ]

@@ -1,10 +1,12 @@
 """The proposal: active bounds, choices, refusals."""
 
+import math
+
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL
 
-from jumpcad.search.acquisition import _apart, propose
+from jumpcad.search.acquisition import Proposal, _apart, _climb, promised_gain, propose
 from jumpcad.search.posterior import SearchPosterior
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Surrogate
@@ -88,3 +90,62 @@ def test_names_near_a_good_design_are_mostly_its_own():
         assert 0.75 < (points[:, 3] == own[3]).mean() < 0.95
         off = np.abs(points[:, :3] - own[:3])
         assert 0.001 < np.median(off) < 0.1
+
+
+class Known:
+    """A posterior whose logarithms fall with the square of the distance from points of two coordinates."""
+
+    def log_improvement(self, points, best):
+        return -10.0 * (points[:, 0] - 0.37) ** 2 - best
+
+    def log_feasible(self, points):
+        return -5.0 * (points[:, 2] - 0.71) ** 2
+
+
+def ask(best=0.0, **others):
+    return propose(SMALL, Known(), best, np.empty((0, 3)), lambda variant: True, np.random.default_rng(1), **others)
+
+
+def test_the_top_of_improvement_and_feasibility_together_is_proposed_with_both():
+    """Coordinates have four digits, and the design is that of them."""
+    found = ask(2.5)
+    assert found.unit[[0, 2]] == pytest.approx([0.37, 0.71], abs=1e-3)
+    assert found.unit.tolist() == found.unit.round(4).tolist()
+    assert found.variant == SMALL.to_variant(found.unit)
+    assert found.log_improvement == pytest.approx(-10.0 * (found.unit[0] - 0.37) ** 2 - 2.5)
+    assert found.log_feasible == pytest.approx(-5.0 * (found.unit[2] - 0.71) ** 2)
+    assert found.log_value == found.log_improvement + found.log_feasible
+    assert found.note() == {"log_improvement": found.log_improvement, "log_feasible": found.log_feasible}
+
+
+@pytest.mark.parametrize(("less", "taken"), [(0.15, True), (0.25, False)])
+def test_what_was_rehearsed_is_proposed_where_another_promises_little_more(less, taken):
+    """A fifth, in logarithms."""
+    known = np.array([0.37 + np.sqrt(less / 10.0), 0.5, 0.71])
+    assert (ask(rehearsed=[known]).unit.tolist() == known.tolist()) == taken
+
+
+def test_a_promise_is_twice_the_gain_of_the_root_as_a_share_of_the_best():
+    """A gain of the root by 0.1 of a score of 4 is one by 0.4: a tenth of it. Of no best score it is infinite."""
+    assert promised_gain(math.log(0.1), 4.0) == pytest.approx(0.1)
+    assert Proposal(SMALL.to_variant([0.5] * 3), np.full(3, 0.5), math.log(0.4), math.log(0.25)).promised_gain(
+        4.0
+    ) == pytest.approx(0.1)
+    assert promised_gain(0.0, 0.0) == promised_gain(-5.0, -1.0) == math.inf
+    assert math.isfinite(promised_gain(1e9, 1.0))
+
+
+def test_a_climb_ends_on_the_top_or_on_a_bound_and_leaves_choices_alone():
+    top = np.array([0.3, 1.4, -0.2])
+    start = np.array([0.6, 0.5, 0.5])
+
+    def hill(points):
+        return -((points - top) ** 2).sum(axis=1)
+
+    assert _climb(SMALL, hill, start, 40) == pytest.approx([0.3, 1.0, 0.0], abs=1e-4)
+    space = Space.parse(fix=FIXED, choose=["stiffness_nmm_per_deg=8,19,30"])
+    assert [one.name for one in space.free][2] == STIFFNESS
+    assert _climb(space, hill, start, 40) == pytest.approx([0.3, 1.0, 0.5], abs=1e-4)
+    chosen = Space.parse(fix=FIXED, choose=[f"{one.name}={one.lower},{one.upper}" for one in SMALL.free])
+    assert _climb(chosen, hill, start, 40) is start
+    assert start.tolist() == [0.6, 0.5, 0.5]

@@ -1,16 +1,19 @@
 """The SQLite file of a study: one writer, locks of other programs, what is not a file."""
 
 import os
+import re
 import sqlite3
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import pytest
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search import database
+from jumpcad.search.database import is_written, lock, plain_errors
 from jumpcad.search.store import StudyStore
 
 
@@ -87,3 +90,43 @@ def test_a_file_is_opened_in_the_first_way_that_is_permitted(tmp_path, monkeypat
             database.open_to_read(path)
     expected = ways[: min(fails + 1, more)]
     assert [way for way in tried if way != "closed"] == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("SQLITE_BUSY", "is locked by another program"),
+        ("SQLITE_LOCKED_SHAREDCACHE", "is locked by another program"),
+        ("SQLITE_FULL", "cannot be written (it\\x07 said)"),
+        ("SQLITE_IOERR_WRITE", "cannot be written (it\\x07 said)"),
+        ("SQLITE_READONLY_DIRECTORY", "cannot be opened (it\\x07 said)"),
+        ("SQLITE_CANTOPEN", "cannot be opened (it\\x07 said)"),
+        ("SQLITE_CORRUPT", "is damaged, or is not a study file (it\\x07 said)"),
+        ("", "is damaged, or is not a study file"),
+    ],
+)
+def test_what_sqlite_complains_of_is_said_in_one_line(name, said):
+    error = sqlite3.DatabaseError("it\x07 said")
+    if name:
+        error.sqlite_errorname = name
+    with pytest.raises(JumpcadError, match=re.escape(f"s.db: {said}")) as caught, plain_errors(Path("s.db")):
+        raise error
+    assert "\x07" not in str(caught.value)
+
+
+def test_what_is_no_error_of_the_file_is_passed_on():
+    for error in (sqlite3.IntegrityError("twice"), ValueError("else")):
+        with pytest.raises(type(error)), plain_errors(Path("s.db")):
+            raise error
+    with pytest.raises(JumpcadError, match="invalid text"), plain_errors(Path("s.db")):
+        b"\xff".decode()
+
+
+def test_a_study_is_written_while_its_lock_is_held(tmp_path):
+    assert not is_written(tmp_path / "none.db")
+    descriptor = lock(tmp_path / "s.db")
+    assert is_written(tmp_path / "s.db")
+    with pytest.raises(JumpcadError, match="is being written by another run"):
+        lock(tmp_path / "s.db")
+    os.close(descriptor)
+    assert not is_written(tmp_path / "s.db")

@@ -5,8 +5,9 @@ import pytest
 from support.hills import SMALL, Hill, Trap
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.objective import QUARANTINED
+from jumpcad.search.objective import QUARANTINED, Evaluation
 from jumpcad.search.store import StudyStore
+from jumpcad.search.variant import Variant
 
 
 def designs(count, seed=0):
@@ -91,3 +92,64 @@ def test_a_single_bad_design_is_a_row(evaluator):
     trials = one.evaluate(designs(32), "ga", 0)
     assert {trial.evaluation.verdict for trial in trials if trial.design.rest_angle_deg > 60.0} == {QUARANTINED}
     assert any("quarantined: ZeroDivisionError" in note for note in one.store.notes())
+
+
+def test_what_is_left_out_is_a_row_with_its_outcome_and_is_not_evaluated(evaluator, tmp_path):
+    """It counts among the designs, in the place in which it was proposed, and has no score."""
+    log = tmp_path / "log"
+    one, (first, second, third) = evaluator(model=Hill(log)), designs(3)
+    out = {Variant.of(second).key: Evaluation("screened", {"guessed": 0.5})}
+    notes = [{"log_feasible": float(number)} for number in range(3)]
+    trials = one.evaluate([first, second, third], "bo", 4, proposals=notes, left_out=out)
+    assert len(log.read_text().splitlines()) == 2
+    assert [(trial.phase, trial.step, trial.place) for trial in trials] == [("bo", 4, place) for place in range(3)]
+    assert [trial.design for trial in trials] == [first, second, third]
+    assert (trials[1].evaluation, trials[1].score) == (Evaluation("screened", {"guessed": 0.5}), None)
+    assert [dict(trial.proposal) for trial in trials] == [notes[0], {}, notes[2]]
+    assert [one.holds(Variant.of(design)) for design in designs(4)] == [True, True, True, False]
+
+
+def test_neighbours_count_and_a_design_that_was_seen_before_does_not(evaluator):
+    class Costly(Hill):
+        def __call__(self, design):
+            found = super().__call__(design)
+            return Evaluation(found.verdict, {**found.metrics, "evaluations": 11.0}, found.findings)
+
+    seen = []
+    one = evaluator(model=Costly())
+    one._watch = lambda trial, computed: seen.append((trial.place, computed))
+    one.evaluate(designs(3), "ga", 0)
+    one.evaluate(designs(3), "ga", 1)
+    assert one.spent == 33
+    assert seen == [(0, True), (1, True), (2, True)]
+
+
+def test_no_more_are_evaluated_than_there_is_room_for(evaluator):
+    """Asked again after so many: two at first, then one, then none."""
+    one, rooms = evaluator(), iter([2.0, 1.0, 0.0])
+    one._room = lambda: next(rooms)
+    assert [trial is None for trial in one.evaluate(designs(5), "ga", 0)] == [False] * 3 + [True] * 2
+
+
+def test_a_step_is_read_whole_or_not_at_all(evaluator, tmp_path):
+    first = evaluator(tmp_path / "s.db")
+    first.evaluate(designs(3), "ga", 2)
+    first.store.close()
+    again = evaluator(tmp_path / "s.db")
+    assert again.finished("ga", 2, 4) is again.finished("ga", 1, 3) is again.finished("bo", 2, 3) is None
+    assert again.trials == []
+    found = again.finished("ga", 2, 3)
+    assert [trial.place for trial in found] == [0, 1, 2]
+    assert again.trials == found
+
+
+def test_what_is_read_from_the_study_file_is_told_apart_from_what_is_computed(evaluator, tmp_path):
+    first = evaluator(tmp_path / "s.db")
+    first.evaluate(designs(3), "ga", 0)
+    first.store.close()
+    again, seen = evaluator(tmp_path / "s.db"), []
+    again._watch = lambda trial, computed: seen.append((trial.step, trial.place, computed))
+    again.evaluate(designs(3), "ga", 0)
+    again.evaluate(designs(5), "ga", 1)
+    assert seen == [(0, 0, False), (0, 1, False), (0, 2, False), (1, 0, True), (1, 1, True)]
+    assert again.spent == 5

@@ -1,12 +1,28 @@
 """Views of the space show the known facts of the hill."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from support.hills import SMALL, TOP, Hill
+from support.hills import FIXED, SMALL, TOP, Hill
+from support.shops import Shop
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.explore import components, elite, feasibility_map, importance, sample, sweep
+from jumpcad.search.explore import (
+    _grid,
+    _r_squared,
+    _shuffled,
+    _start,
+    _with,
+    components,
+    elite,
+    feasibility_map,
+    importance,
+    sample,
+    sweep,
+)
 from jumpcad.search.space import Space
+from jumpcad.workshop import load_workshop
 
 CENTRE = SMALL.to_design([0.5, 0.5, 0.5])
 
@@ -106,3 +122,59 @@ def test_shares_are_those_of_the_correlations(evaluator):
     assert values.std(axis=0).max() > 100.0 * values.std(axis=0).min()
     assert found.shares == pytest.approx(eigenvalues[::-1] / 8.0, abs=1e-9)
     assert np.abs(found.directions @ vectors[:, ::-1]) == pytest.approx(np.eye(8), abs=1e-6)
+
+
+def test_a_place_in_a_workshop_has_its_values_and_those_that_are_fixed(evaluator):
+    """A sweep starts from the workshop's own; a fixed value is that of every design."""
+    space = Space.parse(
+        fix=[*FIXED, "process.infill=0.35"], bound=["body.plate_mm=1.2:2.4"],
+        choose=["bought.battery=lipo-2s-180,lipo-1s-300"], workshop=load_workshop(),
+    )  # fmt: skip
+    one = evaluator(model=Shop(), space=space)
+    start = _start(one, CENTRE)
+    usual = load_workshop()
+    assert start.design == CENTRE
+    assert start.workshop == {
+        "process.infill": 0.35, "body.plate_mm": usual.body.plate_mm, "bought.battery": usual.bought.battery,
+    }  # fmt: skip
+    plates, battery = space.free[-2:]
+    assert _with(start, {plates: 2.25, battery: 1.0}).workshop == {
+        "process.infill": 0.35, "body.plate_mm": 2.25, "bought.battery": "lipo-1s-300",
+    }  # fmt: skip
+    assert _grid(battery, 9).tolist() == [0.0, 1.0]
+    assert _grid(plates, 4).tolist() == pytest.approx([1.2, 1.6, 2.0, 2.4])
+
+
+def test_a_map_varies_the_first_along_its_lines_and_the_second_from_line_to_line(evaluator):
+    found = feasibility_map(evaluator(), CENTRE, "rest_angle_deg", "stiffness_nmm_per_deg", 3)
+    assert (found.x_name, found.y_name) == ("rest_angle_deg", "stiffness_nmm_per_deg")
+    for y, line in zip(found.y, found.trials, strict=True):
+        for x, trial in zip(found.x, line, strict=True):
+            assert trial.design == CENTRE.model_copy(update={"rest_angle_deg": x, "stiffness_nmm_per_deg": y})
+
+
+def test_the_elite_are_a_tenth_or_twenty(evaluator):
+    one = evaluator(space=Space.default())
+    trials = sample(one, 300, 0)
+    scores = sorted((trial.score for trial in trials if trial.score is not None), reverse=True)
+    assert [trial.score for trial in elite(trials)] == scores[: round(0.1 * len(scores))]
+    some = [trial for trial in trials if trial.score is not None][:150]
+    assert len(elite(some)) == 20
+    assert len(elite(some[:7])) == 7
+
+
+def test_predictions_explain_the_share_of_the_variance_that_is_left_out_of_their_errors():
+    """Errors of 1, -1 and 0 about values 1, 2 and 6: 1 - 2/14; the mean explains nothing."""
+    y = np.array([1.0, 2.0, 6.0])
+    for predicted, share in (([0.0, 3.0, 6.0], 1.0 - 2.0 / 14.0), ([3.0, 3.0, 3.0], 0.0), ([1.0, 2.0, 6.0], 1.0)):
+        known = SimpleNamespace(predict=lambda _, told=predicted: (np.array(told), None))
+        assert _r_squared(known, np.zeros((3, 1)), y) == pytest.approx(share)
+
+
+def test_what_is_shuffled_is_one_column_alone():
+    x = np.arange(30.0).reshape(10, 3)
+    found = _shuffled(x, 1, np.random.default_rng(0))
+    assert found[:, [0, 2]].tolist() == x[:, [0, 2]].tolist()
+    assert sorted(found[:, 1]) == sorted(x[:, 1])
+    assert found[:, 1].tolist() != x[:, 1].tolist()
+    assert x.tolist() == np.arange(30.0).reshape(10, 3).tolist()

@@ -8,9 +8,10 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.search.acquisition import Proposal
-from jumpcad.search.learner import HELD, ROUNDS, Learner
+from jumpcad.search.learner import HELD, ROUNDS, Learner, _last_leap
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.polling import DRAWN, STEP, WITHIN
+from jumpcad.search.posterior import SearchPosterior
 from jumpcad.search.trial import Trial
 
 
@@ -246,3 +247,27 @@ def test_a_neighbour_may_be_a_little_worse_than_the_best(less, proposed):
 
 def variant_of(learner, key):
     return next(one for one in map(SMALL.to_variant, learner.tried) if one.key == key)
+
+
+def test_hyperparameters_are_those_of_the_newest_fit():
+    """What is not fitted keeps those of the step before; what has none is fitted. Other processes' are kept too."""
+    other = {"slope": [0.1] * 5}
+    fitted = SearchPosterior.from_trials(SMALL, TRIALS, {}, None).thetas
+    old = {"score": [1.0, -1.0, -1.0, -1.0, -4.0]}
+    refit, kept = (Learner(SMALL, TRIALS, None, old | other, refit) for refit in (True, False))
+    again = SearchPosterior.from_trials(SMALL, TRIALS, old, None).thetas
+    posteriors = [one._learned() for one in (refit, kept)]
+    assert refit.thetas == other | again
+    assert refit.thetas["score"] != old["score"]
+    assert kept.thetas["score"] == old["score"]
+    assert [one.thetas["score"] for one in posteriors] == [again["score"], old["score"]]
+    assert kept.thetas.keys() == fitted.keys() | other.keys()
+
+
+def test_a_leap_is_two_per_cent_better_than_the_leap_before_it():
+    """1 is one; 1.01 is none, and 1.019 neither, though both are better than what was before; 1.03 is."""
+    scores = [None, 1.0, 1.01, 1.019, 0.5, 1.03, 1.04, None]
+    trials = [replace(TRIALS[0], place=place, score=score) for place, score in enumerate(scores)]
+    assert [getattr(_last_leap(trials[:count]), "place", None) for count in range(9)] == [
+        None, None, 1, 1, 1, 1, 5, 5, 5
+    ]  # fmt: skip

@@ -10,12 +10,13 @@ from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.paper import published
-from jumpcad.search.models import RobotModel, robot_model
+from jumpcad.search.models import RobotModel, _figures, robot_model
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.refusal import room_findings
 from jumpcad.search.tolerances import Making
 from jumpcad.search.variant import Variant
 from jumpcad.settings import load_settings
+from jumpcad.simulation import Jump
 from jumpcad.workshop import load_workshop
 
 
@@ -144,3 +145,40 @@ def test_a_variant_is_laid_out_in_its_own_workshop(monkeypatch):
         assert asked[-1] == (design, infill)
     assert model.laid_out(Variant(design, {"process.infill": 7.0})).verdict == "workshop"
     assert len(asked) == 2
+
+
+@pytest.mark.parametrize("name", ["printed", "capsule", "published"])
+def test_an_engine_that_there_is_not_is_refused_at_once(name):
+    with pytest.raises(JumpcadError, match="'bulet' is not an engine; there are pybullet, mujoco and planar"):
+        robot_model(name, engine="bulet")
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "said"),
+    [
+        ("capsule", {"workshop": "light"}, "workshop light: does not apply to the capsule robot; leave it out"),
+        ("published", {"workshop": load_workshop("light")}, "workshop: does not apply to the published robot"),
+        ("published", {"settings": "fine"}, "settings fine: does not apply to the published robot; leave it out"),
+        ("printd", {}, "'printd' is not one of the models printed, capsule, published .did you mean printed"),
+    ],
+)
+def test_what_a_model_does_not_use_is_refused(name, given, said):
+    with pytest.raises(JumpcadError, match=said):
+        robot_model(name, **given)
+
+
+def test_guesses_and_quick_scores_have_settings_of_their_own():
+    """Steps of 2 ms; the planar engine, unless it lacks what the settings ask for."""
+    plain = robot_model("printed", None, "fine", "mujoco")
+    assert (plain.guess_engine, plain.guess_settings.dt_s) == ("planar", 0.002)
+    assert plain.guess_settings.model_copy(update={"dt_s": plain.settings.dt_s}) == plain.settings
+    dragged = replace(plain, settings=plain.settings.model_copy(update={"drag_per_s": 0.1}))
+    assert (dragged.guess_engine, dragged.guess_settings.dt_s) == ("mujoco", 0.002)
+    assert robot_model("capsule", None, "fine").guess_settings.dt_s == 0.002
+
+
+def test_figures_of_a_jump_are_its_numbers_alone():
+    jump = Jump("jump", "planar", 0.1, 0.2, ballistic_range_m=0.5, com_rise_m=None)
+    assert _figures(jump) == {
+        "mass_kg": 0.1, "spring_energy_j": 0.2, "fitness": 0.0, "ballistic_range_m": 0.5,
+    }  # fmt: skip

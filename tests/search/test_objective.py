@@ -4,7 +4,7 @@ import pytest
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.objective import Evaluation, described_objective, find_objective
 
 JUMP = {
     "body_lengths": 6.0,
@@ -64,3 +64,38 @@ def test_of_a_limit_of_several_parts_the_least_margin_counts():
     found = Evaluation("jump", findings=findings)
     assert found.margins == {"axle": -1.0, "room": 0.5}
     assert (found.met, found.missed, found.reasons) == ({"axle", "room"}, {"axle"}, ("axle",))
+
+
+def test_a_quantile_is_the_score_of_the_worst_neighbours_in_the_units_of_its_objective():
+    found = find_objective("p10-range")
+    assert (found.name, found.neighbours_of, found.unit) == ("p10-range", "range", "m")
+    assert found.meaning == "range of the jump of nine in ten neighbours"
+    assert found.score(Evaluation("jump", JUMP | {"p10": 0.7})) == 0.7
+    assert found.describe() == {"objective": "p10-range"}
+
+
+def test_the_published_robot_s_range_is_its_base_s_distance():
+    figures = {"base_distance_m": 0.4, "spring_energy_j": 0.5}
+    assert find_objective("range").score(Evaluation("jump", figures)) == 0.4
+    assert find_objective("range-per-spring-joule").score(Evaluation("jump", figures)) == 0.8
+
+
+def test_an_objective_divides_by_no_zero():
+    with pytest.raises(JumpcadError, match="jumps-per-joule of an evaluation divides by 0"):
+        find_objective("jumps-per-joule").score(Evaluation("jump", JUMP | {"electrical_energy_j": 0.0}))
+
+
+def test_what_a_study_keeps_of_findings_are_names_severities_units_and_six_digits():
+    told = Finding("walls", "warning", 1.23456789, "mm", "found", "change", 3.0, 4.0)
+    found = Evaluation("jump", JUMP, (told,), "a detail").bare
+    assert found == Evaluation("jump", JUMP, (finding("walls", "warning", 1.23457),), "a detail")
+    assert (found.cost, Evaluation("jump", {"evaluations": 4.0}).cost) == (1, 4)
+
+
+def test_the_objective_of_a_study_is_told_and_an_own_one_does_not_score():
+    assert described_objective({"objective": "rise"}) == find_objective("rise")
+    own = described_objective({"objective": "mine", "objective_code": "abc"})
+    assert (own.name, own.meaning, own.unit, own.code) == ("mine", "own objective", "own units", "abc")
+    assert own.describe() == {"objective": "mine", "objective_code": "abc"}
+    with pytest.raises(JumpcadError, match="keeps the scores"):
+        own.score(Evaluation("jump", JUMP))

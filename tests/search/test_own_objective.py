@@ -2,10 +2,13 @@
 
 import json
 import os
+import random
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
 import pytest
 from support.hills import SMALL, Hill
 from support.searches import NARROW, QUICK, data, refusal
@@ -170,3 +173,41 @@ def test_a_score_is_a_number_within_ten_to_the_twelfth(sign):
     assert find_objective(lambda m: sign * 1e12).score(JUMP) == sign * 1e12
     with pytest.raises(JumpcadError, match=r"not a number within ±1e\+12"):
         find_objective(lambda m: sign * 1.001e12).score(JUMP)
+
+
+def test_a_users_function_changes_nothing_outside(tmp_path, monkeypatch, capsys):
+    """Its prints are no part of the output, its folder and its random numbers not those of the search."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "inner").mkdir()
+
+    def untidy(m):
+        os.chdir("inner")
+        print("hello")
+        random.seed(0)
+        np.random.seed(0)  # noqa: NPY002
+        m.clear()
+        return np.float64(2.5)
+
+    random.seed(7)
+    np.random.seed(7)  # noqa: NPY002
+    expected = random.Random(7).random(), np.random.RandomState(7).random_sample()
+    assert find_objective(untidy).score(JUMP) == 2.5
+    assert (random.random(), np.random.random()) == expected  # noqa: NPY002
+    assert Path.cwd() == tmp_path
+    assert capsys.readouterr() == ("", "hello\n")
+    assert JUMP.metrics
+    assert find_objective(lambda m: np.int64(3)).score(JUMP) == 3.0
+
+
+def test_a_function_is_named_by_its_name_and_a_nameless_one_own():
+    def reach(m):
+        return 1.0
+
+    assert find_objective(reach).name == "reach"
+    assert find_objective(lambda m: 1.0).name == "own"
+
+
+def test_a_figure_that_there_is_not_is_named_with_those_that_there_are():
+    with pytest.raises(JumpcadError, match=r"asks for 'reach'; a jump of this model has fitness, mass_kg") as error:
+        find_objective(lambda m: m["reach"]).score(Evaluation("jump", {"fitness": 1.0, "mass_kg": 0.1}))
+    assert "\n" not in str(error.value)

@@ -6,6 +6,7 @@ import select
 import subprocess
 import sys
 import textwrap
+from concurrent.futures import BrokenExecutor
 from types import SimpleNamespace
 
 import numpy as np
@@ -229,3 +230,18 @@ def test_workers_and_timeouts_have_ends_that_are_told(workers, limit_s, message)
         local_pool(workers, limit_s)
     for limit in (0.1, 86400.0):
         assert local_pool(256, limit).workers == 256
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (BrokenExecutor("a worker ended by SIGALRM(14)"), "it ran past its limit of 12.5 s"),
+        (BrokenExecutor("exit codes {SIGKILL(-9)}"),
+         "its worker was ended by SIGKILL (killed, perhaps because memory ran out)"),
+        (BrokenExecutor("exit codes {SIGSEGV(-11)}"), "its worker was ended by SIGSEGV"),
+        (OSError("the line broke\nand more"), "its worker was lost: OSError: the line broke"),
+        (OSError(), "its worker was lost: OSError: "),
+    ],
+)  # fmt: skip
+def test_how_a_worker_was_lost_is_one_line(error, said):
+    assert Pool(InProcess, InProcess.shutdown, 1, 12.5)._loss(error) == said

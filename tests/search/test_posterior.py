@@ -15,6 +15,7 @@ from jumpcad.search.posterior import (
     VERDICT,
     SearchPosterior,
     _log_h,
+    _scaled,
     constraint_margins,
     forwards,
     unwarped,
@@ -214,3 +215,55 @@ def test_a_believed_proposal_is_believed_of_the_guess_too():
     after = posterior.condition_on(point)
     for before, then in ((posterior.score, after.score), (posterior.guess, after.guess)):
         assert then.predict(point[None])[1] < before.predict(point[None])[1]
+
+
+def test_what_scores_are_more_is_learned_over_their_own_guesses():
+    """Roots of scores less roots of guesses, however far a guess is from those beside it."""
+    trials = [trial for trial in rows_of(24) if trial.score is not None][:8]
+    guesses = {
+        one.key: (SMALL.to_unit(one.variant), one.score * (4.0 if n == 3 else 0.81)) for n, one in enumerate(trials)
+    }
+    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None, guesses)
+    roots = np.sqrt([one.score for one in trials])
+    shares = np.array([-1.0 if n == 3 else 0.1 for n in range(len(trials))])
+    assert posterior.score.y == pytest.approx(roots * shares)
+    assert posterior.guess.y == pytest.approx(roots * (1.0 - shares))
+    assert posterior.guess.x == pytest.approx(np.array([SMALL.to_unit(one.variant) for one in trials]))
+
+
+def test_margins_count_in_their_typical_size_and_large_ones_less():
+    """Of -1, 2, 4 mm and 2000 mm the middle size is 3 mm; half of them all 0 are as they are."""
+    margins = np.array([-1.0, 2.0, 4.0, 2000.0])
+    assert _scaled(margins) == pytest.approx(np.arcsinh(margins / 3.0))
+    assert _scaled(np.array([0.0, 0.0, -0.5])) == pytest.approx(np.arcsinh([0.0, 0.0, -0.5]))
+
+
+def test_the_limits_that_reject_most_have_processes_with_the_verdict():
+    """Eight in all, of equals the first by name; only limits that some robot meets. The verdict has no take-off too."""
+
+    def trial(*names):
+        failed = tuple(Finding(name, "error", -1.0, "mm", "", "") for name in names)
+        met = tuple(Finding(f"limit_{n}", "info", 0.5, "mm", "", "") for n in range(9)) if not names else ()
+        found = Evaluation("jump", {}, (*failed, *met))
+        return Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), found, None, "m", 0.0)
+
+    every = [f"limit_{n}" for n in range(9)]
+    trials = [trial(), trial(*every, "never_met", "no_takeoff"), trial(*every[:7], "no_takeoff"), trial("limit_8")]
+    margins = constraint_margins(trials)
+    assert list(margins) == [*every[:6], "limit_6", VERDICT]
+    assert margins["limit_0"][:3].tolist() == [0.5, -1.0, -1.0]
+    assert np.isnan(margins["limit_0"][3])
+    assert margins[VERDICT].tolist() == [1.0, -1.0, -1.0, -1.0]
+    assert next(iter(constraint_margins([*trials, *[trial("limit_8")] * 3]))) == "limit_8"
+
+
+def test_hyperparameters_are_kept_to_three_decimals_and_taken_up_again():
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
+    thetas = posterior.thetas
+    assert list(thetas) == ["score", "loop", VERDICT]
+    assert thetas["score"] == [round(value, 3) for value in posterior.score.theta] != posterior.score.theta
+    again = SearchPosterior.from_trials(SMALL, rows_of(24), thetas, ())
+    assert again.thetas == thetas
+    other = SearchPosterior.from_trials(SMALL, rows_of(40), thetas, ("loop",))
+    assert other.thetas["score"] == thetas["score"]
+    assert other.thetas["loop"] != thetas["loop"]

@@ -4,6 +4,8 @@ How near masses and centres are over thousands of robots, `benchmarks/refuse.py`
 """
 
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +21,7 @@ from jumpcad.search.quick_mass import (
     MATERIALS,
     RANGES,
     _density,
+    _motors_g,
     body_x_features,
     foot_x_features,
     known,
@@ -273,3 +276,14 @@ def test_carried_parts_are_known_within_their_ranges() -> None:
         low, high = CARRIED_G["battery" if kind == "batteries" else kind]
         for mass, expected in ((low + 0.01, True), (high - 0.01, True), (low - 0.01, False), (high + 0.01, False)):
             assert known(DESIGN, own(kind, name, mass_g=mass - less)) is expected, (kind, mass)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "masses"), [((), [10.0, 8.0, 12.0]), (("large",), [12.0]), (("n20", "large"), [10.0, 12.0])]
+)
+def test_motors_that_may_be_taken_are_those_of_the_workshop_or_all(
+    chosen: tuple[str, ...], masses: list[float]
+) -> None:
+    motors = {name: SimpleNamespace(mass_g=mass) for name, mass in (("n20", 10.0), ("small", 8.0), ("large", 12.0))}
+    workshop: Any = SimpleNamespace(catalogue=SimpleNamespace(motors=motors), bought=SimpleNamespace(motors=chosen))
+    assert _motors_g(workshop) == masses

@@ -11,7 +11,7 @@ from jumpcad import evaluation
 from jumpcad.building import build
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import errors
+from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search import quick_refusal as quick
@@ -223,3 +223,21 @@ def test_a_design_far_beyond_the_default_bounds_is_built():
     lengths = (250.0, 300.0)
     refused = [quick_refusal(weak.model_copy(update={"carrying_link_mm": mm}), DEFAULT, Settings()) for mm in lengths]
     assert [bool(one) for one in refused] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "limit", "certain", "said"),
+    [
+        ("tips", -17.0, 0.0, True, "16 mm"), ("tips", -15.0, 0.0, False, "16 mm"), ("tips", 40.0, 0.0, False, "16 mm"),
+        ("too_weak", 0.81, 1.0, True, "18 % of what is needed"),
+        ("too_weak", 0.83, 1.0, False, "18 % of what is needed"),
+    ],
+)  # fmt: skip
+def test_what_an_estimate_refuses_is_beyond_its_error_and_says_by_how_much(name, value, limit, certain, said):
+    """Less energy may be needed by a share, the centre of mass may be farther ahead: no other error refuses wrongly."""
+    bounds = Bounds(0.18, 16.0)
+    found = Finding(name, "error", value - limit, "mm", "it does", "change it", value, limit)
+    assert quick.is_certain(found, bounds) == certain
+    told = quick._estimated(found, bounds)
+    assert told.message == f"it does; by an estimate of the masses, at most {said} too strict"
+    assert replace(told, message="it does") == found

@@ -1,10 +1,14 @@
 """What a study is asked for, and its stages."""
 
+import hashlib
 import inspect
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from support.hills import SMALL, Hill
+from support.studies import trials
 
 import jumpcad
 from jumpcad.cli import optimize
@@ -13,6 +17,8 @@ from jumpcad.search.methods import FRONTS
 from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request, plan_stages
 from jumpcad.search.space import Space
+from jumpcad.search.tolerances import Making
+from jumpcad.search.versions import versions
 
 
 @pytest.mark.parametrize(
@@ -111,3 +117,107 @@ def test_half_of_a_search_that_widens_goes_on_in_three_steps_from_moved_bounds()
 def test_a_front_has_no_bounds_to_widen(method: str) -> None:
     with pytest.raises(JumpcadError, match=f"widen: does not apply to {method}, which has no best design"):
         Request(SMALL, Hill(), method=method, widen=True)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"method": "bo"}, "does not apply to bo, only to ga"), ({"method": "ga+bo"}, "does not apply to ga"),
+        ({"model": robot_model("capsule"), "objective": "fitness"}, "applies to the printed robot and one robot"),
+        ({"objective": "p10-body_lengths"}, "applies to the printed robot and one robot a candidate"),
+        ({"space": Space.parse(fix=["body.plate_mm=2.4"], workshop=robot_model().workshop)}, "applies to one workshop"),
+        ({"model": robot_model().varied({"bought.spring": "9271K589"})}, "applies to one workshop with springs made"),
+    ],
+)  # fmt: skip
+def test_a_screen_is_for_the_genetic_algorithm_on_printed_robots_of_one_workshop(asked, said):
+    usual = {"space": SMALL, "model": robot_model(), "objective": "body_lengths", "method": "ga", "screen": True}
+    assert Request(**usual).screen
+    with pytest.raises(JumpcadError, match=f"screen: {said}"):
+        Request(**usual | asked)
+
+
+def test_a_study_s_identity_is_all_that_decides_its_trials():
+    """But their number. Each part of it makes another study, and another name of the file that keeps it."""
+    prior = [trial for trial in trials(4) if trial.score is not None]
+    plain = Request(SMALL, Hill(), "fitness", "bo", 40, seed=3, preset="published", batch=2)
+    found = plain.identity(prior)
+    learned = json.dumps([[trial.key, trial.score] for trial in prior])
+    assert found.pop("prior") == hashlib.sha256(learned.encode()).hexdigest()
+    assert set(found["versions"]) == {"hill", "scipy", "scikit-learn", "pygad"}
+    assert found["versions"].pop("hill") == "1"
+    assert found["versions"] == versions("scipy", "scikit-learn", "pygad")
+    del found["versions"]
+    making = {"length_mm": 0.2, "rate": 0.0, "mass": 0.0, "floor": 0.0, "printed": False}
+    assert found == {
+        "model": {"name": "hill"}, "objective": "fitness", "method": "bo", "space": SMALL.describe(), "seed": 3,
+        "preset": "published", "batch": 2, "making": making,
+    }  # fmt: skip
+    others = [
+        replace(plain, **change)
+        for change in (
+            {"space": Space.default()}, {"objective": "range"}, {"method": "ga+bo"}, {"seed": 4}, {"batch": 3},
+            {"preset": "recommended"}, {"making": Making(0.3)}, {"prior": Path("p.db")}, {"widen": True},
+        )
+    ]  # fmt: skip
+    assert len({plain.default_name(), *(one.default_name() for one in others)}) == 1 + len(others)
+    assert plain.default_name().startswith("study-bo-")
+    assert others[2].default_name().startswith("study-ga-bo-")
+    longer = [replace(one, evaluations=80).default_name() == one.default_name() for one in (plain, others[2])]
+    assert longer == [True, False]  # of two methods each has its share
+    assert replace(plain, method="paper", batch=1, evaluations=80).default_name() != replace(
+        plain, method="paper", batch=1
+    ).default_name()  # fmt: skip
+
+
+def test_a_request_is_told_by_method_robot_and_objective():
+    plain = Request(SMALL, Hill(), "range", "ga", 40)
+    assert plain.title == "ga on the hill robot, range"
+    assert repr(plain) == "<Request ga on the hill robot, range: 40 evaluations, 3 parameters free>"
+    assert (plain.pick, plain.searched, plain.is_front, plain.guessed) == (10, 30, False, False)
+    front = Request(SMALL, Hill(), "range", "nsga2", 40)
+    assert (front.pick, front.searched, front.is_front) == (0, 40, True)
+    quantile = Request(SMALL, Hill(), "p10-range", "ga", 40)
+    assert (quantile.pick, quantile.searched, quantile.aim.neighbours_of) == (0, 40, "range")
+
+
+def test_what_is_not_asked_for_follows_from_method_and_robot():
+    """A front's objective is the range; proposals learn from figures of stand-ins, but for those of `ga` alone."""
+    printed, capsule = robot_model(), robot_model("capsule")
+    made = {
+        (model.name, method): Request.make(SMALL, model, method, evaluations=9)
+        for model in (printed, capsule)
+        for method in (None, "ga", "ga+bo", "nsga2", "pareto")
+    }
+    assert {one.method for (_, method), one in made.items() if method is None} == {"bo"}
+    assert {one.objective for (_, method), one in made.items() if method in ("nsga2", "pareto")} == {"range"}
+    assert [made[name, "ga"].objective for name in ("printed", "capsule")] == ["body_lengths", "fitness"]
+    stand_ins = {key for key, one in made.items() if one.model.stand_in}
+    assert stand_ins == {("printed", None), ("printed", "ga+bo"), ("printed", "pareto")}
+    assert Request.make(SMALL, printed, "ga", screen=True).model.stand_in
+    assert (made["printed", None].making, made["capsule", None].making) == (printed.making, capsule.making)
+    quantile = Request.make(SMALL, capsule, "ga", "p10")
+    assert (quantile.objective, quantile.model.neighbours_of, quantile.own) == ("p10-fitness", "fitness", None)
+    own = Request.make(SMALL, capsule, "ga", lambda figures: 1.0)
+    assert own.own is own.aim
+    assert own.identity([])["objective_code"] == own.aim.code != ""
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"method": "pareto"}, "bought.spring: a front against spring energy takes springs made to order"),
+        ({"method": "nsga2"}, "bought.spring: a front against spring energy takes springs made to order"),
+        ({"method": "gaa"}, "'gaa' is not one of the methods ga.bo, ga, bo, pareto, paper, nsga2"),
+        ({"preset": "fast"}, "'fast' is not one of the presets recommended, published"),
+        ({"objective": "reach"}, "'reach' is not one of the objectives"),
+        ({"batch": 0}, "batch = 0 must be at least 1"), ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
+        ({"model": robot_model("published"), "objective": "rise"}, "the objective rise needs com_rise_m"),
+        ({"model": robot_model("capsule"), "objective": "p10-jumps-per-joule"}, "needs electrical_energy_j"),
+    ],
+)  # fmt: skip
+def test_what_does_not_go_together_is_refused_before_anything_is_evaluated(asked, said):
+    space = Space.parse(choose=["bought.spring=,9271K589"], workshop=robot_model().workshop)
+    usual = {"space": space, "model": robot_model(), "objective": "range", "method": "ga", "evaluations": 40}
+    assert Request(**usual).method == "ga"
+    with pytest.raises(JumpcadError, match=said):
+        Request(**usual | asked)

@@ -1,11 +1,25 @@
 """What a search found."""
 
 from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import pytest
+from support.hills import SMALL, Hill
 
 import jumpcad
-from jumpcad.errors import CannotBuildError
+from jumpcad.design import load_design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.findings import Finding
+from jumpcad.search.models import robot_model
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.request import Request
+from jumpcad.search.result import Result
+from jumpcad.search.robust import ActiveBound, Candidate
+from jumpcad.search.trial import Trial
+from jumpcad.search.widening import Widened
+from jumpcad.workshop import load_workshop
 
 QUICK = {"model": "capsule", "settings": "screening", "workers": 0}
 
@@ -31,3 +45,124 @@ def test_where_nothing_jumps_the_trials_are_kept_and_the_design_is_asked_for_in_
         with pytest.raises(CannotBuildError, match=r"none of 12 designs jumps \(.*: widen the bounds"):
             ask()
     assert not (tmp_path / "w.toml").exists()
+
+
+def trial_of(score: float | None, place: int, **parameters: float) -> Trial:
+    """Return a trial of best-ga with other parameters; a score of None is a linkage that comes apart."""
+    design = load_design("best-ga").model_copy(update=parameters)
+    if score is None:
+        return Trial("ga", 2, place, design, Evaluation("loop"), None, "m", 0.25)
+    figures = {"fitness": score / 2.0, "mass_kg": 0.125}
+    margin = Finding("leg_flex", "info", 0.375, "mm", "bends", "stiffen it")
+    return Trial("ga", 2, place, design, Evaluation("jump", figures, (margin,)), score, "m", 0.25)
+
+
+def found(method: str = "ga", **changes: Any) -> Result:
+    """Return a made-up result of five designs, of which the second is the most robust, and the third cannot be made."""
+    weak = {"compression_ratio": 0.25}
+    trials = [trial_of(5.0, 0), trial_of(4.0, 1, **weak), trial_of(None, 2), trial_of(2.0, 3), trial_of(None, 4)]
+    fields: dict[str, Any] = {
+        "request": Request(SMALL, Hill(), "range", method, 40),
+        "trials": trials,
+        "best": trials[0],
+        "candidates": [
+            Candidate(trials[1], 3.5, 3.25, {"tips": 2, "loop": 1}, 16), Candidate(trials[0], 1.5, 2.5, {}, 8)
+        ],
+        "bounds": [ActiveBound("c_coef", "upper", 1.2, 1.25, -0.5)],
+        "notes": ["a worker was lost"],
+        "evaluations": 31,
+        "widened": [Widened("d_coef", "lower", 0.5, 0.4, None, "tips")],
+        "converged": True,
+    }  # fmt: skip
+    return Result(**{**fields, **changes})
+
+
+def test_the_winner_is_the_most_robust_and_without_candidates_the_best() -> None:
+    robust, plain = found(), found(candidates=[])
+    assert (robust.winner, plain.winner) == (robust.trials[1], plain.trials[0])
+    assert (robust.score, robust.fitness, robust.design.compression_ratio) == (4.0, 2.0, 0.25)
+    assert (plain.score, plain.fitness, plain.design) == (5.0, 2.5, load_design("best-ga"))
+    assert robust.workshop is None
+    assert repr(robust) == "<Result ga: range 4, 5 trials, 2 candidates>"
+
+
+def test_plain_data_has_every_figure_under_its_name() -> None:
+    result = found()
+    data = result.to_dict()
+    assert data.pop("best") == result.trials[0].to_dict()
+    assert data.pop("winner") == result.trials[1].to_dict()
+    first, second = data.pop("candidates")
+    assert first.pop("design") == result.trials[1].design.model_dump()
+    assert first == {
+        "score": 4.0, "robust_score": 3.25, "parameters_score": 3.5, "print_score": 3.25,
+        "refusals": {"tips": 2, "loop": 1}, "neighbours": 16,
+    }  # fmt: skip
+    assert (second["score"], second["robust_score"], second["neighbours"]) == (5.0, 1.5, 8)
+    assert data == {
+        "method": "ga", "objective": "range", "evaluations": 31, "searched": 5, "converged": True,
+        "refused": {"loop": 2}, "notes": ["a worker was lost"],
+        "active_bounds": [
+            {"name": "c_coef", "side": "upper", "value": 1.2, "beyond": 1.25, "worth": -0.5, "reason": ""}
+        ],
+    }  # fmt: skip
+    widened = found(request=Request(SMALL, Hill(), "range", "ga", 40, widen=True)).to_dict()["widened"]
+    assert widened == [
+        {"name": "d_coef", "side": "lower", "value": 0.5, "beyond": 0.4, "worth": None, "reason": "tips"}
+    ]
+    nothing = found(best=None, candidates=[], trials=[result.trials[2]]).to_dict()
+    assert (nothing["best"], nothing["winner"], nothing["searched"]) == (None, None, 1)
+
+
+def test_of_a_front_the_trials_come_with_their_hypervolume() -> None:
+    """Of two designs: the area below the first up to the second's energy, and below the second up to 1.5 J."""
+    result = found("nsga2", candidates=[])
+    weak, strong = result.trials[1], result.trials[0]
+    low, high = weak.design.spring_energy_j, strong.design.spring_energy_j
+    data = result.to_dict()
+    assert low < high < 1.5
+    assert data["front"] == [weak.to_dict(), strong.to_dict()]
+    assert data["hypervolume"] == pytest.approx(4.0 * (high - low) + 5.0 * (1.5 - high))
+    lines = dict(result._lines())
+    assert lines["hypervolume"] == f"{data['hypervolume']:.4g}"
+    assert lines[f"with {low:.4f} J in the springs"] == "4"
+    assert lines[f"with {high:.4f} J in the springs"] == "5"
+
+
+def test_a_notebook_shows_what_was_evaluated_won_and_rejected() -> None:
+    lines = list(found()._lines())
+    assert lines[:3] == [
+        ("designs evaluated", "31, 5 of them by the search"), ("range", "4 m"),
+        ("score that nine of ten neighbours reach", "3.25"),
+    ]  # fmt: skip
+    shown = [(name, f"{value:.5g}") for name, value in found().design.model_dump().items()]
+    assert lines[3:] == [*shown, ("rejected: loop", "2")]
+
+
+def test_the_winners_design_is_written_and_its_workshop_beside_it(tmp_path: Path) -> None:
+    """The files make the robot that won, and no other; a user's file is kept, unless it is to be replaced."""
+    plain = found()
+    assert plain.save(tmp_path / "plain.toml") == tmp_path / "plain.toml"
+    assert [file.name for file in tmp_path.iterdir()] == ["plain.toml"]
+    assert load_design(tmp_path / "plain.toml") == plain.design
+    thick = replace(plain.trials[1], workshop={"body.plate_mm": 2.75})
+    request = Request(SMALL, robot_model("printed"), "range", "ga", 40)
+    made = found(request=request, candidates=[replace(plain.candidates[0], trial=thick)])
+    assert made.candidates[0].to_dict()["workshop"] == {"body.plate_mm": 2.75}
+    assert made.workshop is not None
+    assert made.workshop.body.plate_mm == 2.75
+    made.save(tmp_path / "won.toml")
+    assert load_workshop(tmp_path / "won-workshop.toml").body.plate_mm == 2.75
+    assert load_design(tmp_path / "won.toml") == thick.design
+    assert "# Found by jumpcad optimize: ga on the printed robot, range 4.\n" in (tmp_path / "won.toml").read_text()
+    assert "in the file that ends in -workshop.toml" in (tmp_path / "won.toml").read_text()
+    assert "Its workshop" not in (tmp_path / "plain.toml").read_text()
+    assert "#   body.plate_mm = 2.75\n" in (tmp_path / "won-workshop.toml").read_text()
+    (tmp_path / "won-workshop.toml").write_text("# mine\n")
+    (tmp_path / "won.toml").unlink()
+    with pytest.raises(JumpcadError, match=r"won-workshop\.toml: exists already"):
+        made.save(tmp_path / "won.toml")
+    assert not (tmp_path / "won.toml").exists()
+    made.save(tmp_path / "won.toml", force=True)
+    assert load_workshop(tmp_path / "won-workshop.toml").body.plate_mm == 2.75
+    with pytest.raises(JumpcadError, match=r"must end in \.toml"):
+        plain.save(tmp_path / "won.txt")

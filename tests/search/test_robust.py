@@ -11,9 +11,22 @@ from jumpcad.design import PARAMETERS, load_design
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.robust import NOT_EXAMINED, _Examined, active_bounds, best_apart, plan_rounds, rank_candidates
+from jumpcad.search.robust import (
+    NOT_EXAMINED,
+    ActiveBound,
+    Candidate,
+    _examine,
+    _Examined,
+    _worth,
+    active_bounds,
+    best_apart,
+    pick_share,
+    plan_rounds,
+    rank_candidates,
+)
 from jumpcad.search.space import Space
 from jumpcad.search.tolerances import LENGTHS_ALONE, MADE, Making, as_made, varied_parameters
+from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation import simulate
@@ -286,3 +299,64 @@ def test_who_was_not_examined_is_no_candidate(evaluator):
     one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.8)], "bo", 0)
     assert rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=1) == []
     assert len(one.trials) == 2
+
+
+@pytest.mark.parametrize(
+    ("evaluations", "share"), [(1, 0), (23, 0), (24, 6), (27, 6), (250, 62), (799, 199), (800, 200), (10_000, 200)]
+)
+def test_a_quarter_of_the_evaluations_examines_neighbours(evaluations, share):
+    """At most 200, and none where it would be fewer than six."""
+    assert pick_share(evaluations) == share
+
+
+def test_what_lies_beyond_a_bound_is_worth_its_gain_or_tells_why_not():
+    bound = ActiveBound("c_coef", "upper", 1.2, 1.25, None)
+    one = Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), 2.0, "m", 0.0)
+    tips = replace(one, score=None, evaluation=Evaluation("tips"))
+    assert _worth(bound, one, replace(one, score=2.5)) == replace(bound, worth=0.5)
+    assert _worth(bound, one, replace(one, score=-1.0)) == replace(bound, worth=-3.0)
+    assert _worth(bound, one, tips) == replace(bound, reason="tips")
+    unknown = _worth(bound, one, None)
+    assert (unknown.worth, unknown.unknown, _worth(bound, one, tips).unknown) == (None, True, False)
+
+
+def test_a_candidate_tells_how_well_its_neighbours_jump():
+    """Of each kind the lowest of ten or fewer; its own score where none of a kind is known."""
+    trial = Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), 4.0, "m", 0.0, {}, {"body.plate_mm": 2.0})
+    one = _Examined(3, trial)
+    assert (one.examined, one.robust_score) == (0, 4.0)
+    one.scores = {"parameters": [3.0, 2.5], "print": []}
+    assert (one.examined, one.robust_score, one.candidate().print_score) == (2, 2.5, 4.0)
+    one.scores["print"] = [1.5, 3.5]
+    one.rejections.update(["tips", "loop", "tips"])
+    found = one.candidate()
+    assert found == Candidate(trial, 2.5, 1.5, {"loop": 1, "tips": 2}, 4)
+    assert repr(found) == "<Candidate: score 4, neighbours 1.5, 3 of 4 rejected>"
+    assert found.to_dict()["workshop"] == {"body.plate_mm": 2.0}
+
+
+def test_each_neighbour_s_score_goes_to_its_candidate_and_kind(evaluator):
+    """The hill rejects above a compression ratio of 0.7: of the neighbours that vary by 1 %, not those of lengths."""
+    one = evaluator()
+    edge, inside = (SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": r}) for r in (0.6999, 0.4))
+    field = [_Examined(n, trial) for n, trial in enumerate(one.evaluate([edge, inside], "bo", 0))]
+    _examine(one, field, 8, 1, 0, LENGTHS_ALONE)
+    assert [[len(scores) for scores in each.scores.values()] for each in field] == [[4, 4], [4, 4]]
+    assert field[0].rejections.keys() == {"loop"}
+    assert field[0].scores["parameters"].count(0.0) == field[0].rejections["loop"] > 0
+    assert min(field[0].scores["print"] + field[1].scores["parameters"] + field[1].scores["print"]) > 0.0
+    for each in field:
+        known = {kind: [] for kind in each.scores}
+        for kind, variant in _Examined(each.index, each.trial).neighbours(8, 0, LENGTHS_ALONE):
+            known[kind].append(Hill()(variant.design).metrics.get("fitness", 0.0))
+        assert each.scores == known
+
+
+def test_the_best_are_apart_by_a_fiftieth_of_some_range_the_best_first():
+    designs = [SMALL.to_design([0.5, 0.5, place]) for place in (0.5, 0.519, 0.521, 0.3)]
+    trials = [
+        Trial("bo", 0, n, one, Evaluation("jump"), score, "m", 0.0)
+        for n, (one, score) in enumerate(zip(designs, (4.0, 3.0, 2.0, 5.0), strict=True))
+    ]
+    assert [trial.place for trial in best_apart(SMALL, trials, 9)] == [3, 0, 2]
+    assert [trial.place for trial in best_apart(SMALL, trials, 2)] == [3, 0]

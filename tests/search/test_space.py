@@ -98,6 +98,29 @@ def test_contains_knows_ranges_fixed_values_and_choices():
         assert not space.contains(design.model_copy(update=change))
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "contained"),
+    [
+        ("d_coef", 0.9 + 1e-11, True),
+        ("d_coef", 0.9 + 1e-8, False),
+        ("d_coef", 0.5 - 1e-11, True),
+        ("d_coef", 0.5 - 1e-8, False),
+        ("stiffness_nmm_per_deg", 20.0 + 1e-9, True),
+        ("stiffness_nmm_per_deg", 20.0 - 1e-6, False),
+        ("stiffness_nmm_per_deg", 15.0, False),
+        ("ground_link_angle_deg", 30.0 + 1e-9, True),
+        ("ground_link_angle_deg", 30.0 + 1e-6, False),
+        ("ground_link_angle_deg", 30.0 - 1e-6, False),
+    ],
+)
+def test_a_space_ends_at_its_bounds_choices_and_fixed_values(name, value, contained):
+    """To a thousand-millionth of the range, or of a value that is fixed: rounding, not another design."""
+    space = Space.parse(fix=["ground_link_angle_deg=30"], choose=["stiffness_nmm_per_deg=10,20"])
+    inside = space.to_design(np.full(space.dimension, 0.5))
+    assert space.contains(inside)
+    assert space.contains(inside.model_copy(update={name: value})) == contained
+
+
 def test_a_variant_of_other_values_of_the_workshop_is_not_in_the_space():
     """As many as there are, of other keys or in another order, are not those that are searched."""
     space = Space.parse(bound=["body.plate_mm=1.2:2.4", "process.infill=0.1:0.5"], workshop=load_workshop())
@@ -146,6 +169,7 @@ def test_spread_points_fill_the_cube_evenly():
         ({"choose": ["c_coef=1,,2"]}, "'' is not a number"),
         ({"fix": ["c_coef=1"], "bound": ["c_coef=0.9:1.1"]}, "given twice"),
         ({"only": ["c_coef"]}, "around which"),
+        ({"within_percent": 10.0}, "around which"),
         ({"fix": [f"{name}={limits.lower}" for name, limits in SEARCH_BOUNDS.items()]}, "nothing is left to search"),
     ],
 )
@@ -221,3 +245,24 @@ def test_bounds_are_given_from_the_lower_to_the_upper():
             Space.make(bounds={"c_coef": ends})
         with pytest.raises(JumpcadError, match="is an empty range"):
             Space.parse(bound=[text])
+
+
+def test_a_part_of_the_space_keeps_what_is_fixed_and_all_choices():
+    """Choices and names are not narrowed: the nearest might be none. What is not named has the centre's value."""
+    space = Space.parse(
+        fix=[*FIXED[:-1], "body.stop_deg=5"], bound=["body.plate_mm=1.6:2.4"],
+        choose=["stiffness_nmm_per_deg=10,20,30", "bought.battery=lipo-2s-180,lipo-1s-300"], workshop=load_workshop(),
+    )  # fmt: skip
+    centre = space.to_variant(np.full(space.dimension, 0.5)).changed({"bought.battery": "lipo-1s-300"})
+    near = space.near(centre, (), 10.0)
+    parts = dict(zip([one.name for one in near.parameters], near.parameters, strict=True))
+    wholes = dict(zip([one.name for one in space.parameters], space.parameters, strict=True))
+    assert parts["stiffness_nmm_per_deg"] == wholes["stiffness_nmm_per_deg"]
+    assert parts["bought.battery"] == wholes["bought.battery"]
+    assert parts["body.stop_deg"] == wholes["body.stop_deg"]
+    assert [parts["body.plate_mm"].lower, parts["body.plate_mm"].upper] == pytest.approx([1.92, 2.08])
+    held = space.near(centre, ("body.plate_mm",), None)
+    assert [one.name for one in held.free] == ["body.plate_mm"]
+    assert held.to_variant([0.5]) == centre
+    assert held.to_variant([0.5]).workshop["bought.battery"] == "lipo-1s-300"
+    assert space.near(centre, ("c_coef",), None) is None

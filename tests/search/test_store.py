@@ -18,7 +18,7 @@ from support.studies import IDENTITY, trials
 from jumpcad.errors import JumpcadError
 from jumpcad.search.rows import APPLICATION_ID, COLUMNS, FORMATS, own_tables, to_row
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.store import MOST_NOTES, StudyStore, difference
 
 
 def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
@@ -365,3 +365,40 @@ def test_progress_counts_phases_and_has_the_best_of_what_the_search_proposed(tmp
         assert store.progress() == ({"robust": 3}, None)
         store.append(found)
         assert store.progress() == ({"ga": 6, "robust": 3}, 5.0)
+
+
+@pytest.mark.parametrize(
+    ("there", "here", "said"),
+    [
+        ({"a": 1, "b": {"c": 2}}, {"a": 1, "b": {"c": 2}}, ""), ({"a": 1}, {"a": 2}, "a: 1 there, 2 here"),
+        ({"a": {"b": 1, "c": 2}}, {"a": {"b": 1, "c": 3}}, "a.c: 2 there, 3 here"),
+        ({"a": 1, "b": 2}, {"a": 1}, "b: 2 there, null here"), ({}, {"b": [1]}, "b: null there, [1] here"),
+        ({"x": 1, "y": 2}, {"x": 3, "y": 4}, "x: 1 there, 3 here"),
+        ({"a": {"b": 1}}, {"a": 1}, 'a: {"b": 1} there, 1 here'),
+    ],
+)  # fmt: skip
+def test_the_first_difference_of_two_studies_is_named(there, here, said):
+    assert difference(there, here) == said
+
+
+def test_of_very_many_notes_the_newest_are_read_in_their_order(tmp_path):
+    with StudyStore.write(None, IDENTITY) as store:
+        for number in range(MOST_NOTES + 3):
+            store.note(f"note {number}")
+        notes = store.notes()
+    assert notes[0] == "3 earlier notes"
+    assert notes[1:] == [f"note {number}" for number in range(3, MOST_NOTES + 3)]
+    with StudyStore.write(None, IDENTITY) as store:
+        store.note("first")
+        store.note("x" * 5000)
+        assert store.notes() == ["first", "x" * 1000]
+
+
+def test_what_is_remembered_is_recalled_and_replaced():
+    with StudyStore.write(None, IDENTITY) as store:
+        assert store.recall("screen") is None
+        assert store.recall("stages", [1]) == [1]
+        for value in ({"rows": 3}, {"rows": 4, "plain": [0.5]}):
+            store.remember("screen", value)
+            assert store.recall("screen") == value
+        assert store.identity == IDENTITY

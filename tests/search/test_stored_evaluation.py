@@ -16,7 +16,7 @@ from jumpcad.findings import Finding, at_most
 from jumpcad.search import rows as rows_module
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.store import StudyStore
-from jumpcad.search.stored_evaluation import stored_evaluation
+from jumpcad.search.stored_evaluation import StoredEvaluation, stored_evaluation
 from jumpcad.search.trial import Trial
 
 OLD = {"name": "loop", "severity": "info", "margin": 1.5, "unit": "mm", "message": "found", "remedy": "change"}
@@ -121,3 +121,58 @@ def test_damaged_names_are_said(tmp_path: Path, statement: str, message: str) ->
         file.execute(statement)
     with StudyStore.read(tmp_path / "s.db") as store, pytest.raises(JumpcadError, match=re.escape(message)):
         store.trials()
+
+
+@pytest.mark.parametrize(
+    ("figure", "told"),
+    [
+        ("1e12", ""),
+        ("-1e12", ""),
+        ("1.1e12", "mass_kg = 1.1e+12 is not"),
+        ("NaN", "mass_kg = nan"),
+        ("Infinity", "inf"),
+    ],
+)
+def test_figures_are_numbers_below_a_million_million(figure: str, told: str) -> None:
+    row = record() | {"metrics": f'{{"mass_kg": {figure}}}'.encode()}
+    if told:
+        with pytest.raises(JumpcadError, match=re.escape(told)):
+            stored_evaluation(row, {})
+    else:
+        assert stored_evaluation(row, {}).metrics == {"mass_kg": float(figure)}
+
+
+@pytest.mark.parametrize("place", ["verdict", "figure", "finding"])
+def test_names_are_words(place: str) -> None:
+    """A table of a study may be opened by a program that takes =1+1 for a formula."""
+    row = record(OLD | ({"name": "=1+1"} if place == "finding" else {}))
+    row |= {"verdict": b"=1+1"} if place == "verdict" else {}
+    row |= {"metrics": b'{"=1+1": 2.0}'} if place == "figure" else {}
+    with pytest.raises(JumpcadError, match=re.escape("'=1+1' is not the name of a verdict, a finding or a figure")):
+        stored_evaluation(row, {})
+
+
+def test_a_stored_evaluation_is_what_was_written_also_where_it_is_kept_packed() -> None:
+    """Severity, margin and unit of each finding, also where names repeat; what follows from them; its plain form."""
+    findings = tuple(
+        Finding(name, severity, margin, unit, "", "")
+        for name, severity, margin, unit in (
+            ("axle", "info", 2.5, "mm"), ("axle", "error", -1.25, "mm"), ("room", "warning", -0.5, "°"),
+        )
+    )  # fmt: skip
+    whole = Evaluation("jump", {"b": 2.0, "evaluations": 11.0, "a": 1.5}, findings, "why")
+    again = StoredEvaluation(whole)
+    assert (again, again.findings, dict(again.metrics)) == (whole, findings, dict(whole.metrics))
+    assert list(again.metrics) == ["b", "evaluations", "a"]
+    assert (again.verdict, again.detail, again.cost) == ("jump", "why", 11)
+    assert (again.feasible, again.reasons, again.margins, again.missed) == (
+        False, ("axle",), {"axle": -1.25, "room": -0.5}, {"axle"},
+    )  # fmt: skip
+    assert StoredEvaluation(Evaluation("jump")).feasible
+    assert type(again.bare) is Evaluation
+    assert again.bare == whole.bare
+    for other in (
+        replace(whole, detail=""), replace(whole, verdict="tips"), replace(whole, metrics={"b": 2.0}),
+        replace(whole, findings=findings[:2]),
+    ):  # fmt: skip
+        assert again != other

@@ -17,6 +17,8 @@ from support.places import TESTS
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search import study
+from jumpcad.search.methods import STEPS, Method, Task
+from jumpcad.search.models import robot_model
 from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.polling import gains
@@ -399,3 +401,26 @@ def test_as_many_designs_with_neighbours_are_tried_together_as_fit(monkeypatch, 
         part, trials = trials[:count], trials[count:]
         left, waiting = left - sum(11 if trial.score else 2 for trial in part), waiting - count
     assert not trials
+
+
+def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
+    """Its share of the evaluations, first designs where it learns; only the last one ends early, if it can."""
+    asked = []
+    monkeypatch.setattr(Method, "run", lambda self, evaluator, task: asked.append((self.name, task)) or False)
+    given = {"seed": 7, "preset": "published", "batch": 3, "until_percent": 2.0}
+    for request in (
+        Request(SMALL, Hill(), method="ga+bo", evaluations=90, **given),
+        Request(SMALL, Hill(), method="bo", evaluations=90, widen=True, **given),
+        Request(SMALL, robot_model(), "body_lengths", "ga", 20, seed=7, screen=True),
+    ):
+        with local_pool(0) as pool:
+            run_study(request, None, pool)
+    common = {"seed": 7, "batch": 3, "preset": "published"}
+    assert asked[:2] == [("ga", Task(22, **common)), ("bo", Task(46, **common, least_gain=0.02))]
+    # 68 are searched, a half of them in three equal stages that widen
+    assert [name for name, _ in asked[2:6]] == ["bo"] * 4
+    assert [task.evaluations for _, task in asked[2:6]] == [35, 11, 11, 11]
+    assert [task.initial for _, task in asked[2:6]] == [9, 0, 0, 0]
+    assert [task.first_step for _, task in asked[2:6]] == [0, STEPS, 2 * STEPS, 3 * STEPS]
+    assert [task.least_gain for _, task in asked[2:6]] == [0.0, 0.0, 0.0, 0.02]
+    assert asked[6:] == [("ga", Task(20, 7, screen=True))]

@@ -11,21 +11,24 @@ import numpy as np
 import pytest
 from support.bumps import REST, Bump, studied
 from support.shops import SHOP, Shop
+from support.studies import IDENTITY
 
-from jumpcad.search import study_lessons
+from jumpcad.design import load_design
+from jumpcad.search import study_lessons, study_page
 from jumpcad.search.explore import Importance
-from jumpcad.search.fronts import front
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.fronts import front, hypervolume
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
-from jumpcad.search.replay import known
+from jumpcad.search.replay import Known, known
 from jumpcad.search.request import Request
-from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
+from jumpcad.search.robust import NOT_EXAMINED, ActiveBound, Candidate
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
 from jumpcad.search.study_lessons import active
 from jumpcad.search.study_page import write_study_page
 from jumpcad.search.table import write_table
+from jumpcad.search.trial import Trial
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
 
@@ -273,3 +276,151 @@ def test_an_empty_study_and_strange_texts_have_a_page(tmp_path):
     assert parsed(page).findtext("body/h1") == "a <b> & c"
     assert "a <script>alert(1)</script> &" in text(parsed(page).find("body"))
     assert page.count("<script>") == 1
+
+
+DESIGN = load_design("best-ga")
+
+
+def shown_trial(score, place, phase="ga", **changes):
+    """Return a trial of best-ga with other parameters that took a quarter of a second."""
+    design = DESIGN.model_copy(update=changes)
+    verdict = Evaluation("tips") if score is None else Evaluation("jump", {"fitness": score})
+    return Trial(phase, 0, place, design, verdict, score, "m", 0.25)
+
+
+TRIALS = [
+    shown_trial(1.5, 0, compression_ratio=0.3), shown_trial(3.25, 1), shown_trial(None, 2, rest_angle_deg=66.0),
+    shown_trial(2.0, 3, compression_ratio=0.4),
+]  # fmt: skip
+PICK = [shown_trial(2.5, 0, "robust", c_coef=1.01)]
+
+
+def made_up(method="ga", candidates=(), **changes):
+    """Return an open study of four trials and one neighbour, and what is known of it."""
+    identity = IDENTITY | {"method": method, "space": SPACE.describe(), "seed": 11, "objective": "range"} | changes
+    store = StudyStore.write(None, identity)
+    store.append([*TRIALS, *PICK])
+    store.remember("stages", [{"method": "ga", "evaluations": 3}, {"method": "bo", "evaluations": 4}])
+    winner = candidates[0].trial if candidates else TRIALS[1]
+    numbers = {trial.position: n for n, trial in enumerate([*TRIALS, *PICK], start=1)}
+    return store, Known(SPACE, find_objective("range"), list(TRIALS), winner, list(candidates), [], numbers)
+
+
+def words(lines):
+    return " ".join(re.sub(r"<[^>]*>", " ", " ".join(lines)).split())
+
+
+def test_the_main_data_of_a_study_stand_on_its_cards():
+    """Designs of the search, of those that were planned, how many jump; those around the best; time of all."""
+    store, found = made_up()
+    with store:
+        lines = list(study_page._verdict(store, found))
+        none = words(study_page._verdict(store, replace(found, winner=None)))
+        candidate = Candidate(TRIALS[3], 1.0, 2.0, {}, 4)
+        robust = words(study_page._verdict(store, replace(found, winner=TRIALS[3], candidates=[candidate])))
+    cards = dict(re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", "".join(lines)))
+    assert cards == {
+        "method": "ga", "robot": "hill", "designs of the search": "4 of 7", "of them jump": "3",
+        "designs around the best": "1", "seed": "11", "time of all evaluations": "1 s",
+    }  # fmt: skip
+    assert words(lines).startswith("The best of 4 designs: range of the jump 3.25 m.")
+    assert robust.startswith("The most robust of the best designs: range of the jump 2 m.")
+    assert none.startswith("None of 4 designs jumps.")
+
+
+@pytest.mark.parametrize(
+    ("record", "said"),
+    [
+        ({"fixed": 2.5}, "fixed at 2.5"), ({"fixed": "lipo"}, "fixed at lipo"),
+        ({"choices": [1.0, 2.5]}, "one of 1, 2.5"),
+        ({"choices": ["a", "b"]}, "one of a, b"), ({"lower": 0.5, "upper": 2.0}, "0.5 … 2"),
+    ],
+)  # fmt: skip
+def test_what_was_searched_is_told_by_its_values(record, said):
+    assert study_page._range(record) == said
+
+
+def test_each_parameter_stands_with_what_was_searched_and_won():
+    store, found = made_up()
+    with store:
+        lines = list(study_page._asked(store, found))
+        front = words(study_page._asked(made_up("nsga2")[0], found))
+    said = words(lines)
+    assert "The highest range (range of the jump, m), searched by ga, 3 designs, then bo, 4 designs." in said
+    assert "against the energy of the springs" in front
+    assert front.count("highest") == 2
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", line) for line in lines]
+    rows = {words([row[0]]).replace("_ ", "_"): row[2:] for row in rows if row}
+    assert list(rows) == list(DESIGN.model_dump())
+    assert rows["compression_ratio"] == ["0.1 … 0.8", f"{DESIGN.compression_ratio:.4g}"]
+    assert rows["carrying_link_mm"] == ["fixed at 100 mm", f"{DESIGN.carrying_link_mm:.4g} mm"]
+
+
+def test_a_front_is_told_from_end_to_end_and_where_half_of_it_is_reached():
+    """Scores 1, 1.9, 2.1 and 4: the third is the first with half of the highest."""
+    scored = zip((1.0, 1.9, 2.1, 4.0), (0.2, 0.3, 0.4, 0.5), strict=True)
+    shown = [shown_trial(score, n, compression_ratio=ratio) for n, (score, ratio) in enumerate(scored)]
+    low, half, high = (f"{shown[n].design.spring_energy_j:.3g} J" for n in (0, 2, 3))
+    assert study_page._reach(shown, find_objective("range")) == (
+        f"Here it goes from 1 m with {low} to 4 m with {high}; half of the highest score takes {half}."
+    )
+    assert [study_page._first(shown, front) for front in (True, False)] == [4, 1]
+
+
+def test_designs_that_are_shown_are_the_front_the_candidates_or_the_best():
+    """Of a long front a hundred, evenly chosen, with both ends."""
+    _, found = made_up()
+    assert study_page._shown(found, False) == [TRIALS[1], TRIALS[3], TRIALS[0]]
+    assert study_page._shown(found, True) == [TRIALS[0], TRIALS[3], TRIALS[1]]
+    candidate = Candidate(TRIALS[3], 1.0, 2.0, {}, 4)
+    assert study_page._shown(replace(found, candidates=[candidate]), False) == [TRIALS[3]]
+    many = [shown_trial(1.0 + n, n, compression_ratio=0.2 + 0.001 * n) for n in range(199)]
+    places = [trial.place for trial in study_page._shown(replace(found, trials=many), True)]
+    assert places == list(range(0, 199, 2))
+
+
+def test_candidates_stand_in_a_row_with_their_neighbours():
+    """Number, trial, score; what nine of ten reach of both kinds, how many are rejected; energy; free parameters."""
+    candidates = [Candidate(TRIALS[3], 1.25, 1.75, {"tips": 2, "loop": 1}, 16), Candidate(TRIALS[1], 0.5, 0.25, {}, 8)]
+    store, found = made_up(candidates=candidates)
+    shown = [TRIALS[3], TRIALS[1]]
+    lines = list(study_page._designs(found, shown, [4, 2]))
+    rows = [[words([cell]) for cell in re.findall(r"<td[^>]*>(.*?)</td>", line)] for line in lines]
+    rows = [row for row in rows if row]
+    store.close()
+    energies = [f"{trial.design.spring_energy_j:.4f}" for trial in shown]
+    angle = f"{DESIGN.rest_angle_deg:.4g}"
+    assert rows == [
+        ["1", "4", "2", "1.25", "1.75", "3 of 16", energies[0], "0.4", angle],
+        ["2", "2", "3.25", "0.5", "0.25", "0 of 8", energies[1], f"{DESIGN.compression_ratio:.4g}", angle],
+    ]  # fmt: skip
+    heads = [words([cell]) for line in lines for cell in re.findall(r"<th[^>]*>(.*?)</th>", line)]
+    assert [head.replace("_ ", "_") for head in heads] == [
+        "design", "trial", "score (m)", "±1 %", "lengths", "rejected", "springs (J)", "compression_ratio",
+        "rest_angle_deg (°)",
+    ]  # fmt: skip
+    plain = "".join(study_page._designs(replace(found, candidates=[]), shown, [4, 2]))
+    assert "rejected" not in plain
+    assert "Most robust first" not in plain
+
+
+def test_the_page_tells_what_happened_and_what_evaluated():
+    store, _ = made_up(versions={"numpy": "2.0.1", "code": "0123456789abcdef"})
+    with store:
+        store.note("a worker was lost")
+        said = words(study_page._notes(store))
+    assert said == "Notes of the run a worker was lost Evaluated with numpy 2.0.1, code 0123456789ab."
+
+
+def test_the_area_of_a_long_front_is_that_of_all_its_designs():
+    """A hundred of them are shown."""
+    store, found = made_up("nsga2")
+    many = [shown_trial(1.0 + n, n, compression_ratio=0.1 + 0.005 * n) for n in range(150)]
+    numbers = {trial.position: n for n, trial in enumerate(many, start=1)}
+    whole = replace(found, trials=many, numbers=numbers)
+    with store:
+        said = words(study_page._best(store, whole, study_page._shown(whole, True)))
+    assert f"{hypervolume(many):.4g}" != f"{hypervolume(study_page._shown(whole, True)):.4g}"
+    assert f"The area below its line, up to 1.5 J, is {hypervolume(many):.4g} m·J (hypervolume)" in said
+    assert "100 of its 150 designs are shown, evenly chosen along it." in said
+    assert "The page opens on design 100 (trial 150), the one with the highest score" in said

@@ -65,3 +65,32 @@ def test_of_several_findings_of_a_name_the_worst_margin_counts(tmp_path):
 def test_a_table_of_nothing_has_a_head_alone(tmp_path):
     write_table([], tmp_path / "t.csv")
     assert (tmp_path / "t.csv").read_text() == "phase\n"
+
+
+def test_a_row_has_every_column_of_any_trial_each_with_its_own_value(tmp_path):
+    """A figure, margin or value of the workshop that a trial does not have is empty."""
+    design = load_design("kenan-2.0")
+    limit = Finding("bed", "warning", -0.25, "mm", "", "")
+    jumps = Evaluation("jump", {"fitness": 2.0, "mass_kg": 0.125}, (limit,), "a, b")
+    trials = [
+        Trial("ga", 3, 7, design, jumps, 1.5, "first", 0.75, {}, {"body.plate_mm": 2.0, "bought.spring": "x"}),
+        Trial("bo", 4, 8, design, Evaluation("tips", {"size_m": 0.5}), None, "second", 0.5),
+    ]
+    write_table(trials, tmp_path / "t.csv")
+    with (tmp_path / "t.csv").open(newline="") as stream:
+        one, other = csv.DictReader(stream)
+    assert {name: float(one[name]) for name in design.model_dump()} == design.model_dump()
+    shared = {"body.plate_mm", "bought.spring", "fitness", "mass_kg", "size_m", "margin_bed", *design.model_dump()}
+    told = [{name: text for name, text in row.items() if name not in shared} for row in (one, other)]
+    assert told == [
+        {"phase": "ga", "step": "3", "place": "7", "verdict": "jump", "feasible": "True", "reasons": "", "score": "1.5",
+         "detail": "a, b", "duration_s": "0.75", "model": "first"},
+        {"phase": "bo", "step": "4", "place": "8", "verdict": "tips", "feasible": "False", "reasons": "tips",
+         "score": "", "detail": "", "duration_s": "0.5", "model": "second"},
+    ]  # fmt: skip
+    assert [one[name] for name in ("body.plate_mm", "bought.spring", "fitness", "mass_kg", "size_m", "margin_bed")] == [
+        "2.0", "x", "2.0", "0.125", "", "-0.25",
+    ]  # fmt: skip
+    assert [other[name] for name in ("body.plate_mm", "bought.spring", "fitness", "size_m", "margin_bed")] == [
+        "", "", "", "0.5", "",
+    ]  # fmt: skip

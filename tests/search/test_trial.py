@@ -52,3 +52,27 @@ def test_trials_are_numbered_from_one_in_the_studys_order(trial: Trial) -> None:
     """As the rows of an exported table."""
     trials = [replace(trial, phase=phase, step=step) for phase, step in (("ga", 0), ("ga", 1), ("robust", 0))]
     assert [trial_numbers(trials)[one.position] for one in trials] == [1, 2, 3]
+
+
+def test_a_record_has_every_figure_under_its_name_and_the_workshop_where_one_varied(trial: Trial) -> None:
+    limits = (Finding("loop", "info", 0.25, "", "", ""), Finding("leg_flex", "warning", -0.5, "mm", "", ""))
+    told = Evaluation("jump", {"fitness": 3.0, "mass_kg": 0.125}, limits, "a detail")
+    record = replace(trial, phase="bo", evaluation=told, score=4.0).to_dict()
+    assert record.pop("design") == trial.design.model_dump()
+    assert record == {
+        "phase": "bo", "score": 4.0, "fitness": 3.0, "verdict": "jump", "detail": "a detail",
+        "metrics": {"fitness": 3.0, "mass_kg": 0.125},
+        "margins": {"loop": {"margin": 0.25, "unit": ""}, "leg_flex": {"margin": -0.5, "unit": "mm"}},
+    }  # fmt: skip
+    varied = replace(trial, workshop={"body.plate_mm": 2.0})
+    assert varied.to_dict()["workshop"] == {"body.plate_mm": 2.0}
+    assert varied.key == (*trial.design.to_vector(), 2.0)
+    assert varied.variant.workshop == varied.workshop
+
+
+def test_a_trial_costs_as_many_robots_as_were_built_for_it(trial: Trial) -> None:
+    assert trial.cost == 1
+    eleven = Evaluation("jump", {"evaluations": 11.0})
+    assert replace(trial, evaluation=eleven).cost == 11
+    lost = replace(trial, phase="bo", step=3, place=2, evaluation=Evaluation("loop"), score=None)
+    assert (repr(trial), repr(lost)) == ("<Trial ga 0.0: score 4>", "<Trial bo 3.2: loop>")

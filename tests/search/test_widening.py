@@ -8,12 +8,13 @@ from support.hills import FIXED, TOP, Hill
 from support.shops import SHOP, Shop
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request, plan_stages
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
-from jumpcad.search.widening import SHARE, TOGETHER, widen
+from jumpcad.search.widening import SHARE, TOGETHER, Widened, _allowed, _judged, _moved, _wider, widen
 
 BELOW = Space.parse(fix=FIXED, bound=["rest_angle_deg=30:50", "stiffness_nmm_per_deg=5:18"])
 """The hill's top (55° and 20 N·mm/°) lies outside."""
@@ -155,3 +156,50 @@ def test_what_is_tried_beyond_bounds_counts_among_the_evaluations():
     assert begun
     assert set(begun) <= {sum(planned[:count]) for count in range(1, len(planned))}
     assert len(trials) == sum(planned)
+
+
+def test_a_wider_value_is_tried_with_the_others_of_the_best_workshop(evaluator):
+    """What is not of the workshop is always allowed, and all where the model has none."""
+    asked = []
+
+    class Picky(Shop):
+        def varied(self, values):
+            asked.append(dict(values))
+            if values["body.plate_mm"] > 2.5:
+                raise JumpcadError("too thick")
+            return self
+
+    one = evaluator(model=Shop(), space=SHOP)
+    (best,) = one.evaluate([SHOP.to_variant([0.5, 0.5, 0.5, 0.0, 1.0])], "bo", 0)
+    one.model = Picky()
+    allowed = _allowed(one, best)
+    assert [allowed("c_coef", 9.0), allowed("body.plate_mm", 2.45), allowed("body.plate_mm", 2.55)] == [
+        True,
+        True,
+        False,
+    ]
+    assert asked == [{**best.workshop, "body.plate_mm": value} for value in (2.45, 2.55)]
+    assert set(best.workshop) == {"body.plate_mm", "bought.battery"}
+    assert _allowed(evaluator(space=SHOP), best)("body.plate_mm", 99.0)
+
+
+def test_bounds_are_moved_by_a_quarter_of_the_range_to_the_side_on_which_the_best_lies(evaluator):
+    """Together they make one wider space; the others keep theirs."""
+    one = evaluator(space=BELOW)
+    (best,) = one.evaluate([BELOW.to_design([0.5, 0.0, 1.0])], "bo", 0)  # of compression, rest angle and stiffness
+    moved = _moved(BELOW, best, lambda name, value: name != "stiffness_nmm_per_deg" or value > 0)
+    assert moved == [
+        Widened("rest_angle_deg", "lower", 30.0, 25.0), Widened("stiffness_nmm_per_deg", "upper", 18.0, 21.25)
+    ]  # fmt: skip
+    assert _moved(BELOW, best, lambda name, value: name == "rest_angle_deg") == moved[:1]
+    wide = {one.name: (one.lower, one.upper) for one in _wider(BELOW, moved).free}
+    assert wide == {
+        "compression_ratio": (0.1, 0.8), "rest_angle_deg": (25.0, 50.0), "stiffness_nmm_per_deg": (5.0, 21.25)
+    }  # fmt: skip
+    tips = replace(best, score=None, evaluation=Evaluation("tips"))
+    assert _judged(moved[0], best, replace(best, score=best.score + 0.5)) == replace(moved[0], worth=0.5)
+    assert _judged(moved[0], best, tips) == replace(moved[0], reason="tips")
+    assert [_judged(moved[0], best, trial).unknown for trial in (None, tips)] == [True, False]
+    assert moved[0].to_dict() == {
+        "name": "rest_angle_deg", "side": "lower", "value": 30.0, "beyond": 25.0, "worth": None, "reason": ""
+    }  # fmt: skip

@@ -1,17 +1,22 @@
 """What runs in a worker process."""
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
+import time
 from types import SimpleNamespace
 
+import cloudpickle
 import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search import worker
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
+from jumpcad.search.variant import Variant
 
 
 class Elsewhere(Hill):
@@ -59,3 +64,27 @@ def test_what_a_worker_prints_goes_nowhere(monkeypatch):
     worker.start_worker(7)
     assert made == [(os.devnull, 1)]
     assert [(given["args"], given["daemon"]) for given in ended] == [((7,), True)]
+
+
+class Told(Hill):
+    """A hill that fails where it is steep, and takes 20 ms; of a workshop it says the plates."""
+
+    def __call__(self, design, workshop=None):
+        time.sleep(0.02)
+        if design.rest_angle_deg > 60.0:
+            raise ValueError("too steep" if workshop is None else "")
+        return super().__call__(design) if workshop is None else Evaluation("jump", dict(workshop))
+
+
+def test_a_task_has_a_result_and_a_duration_for_each_of_its_designs():
+    """In their order; an unexpected error is one line, and does not end the task."""
+    flat, steep = (SMALL.to_design([0.5, place, 0.5]) for place in (0.5, 0.9))
+    asked = [flat, steep, Variant(flat, {"body.plate_mm": 2.0}), Variant(steep, {"body.plate_mm": 3.0})]
+    model = Told()
+    sent = cloudpickle.dumps((model, model.versions()))
+    found = pickle.loads(worker.evaluate_task(sent, asked, 0.0))
+    assert [result for result, _ in found] == [
+        Hill()(flat), worker.Failure("ValueError: too steep"), Evaluation("jump", {"body.plate_mm": 2.0}),
+        worker.Failure("ValueError"),
+    ]  # fmt: skip
+    assert all(0.02 <= duration_s < 1.0 for _, duration_s in found)

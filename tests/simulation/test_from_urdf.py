@@ -6,6 +6,7 @@ import os
 import random
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +19,9 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.model import RollerOff
 from jumpcad.robot import Robot
-from jumpcad.simulation.from_urdf import _require_inertia, robot_from_urdf
+from jumpcad.simulation.from_urdf import _require_inertia, _require_mechanism, robot_from_urdf
 
 KENAN = capsule_robot(load_design("kenan-2.0"))
 URDF, LOOP = write_urdf(KENAN), write_loop(KENAN)
@@ -244,3 +246,48 @@ def test_what_a_robot_has_beside_its_links_is_read_back_each_without_the_others(
         if getattr(robot, key) is not None:
             assert getattr(found, key) == getattr(robot, key)
     assert found.spring == robot.spring
+
+
+@pytest.mark.parametrize(("share", "refused"), [(1.0, False), (1.001, True), (0.5, False)])
+def test_a_jump_begins_where_the_springs_are_loaded_or_later(share: float, refused: bool) -> None:
+    off = RollerOff(-share * KENAN.spring.wind_rad, 1.0, 0.9)
+    robot = replace(KENAN, roller_off=off)
+    if refused:
+        with pytest.raises(JumpcadError, match="begins before the springs"):
+            _require_mechanism(robot)
+    else:
+        _require_mechanism(robot)
+
+
+@pytest.mark.parametrize("joint", ["leg", "front", "ankle"])
+def test_joints_are_those_of_the_design_to_a_thousandth_of_a_millimetre(joint: str) -> None:
+    """And to a millionth of a radian, between the same bodies; so are the ends of the loop."""
+
+    def changed(**values: Any) -> Robot:
+        joints = tuple(replace(one, **values) if one.name == joint else one for one in KENAN.joints)
+        return replace(KENAN, joints=joints)
+
+    one = KENAN.joint(joint)
+    for off, refused in ((0.9e-6, False), (1.1e-6, True), (-1.1e-6, True)):
+        for values in (
+            {"origin_m": one.origin_m + np.array([off, 0.0, 0.0])},
+            {"origin_m": one.origin_m + np.array([0.0, 0.0, off])},
+            {"rest_angle_rad": one.rest_angle_rad + off},
+        ):  # fmt: skip
+            if refused:
+                with pytest.raises(JumpcadError, match=f"joint {joint}: its origin is not that of the design"):
+                    _require_mechanism(changed(**values))
+            else:
+                _require_mechanism(changed(**values))
+    with pytest.raises(JumpcadError, match=f"joint {joint}: must lead from {one.parent} to {one.child}"):
+        _require_mechanism(changed(parent=one.child))
+    for end in ("point_a_m", "point_b_m"):
+        for off, refused in ((0.9e-6, False), (1.1e-6, True)):
+            moved = replace(
+                KENAN, loop=replace(KENAN.loop, **{end: getattr(KENAN.loop, end) + np.array([0.0, 0.0, off])})
+            )
+            if refused:
+                with pytest.raises(JumpcadError, match="the points of the loop are not those of the design"):
+                    _require_mechanism(moved)
+            else:
+                _require_mechanism(moved)

@@ -69,3 +69,23 @@ def test_the_pins_rub_once_and_at_the_leg(kenan: Robot) -> None:
         assert world._dry_nm == pytest.approx([0.003 + pins, 0.003, 0.003])
     with engine_named("mujoco").world(kenan, Settings()) as world:
         assert world._dry_nm.tolist() == [0.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    "rubs",
+    [
+        {"joint_damping_nms_per_rad": 0.0, "joint_friction_nm": 0.002}, {"joint_damping_nms_per_rad": 1e-4},
+        {"joint_damping_nms_per_rad": 0.0, "ground_friction": 0.4},
+    ],
+    ids=["dry joints", "damped joints", "slip"],
+)  # fmt: skip
+def test_what_is_lost_is_what_the_planar_engine_loses(kenan: Robot, rubs: dict[str, float]) -> None:
+    """Each loss by itself; what is left of the springs' energy for impacts and rounding is hardly any of it."""
+    pytest.importorskip("mujoco")
+    ours, theirs = (simulate(kenan, Settings(**rubs), engine).energy for engine in ("planar", "mujoco"))
+    assert ours is not None
+    assert theirs is not None
+    assert theirs.joint_damping_j == pytest.approx(ours.joint_damping_j, rel=0.03)
+    assert theirs.slip_j == pytest.approx(ours.slip_j, rel=0.02, abs=1e-4)
+    assert max(theirs.joint_damping_j, theirs.slip_j) > 0.02 * kenan.spring.energy_j
+    assert abs(theirs.contact_j) < 1e-3 * kenan.spring.energy_j

@@ -12,7 +12,7 @@ from support.flights import Flight, make_lopsided
 from support.machines import let_go
 
 from jumpcad.mechanism.model import BODY, FOOT
-from jumpcad.mechanism.poses import release_pose
+from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.run import Run
@@ -207,3 +207,14 @@ def test_who_stays_is_as_fast_as_its_springs_made_it() -> None:
         assert (found.value, found.limit, found.margin) == pytest.approx((speed, needed, speed - needed))
     speeds["spent"], run._spent = 0.9, "spent"  # type: ignore[assignment]
     assert run.standing().margin == 0.0  # faster than needed, and still it stays
+
+
+def test_distances_count_from_where_it_stood_with_loaded_springs(kenan: Robot) -> None:
+    """Not from where the roller leaves the cam: there the body is further on by some millimetres."""
+    robot = let_go(kenan)
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True), "planar")
+    path = jump.trajectory
+    assert path is not None
+    body, stood_m = path.body_names.index(BODY), body_poses(robot, 1.0)[BODY][0, 3]
+    assert abs(path.position_m[0, body, 0] - stood_m) > 5e-4
+    assert path.position_m[-1, body, 0] - stood_m == pytest.approx(jump.touchdown_distance_m)

@@ -8,7 +8,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import RollerOff
 from jumpcad.robot import Robot
-from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation import Settings, run, simulate
 
 pytest.importorskip("pybullet")
 
@@ -74,3 +74,29 @@ def test_a_jumps_fitness_is_its_range_in_lengths_of_the_longest_of_legs_and_toes
     jump = simulate(capsule_robot(design), engine="planar")
     assert jump.ballistic_range_m is not None
     assert jump.fitness == pytest.approx(1000.0 * jump.ballistic_range_m / longest)
+
+
+def test_a_robot_that_stays_on_the_ground_has_a_trajectory_and_the_audit_too() -> None:
+    """What it did is there to be looked at; figures of a jump are none."""
+    design = Design.from_vector([171.289, 1.139, 0.66, 1.043, 0.436, 67.926, 12.932, 38.146])
+    robot = capsule_robot(design)
+    jump = simulate(robot, Settings(trajectory=True), "planar")
+    assert jump.verdict == "no_takeoff"
+    assert (jump.mass_kg, jump.spring_energy_j, jump.engine) == (robot.mass_kg, robot.spring.energy_j, "planar")
+    assert jump.trajectory is not None
+    assert jump.trajectory.time_s[-1] > 0.05
+    names = [finding.name for finding in jump.findings]
+    assert {"loop", "below_ground", "tips", "too_weak", "audit_energy", "audit_loop"} < set(names)
+    assert names[-1] == "no_takeoff"
+    assert jump.energy is jump.published is jump.takeoff_time_s is None
+
+
+def test_a_run_that_fails_its_audit_has_the_verdict_of_the_audit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And no figures, though it flew; both of its audits are told once."""
+    monkeypatch.setattr(run, "ENERGY_RATIO_LIMIT", 0.5)
+    robot = capsule_robot(load_design("kenan-2.0"))
+    jump = simulate(robot, Settings(trajectory=True), "planar")
+    assert (jump.verdict, jump.fitness, jump.ballistic_range_m) == ("audit_energy", 0.0, None)
+    assert [one.name for one in jump.findings].count("audit_energy") == 1
+    assert jump.findings[-1].name == "audit_loop"
+    assert jump.trajectory is not None

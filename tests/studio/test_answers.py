@@ -11,6 +11,7 @@ from support.built import built
 from jumpcad.findings import Finding, at_most, limit
 from jumpcad.studio import answers
 from jumpcad.studio.answers import SHOWN, Printed
+from jumpcad.workshop import load_workshop
 
 NAME = "kenan-2.0"
 
@@ -74,3 +75,25 @@ def test_what_cannot_be_built_says_why() -> None:
     found = Printed(built(NAME).design, reason="no room")
     assert found.to_markdown().startswith("**cannot be built**: no room (")
     assert found.findings == []
+
+
+def test_a_printed_robot_is_that_of_the_workshop_and_name_that_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the planar engine: the others take too long for a slider."""
+    asked: list[Any] = []
+    monkeypatch.setattr(answers, "build", lambda *given: asked.append(given) or "robot")
+    monkeypatch.setattr(answers, "simulate", lambda robot, engine: (robot, engine))
+    design, shop = built(NAME).design, load_workshop("fine")
+    found = answers.printed_answer(design, shop, "frog")
+    assert asked == [(design, shop, "frog")]
+    assert (found.design, found.robot, found.jump, found.reason) == (design, "robot", ("robot", "planar"), "")
+
+
+@pytest.mark.parametrize(("reach_m", "said"), [(0.1906, "**191 mm**, rise 64 mm"), (None, "**tips**")])
+def test_the_capsule_robot_is_told_in_millimetres(
+    monkeypatch: pytest.MonkeyPatch, reach_m: float | None, said: str
+) -> None:
+    jump = SimpleNamespace(ballistic_range_m=reach_m, com_rise_m=0.0641, verdict="tips")
+    monkeypatch.setattr(answers, "simulate", lambda *_, **__: jump)
+    answers.capsule_answer.cache_clear()
+    assert answers.capsule_answer(built(NAME).design) == f"study's masses: {said}"
+    answers.capsule_answer.cache_clear()

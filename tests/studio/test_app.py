@@ -1,7 +1,7 @@
 """The studio without a browser: a real viser server, its sliders, what it shows and says."""
 
 import queue
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -19,7 +19,7 @@ from jumpcad.workshop import load_workshop
 
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
-from jumpcad.studio import Points, Studio, app  # noqa: E402
+from jumpcad.studio import Points, Studio, app, inputs  # noqa: E402
 from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
 from jumpcad.studio.app import BY_NUMBER  # noqa: E402
 
@@ -240,6 +240,73 @@ def test_a_bundle_of_the_studio_has_pictures(studio: Studio, monkeypatch: pytest
 
     monkeypatch.setattr(app, "export", export)
     robot = built("kenan-2.0")
-    monkeypatch.setattr(app, "printed_answer", lambda *_: SimpleNamespace(robot=robot))
+    made: list[object] = []
+    monkeypatch.setattr(app, "printed_answer", lambda *given: made.append(given) or SimpleNamespace(robot=robot))
     assert studio._build() == f"built {tmp_path / 'kenan-2.0-studio'}"
     assert asked == [studio.design, tmp_path / "kenan-2.0-studio", True]
+    studio.sliders["e_coef"].value = 1.0
+    studio.workshop = load_workshop("fine")
+    studio._build()
+    assert made[1] == (studio.design, load_workshop("fine"), "kenan-2.0")
+
+
+def test_each_button_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    groups: list[SimpleNamespace] = []
+
+    def group(label: str, options: tuple[str, ...]) -> SimpleNamespace:
+        groups.append(SimpleNamespace(options=options, acts=[]))
+        groups[-1].on_click = groups[-1].acts.append
+        return groups[-1]
+
+    monkeypatch.setattr(server.gui, "add_button_group", group)
+    for name in ("_keep", "_reset", "_save", "_build"):
+        monkeypatch.setattr(Studio, name, lambda self, done=name: done)
+    shown = Studio(load_design("kenan-2.0"), "kenan-2.0", ["default"], server, tmp_path)
+    (buttons,), told = groups, {}
+    for name in buttons.options:
+        buttons.value = name
+        buttons.acts[0](None)
+        told[name] = shown.status.content
+    server.stop()
+    assert told == {
+        "Keep as ghost": "_keep", "Reset": "_reset", "Save design": "_save", "Build bundle": "_build",
+    }  # fmt: skip
+
+
+def test_sliders_have_ends_steps_and_hints_of_their_own(studio: Studio) -> None:
+    """Each parameter's, as it is described."""
+    for key, value in load_design("kenan-2.0").model_dump().items():
+        slider = studio.sliders[key]
+        assert (slider.min, slider.max) == inputs.slider_ends(key, value)
+        assert slider.step == inputs.slider_step(slider.max - slider.min)
+        assert (slider.label, slider.hint) == (key, Design.model_fields[key].description)
+
+
+def test_what_a_person_changes_is_acted_on(study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each slider asks for the new design; workshop, list of points and number open what they say."""
+    acts: dict[object, Callable[[], object]] = {}
+    monkeypatch.setattr(app, "when_changed", lambda handle, act: acts.update({handle.label: act}))
+    server, points = viser.ViserServer(host="127.0.0.1", port=0, verbose=False), Points(study)
+    shown = Studio(points.trial(1).design, "four", ["fine", "of the study"], server, tmp_path, points)
+    assert {key for key, act in acts.items() if act == shown._ask} == set(shown.sliders)
+    assert (shown.best.value, shown.trial.value) == (points.listed_as(1, ""), 1)
+    assert shown.point.content == points.to_text(1)
+    shown.sliders["e_coef"].value = 1.1
+    shown.player.button.label = "Pause"
+    acts["e_coef"]()
+    assert (shown._wanted, shown.player.button.label) == (shown.design, "Play")
+    assert shown.quick.content == capsule_answer(shown.design)
+    shown.choice.value = "of the study"
+    acts["workshop"]()
+    assert (shown.workshop, shown.status.content) == (load_workshop(), "workshop of the study")
+    shown.best.value = "best 3: 1 body lengths (trial 4)"
+    acts["point"]()
+    assert (shown.number, shown.design, shown.trial.value) == (4, points.trial(4).design, 4)
+    shown.trial.value = 3
+    acts["trial"]()
+    assert (shown.number, shown.design, shown.best.value) == (3, points.trial(3).design, points.listed_as(3, ""))
+    shown.best.value = BY_NUMBER
+    acts["point"]()
+    assert shown.number == 3
+    server.stop()

@@ -74,3 +74,23 @@ def test_a_turn_through_half_a_circle_takes_the_short_way() -> None:
     half = Rotation.from_quat(Playback(motion, []).at(0.5).frames[BODY][3:])
     assert half.magnitude() == pytest.approx(np.pi, abs=1e-9)
     assert np.abs(half.apply([1.0, 0.0, 0.0]) - [-1.0, 0.0, 0.0]).max() < 1e-9
+
+
+def test_a_moment_lies_between_those_beside_it() -> None:
+    """A quarter of the way from 1 s to 3 s: places, turns and time; the cam may run ahead of its gear."""
+    turn = Rotation.from_euler("y", 40.0, degrees=True).as_quat(canonical=True).tolist()
+    motion = {
+        "show_s": [0.0, 1.0, 3.0], "time_s": [0.0, 0.5, 0.9], "cam_rad": [0.0, 1.0, 3.0], "gear_rad": [0.0, 1.0, 1.4],
+        "phase": ["winding", "drop", "flight"], "com_m": [[0.0, 0.1], [0.2, 0.3], [0.4, 0.5]],
+        "frames": {BODY: [[0.0] * 6 + [1.0], [0.1, 0.2, 0.3, 0.0, 0.0, 0.0, 1.0], [0.5, 0.2, 0.7, *turn]]},
+    }  # fmt: skip
+    turning = [{"node": "cam", "per_cam": 2.0}, {"node": "gear", "per_cam": -3.0}]
+    found = Playback(motion, turning)
+    quarter = found.at(1.5)
+    assert quarter.frames[BODY][:3] == pytest.approx([0.2, 0.2, 0.4])
+    assert Rotation.from_quat(quarter.frames[BODY][3:]).magnitude() == pytest.approx(np.radians(10.0), rel=0.02)
+    assert quarter.turned_rad == pytest.approx({"cam": 2.0 * 1.5, "gear": -3.0 * 1.1})
+    assert (quarter.phase, quarter.real_s, quarter.slower) == ("drop", pytest.approx(0.6), pytest.approx(2.0 / 0.4))
+    assert (found.end_s, found.at(9.0).phase, found.at(9.0).real_s) == (3.0, "flight", pytest.approx(0.9))
+    assert found.at(-1.0).frames[BODY][:3].tolist() == [0.0, 0.0, 0.0]
+    assert found.com_m.tolist() == [[0.0, 0.0, 0.1], [0.2, 0.0, 0.3], [0.4, 0.0, 0.5]]

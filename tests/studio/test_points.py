@@ -67,3 +67,17 @@ def test_a_study_without_a_trial_has_no_points(tmp_path: Path) -> None:
         pass
     with pytest.raises(JumpcadError, match="no trial yet"):
         Points(tmp_path / "empty.db")
+
+
+def test_a_point_is_told_with_its_place_and_score_or_why_it_has_none(study: Path) -> None:
+    points = Points(study)
+    assert points.to_text(3) == "trial 3 of 4 (ga 0.2): 1.5 body lengths"
+    assert points.to_text(2) == "trial 2 of 4 (ga 0.1): rejected: cannot_build"
+    assert list(points.listed.items())[:2] == [
+        ("best 1: 2 body lengths (trial 1)", 1), ("best 2: 1.5 body lengths (trial 3)", 3)
+    ]  # fmt: skip
+    assert points.listed_as(4, "") == "best 3: 1 body lengths (trial 4)"
+    assert points.listed_as(2, "by its number") == "by its number"
+    for number in (0, 5):
+        with pytest.raises(JumpcadError, match=f"has no trial {number}: its trials are 1 to 4"):
+            points.trial(number)

@@ -1,6 +1,7 @@
 """Bayesian optimisation: few evaluations, batches, resumption."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,9 +9,19 @@ from support.hills import FIXED, SMALL, TOP, Hill
 
 from jumpcad.search.acquisition import Proposal
 from jumpcad.search.learner import Learner
-from jumpcad.search.methods import Task
-from jumpcad.search.methods.bayesian import default_initial, incumbent, learned_trials, run_bayesian, unproposed
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.methods import Task, bayesian
+from jumpcad.search.methods.bayesian import (
+    IDLE,
+    PATIENCE,
+    default_initial,
+    incumbent,
+    known_trials,
+    learned_trials,
+    run_bayesian,
+    run_steps,
+    unproposed,
+)
+from jumpcad.search.objective import SCREENED, Evaluation
 from jumpcad.search.polling import FARTHEST
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -194,3 +205,85 @@ def test_what_is_proposed_is_new_fits_and_is_not_in_the_batch_already(evaluator)
     assert [admits(variant) for variant in (prior, done, taken, tight, free)] == [False] * 4 + [True]
     assert unproposed(one, [])(tight)
     assert unproposed(one, [])(taken)
+
+
+def test_what_is_learned_from_are_exact_designs_of_the_space_each_once(evaluator):
+    """Those of a prior study too; of one that both have, this search's. Guessed ones are no measurements."""
+    one = evaluator()
+    one.evaluate([SMALL.to_design([0.5, 0.5, place]) for place in (0.1, 0.3, 0.5)], "ga", 0)
+    first, second, third = one.trials
+    guessed = replace(first, design=SMALL.to_design([0.4] * 3), evaluation=Evaluation(SCREENED), score=None, place=3)
+    earlier = replace(first, phase="bo", design=SMALL.to_design([0.2] * 3), place=4)
+    outside = replace(first, design=second.design.model_copy(update={"c_coef": 1.15}), place=5)
+    same = replace(second, score=99.0, place=6)
+    one.prior = [earlier, outside, same]
+    one._seen[guessed.key] = guessed
+    assert known_trials(one) == [earlier, second, first, third]
+
+
+def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as_asked(evaluator):
+    """No more than are left: of eleven four first, then three, three and one; steps are counted from the first."""
+    asked = []
+
+    def proposer(learner, trials, count, generator):
+        asked.append((len(trials), count, generator.random()))
+        learner.tried.append(np.full(3, 0.25))
+        learner.thetas = {"score": [0.1 * len(asked)] * 5}
+        points = [np.array([0.01 * len(asked) + 0.001 * n, 0.5, 0.5]) for n in range(count)]
+        return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0 - n) for n, point in enumerate(points)]
+
+    one = evaluator()
+    assert run_steps(one, "bo", Task(11, 6, initial=4, batch=3, first_step=50), proposer) is False
+    assert [(trials, count) for trials, count, _ in asked] == [(4, 3), (7, 3), (10, 1)]
+    assert [drawn for *_, drawn in asked] == [np.random.default_rng([6, 2, step]).random() for step in (51, 52, 53)]
+    places = [(trial.step, trial.place) for trial in one.trials]
+    assert places == [(50, n) for n in range(4)] + [(51, n) for n in range(3)] + [(52, n) for n in range(3)] + [(53, 0)]
+    notes = [dict(trial.proposal) for trial in one.trials]
+    assert notes[:4] == [{}] * 4
+    theta = {"theta": {"score": [0.1] * 5}}
+    assert notes[4] == {"log_improvement": -1.0, "log_feasible": -2.0, "tried": [[0.25] * 3]} | theta
+    assert notes[5] == {"log_improvement": -1.0, "log_feasible": -3.0} | theta
+    assert notes[10]["theta"] == {"score": pytest.approx([0.3] * 5)}
+
+
+def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evaluator):
+    def proposer(learner, trials, count, generator):
+        point = np.array([0.01 * len(trials), 0.5, 0.5])
+        return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0)]
+
+    one = evaluator()
+    assert run_steps(one, "bo", Task(20, 0, initial=3), proposer, lambda rehearsal: len(one.trials) >= 6) is True
+    assert len(one.trials) == 6
+    late = evaluator()
+    late.expired = lambda: len(late.trials) >= 5
+    assert run_steps(late, "bo", Task(20, 0, initial=3), proposer) is False
+    assert len(late.trials) == 5
+    dry = evaluator()
+    assert run_steps(dry, "bo", Task(20, 0, initial=3), lambda *_: []) is False
+    assert dry.store.notes() == ["ended after 3 designs: no other was found that is new and has room"]
+
+
+@pytest.mark.parametrize(
+    ("rehearsal", "steps", "promised", "least_gain", "ended"),
+    [
+        (None, PATIENCE - 1, -20.0, 0.01, False), (None, PATIENCE, -20.0, 0.01, True),
+        (None, PATIENCE, -20.0, 0.0, False), (None, 20, 2.0, 0.01, False),
+        ("guesses", IDLE - 1, -20.0, 0.01, False), ("guesses", IDLE, 2.0, 0.01, True),
+        ("guesses", IDLE, 2.0, 0.0, False),
+    ],
+)  # fmt: skip
+def test_a_search_ends_after_so_many_steps_that_gained_too_little(
+    monkeypatch, rehearsal, steps, promised, least_gain, ended
+):
+    """And promised too little, where no robots are guessed; with no least gain it goes on."""
+    first = Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), Evaluation("jump"), 2.0, "m", 0.0)
+    note = {"log_improvement": promised, "log_feasible": 0.0, "theta": {"score": [0.1] * 5}}
+    one = SimpleNamespace(trials=[first], prior=[], space=SMALL)
+
+    def steps_of(evaluator, phase, task, proposer, end):
+        assert phase == "bo"
+        evaluator.trials += [replace(first, phase="bo", step=n, score=1.0, proposal=note) for n in range(1, steps + 1)]
+        return end(rehearsal)
+
+    monkeypatch.setattr(bayesian, "run_steps", steps_of)
+    assert run_bayesian(one, Task(40, 0, least_gain=least_gain)) is ended

@@ -4,11 +4,20 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.hills import FIXED, SMALL, TOP
+from support.hills import FIXED, SMALL, TOP, Hill
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.genetic import ScreenedFitness, evolve, find_preset, run_genetic
+from jumpcad.search.methods.genetic import (
+    PATIENCE,
+    Fitness,
+    ScreenedFitness,
+    _first_population,
+    _gene_space,
+    evolve,
+    find_preset,
+    run_genetic,
+)
 from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -116,3 +125,45 @@ def test_names_have_no_order_for_the_genetic_algorithm_however_few_they_are(monk
     assert sum(named) == ("," in batteries)
     assert asked["random_seed"] == 5
     assert np.shape(asked["initial_population"]) == (4, space.dimension) == (4, len(asked["gene_space"]))
+
+
+def test_a_population_has_the_scores_of_its_designs_in_their_order(evaluator):
+    """What is rejected, or beyond the evaluations, has the same fitness; steps are counted on from the first."""
+    one = evaluator()
+    fitness = Fitness(one, "ga", 3, rejected=-5.0, first_step=40)
+    points = [[0.5, 0.5, 0.5], [1.0, 0.5, 0.5], [0.2, 0.5, 0.5], [0.3, 0.5, 0.5]]
+    found = fitness(SimpleNamespace(generations_completed=2), points, None)
+    exact = [Hill()(SMALL.to_design(point)).metrics.get("fitness") for point in points]
+    assert found == [exact[0], -5.0, exact[2], -5.0]
+    assert exact[1] is None
+    assert [(trial.phase, trial.step, trial.place) for trial in one.trials] == [("ga", 42, n) for n in range(3)]
+    assert fitness.left == 0
+    assert fitness.on_generation(None) == "stop"
+
+
+def test_a_search_stops_after_so_many_generations_without_a_new_design_or_when_its_time_is_over(evaluator):
+    fitness = Fitness(evaluator(), "ga", 99, rejected=-5.0)
+    points = [[0.5, 0.5, 0.5]]
+    for generation in range(PATIENCE):
+        fitness(SimpleNamespace(generations_completed=generation), points, None)
+        assert fitness.on_generation(None) is None
+    fitness(SimpleNamespace(generations_completed=PATIENCE), points, None)
+    assert fitness.on_generation(None) == "stop"
+    fitness(SimpleNamespace(generations_completed=PATIENCE + 1), [[0.4, 0.5, 0.5]], None)
+    assert fitness.on_generation(None) is None
+    fitness.evaluator.expired = lambda: True
+    assert fitness.on_generation(None) == "stop"
+
+
+def test_half_of_a_first_population_are_the_best_of_a_prior_study(evaluator):
+    """The best first, then evenly spread ones; all within the space, each coordinate free or one of its choices."""
+    teacher = evaluator()
+    run_genetic(teacher, Task(40, 0))
+    ranked = sorted((trial for trial in teacher.trials if trial.score is not None), key=lambda trial: -trial.score)
+    found = _first_population(evaluator(prior=teacher.trials), 10, 3)
+    assert found[:5] == pytest.approx(np.array([SMALL.to_unit(trial.variant) for trial in ranked[:5]]))
+    assert found[5:] == pytest.approx(_first_population(evaluator(), 10, 3)[:5])
+    space = Space.parse(fix=FIXED[:-1], choose=["stiffness_nmm_per_deg=10,20,30"])
+    genes = dict(zip([one.name for one in space.free], _gene_space(space), strict=True))
+    assert genes["stiffness_nmm_per_deg"] == [0.0, 0.5, 1.0]
+    assert genes["rest_angle_deg"] == {"low": 0.0, "high": 1.0}

@@ -7,7 +7,7 @@ from support.hills import SMALL, Hill
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.methods import STEPS, Task
+from jumpcad.search.methods import STEPS, Task, paper
 from jumpcad.search.methods.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
@@ -120,3 +120,48 @@ def test_the_most_efficient_jumper_has_the_most_score_for_a_joule():
     )
     assert _efficiency(jumper) == pytest.approx(20.0, rel=0.01)
     assert _efficiency(other) == 0.0
+
+
+def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_what_they_find(evaluator, monkeypatch):
+    """Not from the best: springs of half the stiffness give the same hill's score with half the energy."""
+    centre = Space.default().to_design([0.5] * 8).model_copy(update={"compression_ratio": 0.5})
+    designs = [
+        centre.model_copy(update={"stiffness_nmm_per_deg": stiffness, "c_coef": 1.0 + 0.01 * n})
+        for n, stiffness in enumerate((12.0, 20.0, 25.0))
+    ]
+    nearby = {"rest_angle_deg": 49.0, "compression_ratio": 0.55, "stiffness_nmm_per_deg": 14.0}
+    better = designs[0].model_copy(update=nearby)  # within a tenth of each range
+    runs, spaces, tasks = [], [], []
+
+    def genetic(one, task):
+        runs.append(task)
+        one.evaluate([designs[len(runs) - 1]], "ga", task.first_step)
+
+    def bayesian(one, task, polls):
+        spaces.append(one.space)
+        tasks.append(task)
+        if len(spaces) == 2:
+            one.evaluate([better], "bo", task.first_step)
+
+    monkeypatch.setattr(paper, "run_genetic", genetic)
+    monkeypatch.setattr(paper, "run_bayesian", bayesian)
+    one = evaluator(space=Space.default())
+    run_paper(one, Task(100, 9))
+    assert [(task.evaluations, task.seed, task.first_step, task.preset) for task in runs] == [
+        (17, 9 + run, run * STEPS, "published") for run in range(3)
+    ]
+    scores = [trial.score for trial in one.trials if trial.phase == "ga"]
+    energies = [design.spring_energy_j for design in designs]
+    assert scores[0] < scores[1]
+    assert scores[0] / energies[0] > scores[1] / energies[1]
+    assert [[one.name for one in space.free] for space in (spaces[0], spaces[2])] == [
+        sorted(FEW, reverse=False), [name for name in PARAMETERS if name in LINKS]
+    ]  # fmt: skip
+    fixed = {one.name: one.lower for one in spaces[0].parameters if not one.free}
+    assert fixed == {name: getattr(designs[0], name) for name in fixed}
+    middle = {one.name: (one.lower + one.upper) / 2.0 for one in spaces[1].free if one.name == "stiffness_nmm_per_deg"}
+    assert middle == {"stiffness_nmm_per_deg": pytest.approx(12.0)}
+    held = {one.name: one.lower for one in spaces[2].parameters if not one.free}
+    assert held == {name: getattr(better, name) for name in held}
+    # 100 less the sample of 15 and three designs: a third, then halves of what is left
+    assert [(task.evaluations, task.first_step) for task in tasks] == [(27, 0), (41, STEPS), (81, 2 * STEPS)]

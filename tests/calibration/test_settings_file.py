@@ -1,0 +1,46 @@
+"""What a calibration writes for simulations: medians, draws in pairs, and the floor where it is one robot's."""
+
+import tomllib
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from jumpcad.calibration.settings_file import DIGITS, SAVED, settings_toml
+
+
+def posterior(*shapes: str, **more: Any) -> Any:
+    """Return a made-up posterior of robots whose floors have priors of these shapes."""
+    ramp = np.linspace(0.0, 1.0, 991)
+    values = {"spring_efficiency": 0.8 + 0.2 * ramp**2, "pin_friction": 0.4 - 0.3 * ramp, "floor:k0": 0.5 + 0.4 * ramp}
+    subjects = [SimpleNamespace(name=f"k{n}", floor=SimpleNamespace(shape=shape)) for n, shape in enumerate(shapes)]
+    return SimpleNamespace(model=SimpleNamespace(subjects=subjects), values=values | more, z=np.zeros((991, 3)))
+
+
+def test_medians_stand_for_a_jump_and_pairs_of_draws_for_many() -> None:
+    found = tomllib.loads(settings_toml(posterior("lognormal")))
+    assert found.pop("draws") == {
+        "spring_efficiency": [round(0.8 + 0.2 * (n / 99.0) ** 2, DIGITS) for n in range(SAVED)],
+        "pin_friction": [round(0.4 - 0.3 * n / 99.0, DIGITS) for n in range(SAVED)],
+    }  # fmt: skip
+    assert found == {"spring_efficiency": 0.85, "pin_friction": 0.25, "ground_friction": 0.7}
+
+
+@pytest.mark.parametrize("shapes", [("uniform",), ("lognormal", "lognormal")])
+def test_a_floor_that_nobody_tested_or_one_of_several_is_left_out(shapes: tuple[str, ...]) -> None:
+    assert "ground_friction" not in tomllib.loads(settings_toml(posterior(*shapes)))
+
+
+def test_what_settings_do_not_take_is_cut_off() -> None:
+    wild = {"spring_efficiency": np.linspace(0.0, 3.0, 991), "pin_friction": np.linspace(-1.0, 5.0, 991)}
+    draws = tomllib.loads(settings_toml(posterior("uniform", **wild)))["draws"]
+    assert (min(draws["spring_efficiency"]), max(draws["spring_efficiency"])) == (0.1, 1.5)
+    assert (min(draws["pin_friction"]), max(draws["pin_friction"])) == (0.0, 2.0)
+
+
+def test_robots_and_drive_are_told_in_the_heading() -> None:
+    text = settings_toml(posterior("uniform", "uniform", drive_efficiency=np.linspace(0.5, 0.7, 991)))
+    assert "# Calibrated on k0, k1 by jumpcad calibrate" in text
+    assert "over 0.60." in text
+    assert "Drive" not in settings_toml(posterior("uniform"))

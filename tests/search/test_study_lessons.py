@@ -1,0 +1,116 @@
+"""What a study's page says was learned: bars, bounds and reasons in words, of made-up studies."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.hills import SMALL
+
+from jumpcad.design import load_design
+from jumpcad.findings import Finding
+from jumpcad.search.explore import Importance
+from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.replay import Known
+from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
+from jumpcad.search.study_lessons import _bar, _cost, _gains, _is_clear, _matters, active, rejections
+from jumpcad.search.trial import Trial
+
+DESIGN = load_design("best-ga")
+LEARNED = Importance(
+    ("c_coef", "d_coef", "e_coef", "rest_angle_deg", "carrying_link_mm"),
+    np.array([0.1, 0.4, 0.05, 0.6, 0.2]), np.array([0.02, 0.1, 0.06, 0.1, 0.19]), 0.9, 40,
+)  # fmt: skip
+
+
+def failed(*names: str) -> Trial:
+    """Return a trial that these limits reject."""
+    findings = tuple(Finding(name, "error", -1.0, "mm", "", "") for name in names)
+    return Trial("ga", 0, 0, DESIGN, Evaluation("jump", {}, findings), None, "m", 0.0)
+
+
+def known(*trials: Trial, bounds: tuple[ActiveBound, ...] = ()) -> Known:
+    """Return what is known of a study of these trials, the first of which won."""
+    winner = trials[0] if trials and trials[0].score is not None else None
+    return Known(SMALL, find_objective("range"), list(trials), winner, [], list(bounds), {})
+
+
+WON = replace(failed(), evaluation=Evaluation("jump"), score=2.0)
+
+
+def text(lines: object) -> str:
+    """Return the words of a part of the page."""
+    return " ".join(re.sub(r"<[^>]*>", " ", " ".join(map(str, lines))).split())  # type: ignore[call-overload]
+
+
+def test_three_that_are_clear_matter_most_the_largest_first() -> None:
+    """A bar is clear where it is longer than its error; the others perhaps do nothing, the longest first."""
+    assert [_is_clear(LEARNED, index) for index in range(5)] == [True, True, False, True, True]
+    assert _matters(LEARNED) == (
+        "Of those beyond their error, rest_angle_deg, then d_coef, then carrying_link_mm matter most. "
+        "No more than their error, so perhaps nothing: e_coef."
+    )
+    alone = Importance(("c_coef",), np.array([0.1]), np.array([0.05]), 0.9, 40)
+    assert _matters(alone) == "c_coef matters most."
+    assert (
+        _matters(replace(alone, deviation=np.array([0.1]))) == "No more than their error, so perhaps nothing: c_coef."
+    )
+
+
+@pytest.mark.parametrize(("share", "width"), [(0.0, 0), (0.25, 25), (1.0, 100), (-0.5, 0), (1.5, 100)])
+def test_a_bar_is_as_long_as_its_share(share: float, width: int) -> None:
+    assert f'style="width: {width}%"' in _bar(share)
+
+
+@pytest.mark.parametrize(
+    ("worth", "reason", "score", "said"),
+    [
+        (0.25, "", 2.0, "+0.25 m (+12.5 %)"), (-0.25, "", -2.0, "-0.25 m (-12.5 %)"), (0.25, "", 0.0, "+0.25 m"),
+        (None, NOT_EXAMINED, 2.0, "not examined in this study"), (None, "strange", 2.0, "rejected, strange"),
+        (None, "tips, hub_strength", 2.0,
+         "rejected, tips, hub_strength: with loaded springs the centre of mass is not above the foot: it falls over; "
+         "the main leg would break beside its hub's bore"),
+    ],
+)  # fmt: skip
+def test_what_lies_beyond_a_bound_is_told_with_its_share_of_the_score(
+    worth: float | None, reason: str, score: float, said: str
+) -> None:
+    assert _cost(ActiveBound("c_coef", "upper", 1.2, 1.25, worth, reason), "m", score) == said
+
+
+@pytest.mark.parametrize(("worth", "rises"), [(0.00101, True), (0.00099, False), (-1.0, False)])
+def test_a_score_rises_where_it_gains_more_than_a_twentieth_of_a_per_cent(worth: float, rises: bool) -> None:
+    """Of a score of 2, or of -2: 0.001."""
+    bound = ActiveBound("c_coef", "upper", 1.2, 1.25, worth)
+    for score in (2.0, -2.0):
+        said = _gains(known(replace(WON, score=score), bounds=(bound,)))
+        assert said == (
+            "Here it rises beyond that of c_coef." if rises else "Here it rises beyond none that was examined."
+        )
+    assert "did not examine them" in _gains(known(WON, bounds=(replace(bound, worth=None, reason=NOT_EXAMINED),)))
+
+
+def test_a_bound_stands_in_its_row_with_units() -> None:
+    bounds = (
+        ActiveBound("rest_angle_deg", "upper", 70.0, 72.5, 0.5),
+        ActiveBound("body.plate_mm", "lower", 1.6, 1.5, None, "x"),
+    )  # fmt: skip
+    said = text(active(known(WON, bounds=bounds)))
+    assert "rest_angle_ deg upper 70° 72.5° +0.5 m (+25.0 %)".replace("_ ", "_") in said.replace("_ ", "_")
+    assert "body.plate_mm lower 1.6 mm 1.5 mm rejected, x" in said.replace("_ ", "_")
+    assert "lies on no bound" in text(active(known(WON)))
+    assert text(active(known(failed("tips")))) == ""
+
+
+def test_reasons_are_counted_the_most_frequent_first() -> None:
+    """Two of four designs are rejected, one of them for two reasons; bars are shares of the largest count."""
+    page = list(rejections(known(WON, failed("tips"), failed("leg_flex", "tips"), WON)))
+    said = text(page).replace("_ ", "_")
+    assert "2 of 4 designs of the search were rejected" in said
+    assert "The most frequent reason is tips, of 2 designs: with loaded springs" in said
+    assert re.findall(r"width: (\d+)%", "".join(page)) == ["100", "50"]
+    cells = [re.findall(r"<td[^>]*>(.*?)</td>", line) for line in page]
+    assert [(re.sub("<wbr />", "", row[0]), row[3]) for row in cells if row] == [("tips", "2"), ("leg_flex", "1")]
+    none = text(rejections(known(WON)))
+    assert "0 of 1 designs" in none
+    assert "most frequent" not in none
