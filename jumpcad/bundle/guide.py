@@ -86,8 +86,7 @@ def _tables(bill: Bill) -> Iterator[str]:
         yield from (f"| {plate.name} | {plate.material} | {duration(plate.time_s)} |" for plate in bill.plates)
         yield f"| all | | {duration(bill.time_s or 0.0)} |"
     yield from ("", BUY, "", *_table("article | quantity | g each", bought, printed=False))
-    cost = "" if bill.cost_eur is None else f", {euros(bill.cost_eur)} € together"
-    yield from ("", f"In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.")
+    yield from ("", bill.summary)
 
 
 def _table(head: str, items: Sequence[BillLine], printed: bool) -> Iterator[str]:

@@ -241,8 +241,7 @@ def _parts(robot: Robot) -> Iterator[str]:
         yield f'<h2 id="{kind if kind != "printed" else "parts"}">{title}</h2>'
         head = columns if bill.cost_eur is not None else columns[:-1]
         yield from _table(head, ([_cell(item, column) for column in head] for item in bill.items if item.kind == kind))
-    cost = "" if bill.cost_eur is None else f", {euros(bill.cost_eur)} € together"
-    yield f"<p>In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.</p>"
+    yield f"<p>{bill.summary}</p>"
 
 
 def _cell(item: BillLine, column: str) -> str:
