@@ -8,9 +8,10 @@ from jumpcad.bundle.arrival import arrival_lines
 from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials, euros
 from jumpcad.bundle.expected import expected, filled
 from jumpcad.bundle.operation import after_use
-from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_lines
+from jumpcad.bundle.ordering import order_lines, print_lines, weigh_lines
 from jumpcad.bundle.springs import spring_order
 from jumpcad.bundle.stuck import HEADING, UNTRIED, stuck_items
+from jumpcad.bundle.tools import tool_lines
 from jumpcad.bundle.wiring import wiring_lines
 from jumpcad.checks import quick_findings
 from jumpcad.electronics.chosen import chosen_parts

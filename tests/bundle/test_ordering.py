@@ -1,4 +1,4 @@
-"""What is ordered, which tools, settings and masses: figures of shops, data sheets and the workshop."""
+"""What is ordered and cut, settings and masses: figures of shops, data sheets and the workshop."""
 
 import re
 from dataclasses import replace
@@ -7,11 +7,9 @@ from functools import cache
 import pytest
 from support.built import built
 
-from jumpcad.bundle import ordering
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_lines
+from jumpcad.bundle.ordering import order_lines, print_lines, weigh_lines
 from jumpcad.bundle.wiring import wires
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -69,37 +67,6 @@ def test_a_strip_is_as_long_as_its_pieces_with_a_cut_after_each() -> None:
     assert "2 of 4.0 x 10.4 mm, 2 of 5.0 x 9.5 mm; order 50 mm of it, 5.0 mm wide" in toes
 
 
-def test_the_motor_is_compared_with_its_data_sheet() -> None:
-    """Pololu 2371 (MP 6V, 298:1): 73 rpm, 70 mA, 0.67 A stalled, 2.4 kg·cm."""
-    (line,) = (line for line in order().splitlines() if line.startswith("- gear motor"))
-    assert "298:1, 6 V, 73 rpm, 70 mA without load" in line
-    stalled = re.search(r"([\d.]+) N·m and 0.67 A stalled, shaft 3 mm with a flat, 9 mm long \(as its source", line)
-    assert stalled is not None
-    assert float(stalled[1]) == pytest.approx(2.4 * 0.0980665, abs=0.0006)
-
-
-@pytest.mark.parametrize(("confidence", "words"), [("derived", "(derived: "), ("memory", "(from memory: ")])
-def test_a_motor_known_less_surely_says_so(confidence: str, words: str) -> None:
-    robot = built("kenan-2.0")
-    layout, train = robot.layout, robot.layout.drive.train
-    motor = train.motor.model_copy(update={"confidence": confidence})
-    drive = replace(layout.drive, train=replace(train, motor=motor))
-    (line,) = (
-        line for line in order_lines(replace(robot, layout=replace(layout, drive=drive))) if "gear motor" in line
-    )
-    assert words in line
-
-
-def test_bearings_and_tape_have_their_data_sheets_sizes() -> None:
-    """ISO 15: 623 is 3 x 10 x 4 mm, MR63 3 x 6 x 2.5 mm; XIAO 21 x 17.8 mm."""
-    text = order()
-    assert "623, 3 x 10 x 4 mm; MR63, 3 x 6 x 2.5 mm" in text
-    assert "625" not in text  # not ordered
-    assert "21 x 17.8 mm (controller), 20.3 x 12.7 mm (driver)" in text
-    unknown = with_article(built("kenan-2.0"), "ball bearing", "bushing")
-    assert "metal shields" not in "\n".join(order_lines(unknown))
-
-
 def test_wire_is_ordered_by_colour() -> None:
     robot = built("kenan-2.0")
     named = dict(re.findall(r"(\w+) ([\d.]+) m(?:,|\b)", order().split("AWG 28, silicone: ")[1].split(", ends")[0]))
@@ -107,34 +74,6 @@ def test_wire_is_ordered_by_colour() -> None:
         total = sum(mm for *_, one, mm in wires(robot) if one == colour)
         assert 1000.0 * float(metres) == pytest.approx(total, abs=5.1)
     assert sorted(named) == sorted({one for *_, one, mm in wires(robot) if mm})
-
-
-def test_a_charger_is_needed_for_two_cells_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    robot = built("kenan-2.0")
-    one = "\n".join(tool_lines(robot, []))
-    assert "charger" not in one
-    assert "plug body at most 12.5 x 6.9 mm" in one  # a window of 13 x 7.4 mm
-    assert "reamer 3.1 mm" in one
-    kit = robot.workshop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s"}
-    shop = robot.workshop.model_copy(update={"bought": robot.workshop.bought.model_copy(update=kit)})
-    fittings = replace(robot.layout.fittings, usb_mm=None)
-    two = "\n".join(tool_lines(replace(robot, workshop=shop, layout=replace(robot.layout, fittings=fittings)), []))
-    assert "LiPo charger with a balance lead" in two
-    assert "plug body" not in two
-    unplugged = chosen_parts(shop).battery.model_copy(update={"plug": ""})
-    monkeypatch.setattr(ordering, "chosen_parts", lambda shop: replace(chosen_parts(shop), battery=unplugged))
-    assert "with a balance lead\n" in "\n".join(tool_lines(replace(robot, workshop=shop), []))
-
-
-@pytest.mark.parametrize("hole_mm", [3.2, 3.4, 3.5, 3.9, 4.1])
-def test_a_rod_for_the_springs_pin_passes_its_hole(hole_mm: float) -> None:
-    """In halves of a millimetre, half a millimetre thinner than the hole or a little more."""
-    robot = built("kenan-2.0")
-    through = replace(robot.layout.pin_hole, diameter_mm=hole_mm)
-    text = "\n".join(tool_lines(replace(robot, layout=replace(robot.layout, pin_hole=through)), []))
-    (rod,) = re.findall(r"rod of at most ([\d.]+) mm", text)
-    assert hole_mm - 1.0 < float(rod) <= hole_mm - 0.5 + 1e-9
-    assert 2.0 * float(rod) % 1.0 == 0.0
 
 
 def test_what_is_printed_is_said_with_the_workshops_settings() -> None:
