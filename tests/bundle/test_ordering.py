@@ -1,15 +1,20 @@
 """What is ordered and cut, settings and masses: figures of shops, data sheets and the workshop."""
 
 import re
+from collections import Counter
 from dataclasses import replace
 from functools import cache
 
+import numpy as np
 import pytest
 from support.built import built
 
+from jumpcad.building import build
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.ordering import order_lines, print_lines, weigh_lines
+from jumpcad.bundle.tools import tool_lines
 from jumpcad.bundle.wiring import wires
+from jumpcad.design import load_design
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -119,3 +124,58 @@ def test_the_table_to_weigh_into_has_the_grams_of_one_piece() -> None:
     assert total is not None
     assert float(total[1]) == pytest.approx(1000.0 * sum(body.mass_kg for body in robot.bodies.values()), abs=0.051)
     assert printed + bought == pytest.approx(float(total[1]), abs=0.15)  # each rounded to 0.01 g
+
+
+@cache
+def clipped() -> Robot:
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update={"retention": "clips", "axle": "silver-steel"})
+    return build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought}), "kenan-2.0")
+
+
+def test_rods_of_one_kind_are_cut_from_one_rod() -> None:
+    """Seven pieces of four lengths, 2 mm lost at each, are less than half a metre together."""
+    (line,) = (one for one in order_lines(clipped()) if one.startswith("- silver steel rod"))
+    pieces = [(int(count), float(length)) for count, length in re.findall(r"(\d+) pieces? of ([\d.]+) mm", line)]
+    assert sum(count for count, _ in pieces) == 7
+    needed = sum(count * (length + 2.0) for count, length in pieces)
+    stock = re.search(r"cut from a rod of ([\d.]+) m", line)
+    assert stock is not None
+    assert needed <= 1000.0 * float(stock[1]) == min(one for one in (330.0, 500.0, 1000.0) if one >= needed)
+
+
+def test_the_grooves_of_clips_are_ordered_where_the_rods_have_them() -> None:
+    """Two for every clip pair of the bill; between the inner edges as on the rods' meshes."""
+    robot = clipped()
+    (line,) = (one for one in order_lines(robot) if one.startswith("- the grooves"))
+    clips = [item for item in robot.hardware if item.article.startswith("E-clip")]
+    assert f"two a rod, {len(clips)} in all, 2.3 mm in diameter and 0.64 mm wide (DIN 6799)" in line
+    said = {float(mm): int(count) for mm, count in re.findall(r"([\d.]+) mm \((\d+) ×\)", line)}
+    found = Counter[float]()
+    for rod in (item for item in robot.hardware if ", grooves " in item.article):
+        points = rod.look.vertices
+        bottom = points[np.abs(np.hypot(points[:, 0], points[:, 1]) - 1.15) < 0.02, 2]
+        middle = (points[:, 2].min() + points[:, 2].max()) / 2.0
+        found[round(float(bottom[bottom > middle].min() - bottom[bottom < middle].max()), 1)] += 1
+    assert said == pytest.approx(found)
+    assert "clips' grooves" in "\n".join(tool_lines(robot, []))
+    assert "groove" not in order()
+
+
+def test_bars_of_legs_are_ordered_with_glue_and_glued_to_the_designs_lengths() -> None:
+    robot = built("kenan-2.0", leg="carbon-strip-3x6")
+    text = "\n".join(order_lines(robot))
+    (line,) = (one for one in text.splitlines() if one.startswith("- pultruded carbon strip 3 x 6 mm"))
+    bars = [item for item in robot.hardware if item.name.endswith("_bar")]
+    said = {float(mm) for mm in re.findall(r"1 of ([\d.]+) mm", line)}
+    assert said == {round(float(np.ptp(item.look.vertices, axis=0).max()), 1) for item in bars}
+    enough = re.search(r"order (\d+) mm", line)
+    assert enough is not None
+    assert 0.0 <= float(enough[1]) - sum(said) - 2 * 2.0 < 10.0
+    assert "epoxy" in text
+    eyes = re.search(r"hub to ankle, ([\d.]+) mm; front link ([\d.]+) mm", text)
+    assert eyes is not None
+    assert float(eyes[1]) == robot.design.carrying_link_mm
+    assert float(eyes[2]) == pytest.approx(robot.design.carrying_link_mm * robot.design.c_coef, abs=0.051)
+    assert "epoxy" in "\n".join(tool_lines(robot, []))
+    assert "epoxy" not in order()

@@ -1,6 +1,7 @@
 """Stage 2: trays, axles, springs, leg, rest stop and gears between the plates, until both are screwed together."""
 
 from jumpcad.scene.assembly_order.plan import (
+    FRONT,
     HEX_AXLE,
     HEX_M3,
     LEFT,
@@ -53,7 +54,8 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
             Move("spring_left(_leg_arm)?"),
             Move("spring_bushing_left"),
             Move("front_spacer_right"),
-            Move(r"front_link(_\d|_bar)?"),
+            Move("", brings=FRONT),
+            Move("front_link"),
             Move("front_spacer_left"),
             Move("cam_spacer_right"),
             Move("idler_spacer_right"),
