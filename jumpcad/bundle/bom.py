@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from jumpcad.files.csv_text import to_csv
+from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.spring_wire import CHOOSE, ORDERED
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
@@ -21,9 +22,10 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class BillLine:
-    """One line: `kind` is `printed` or `bought`; mass, price and printing time are those of one piece.
+    """One line: mass, price and printing time are those of one piece.
 
-    The robot has `quantity` pieces; what it costs are those that are `ordered`.
+    `kind` is `printed`, `pad` (printed of a soft material) or `bought`. The robot has `quantity` pieces; what it costs
+    are those that are `ordered`.
     """
 
     kind: str
@@ -109,9 +111,13 @@ def bill_of_materials(robot: Robot) -> Bill:
         BillLine("printed", part.name, part.quantity, part.material, part.mass_kg, part.mass_source)
         for part in robot.parts
     ]
+    pads = printed_pads(robot.hardware, robot.workshop)
+    printed += [BillLine("pad", one.name, one.quantity, one.pad.description, one.item.mass_kg, "solid") for one in pads]
+    names = {one.name for one in pads}
     articles = defaultdict(list)
     for thing in robot.hardware:
-        articles[thing.article].append(thing)
+        if thing.name not in names:
+            articles[thing.article].append(thing)
     bought = []
     for article, things in articles.items():
         quantity = sum(thing.units for thing in things)

@@ -79,7 +79,7 @@ def _forbidden(robot: Robot) -> Iterator[str]:
 
 def _tables(bill: Bill) -> Iterator[str]:
     """Yield the bill's lines; times and prices have columns where any is known."""
-    printed = [item for item in bill.items if item.kind == "printed"]
+    printed = [item for item in bill.items if item.kind != "bought"]
     bought = [item for item in bill.items if item.kind == "bought"]
     yield from ("", PRINT, "", *_table("part | copies | material | g each", printed, printed=True))
     if bill.plates:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from jumpcad.bundle.article_order import bearings_order, motor_order, plug_order, screw_axles_order, tape_order
 from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.printed_pads import pad_rows, pads_order
 from jumpcad.bundle.switch_order import switch_order
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
@@ -49,6 +50,7 @@ def order_lines(robot: Robot) -> Iterator[str]:
     yield from _standoffs(robot)
     yield from _strips(robot)
     yield from _bars(robot)
+    yield from pads_order(robot)
     yield from motor_order(robot)
     total: defaultdict[str, float] = defaultdict(float)
     for *_, colour, length in wires(robot):
@@ -96,6 +98,7 @@ def print_lines(robot: Robot) -> Iterator[str]:
         parts = Counter(item.part.name for item in plate.items)
         named = ", ".join(f"{count} × {name}" if count > 1 else name for name, count in parts.items())
         yield f"| print/{plate.name}.3mf | {plate.material} | {named} |"
+    yield from pad_rows(robot)
     yield from (
         "",
         "Where jumpcad, the program that wrote this bundle, is installed, print its fit coupon first (`jumpcad coupon "

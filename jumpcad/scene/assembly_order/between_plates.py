@@ -88,7 +88,11 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
     Plan(
         "stop", "Pad of the rest stop", STOP,
         (Move("stop_bar"), Move("stop_pad", "from the leg", "straight")),
-        (Words("Glue the pad into its seat in the bar, the one with raised edges."),),
+        (
+            Words("Glue the pad into its seat in the bar, the one with raised edges."),
+            Words("The pad is printed: roughen it and its seat with emery cloth, degrease both, and glue it with a "
+                  "thin coat of super glue, pressed for a minute.", needs="printed_stop_pad"),
+        ),
     ),
     Plan(
         "cam", "Rest stop, cam and gears", ROBOT,

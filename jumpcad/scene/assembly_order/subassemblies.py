@@ -70,7 +70,12 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
         (
             Words("Degrease the soles with alcohol. Cut the pads to size and press them on for half a minute: under "
                   "either toe's tip, and around both lugs of the nose, from the sole up its round front. Leave them "
-                  "for an hour before the first jump.", needs="nose_pad_.*"),
+                  "for an hour before the first jump.", needs="nose_pad_.*", lacks="printed_nose_pad_.*"),
+            Words("Roughen soles and printed pads with emery cloth where they meet, degrease both with alcohol. Glue "
+                  "the pads on with a thin coat of super glue, pressed for a minute: under either toe's tip, and "
+                  "around both lugs of the nose, from the sole up its round front; those of the nose are bent as they "
+                  "were printed. Try them in place without glue first. Leave them for a day before the first jump.",
+                  needs="printed_nose_pad_.*"),
             Words("The toes, with their pads, come onto the foot in step {step_feet}, when its pins are in: their "
                   "screws would be in the pins' way.", needs="toe_left"),
             Words("Open the eyes of the front link with the drill of {eye_drill} mm, as the leg's; the holes of the "
