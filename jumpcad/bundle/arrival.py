@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 
+from jumpcad.bundle.spring_sheet import scale_in_words
 from jumpcad.bundle.springs import (
     PAIR_PERCENT,
     allowable_mpa,
@@ -80,8 +81,9 @@ def _springs(robot: Robot) -> Iterator[str]:
     shank = math.floor(2.0 * spring.mandrel_mm) / 2.0
     yield from (
         f"**Springs.** Glasses on. Relaxed, the arms are {free - narrower:.0f} to {free + wider:.0f}° apart "
-        f"(drawing in order/, 3:1, ordered {free:.0f}°). Wider ones are not used: they load the motor at the beginning "
-        f"of the lift, {wider:.0f}° by up to {100.0 * (early_torque_share(robot) - 1.0):.0f} % more than computed. One "
+        f"(drawing in order/, {scale_in_words(spring)}, ordered {free:.0f}°). Wider ones are not used: they load the "
+        f"motor at the beginning of the lift, {wider:.0f}° by up to "
+        f"{100.0 * (early_torque_share(robot) - 1.0):.0f} % more than computed. One "
         "reading on a kitchen scale then accepts a spring: its torque with the arms where the loaded robot holds them, "
         "so that angle and rate count together.",
         "",

@@ -9,17 +9,24 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from jumpcad.files.csv_text import to_csv
+from jumpcad.parts.pads import printed_pads
+from jumpcad.parts.spring_wire import CHOOSE, ORDERED
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
 COLUMNS = (
-    "kind", "item", "quantity", "material", "grams_each", "grams", "mass_from", "eur_each", "eur", "print_time_s",
+    "kind", "item", "quantity", "ordered", "material", "grams_each", "grams", "mass_from", "eur_each", "eur",
+    "print_time_s",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class BillLine:
-    """One line: `kind` is `printed` or `bought`; mass, price and printing time are those of one piece."""
+    """One line: mass, price and printing time are those of one piece.
+
+    `kind` is `printed`, `pad` (printed of a soft material) or `bought`. The robot has `quantity` pieces; what it costs
+    are those that are `ordered`.
+    """
 
     kind: str
     name: str
@@ -36,9 +43,14 @@ class BillLine:
         return self.quantity * self.mass_kg
 
     @property
+    def ordered(self) -> int:
+        """How many pieces are ordered: of springs more than the robot has, to choose from."""
+        return self.quantity * (ORDERED if self.name.endswith(CHOOSE) else 1)
+
+    @property
     def total_eur(self) -> float | None:
-        """Price of all pieces."""
-        return None if self.price_eur is None else self.quantity * self.price_eur
+        """Price of all pieces that are ordered."""
+        return None if self.price_eur is None else self.ordered * self.price_eur
 
 
 @dataclass(frozen=True)
@@ -79,6 +91,12 @@ class Bill:
         priced = sum(item.price_eur is not None for item in self.items)
         return f"prices known for {priced} of {len(self.items)} lines"
 
+    @property
+    def summary(self) -> str:
+        """Mass, known prices and their sum, in words."""
+        cost = "" if self.cost_eur is None else f", {euros(self.cost_eur)} € together"
+        return f"In all {1000.0 * self.mass_kg:.1f} g; {self.known}{cost}."
+
     def sliced(self, times_s: Mapping[str, float], plates: Iterable[BilledPlate]) -> "Bill":
         """Return the bill with printing times: `times_s` of one copy of each part, by name, and those of plates."""
         items = (
@@ -93,9 +111,13 @@ def bill_of_materials(robot: Robot) -> Bill:
         BillLine("printed", part.name, part.quantity, part.material, part.mass_kg, part.mass_source)
         for part in robot.parts
     ]
+    pads = printed_pads(robot.hardware, robot.workshop)
+    printed += [BillLine("pad", one.name, one.quantity, one.pad.description, one.item.mass_kg, "solid") for one in pads]
+    names = {one.name for one in pads}
     articles = defaultdict(list)
     for thing in robot.hardware:
-        articles[thing.article].append(thing)
+        if thing.name not in names:
+            articles[thing.article].append(thing)
     bought = []
     for article, things in articles.items():
         quantity = sum(thing.units for thing in things)
@@ -134,12 +156,12 @@ def _rows(bill: Bill) -> Iterator[Sequence[object]]:
     for item in bill.items:
         each, total = (f"{1000.0 * mass:.3f}" for mass in (item.mass_kg, item.total_kg))
         prices = euros(item.price_eur, 3), euros(item.total_eur)
-        row = (item.kind, item.name, item.quantity, item.material, each, total, item.mass_source)
+        row = (item.kind, item.name, item.quantity, item.ordered, item.material, each, total, item.mass_source)
         yield *row, *prices, _seconds(item.time_s)
     for plate in bill.plates:
-        yield "plate", plate.name, 1, plate.material, "", "", "", "", "", _seconds(plate.time_s)
+        yield "plate", plate.name, 1, "", plate.material, "", "", "", "", "", _seconds(plate.time_s)
     total = f"{1000.0 * bill.mass_kg:.3f}"
-    yield "total", bill.known, "", "", "", total, "", "", euros(bill.cost_eur), _seconds(bill.time_s)
+    yield "total", bill.known, "", "", "", "", total, "", "", euros(bill.cost_eur), _seconds(bill.time_s)
 
 
 def euros(price: float | None, digits: int = 2) -> str:

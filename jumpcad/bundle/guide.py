@@ -8,9 +8,10 @@ from jumpcad.bundle.arrival import arrival_lines
 from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials, euros
 from jumpcad.bundle.expected import expected, filled
 from jumpcad.bundle.operation import after_use
-from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_lines
+from jumpcad.bundle.ordering import order_lines, print_lines, weigh_lines
 from jumpcad.bundle.springs import spring_order
 from jumpcad.bundle.stuck import HEADING, UNTRIED, stuck_items
+from jumpcad.bundle.tools import tool_lines
 from jumpcad.bundle.wiring import wiring_lines
 from jumpcad.checks import quick_findings
 from jumpcad.electronics.chosen import chosen_parts
@@ -78,7 +79,7 @@ def _forbidden(robot: Robot) -> Iterator[str]:
 
 def _tables(bill: Bill) -> Iterator[str]:
     """Yield the bill's lines; times and prices have columns where any is known."""
-    printed = [item for item in bill.items if item.kind == "printed"]
+    printed = [item for item in bill.items if item.kind != "bought"]
     bought = [item for item in bill.items if item.kind == "bought"]
     yield from ("", PRINT, "", *_table("part | copies | material | g each", printed, printed=True))
     if bill.plates:
@@ -86,8 +87,7 @@ def _tables(bill: Bill) -> Iterator[str]:
         yield from (f"| {plate.name} | {plate.material} | {duration(plate.time_s)} |" for plate in bill.plates)
         yield f"| all | | {duration(bill.time_s or 0.0)} |"
     yield from ("", BUY, "", *_table("article | quantity | g each", bought, printed=False))
-    cost = "" if bill.cost_eur is None else f", {euros(bill.cost_eur)} € together"
-    yield from ("", f"In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.")
+    yield from ("", bill.summary)
 
 
 def _table(head: str, items: Sequence[BillLine], printed: bool) -> Iterator[str]:

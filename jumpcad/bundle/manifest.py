@@ -65,7 +65,7 @@ class _MassLine(BaseModel):
 
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
 
-    kind: Literal["printed", "bought"]
+    kind: Literal["printed", "pad", "bought"]
     name: Text
     quantity: Annotated[int, Field(ge=1)]
     material: Text

@@ -1,35 +1,38 @@
-"""What to order and cut where a bill's line is no article of a shop: rods, standoffs, strips, wire; tools; printing."""
+"""What to order and cut where a bill's line is no article of a shop: rods, standoffs, strips, wire; printing."""
 
 import math
 import re
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from jumpcad.bundle.arrival import REAMED_MM, scale_range_kg
+from jumpcad.bundle.article_order import bearings_order, motor_order, plug_order, screw_axles_order, tape_order
 from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.printed_pads import pad_rows, pads_order
 from jumpcad.bundle.switch_order import switch_order
 from jumpcad.bundle.wiring import wires
-from jumpcad.dimensions import STRAP_SLOT_MM, TRAY_MM
+from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
+from jumpcad.layout.leg_bars import END_PLAY_MM
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_steps import Step
 
 ROD_M = (0.33, 0.5, 1.0)
 """Lengths in which shops sell rods of 2 to 4 mm."""
 ROD_SHORT_MM = 0.3
 """By which a rod may be shorter; judgement, a saw and a file."""
-ROD_ROOM_MM = 0.5
-"""By which a rod is thinner than the hole that it passes, at least."""
 SAW_MM = 2.0
 """Lost at every cut; judgement."""
+GROOVE_OFF_MM = AXLE_END_PLAY_MM
+"""By which the distance of a rod's two grooves may be off: half of the clips' play along the rod."""
+BAR_SHORT_MM = 0.5
+"""By which a leg's bar may be shorter; judgement: little of the sockets, which are 8 mm deep or deeper."""
+EYES_OFF_MM = 0.2
+"""By which the eyes of a glued leg may be off; judgement: a caliper and two rods."""
 STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
 STRAP_OVERLAP_MM = 20.0
 """Of a strap, hook on loop; judgement."""
-PLUG_ROOM_MM = 0.5
-"""By which the body of a USB plug is smaller than its window."""
 THREAD_MM = 6.0
 """Of a screw inside its standoff."""
 OTHER = (
@@ -46,12 +49,14 @@ def order_lines(robot: Robot) -> Iterator[str]:
     yield from _rods(robot)
     yield from _standoffs(robot)
     yield from _strips(robot)
-    yield from _motor(robot)
+    yield from _bars(robot)
+    yield from pads_order(robot)
+    yield from motor_order(robot)
     total: defaultdict[str, float] = defaultdict(float)
     for *_, colour, length in wires(robot):
         total[colour] += length
-    yield from _bearings(robot)
-    yield from _screw_axles(robot)
+    yield from bearings_order(robot)
+    yield from screw_axles_order(robot)
     lengths = ", ".join(f"{colour} {length / 1000.0:.2f} m" for colour, length in sorted(total.items()) if length)
     yield (
         f"- wire AWG 28, silicone: {lengths}, ends included; the bill has each rounded up to 0.1 m: buy 0.2 m more "
@@ -61,8 +66,8 @@ def order_lines(robot: Robot) -> Iterator[str]:
         "- hook-and-loop strap: hook and loop back to back, no thicker than the bill says, since it passes between the "
         f"lower tray and the front link; cut to {strap_mm(robot):.0f} mm"
     )
-    yield from _plug(robot)
-    yield from _tape(robot)
+    yield from plug_order(robot)
+    yield from tape_order(robot)
     yield from switch_order(robot)
     yield f"- besides: {OTHER}"
 
@@ -72,49 +77,6 @@ def strap_mm(robot: Robot) -> float:
     battery = chosen_parts(robot.workshop).battery
     across, upright = battery.width_mm + 2.0 * STRAP_SLOT_MM[0], battery.height_mm + TRAY_MM
     return 5.0 * math.ceil((2.0 * (across + upright) + STRAP_OVERLAP_MM) / 5.0)
-
-
-def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
-    """Yield the guide's section on tools."""
-    names = sorted({placed.move.tool.name for step in steps for placed in step.placed if placed.move.tool})
-    yield from ("", "## Tools", "")
-    yield f"- {', '.join(names)}"
-    yield (
-        f"- drill or reamer {robot.layout.axle_mm + REAMED_MM:g} mm, drill 2.8 mm for a switch's screws with nuts, tap "
-        "M3, vice with flat jaws, small flat "
-        "screwdriver, side cutters"
-    )
-    chosen = chosen_parts(robot.workshop)
-    charger = ""
-    if chosen.regulator is not None:
-        adapter = f" and an adapter to {plain(chosen.battery.plug)}" if chosen.battery.plug else ""
-        charger = f", LiPo charger with a balance lead{adapter}"
-    plug = robot.layout.fittings.usb_size_mm if robot.layout.fittings.usb_mm is not None else None
-    body = "" if plug is None else f", plug body at most {plug[0] - PLUG_ROOM_MM:g} x {plug[1] - PLUG_ROOM_MM:g} mm"
-    yield (
-        "- soldering iron, wire stripper, heat gun or lighter for the tube, multimeter with a 10 A range, two leads "
-        "with crocodile clips, computer, "
-        f"USB cable with data lines{body}{charger}"
-    )
-    yield "- on the computer: Python with `pip install esptool mpremote` (firmware/README.md)"
-    yield (
-        f"- kitchen scale to 1 g or better, up to {scale_range_kg(robot):g} kg; pocket scale to 0.1 g or better, for "
-        "the printed parts; caliper, protractor, two AA cells in a holder"
-    )
-    yield (
-        "- for the springs' test: a wooden board, 20 mm or thicker, that the vice holds upright, with its drill and a "
-        "nail in it, card, a block with a smooth edge, two wedges below the scale, a drop of oil"
-    )
-    rod = math.floor(2.0 * (robot.layout.pin_hole.diameter_mm - ROD_ROOM_MM)) / 2.0
-    yield (
-        f"- rod of at most {rod:g} mm, 60 mm or longer, for the springs' pin through its hole in the left plate; block "
-        "of wood that supports the motor while the pinion is pressed on; super glue"
-    )
-    yield (
-        "- cut-off disc, file, fine emery cloth, fine saw, knife, tweezers, 1 m of cord, thin wooden stick, glasses "
-        "that "
-        "close at the sides"
-    )
 
 
 def print_lines(robot: Robot) -> Iterator[str]:
@@ -136,6 +98,7 @@ def print_lines(robot: Robot) -> Iterator[str]:
         parts = Counter(item.part.name for item in plate.items)
         named = ", ".join(f"{count} × {name}" if count > 1 else name for name, count in parts.items())
         yield f"| print/{plate.name}.3mf | {plate.material} | {named} |"
+    yield from pad_rows(robot)
     yield from (
         "",
         "Where jumpcad, the program that wrote this bundle, is installed, print its fit coupon first (`jumpcad coupon "
@@ -164,20 +127,39 @@ def weigh_lines(robot: Robot) -> Iterator[str]:
 
 
 def _rods(robot: Robot) -> Iterator[str]:
-    kinds = {rod.description for rod in robot.workshop.catalogue.rods.values()}
+    """Yield each kind of rod with its pieces, and how grooves for clips are cut into them."""
+    kinds = "|".join(re.escape(rod.description) for rod in robot.workshop.catalogue.rods.values())
+    pieces: defaultdict[tuple[str, str, str], list[tuple[int, float]]] = defaultdict(list)
     for item in bill_of_materials(robot).items:
-        found = re.fullmatch(r"(.*) ([\d.]+) x ([\d.]+) mm(, grooves.*)?", item.name)
-        if found is None or found[1] not in kinds:
-            continue
-        length = float(found[3])
-        needed = item.quantity * (length + SAW_MM)
+        if found := re.fullmatch(rf"({kinds}) ([\d.]+) x ([\d.]+) mm(, grooves .*)?", item.name):
+            pieces[found[1], found[2], found[4] or ""].append((item.quantity, float(found[3])))
+    for (kind, diameter, grooves), cut in pieces.items():
+        needed = sum(count * (length + SAW_MM) for count, length in cut)
         stock = next((f"{m:g}" for m in ROD_M if 1000.0 * m >= needed), f"{math.ceil(needed / 1000.0):g}")
+        listed = ", ".join(f"{count} piece{'s' * (count > 1)} of {length:.1f} mm" for count, length in cut)
         yield (
-            f"- {plain(found[1])} {found[2]} mm: {item.quantity} pieces of {length:.1f} mm, +0 / -{ROD_SHORT_MM:g} mm, "
-            f"ends square and deburred{found[4] or ''}; cut from a rod of {stock} m, ground, h6 to h9. Cut steel with "
+            f"- {plain(kind)} {diameter} mm: {listed}, +0 / -{ROD_SHORT_MM:g} mm, "
+            f"ends square and deburred{grooves}; cut from a rod of {stock} m, ground, h6 to h9. Cut steel with "
             "a cut-off disc, wear glasses: sparks and broken pieces fly. A rod that does not enter a bearing: polish "
             "it with fine emery cloth until it does, do not press"
         )
+        if grooves:
+            yield _grooves(grooves, cut)
+
+
+def _grooves(grooves: str, cut: Sequence[tuple[int, float]]) -> str:
+    """Return how the grooves of cut rods (count, length) are made, from their words in the article."""
+    diameter, width, end = map(float, re.findall(r"[\d.]+", grooves))
+    apart = ", ".join(f"{length - 2.0 * (end + width):.1f} mm ({count} ×)" for count, length in cut)
+    return (
+        f"- the grooves: two a rod, {2 * sum(count for count, _ in cut)} in all, {diameter:g} mm in diameter and "
+        f"{width:g} mm wide (DIN 6799), ±{GROOVE_OFF_MM:g} mm between the inner edges of a rod's two: {apart}. Order "
+        "the rods with them from somebody with a lathe: a parting tool cuts one in a minute. At home (judgement, "
+        "nobody has tried it for this robot): the rod turns in the chuck of a drill that is clamped down, a cut-off "
+        f"disc or a file thinner than {width:g} mm goes in squarely, held against a stop, a little at a time, and the "
+        "caliper's edges measure the bottom; glasses. Good is a groove onto which a clip snaps, in which it turns, and "
+        "off which it cannot be pulled along the rod. Practise on the rod's waste"
+    )
 
 
 def _standoffs(robot: Robot) -> Iterator[str]:
@@ -190,49 +172,6 @@ def _standoffs(robot: Robot) -> Iterator[str]:
                 f"{length:.1f} mm, +0 / -0.1 mm and all equal; tap them again where less than {THREAD_MM:g} mm of "
                 "thread is left"
             )
-
-
-def _bearings(robot: Robot) -> Iterator[str]:
-    """Yield the bearings with their dimensions: unshielded ones of the same name are narrower."""
-    billed = {item.name for item in bill_of_materials(robot).items}
-    listed = "; ".join(
-        f"{plain(one.name)}, {one.bore_mm:g} x {one.outer_mm:g} x {one.width_mm:g} mm"
-        for one in robot.workshop.catalogue.bearings.values()
-        if f"ball bearing {one.name}" in billed
-    )
-    if listed:
-        yield f"- ball bearings with two metal shields (suffix ZZ; open ones may be narrower): {listed}"
-
-
-def _screw_axles(robot: Robot) -> Iterator[str]:
-    """Yield where screws that serve as axles are found: they are longer than the norm's longest of their size."""
-    if robot.layout.retention == "nuts":
-        yield (
-            "- screws M3 as axles: ISO 4762 lists M3 up to 30 mm; longer ones of the same dimensions are sold as "
-            "ISO 4762 or DIN 912, strength class 12.9. Their smooth shank is what turns: not threaded up to the head"
-        )
-        low, high = robot.layout.lateral.outside
-        yield (
-            f"- {len(robot.layout.axles) + 1} rods of {robot.layout.axle_mm:g} mm, {high - low:.0f} mm long, any "
-            "material, straight and deburred: they try the fits, and stand in for the axles until the screws come"
-        )
-
-
-def _plug(robot: Robot) -> Iterator[str]:
-    """Yield which half of a plug is meant, and what to do where its poles do not meet the battery's."""
-    plug = chosen_parts(robot.workshop).components.get("plug")
-    if plug is not None:
-        yield (
-            f"- {plain(plug.description)}: the half that mates with the battery's plug. Where plus does not meet plus, "
-            "exchange the contacts of the robot's half, or solder its leads the other way round; not the battery's"
-        )
-
-
-def _tape(robot: Robot) -> Iterator[str]:
-    """Yield the pieces of foam tape under the boards."""
-    boards = chosen_parts(robot.workshop).boards.items()
-    pieces = ", ".join(f"{board.length_mm:g} x {board.width_mm:g} mm ({role})" for role, board in boards)
-    yield f"- double-sided foam tape 1 mm thick: {pieces}; cut out under pads that are soldered from below"
 
 
 def _strips(robot: Robot) -> Iterator[str]:
@@ -249,16 +188,27 @@ def _strips(robot: Robot) -> Iterator[str]:
         yield f"- {plain(name)}: {listed}; order {enough}"
 
 
-def _motor(robot: Robot) -> Iterator[str]:
-    """Yield what to compare before the motor is ordered: shops' names for these motors are no articles."""
-    motor = robot.layout.drive.train.motor
-    sure = {"stated": "as its source states", "derived": "derived", "memory": "from memory"}[motor.confidence]
+def _bars(robot: Robot) -> Iterator[str]:
+    """Yield the bars of legs with printed ends: what is cut, how, and how far apart the eyes of the glued legs are."""
+    layout, bar = robot.layout, robot.layout.leg_bar
+    if bar is None:
+        return
+    name = re.escape(bar.description)
+    cut = [
+        (item.quantity, float(found[1]))
+        for item in bill_of_materials(robot).items
+        if (found := re.fullmatch(rf"{name}, cut ([\d.]+) mm long", item.name))
+    ]
+    listed = ", ".join(f"{count} of {length:.1f} mm" for count, length in cut)
+    needed = 10.0 * math.ceil(sum(count * (length + SAW_MM) for count, length in cut) / 10.0)
     yield (
-        f"- gear motor: {plain(motor.article or motor.name)}. Compare before you order: {motor.ratio:.0f}:1, "
-        f"{motor.voltage_v:g} V, {motor.no_load_rpm:.0f} rpm, {1000.0 * motor.no_load_current_a:.0f} mA without load, "
-        f"{motor.stall_torque_nm:.3f} N·m and {motor.stall_current_a:g} A stalled, shaft {motor.shaft_mm:g} mm with a "
-        f"flat, {motor.shaft_length_mm:g} mm long ({sure}: {plain(motor.source)}). Ratio, voltage, shaft and gearbox "
-        "must agree; speed and torque may be 10 % off "
-        "(judgement). An extended shaft at its back: cut that off with the disc before anything is soldered, the stub "
-        "held in pliers, the motor wrapped against filings"
+        f"- {plain(bar.description)}, for main leg and front link: {listed}, +{END_PLAY_MM:g} / -{BAR_SHORT_MM:g} mm; "
+        f"order {needed:.0f} mm of it or more. Saw it with the fine saw, tape around the cut, wet; its dust and "
+        "splinters harm lungs and skin: mask (FFP2), gloves, glasses, wipe up wet"
+    )
+    yield (
+        "- epoxy, two components, that can be moved for 20 min or longer, 5 g, for the bars. The sockets are a little "
+        "deeper than the bars: it is the distance of the eyes that counts when they are glued, middle to middle: main "
+        f"leg, hub to ankle, {layout.design.l2_mm:.1f} mm; front link {layout.design.l3_mm:.1f} mm; both "
+        f"±{EYES_OFF_MM:g} mm (judgement)"
     )

@@ -234,15 +234,14 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
 
 def _parts(robot: Robot) -> Iterator[str]:
     bill = bill_of_materials(robot)
-    for title, kind, columns in (
-        ("Printed parts", "printed", ("part", "material", "quantity", "g each", "€")),
-        ("Bought parts", "bought", ("article", "quantity", "g each", "€")),
+    for title, anchor, kinds, columns in (
+        ("Printed parts", "parts", ("printed", "pad"), ("part", "material", "quantity", "g each", "€")),
+        ("Bought parts", "bought", ("bought",), ("article", "quantity", "g each", "€")),
     ):
-        yield f'<h2 id="{kind if kind != "printed" else "parts"}">{title}</h2>'
+        yield f'<h2 id="{anchor}">{title}</h2>'
         head = columns if bill.cost_eur is not None else columns[:-1]
-        yield from _table(head, ([_cell(item, column) for column in head] for item in bill.items if item.kind == kind))
-    cost = "" if bill.cost_eur is None else f", {euros(bill.cost_eur)} € together"
-    yield f"<p>In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.</p>"
+        yield from _table(head, ([_cell(item, column) for column in head] for item in bill.items if item.kind in kinds))
+    yield f"<p>{bill.summary}</p>"
 
 
 def _cell(item: BillLine, column: str) -> str:

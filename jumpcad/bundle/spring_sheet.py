@@ -1,6 +1,7 @@
 """order/spring-*-hand.svg: a drawing of the left-hand and of the right-hand spring, for makers and dealers (mm).
 
-It shows the relaxed spring along its axis and from the side, 3:1, and a table of its requirements.
+It shows the relaxed spring along its axis and from the side, at the largest scale at which all of it is on the sheet,
+and a table of its requirements.
 """
 
 import math
@@ -17,9 +18,19 @@ from jumpcad.robot import Robot
 from jumpcad.transforms import Array
 
 FOLDER = "order"
-SCALE = 3.0
+SCALES = (3.0, 2.0, 1.0, 0.5, 0.2, 0.1)
+"""Those of ISO 5455, and 3:1, at which usual springs fill the sheet."""
 PAGE_MM = (297.0, 210.0)
 END_VIEW_MM, SIDE_VIEW_MM = (75.0, 70.0), (200.0, 70.0)
+ROOM_MM = (8.0, 21.0, 284.0, 116.5)
+"""Left, upper, right and lower edge of the room for both views, between their titles and the table."""
+LOWEST_WORD_MM = 119.6
+"""Lowest line of a word above the table."""
+CROSS_MM = 30.0
+"""Reach of the middle lines of the side view."""
+VIEWS_APART_MM = 5.0
+LETTER_MM = (1.92, 3.2)
+"""Width and height of a letter, for the room of words."""
 LENGTH_TOLERANCE_MM = 0.5
 """Judgement."""
 
@@ -31,16 +42,28 @@ def spring_sheets(robot: Robot) -> Iterator[tuple[str, str]]:
         yield f"{FOLDER}/spring-{hand}-hand.svg", _sheet(robot, spring, side, hand)
 
 
+def scale_of(spring: TorsionSpring) -> float:
+    """Return the scale of both drawings of a robot's springs."""
+    fitting = (scale for scale in SCALES if all(_fits(spring, hand, scale) for hand in spring.hands))
+    return next(fitting, SCALES[-1])
+
+
+def scale_in_words(spring: TorsionSpring) -> str:
+    """Return the scale as it stands on the drawings: `3:1`."""
+    scale = scale_of(spring)
+    return f"{scale:g}:1" if scale >= 1.0 else f"1:{1.0 / scale:g}"
+
+
 def _sheet(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> str:
     width, height = PAGE_MM
-    rows = requirements(robot, spring, side, hand)
+    rows, scale = requirements(robot, spring, side, hand), scale_of(spring)
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}mm" '
             f'height="{height:g}mm" font-family="sans-serif" font-size="4">',
             f'<rect width="{width:g}" height="{height:g}" fill="#ffffff"/>',
-            *_end_view(spring, hand),
-            *_side_view(spring, hand),
+            *_end_view(spring, hand, scale),
+            *_side_view(spring, hand, scale),
             *_table(rows),
             "</svg>",
             "",
@@ -75,25 +98,90 @@ def requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> l
     ]
 
 
-def _end_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
+def _end_view(spring: TorsionSpring, hand: str, scale: float) -> Iterator[str]:
     """Yield the view along the axis: a right-hand coil goes away from the viewer clockwise."""
-    x, y = END_VIEW_MM
-    mean, wire = SCALE * spring.arms.mean_mm, SCALE * spring.wire_mm
+    middle = _middle_mm(spring, hand, scale)
+    x, y = middle
+    mean, wire = scale * spring.arms.mean_mm, scale * spring.wire_mm
     yield f'<circle cx="{x:g}" cy="{y:g}" r="{mean / 2:.2f}" fill="none" stroke="#9aa0a8" stroke-width="{wire:.2f}"/>'
     far, near = arms_of(spring, hand)
     for line, colour in ((far, "#c3c7cc"), (near, "#4d535c")):
-        yield _line(SCALE * line + END_VIEW_MM, colour, wire)
+        yield _line(scale * line + middle, colour, wire)
     yield from _cross(x, y, mean / 2.0 + 6.0)
-    loaded = _line(SCALE * arms_of(spring, hand, spring.wound_rad)[0] + END_VIEW_MM, "#4d535c", 0.4)
+    loaded = _line(scale * arms_of(spring, hand, spring.wound_rad)[0] + middle, "#4d535c", 0.4)
     yield loaded.replace("/>", ' stroke-dasharray="2 1"/>')
-    (ax, ay), (bx, by) = (SCALE * arm[1] + END_VIEW_MM for arm in (near, far))
-    yield _text(ax + 2.0, ay - 3.0, "nearer arm")
-    yield _text(
-        bx + 2.0,
-        by + 6.0,
-        f"farther arm, {math.degrees(spring.free_arm_angle_rad):.0f}° from the nearer; dashed: loaded",
-    )
-    yield _text(x - 30.0, 16.0, f"along the axis, 3:1; d = {spring.wire_mm:g}, Di = {spring.inside_diameter_mm:.2f}")
+    for words, place in _labels(spring, hand, scale):
+        yield _text(*place, words)
+    title = f"along the axis, {scale_in_words(spring)}; d = {spring.wire_mm:g}, Di = {spring.inside_diameter_mm:.2f}"
+    yield _text(END_VIEW_MM[0] - 30.0, 16.0, title)
+
+
+def _drawn_mm(spring: TorsionSpring, hand: str, scale: float) -> Array:
+    """Return points (n, 2) of coil, arms and the loaded arm along their middle lines, about the coil's middle."""
+    share = np.linspace(0.0, 1.0, 60)[:, None]
+    angle = 2.0 * math.pi * share
+    lines = (*arms_of(spring, hand), arms_of(spring, hand, spring.wound_rad)[0])
+    coil = spring.arms.mean_mm / 2.0 * np.hstack([np.cos(angle), np.sin(angle)])
+    return scale * np.vstack([coil, *(line[0] + share * (line[1] - line[0]) for line in lines)])
+
+
+def _room_mm(spring: TorsionSpring, scale: float) -> tuple[Array, Array]:
+    """Return the corners of the end view's room: what the side view leaves."""
+    left, top, _, bottom = ROOM_MM
+    return np.array([left, top]), np.array([_side_box_mm(spring, scale)[0][0] - VIEWS_APART_MM, bottom])
+
+
+def _side_box_mm(spring: TorsionSpring, scale: float) -> tuple[Array, Array]:
+    """Return the corners of the side view."""
+    size = np.array([spring.outer_diameter_mm, (math.ceil(spring.turns) + 1.0) * spring.wire_mm])
+    half = np.maximum(scale * size / 2.0, CROSS_MM)
+    return SIDE_VIEW_MM - half, SIDE_VIEW_MM + half
+
+
+def _middle_mm(spring: TorsionSpring, hand: str, scale: float) -> Array:
+    """Return the coil's middle in the end view: its usual place, moved as far as the arms need."""
+    points, half = _drawn_mm(spring, hand, scale), scale * spring.wire_mm / 2.0
+    (low, high), usual = _room_mm(spring, scale), np.array(END_VIEW_MM)
+    before, beyond = low - (usual + points.min(axis=0) - half), usual + points.max(axis=0) + half - high
+    middle: Array = usual + np.maximum(before, 0.0) - np.maximum(beyond, 0.0)
+    return middle
+
+
+def _fits(spring: TorsionSpring, hand: str, scale: float) -> bool:
+    """Tell whether both views and the words beside the arms are on the sheet, apart from each other."""
+    points, half = _drawn_mm(spring, hand, scale), scale * spring.wire_mm / 2.0
+    low, high = _room_mm(spring, scale)
+    first, last = _side_box_mm(spring, scale)
+    beside = bool((np.ptp(points, axis=0) + 2.0 * half <= high - low).all())
+    inside = bool((first[1] >= ROOM_MM[1]) and (last <= ROOM_MM[2:]).all())
+    return beside and inside and all(_is_free(spring, hand, scale, *one) for one in _labels(spring, hand, scale))
+
+
+def _labels(spring: TorsionSpring, hand: str, scale: float) -> list[tuple[str, tuple[float, float]]]:
+    """Return the words at both arms' ends and where they begin: at the first place that is free."""
+    far, near = (scale * arm[1] + _middle_mm(spring, hand, scale) for arm in arms_of(spring, hand))
+    up = max(3.0, scale * spring.wire_mm / 2.0 + 1.0)
+    words = f"farther arm, {math.degrees(spring.free_arm_angle_rad):.0f}° from the nearer; dashed: loaded"
+    found = []
+    for text, (x, y), downs in (("nearer arm", near, (-up, up + 3.0)), (words, far, (6.0, -up))):
+        places = [(x + 2.0, y + down) for down in downs]
+        places += [(x - 2.0 - LETTER_MM[0] * len(text), y + down) for down in downs]
+        lowest = (x + 2.0, x - 2.0 - LETTER_MM[0] * len(text), ROOM_MM[0], ROOM_MM[2] - LETTER_MM[0] * len(text))
+        places += [(start, LOWEST_WORD_MM) for start in lowest]
+        found.append((text, next((one for one in places if _is_free(spring, hand, scale, text, one)), places[0])))
+    return found
+
+
+def _is_free(spring: TorsionSpring, hand: str, scale: float, text: str, place: tuple[float, float]) -> bool:
+    """Tell whether words that begin at a place are on the sheet, and touch neither wire nor the side view."""
+    low = np.array([place[0], place[1] - LETTER_MM[1]])
+    high = np.array([place[0] + LETTER_MM[0] * len(text), place[1]])
+    if low[0] < ROOM_MM[0] or low[1] < ROOM_MM[1] or high[0] > ROOM_MM[2] or high[1] > LOWEST_WORD_MM:
+        return False
+    first, last = _side_box_mm(spring, scale)
+    points = _drawn_mm(spring, hand, scale) + _middle_mm(spring, hand, scale)
+    away = np.linalg.norm(points - np.clip(points, low, high), axis=1)
+    return bool((low >= last).any() or (high <= first).any()) and bool((away >= scale * spring.wire_mm / 2.0).all())
 
 
 def arms_of(spring: TorsionSpring, hand: str, closed_rad: float = 0.0) -> tuple[Array, Array]:
@@ -113,17 +201,17 @@ def arms_of(spring: TorsionSpring, hand: str, closed_rad: float = 0.0) -> tuple[
     return made[0], made[1]
 
 
-def _side_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
+def _side_view(spring: TorsionSpring, hand: str, scale: float) -> Iterator[str]:
     """Yield the side view of the body, axis upright: in front the wire of a right-hand coil rises to the right."""
     x, y = SIDE_VIEW_MM
-    wire, outer = SCALE * spring.wire_mm, SCALE * spring.outer_diameter_mm
+    wire, outer = scale * spring.wire_mm, scale * spring.outer_diameter_mm
     count = math.ceil(spring.turns)
     rise = wire / 2.0 * (1.0 if hand == "right" else -1.0)
     for number in range(count):
         middle = y + (number - (count - 1) / 2.0) * wire
         line = np.array([[x - outer / 2.0, middle + rise], [x + outer / 2.0, middle - rise]])
         yield _line(line, "#4d535c", 0.85 * wire)
-    yield from _cross(x, y, 30.0)
+    yield from _cross(x, y, CROSS_MM)
     side = "right" if hand == "right" else "left"
     yield _text(x - 40.0, 16.0, f"from the side, axis upright: in front the wire rises to the {side}")
 

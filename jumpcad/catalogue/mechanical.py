@@ -64,7 +64,7 @@ class StockSpring(Article):
 
 
 class Pad(Article):
-    """A soft strip, glued under nose and toes or on the rest stop: `description` is what to order.
+    """A soft strip, glued under nose and toes or on the rest stop: `description` is what to order, or to print it of.
 
     `modulus_mpa` is Young's modulus for small strains, as hardness gives it; `friction_min` and `friction_max` are
     the range of coefficients of dry friction on a clean floor. One that is `printed` has STL files instead of a size

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator
 
-from jumpcad.parts.pads import is_printed
+from jumpcad.parts.pads import printed_pads
+from jumpcad.printing.plates import Printable
 from jumpcad.robot import Robot
-from jumpcad.solids.finish import require_part, to_trimesh
+from jumpcad.solids.finish import require_part
 from jumpcad.solids.stl import write_stl
 
 
@@ -16,13 +17,8 @@ def stl_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
     CannotBuildError
         If a part's file is not one closed solid.
     """
-    for part in robot.parts:
+    parts: list[Printable] = [*robot.parts, *printed_pads(robot.hardware, robot.workshop)]
+    for part in parts:
         stl = write_stl(part.mesh)
         require_part(part.name, stl)
         yield f"stl/{part.name}.stl", stl
-    workshop = robot.workshop
-    for item in robot.hardware:
-        if is_printed(item, workshop.foot_pad, workshop.stop_pad):
-            stl = write_stl(to_trimesh(item.solid))
-            require_part(item.name, stl)
-            yield f"stl/{item.name}.stl", stl

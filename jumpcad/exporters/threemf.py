@@ -9,16 +9,19 @@ import io
 import zipfile
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from html import escape  # xml.sax.saxutils imports all of HTTP and TLS
 
 import numpy as np
 import numpy.typing as npt
 
+from jumpcad.catalogue import Pad
 from jumpcad.exporters.thumbnail import thumbnail
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.markdown import plain
+from jumpcad.parts.pads import PrintedPad, printed_pads
 from jumpcad.printing.plates import Placed, Printable, PrintPlate, packed
-from jumpcad.printing.project import project_settings, settings_in_words, temperatures_in_words
+from jumpcad.printing.project import PADS_HOW, pad_settings, project_settings, settings_in_words, temperatures_in_words
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
@@ -47,17 +50,30 @@ RELATIONSHIPS = (
 
 def threemf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     """Yield path and content of every print plate, packed on the workshop's bed, and of `print/README.md`."""
-    yield from plate_files(robot.parts, robot.workshop)
+    yield from plate_files(robot.parts, robot.workshop, printed_pads(robot.hardware, robot.workshop))
 
 
-def plate_files(parts: Iterable[Printable], workshop: Workshop) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of the print plates of parts, and of `print/README.md`."""
+def plate_files(
+    parts: Iterable[Printable], workshop: Workshop, pads: Sequence[PrintedPad] = ()
+) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of the print plates of parts and of pads, and of `print/README.md`."""
     printer, process = workshop.printer, workshop.process
     plates = packed(parts, printer.bed_mm, process.part_spacing_mm)
     for plate in plates:
         settings = project_settings(printer, process, workshop.materials[plate.material], plate.material)
         yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
-    yield "print/README.md", _in_words(plates, workshop)
+    soles = pad_plates(pads, workshop)
+    kinds = {one.material: one.pad for one in pads}
+    for plate in soles:
+        settings = pad_settings(printer, process, kinds[plate.material])
+        yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
+    yield "print/README.md", _in_words(plates, workshop) + _pads_in_words(soles, kinds)
+
+
+def pad_plates(pads: Iterable[PrintedPad], workshop: Workshop) -> list[PrintPlate]:
+    """Return the plates of pads, each of one kind of pad."""
+    found = packed(pads, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
+    return [replace(plate, kind="pads") for plate in found]
 
 
 def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes) -> bytes:
@@ -142,6 +158,15 @@ def _in_words(plates: Sequence[PrintPlate], workshop: Workshop) -> str:
         copies = Counter(placed.part.name for placed in plate.items)
         lines += [f"- {count} × {name}" for name, count in copies.items()]
     return "\n".join(lines) + "\n"
+
+
+def _pads_in_words(plates: Sequence[PrintPlate], kinds: Mapping[str, Pad]) -> str:
+    """Return the end of `print/README.md`, on pads; empty without them."""
+    lines = []
+    for plate in plates:
+        lines += ["", f"## {plain(plate.name)}.3mf", "", f"{plain(kinds[plate.material].description)}: {PADS_HOW}", ""]
+        lines += [f"- 1 × {placed.part.name}" for placed in plate.items]
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _lines(line: str, rows: npt.NDArray[np.generic]) -> str:

@@ -1,6 +1,9 @@
 """Pads that are cut from strip, or printed, and glued on: under nose and toes, and on the rest stop (mm)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +16,10 @@ from jumpcad.parts import toes
 from jumpcad.parts.foot import nose_outline
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.solids.outline import Region, grown, rectangle
+from jumpcad.workshop import Workshop
+
+if TYPE_CHECKING:
+    import trimesh
 
 NOSE_BEHIND_SHARE, NOSE_UP_SHARE = 0.9, 0.7
 """How far the nose's pad reaches behind the front eye and, around the nose, up to below it, in depths of the foot;
@@ -21,12 +28,57 @@ TOE_BACK_MM, TOE_AHEAD_MM = 8.0, 1.5
 """How far a toe's pad reaches from the tip's middle towards the root, and beyond; judgement."""
 
 
+@dataclass(frozen=True)
+class PrintedPad:
+    """A pad that is printed, as packing needs it: its material is named as its kind of pad."""
+
+    item: BoughtPart
+    pad: Pad
+
+    @property
+    def name(self) -> str:
+        """The pad's name, also that of its STL file."""
+        return self.item.name
+
+    @property
+    def material(self) -> str:
+        """Name of the kind of pad."""
+        return self.pad.name
+
+    @property
+    def quantity(self) -> int:
+        """How many are needed."""
+        return self.item.units
+
+    @cached_property
+    def mesh(self) -> "trimesh.Trimesh":
+        """Mesh in printing orientation: it lies on its side (mm)."""
+        from jumpcad.solids.finish import to_trimesh
+
+        return to_trimesh(self.item.solid)
+
+    @property
+    def look(self) -> "trimesh.Trimesh":
+        """The mesh without fine detail, for pictures (mm)."""
+        return self.item.look
+
+
 def pads(layout: Layout, foot_pad: Pad | None) -> Iterator[BoughtPart]:
     """Yield the rest stop's pad and, where the feet are not bare, those under nose and toes."""
     yield _stop_pad(layout)
     if foot_pad is not None:
         yield from _nose_pads(layout, foot_pad)
         yield from _toe_pads(layout, foot_pad)
+
+
+def printed_pads(hardware: Iterable[BoughtPart], workshop: Workshop) -> list[PrintedPad]:
+    """Return the pads among bought parts that are printed."""
+    foot, stop = workshop.foot_pad, workshop.stop_pad
+    return [
+        PrintedPad(item, stop if item.name == "stop_pad" or foot is None else foot)
+        for item in hardware
+        if is_printed(item, foot, stop)
+    ]
 
 
 def is_printed(item: BoughtPart, foot_pad: Pad | None, stop_pad: Pad) -> bool:
@@ -89,5 +141,5 @@ def _pad(
     """Return a pad with the size to cut, its mass from its volume."""
     volume = sum((y1 - y0) * region.area() for y0, y1, region in slabs)
     size = f"{size_mm[0]:.1f} x {size_mm[1]:.1f}"
-    article = f"{pad.description}: {name}.stl" if pad.printed else f"{pad.description}, cut {size} mm"
+    article = name if pad.printed else f"{pad.description}, cut {size} mm"
     return bought(name, article, body, pad.density_g_cm3 * volume / 1000.0, slabs, at_mm)

@@ -16,16 +16,18 @@ STEPS_MAX = 400
 """Chords of a whole coil at most, so that its mesh stays small."""
 ORDERED = 2
 """Springs of each hand to order, of which one is chosen by its torque; judgement."""
+CHOOSE = f"; order {ORDERED}, choose one"
+"""End of the name of an article of which more are ordered than the robot needs."""
 
 
 def spring_article(spring: TorsionSpring, hand: str) -> str:
     """Return what to order: a name from stock, or the figures that a spring maker needs."""
     if spring.stock:
         cut = f"arms cut to {spring.arm_length_mm:.1f} mm"
-        return f"torsion spring {spring.stock}, {hand} hand, {cut}; order {ORDERED}, choose one"
+        return f"torsion spring {spring.stock}, {hand} hand, {cut}{CHOOSE}"
     return (
         f"torsion spring, {spring.rate_nmm_per_deg:.2f} N·mm/°, wire {spring.wire_mm:g} mm, inside diameter "
-        f"{spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, {hand} hand; order {ORDERED}, choose one"
+        f"{spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, {hand} hand{CHOOSE}"
     )
 
 

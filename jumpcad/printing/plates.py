@@ -53,16 +53,20 @@ class Placed:
 
 @dataclass(frozen=True)
 class PrintPlate:
-    """What is printed at once: a material, a number counted from 1 within that material, and the parts."""
+    """What is printed at once: a material, a number counted from 1 within that material, and the parts.
+
+    `kind` is the beginning of its name.
+    """
 
     material: str
     number: int
     items: tuple[Placed, ...]
+    kind: str = "plate"
 
     @property
     def name(self) -> str:
         """Name of the plate and of its file."""
-        return f"plate-{self.number}-{self.material}"
+        return f"{self.kind}-{self.number}-{self.material}"
 
 
 def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[PrintPlate]:

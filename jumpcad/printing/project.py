@@ -4,11 +4,17 @@ They are those of the printed-mass model, and the material's temperatures. Speed
 and end belong to a printer: PrusaSlicer takes its defaults until the user chooses the printer.
 """
 
+from jumpcad.catalogue import Pad
 from jumpcad.printing.prusaslicer import slicer_settings
 from jumpcad.workshop import Material, Printer, Process
 
 OF_THE_PRINTER = "start_gcode", "end_gcode"
 """Settings of the mass model that a print must not have: it starts by heating and homing."""
+PADS_HOW = (
+    "solid (100 % infill), lying on their sides, the rest as above; temperatures and speed are your filament's, 20 to "
+    "30 mm/s where it is flexible (judgement)"
+)
+"""How printed pads are printed, in words."""
 LAYERS = "first_layer_", ""
 """Beginnings of the keys of temperatures: of the first layer, and of the others."""
 
@@ -24,6 +30,15 @@ def project_settings(printer: Printer, process: Process, material: Material, fil
         **{key: value for key, value in settings.items() if key not in OF_THE_PRINTER},
         "filament_type": filament,
         **{f"{layer}{key}": f"{heat:g}" for key, heat in heats.items() if heat is not None for layer in LAYERS},
+    }
+
+
+def pad_settings(printer: Printer, process: Process, pad: Pad) -> dict[str, str]:
+    """Return PrusaSlicer's settings of pads: as those of parts, but solid, as their mass is computed."""
+    settings = slicer_settings(printer, process.model_copy(update={"infill": 1.0}), pad)
+    return {
+        **{key: value for key, value in settings.items() if key not in OF_THE_PRINTER},
+        "filament_type": pad.name,
     }
 
 

@@ -7,6 +7,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from jumpcad.catalogue import Pad
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.gcode import Toolpath, read_gcode
 from jumpcad.solids.moments import G_PER_CM3
@@ -39,7 +40,7 @@ def slicer_program() -> str | None:
     return shutil.which(PROGRAM)
 
 
-def slicer_settings(printer: Printer, process: Process, material: Material) -> dict[str, str]:
+def slicer_settings(printer: Printer, process: Process, material: Material | Pad) -> dict[str, str]:
     """Return PrusaSlicer's settings for a workshop: all that decides a part's plastic; no skirt, brim, support."""
     width, height = printer.bed_mm[:2]
     solid = process.infill >= 1.0

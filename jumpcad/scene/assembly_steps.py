@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from jumpcad.parts.pads import printed_pads
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_order.plan import ROBOT, Move, Plan, Words
@@ -65,6 +66,7 @@ def assembly_steps(robot: Robot) -> list[Step]:
     layout = robot.layout
     names = [thing.name for thing in left] + ["preload"] * (layout.drive.spring.preload_rad > layout.stop.angle_rad)
     names += ["spring_boss"] * (layout.spring_boss_mm > 0.0)
+    names += [f"printed_{one.name}" for one in printed_pads(robot.hardware, robot.workshop)]
     built: dict[str, list[Visual]] = {}
     steps = []
     for plan in ORDER:

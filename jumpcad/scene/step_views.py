@@ -12,6 +12,7 @@ from jumpcad.scene.assembly_order.plan import LEFT, LOWER, UPPER
 from jumpcad.scene.assembly_steps import Placed, Step, assembly_steps, travel
 from jumpcad.scene.camera import View
 from jumpcad.scene.visuals import Visual
+from jumpcad.solids.tube import Wire
 from jumpcad.transforms import Array, chained, pose_at
 
 FROM_LEFT = View(yaw_deg=62.0, pitch_deg=28.0)
@@ -93,6 +94,9 @@ INSETS = (
 
 TURNS = {"power": ("motor_shaft", 0), "trial": ("cam_gear", 1)}
 """What turns in a step, and its sense about +y; 0: the motor's, see `motor_sense`."""
+NEAR_ARM, FAR_ARM = 0.6, 0.05
+"""Where on the arm of the nearer and of the farther spring a label points to, from the arm's end to the coil: what the
+pin does not hide, as seen from the side of the nearer; judgement."""
 TURN_M = 0.008
 """Least radius of an arrow that shows a sense of rotation."""
 NAMELESS = ("motor_shaft", "wiring_wire", "wiring_heat")
@@ -170,11 +174,12 @@ def _view(
         middle = corners.mean(axis=0)
         corners = np.concatenate([corners, *places, [middle - NEAREST_M, middle + NEAREST_M]])
     pale = tuple(thing.name not in new and bool(new) for thing in things)
-    labels = _labels(things, at, poses, new if not inset else {things[i].name for i in framed}, step)
+    view = inset.view if inset else _direction(step)
+    near = "spring_left" if view.yaw_deg > 0.0 else "spring_right"
+    labels = _labels(things, at, poses, new if not inset else {things[i].name for i in framed}, step, near)
     if any(beside.values()):
         labels += tuple(_bench_label(name, others, moved, poses) for name, others in beside.items() if others)
         labels += (_bench_label("right plate", before, moved, poses),)
-    view = inset.view if inset else _direction(step)
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
     corners = middle + (inset.room if inset else 1.0) * (corners - middle)
     turning, sense = TURNS.get(step.key, ("", 0))
@@ -283,15 +288,18 @@ def _shifted(pose: Array, by_m: Array | None) -> Array:
 
 
 def _labels(
-    things: list[Visual], at: list[Array], poses: dict[str, Array], wanted: set[str], step: Step
+    things: list[Visual], at: list[Array], poses: dict[str, Array], wanted: set[str], step: Step, near: str
 ) -> tuple[Label, ...]:
-    """Return one label for all parts of one name, and one for a whole assembly."""
+    """Return one label for all parts of one name, and one for a whole assembly; `near` is the nearer spring."""
     brought = {thing.name: placed.move.brings for placed in step.placed for thing in placed.things}
     found: dict[str, list[tuple[Array, Array]]] = {}
     for thing, pose in zip(things, at, strict=True):
         if thing.name in wanted and not thing.name.startswith(NAMELESS):
             text = brought.get(thing.name, "") or label_of(thing)
-            ends = (_corners(thing, one).mean(axis=0) for one in (pose, _at_place(thing, poses)))
+            ends = (
+                _seen_at(thing, one, NEAR_ARM if thing.name == near else FAR_ARM)
+                for one in (pose, _at_place(thing, poses))
+            )
             here, there = (np.round(end, DIGITS) for end in ends)
             found.setdefault(text, []).append((here, there))
     return tuple(
@@ -299,6 +307,17 @@ def _labels(
               *ends[0])
         for text, ends in found.items()
     )  # fmt: skip
+
+
+def _seen_at(thing: Visual, pose: Array, along_arm: float) -> Array:
+    """Return where a label points to (3,) in the world (m): a part's middle, of bent wire a point of its first arm."""
+    shape = thing.shape
+    if not isinstance(shape, Wire):
+        return np.asarray(_corners(thing, pose).mean(axis=0))
+    end, bend = shape.points_mm[:2] / 1000.0
+    on_body = end + along_arm * (bend - end) - thing.T_body_mesh[:3, 3]
+    point = np.einsum("ji,j->i", thing.T_body_mesh[:3, :3], on_body)
+    return np.asarray(np.einsum("ij,j->i", pose[:3, :3], point) + pose[:3, 3])
 
 
 def _corners(thing: Visual, pose: Array) -> Array:

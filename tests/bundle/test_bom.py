@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -82,6 +83,24 @@ def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
     assert lines[-1]["item"] == f"prices known for {len(known)} of {len(lines) - 1} lines"
     assert float(lines[-1]["eur"]) == pytest.approx(sum(float(line["eur"]) for line in known), abs=0.005 * len(known))
     assert f"{lines[-1]['eur']} € together" in write_guide(robot)
+
+
+def test_springs_cost_what_is_ordered_of_them(robot: Robot) -> None:
+    """Two of each hand at 10 €, of which the robot has one: 40 €, in the bill, its total and the guide alike."""
+    shop = robot.workshop.model_copy(update={"prices_eur": {"torsion spring": 10.0}})
+    dear = replace(robot, workshop=shop)
+    *lines, total = table(write_bom(bill_of_materials(dear)))
+    springs = [line for line in lines if line["item"].startswith("torsion spring")]
+    assert [(line["quantity"], line["ordered"], line["eur_each"], line["eur"]) for line in springs] == [
+        ("1", "2", "10.000", "20.00")
+    ] * 2
+    assert all("order 2" in line["item"] for line in springs)
+    assert all(line["ordered"] == line["quantity"] for line in lines if line not in springs)
+    assert total["eur"] == "40.00"
+    guide = write_guide(dear)
+    assert "40.00 € together" in guide
+    assert guide.count("| 20.00 |") == 2
+    assert "Order 2 of each hand" in guide
 
 
 def test_a_manifest_keeps_the_whole_bill(robot: Robot) -> None:

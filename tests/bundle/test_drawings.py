@@ -4,11 +4,13 @@ import itertools
 import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.built import built, geared, placed
 
+from jumpcad.bundle.arrival import arrival_lines
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.wiring import drawings_of
 from jumpcad.electronics.chosen import chosen_parts
@@ -252,3 +254,64 @@ def test_a_net_s_name_stands_on_its_lane(robot: Robot, drawings: dict[str, ET.El
     dots = [(float(one.get("cx")), float(one.get("cy"))) for one in root.iter(f"{SPACE}circle")]
     turns = [points_of(one)[1] for one in root.iter(f"{SPACE}polyline") if len(points_of(one)) == 3]
     assert dots == turns
+
+
+LONG_ARMS = [
+    # wire, mean diameter, turns, arm from the coil to its pin (mm); the largest scale at which all is on the page
+    (1.3, 7.57, 4.30, 10.9, "3:1"),
+    (2.0, 13.07, 4.38, 14.6, "3:1"),
+    (1.6, 13.6, 5.17, 32.0, "2:1"),
+    (1.6, 13.6, 5.42, 32.0, "3:1"),
+    (2.0, 14.0, 6.75, 60.0, "1:1"),
+    (3.0, 40.0, 9.10, 70.0, ""),
+    (2.0, 12.0, 30.5, 20.0, ""),
+    (1.0, 8.0, 3.95, 28.0, ""),
+    (2.5, 20.0, 4.61, 160.0, ""),
+]
+
+
+@pytest.mark.parametrize(("wire", "mean", "turns", "lever", "scale"), LONG_ARMS)
+def test_springs_with_long_arms_are_drawn_smaller(
+    wire: float, mean: float, turns: float, lever: float, scale: str
+) -> None:
+    """As large as its scale says; arms and words stay on the page, off the table, the side view and each other."""
+    robot = built("kenan-2.0")
+    drive = robot.layout.drive
+    spring = replace(drive.spring, turns=turns, arms=replace(drive.spring.arms, mean_mm=mean, wire_mm=wire,
+                                                             lever_mm=lever))  # fmt: skip
+    own = replace(robot, layout=replace(robot.layout, drive=replace(drive, spring=spring)))
+    said = set()
+    for _, text in spring_sheets(own):
+        root = ET.fromstring(text)
+        (title,) = (one.text or "" for one in root.iter(f"{SPACE}text") if "along the axis" in (one.text or ""))
+        one, other = re.findall(r"(\d+):(\d+);", title)[0]
+        said.add(f"{one}:{other}")
+        times = int(one) / int(other)
+        (coil,) = root.iter(f"{SPACE}circle")
+        radius, half = float(coil.get("r")), times * wire / 2.0
+        assert radius == pytest.approx(times * mean / 2.0, abs=0.01)
+        middle = np.array([float(coil.get("cx")), float(coil.get("cy"))])
+        wires = [one for one in root.iter(f"{SPACE}line") if float(one.get("stroke-width")) > 0.3]
+        lines = [np.array(points_of(one)) for one in wires]
+        ends = [line for line in lines if abs(np.hypot(*(line[0] - middle)) - radius) < 0.02]
+        assert len(ends) == 3
+        for line in ends:
+            assert np.hypot(*(line[1] - line[0])) == pytest.approx(times * spring.arm_length_mm, abs=0.03)
+        side = np.concatenate([line for line in lines if not any(line is arm for arm in ends)])
+        drawn = np.concatenate([line[0] + np.linspace(0, 1, 99)[:, None] * (line[1] - line[0]) for line in ends])
+        drawn = np.concatenate([drawn, middle - radius, middle + radius], axis=None).reshape(-1, 2)
+        assert drawn.min() - half >= 5.0
+        assert drawn[:, 0].max() + half < side[:, 0].min()
+        assert max(drawn[:, 1].max(), side[:, 1].max()) + half < 120.0  # where the table begins
+        boxes = {text: np.array([[a, b], [c, d]]) for text, a, b, c, d in words(root) if "arm" in text and d < 123.0}
+        assert len(boxes) == 2
+        for label, (low, high) in boxes.items():
+            assert (low > 5.0).all(), label
+            assert (high < [292.0, 121.0]).all(), label
+            near = np.clip(drawn, low, high)
+            assert np.hypot(*(drawn - near).T).min() >= half - 0.3, label
+        a, b = boxes.values()
+        assert (a[0] >= b[1]).any() or (b[0] >= a[1]).any()
+    assert len(said) == 1
+    assert scale in ("", *said)
+    assert f"(drawing in order/, {said.pop()}, ordered" in "\n".join(arrival_lines(own))

@@ -1,17 +1,20 @@
-"""What is ordered, which tools, settings and masses: figures of shops, data sheets and the workshop."""
+"""What is ordered and cut, settings and masses: figures of shops, data sheets and the workshop."""
 
 import re
+from collections import Counter
 from dataclasses import replace
 from functools import cache
 
+import numpy as np
 import pytest
 from support.built import built
 
-from jumpcad.bundle import ordering
+from jumpcad.building import build
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_lines
+from jumpcad.bundle.ordering import order_lines, print_lines, weigh_lines
+from jumpcad.bundle.tools import tool_lines
 from jumpcad.bundle.wiring import wires
-from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.design import load_design
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -69,37 +72,6 @@ def test_a_strip_is_as_long_as_its_pieces_with_a_cut_after_each() -> None:
     assert "2 of 4.0 x 10.4 mm, 2 of 5.0 x 9.5 mm; order 50 mm of it, 5.0 mm wide" in toes
 
 
-def test_the_motor_is_compared_with_its_data_sheet() -> None:
-    """Pololu 2371 (MP 6V, 298:1): 73 rpm, 70 mA, 0.67 A stalled, 2.4 kg·cm."""
-    (line,) = (line for line in order().splitlines() if line.startswith("- gear motor"))
-    assert "298:1, 6 V, 73 rpm, 70 mA without load" in line
-    stalled = re.search(r"([\d.]+) N·m and 0.67 A stalled, shaft 3 mm with a flat, 9 mm long \(as its source", line)
-    assert stalled is not None
-    assert float(stalled[1]) == pytest.approx(2.4 * 0.0980665, abs=0.0006)
-
-
-@pytest.mark.parametrize(("confidence", "words"), [("derived", "(derived: "), ("memory", "(from memory: ")])
-def test_a_motor_known_less_surely_says_so(confidence: str, words: str) -> None:
-    robot = built("kenan-2.0")
-    layout, train = robot.layout, robot.layout.drive.train
-    motor = train.motor.model_copy(update={"confidence": confidence})
-    drive = replace(layout.drive, train=replace(train, motor=motor))
-    (line,) = (
-        line for line in order_lines(replace(robot, layout=replace(layout, drive=drive))) if "gear motor" in line
-    )
-    assert words in line
-
-
-def test_bearings_and_tape_have_their_data_sheets_sizes() -> None:
-    """ISO 15: 623 is 3 x 10 x 4 mm, MR63 3 x 6 x 2.5 mm; XIAO 21 x 17.8 mm."""
-    text = order()
-    assert "623, 3 x 10 x 4 mm; MR63, 3 x 6 x 2.5 mm" in text
-    assert "625" not in text  # not ordered
-    assert "21 x 17.8 mm (controller), 20.3 x 12.7 mm (driver)" in text
-    unknown = with_article(built("kenan-2.0"), "ball bearing", "bushing")
-    assert "metal shields" not in "\n".join(order_lines(unknown))
-
-
 def test_wire_is_ordered_by_colour() -> None:
     robot = built("kenan-2.0")
     named = dict(re.findall(r"(\w+) ([\d.]+) m(?:,|\b)", order().split("AWG 28, silicone: ")[1].split(", ends")[0]))
@@ -107,34 +79,6 @@ def test_wire_is_ordered_by_colour() -> None:
         total = sum(mm for *_, one, mm in wires(robot) if one == colour)
         assert 1000.0 * float(metres) == pytest.approx(total, abs=5.1)
     assert sorted(named) == sorted({one for *_, one, mm in wires(robot) if mm})
-
-
-def test_a_charger_is_needed_for_two_cells_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    robot = built("kenan-2.0")
-    one = "\n".join(tool_lines(robot, []))
-    assert "charger" not in one
-    assert "plug body at most 12.5 x 6.9 mm" in one  # a window of 13 x 7.4 mm
-    assert "reamer 3.1 mm" in one
-    kit = robot.workshop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s"}
-    shop = robot.workshop.model_copy(update={"bought": robot.workshop.bought.model_copy(update=kit)})
-    fittings = replace(robot.layout.fittings, usb_mm=None)
-    two = "\n".join(tool_lines(replace(robot, workshop=shop, layout=replace(robot.layout, fittings=fittings)), []))
-    assert "LiPo charger with a balance lead" in two
-    assert "plug body" not in two
-    unplugged = chosen_parts(shop).battery.model_copy(update={"plug": ""})
-    monkeypatch.setattr(ordering, "chosen_parts", lambda shop: replace(chosen_parts(shop), battery=unplugged))
-    assert "with a balance lead\n" in "\n".join(tool_lines(replace(robot, workshop=shop), []))
-
-
-@pytest.mark.parametrize("hole_mm", [3.2, 3.4, 3.5, 3.9, 4.1])
-def test_a_rod_for_the_springs_pin_passes_its_hole(hole_mm: float) -> None:
-    """In halves of a millimetre, half a millimetre thinner than the hole or a little more."""
-    robot = built("kenan-2.0")
-    through = replace(robot.layout.pin_hole, diameter_mm=hole_mm)
-    text = "\n".join(tool_lines(replace(robot, layout=replace(robot.layout, pin_hole=through)), []))
-    (rod,) = re.findall(r"rod of at most ([\d.]+) mm", text)
-    assert hole_mm - 1.0 < float(rod) <= hole_mm - 0.5 + 1e-9
-    assert 2.0 * float(rod) % 1.0 == 0.0
 
 
 def test_what_is_printed_is_said_with_the_workshops_settings() -> None:
@@ -180,3 +124,58 @@ def test_the_table_to_weigh_into_has_the_grams_of_one_piece() -> None:
     assert total is not None
     assert float(total[1]) == pytest.approx(1000.0 * sum(body.mass_kg for body in robot.bodies.values()), abs=0.051)
     assert printed + bought == pytest.approx(float(total[1]), abs=0.15)  # each rounded to 0.01 g
+
+
+@cache
+def clipped() -> Robot:
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update={"retention": "clips", "axle": "silver-steel"})
+    return build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought}), "kenan-2.0")
+
+
+def test_rods_of_one_kind_are_cut_from_one_rod() -> None:
+    """Seven pieces of four lengths, 2 mm lost at each, are less than half a metre together."""
+    (line,) = (one for one in order_lines(clipped()) if one.startswith("- silver steel rod"))
+    pieces = [(int(count), float(length)) for count, length in re.findall(r"(\d+) pieces? of ([\d.]+) mm", line)]
+    assert sum(count for count, _ in pieces) == 7
+    needed = sum(count * (length + 2.0) for count, length in pieces)
+    stock = re.search(r"cut from a rod of ([\d.]+) m", line)
+    assert stock is not None
+    assert needed <= 1000.0 * float(stock[1]) == min(one for one in (330.0, 500.0, 1000.0) if one >= needed)
+
+
+def test_the_grooves_of_clips_are_ordered_where_the_rods_have_them() -> None:
+    """Two for every clip pair of the bill; between the inner edges as on the rods' meshes."""
+    robot = clipped()
+    (line,) = (one for one in order_lines(robot) if one.startswith("- the grooves"))
+    clips = [item for item in robot.hardware if item.article.startswith("E-clip")]
+    assert f"two a rod, {len(clips)} in all, 2.3 mm in diameter and 0.64 mm wide (DIN 6799)" in line
+    said = {float(mm): int(count) for mm, count in re.findall(r"([\d.]+) mm \((\d+) ×\)", line)}
+    found = Counter[float]()
+    for rod in (item for item in robot.hardware if ", grooves " in item.article):
+        points = rod.look.vertices
+        bottom = points[np.abs(np.hypot(points[:, 0], points[:, 1]) - 1.15) < 0.02, 2]
+        middle = (points[:, 2].min() + points[:, 2].max()) / 2.0
+        found[round(float(bottom[bottom > middle].min() - bottom[bottom < middle].max()), 1)] += 1
+    assert said == pytest.approx(found)
+    assert "clips' grooves" in "\n".join(tool_lines(robot, []))
+    assert "groove" not in order()
+
+
+def test_bars_of_legs_are_ordered_with_glue_and_glued_to_the_designs_lengths() -> None:
+    robot = built("kenan-2.0", leg="carbon-strip-3x6")
+    text = "\n".join(order_lines(robot))
+    (line,) = (one for one in text.splitlines() if one.startswith("- pultruded carbon strip 3 x 6 mm"))
+    bars = [item for item in robot.hardware if item.name.endswith("_bar")]
+    said = {float(mm) for mm in re.findall(r"1 of ([\d.]+) mm", line)}
+    assert said == {round(float(np.ptp(item.look.vertices, axis=0).max()), 1) for item in bars}
+    enough = re.search(r"order (\d+) mm", line)
+    assert enough is not None
+    assert 0.0 <= float(enough[1]) - sum(said) - 2 * 2.0 < 10.0
+    assert "epoxy" in text
+    eyes = re.search(r"hub to ankle, ([\d.]+) mm; front link ([\d.]+) mm", text)
+    assert eyes is not None
+    assert float(eyes[1]) == robot.design.carrying_link_mm
+    assert float(eyes[2]) == pytest.approx(robot.design.carrying_link_mm * robot.design.c_coef, abs=0.051)
+    assert "epoxy" in "\n".join(tool_lines(robot, []))
+    assert "epoxy" not in order()

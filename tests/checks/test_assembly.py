@@ -26,6 +26,7 @@ from jumpcad.checks.assembly import (
     tools,
 )
 from jumpcad.checks.interference import Component, may_share
+from jumpcad.checks.printability import printability_findings
 from jumpcad.design import Design, load_design
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
@@ -228,13 +229,19 @@ def test_what_does_not_move_is_not_in_the_way(length: float, blocked: bool) -> N
     assert (found is not None) == blocked
 
 
-def test_toes_in_the_way_of_the_ankle_are_to_point_more_ahead() -> None:
-    """Nearly sideways they stand before its pin; ten degrees less leave it free, which is what is advised."""
-    sideways = Design.from_vector([134.6, 0.909, 0.846, 1.202, 0.491, 60.6, 23.7, 76.0])
-    blocked = errors(assembly_findings(build(sideways)))
-    assert blocked
-    assert all("lower ground_link_angle_deg" in one.remedy for one in blocked)
-    assert not errors(assembly_findings(build(sideways.model_copy(update={"ground_link_angle_deg": 66.0}))))
+@pytest.mark.parametrize("angle_deg", [66.0, 76.0, 88.0])
+def test_toes_that_point_sideways_leave_the_ankles_pin_its_way(angle_deg: float) -> None:
+    """They begin behind it, so that pin, split pin and pliers pass them."""
+    sideways = Design.from_vector([134.6, 0.909, 0.846, 1.202, 0.491, 60.6, 23.7, angle_deg])
+    robot = build(sideways)
+    assert errors(assembly_findings(robot)) == []
+    assert errors([one for one in printability_findings(robot) if one.name == "walls"]) == []
+
+
+def test_what_blocks_pins_of_the_foot_is_to_point_more_ahead() -> None:
+    blocked = Blocked(SimpleNamespace(title="Foot onto the legs"), "ankle_pin", "foot", 1.0)
+    (found,) = _findings("assembly_paths", [blocked], "")
+    assert "lower ground_link_angle_deg" in found.remedy
 
 
 def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:

@@ -1,12 +1,18 @@
-"""Pads of printed TPU: a file for each, as heavy as it is drawn."""
+"""Pads of printed TPU: a file for each, as heavy as it is drawn, a plate, and what the guide says of them."""
 
 import io
+import zipfile
+from functools import cache
 
 import pytest
 import trimesh
 
 from jumpcad import build, load_design, load_workshop
+from jumpcad.bundle.bom import bill_of_facts, bill_of_materials, mass_facts
+from jumpcad.bundle.guide import write_guide
 from jumpcad.exporters.stl import stl_files
+from jumpcad.exporters.threemf import plate_files, threemf_files
+from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
 
@@ -23,7 +29,62 @@ def test_each_printed_pad_has_a_closed_file_of_its_mass() -> None:
         assert mesh.is_watertight
         assert 1.22e-6 * mesh.volume == pytest.approx(item.mass_kg, rel=0.01)
         assert mesh.bounds[0, 2] == pytest.approx(0.0, abs=1e-6), "it lies on the bed"
-        assert f"{item.name}.stl" in item.article
+        assert item.article == item.name
+
+
+@cache
+def soled() -> Robot:
+    shop = load_workshop()
+    ground = shop.ground.model_copy(update={"pad": "tpu-2"})
+    return build(load_design("kenan-2.0"), shop.model_copy(update={"ground": ground}), "kenan-2.0")
+
+
+def test_printed_pads_have_a_plate_of_their_own() -> None:
+    """As heavy as the robot's, of TPU of 1.22 g/cm³, filled solid; the plates of the parts are as without them."""
+    robot = soled()
+    files, plain = dict(threemf_files(robot)), dict(plate_files(robot.parts, robot.workshop))
+    (new,) = set(files) - set(plain)
+    assert new == "print/pads-1-tpu-2.3mf"
+    assert [path for path in plain if path.endswith(".3mf") and plain[path] != files[path]] == []
+    scene = trimesh.load(io.BytesIO(files[new]), file_type="3mf")
+    names = {"nose_pad_left", "nose_pad_right", "toe_left_pad", "toe_right_pad"}
+    assert set(scene.geometry) == names
+    mass_kg = sum(item.mass_kg for item in robot.hardware if item.name in names)
+    assert 1.22e-6 * sum(mesh.volume for mesh in scene.dump()) == pytest.approx(mass_kg, rel=0.01)
+    with zipfile.ZipFile(io.BytesIO(files[new])) as package:
+        settings = package.read("Metadata/Slic3r_PE.config").decode()
+    assert "; fill_density = 100%\n" in settings
+    assert "; filament_density = 1.22\n" in settings
+    assert "start_gcode" not in settings
+    said = files["print/README.md"].split("## pads-1-tpu-2.3mf\n\nTPU 95A: solid (100 % infill)")[1]
+    assert all(f"- 1 × {name}\n" in said for name in names)
+    assert "pads" not in plain["print/README.md"]
+
+
+def test_the_guide_prints_and_glues_pads_and_does_not_order_them() -> None:
+    robot = soled()
+    guide = write_guide(robot)
+    printed, bought = guide.split("\n## Print\n")[1].split("\n## Print settings\n")[0].split("\n## Buy\n")
+    names = ("nose_pad_left", "nose_pad_right", "toe_left_pad", "toe_right_pad")
+    for name in names:
+        assert f"| {name} | 1 | TPU 95A |" in printed
+        assert f"stl/{name}.stl" in guide
+        assert f"- 1 × {name} (" in guide
+    assert "TPU" not in bought
+    assert "self-adhesive" in bought  # the stop's is cut
+    assert f"| print/pads-1-tpu-2.3mf | TPU 95A | {', '.join(names)} |" in guide
+    order = guide.split("\n## Order and cut\n")[1].split("\n## ")[0]
+    mass_g = sum(1000.0 * item.mass_kg for item in robot.hardware if item.name in names)
+    assert f"TPU 95A: {mass_g:.1f} g" in order
+    assert "super glue" in order
+    foot = guide.split(". Foot and front link\n")[1].split("\n## ")[0]
+    assert "super glue" in foot
+    assert "to size" not in foot
+    stop = guide.split(". Pad of the rest stop\n")[1].split("\n## ")[0]
+    assert "is printed" not in stop
+    bill = bill_of_materials(robot)
+    assert bill.mass_kg == pytest.approx(robot.mass_kg)
+    assert bill_of_facts(mass_facts(bill), robot.workshop) == bill
 
 
 def test_a_stop_is_printed_though_the_feet_are_cut() -> None:

@@ -136,6 +136,22 @@ def test_warnings_come_as_warnings_and_checks_as_checks(robot: Robot) -> None:
     assert min(found.values()) > 3
 
 
+def test_what_is_glued_together_is_listed_where_it_is_glued() -> None:
+    """Bars come with the ends into which they are glued; the glued front link is put on as one piece."""
+    steps = assembly_steps(built("kenan-2.0", leg="carbon-strip-3x6"))
+    glued = {
+        "main_leg_bar": {"main_leg", "main_leg_end"},
+        "front_link_bar": {"front_link_1", "front_link_2"},
+    }
+    for bar, ends in glued.items():
+        (step,) = (step for step in steps if bar in {thing.name for thing in step.added})
+        assert ends <= {thing.name for thing in step.added}
+        assert any("bar" in text and "glue" in text.lower() for text in step.text)
+    (legs,) = (step for step in steps if step.key == "legs")
+    assert {"leg", "front link"} <= {placed.move.brings for placed in legs.placed}
+    assert "front" not in {step.key for step in assembly_steps(built("kenan-2.0"))}
+
+
 @pytest.mark.parametrize("boss_mm", [0.0, 2.0])
 def test_the_springs_pin_leans_on_a_boss_or_on_a_strip_of_tape(boss_mm: float) -> None:
     robot = built("kenan-2.0")

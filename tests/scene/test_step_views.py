@@ -28,6 +28,24 @@ def test_labels_name_what_is_put_on_and_lead_to_its_place(views: dict[str, list[
     assert {"left-hand spring", "right-hand spring"} <= {label.text for label in views["legs"][0].labels}
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_labels_of_springs_point_at_their_wire(name: str) -> None:
+    """Nearer to the wire's middle line than its radius, in every picture that names them; each at its own."""
+    seen = 0
+    radius_m = built(name).layout.drive.spring.wire_mm / 2000.0
+    for view in (view for views in step_views(built(name)).values() for view in views):
+        for label in (label for label in view.labels if label.text.endswith("-hand spring")):
+            side = "left" if label.text.startswith("right") else "right"  # the right-hand one is on the robot's left
+            at = next(k for k, thing in enumerate(view.things) if thing.name == f"spring_{side}")
+            tube = view.things[at].mesh.vertices / 1000.0 @ view.poses[at][:3, :3].T + view.poses[at][:3, 3]
+            ends = tube[:8], tube[8:16]  # of the arm: rings of the mesh around its end and where the coil begins
+            a, b = (end.mean(axis=0) for end in ends)
+            share = np.clip((label.at_m - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
+            assert np.linalg.norm(a + share * (b - a) - label.at_m) < radius_m, (view.title, label.text)
+            seen += 1
+    assert seen >= 5
+
+
 def test_the_split_pin_goes_through_the_springs_pin_along_its_own_length(views: dict[str, list[StepView]]) -> None:
     """From the front, in a picture without the plates; the step's own picture, where the plate hides it, lacks it."""
     step, *details = views["arm"]

@@ -1,6 +1,7 @@
 """Stage 2: trays, axles, springs, leg, rest stop and gears between the plates, until both are screwed together."""
 
 from jumpcad.scene.assembly_order.plan import (
+    FRONT,
     HEX_AXLE,
     HEX_M3,
     LEFT,
@@ -53,7 +54,8 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
             Move("spring_left(_leg_arm)?"),
             Move("spring_bushing_left"),
             Move("front_spacer_right"),
-            Move(r"front_link(_\d|_bar)?"),
+            Move("", brings=FRONT),
+            Move("front_link"),
             Move("front_spacer_left"),
             Move("cam_spacer_right"),
             Move("idler_spacer_right"),
@@ -86,7 +88,11 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
     Plan(
         "stop", "Pad of the rest stop", STOP,
         (Move("stop_bar"), Move("stop_pad", "from the leg", "straight")),
-        (Words("Glue the pad into its seat in the bar, the one with raised edges."),),
+        (
+            Words("Glue the pad into its seat in the bar, the one with raised edges."),
+            Words("The pad is printed: roughen it and its seat with emery cloth, degrease both, and glue it with a "
+                  "thin coat of super glue, pressed for a minute.", needs="printed_stop_pad"),
+        ),
     ),
     Plan(
         "cam", "Rest stop, cam and gears", ROBOT,

@@ -7,7 +7,7 @@ Lengths and diameters of tools are those of a usual screwdriver, key or pair of 
 from dataclasses import dataclass
 from typing import Literal
 
-ROBOT, LEG, FOOT, STOP = "robot", "leg", "foot", "rest stop"
+ROBOT, LEG, FRONT, FOOT, STOP = "robot", "leg", "front link", "foot", "rest stop"
 LOWER, UPPER, LEFT = "lower tray", "upper tray", "left plate"
 """Assemblies: the robot is built up on the right plate, the others on the bench."""
 TOE_PADS = "toe_(left|right)_pad"

@@ -2,6 +2,7 @@
 
 from jumpcad.scene.assembly_order.plan import (
     FOOT,
+    FRONT,
     HEX_M3,
     LEFT,
     LEG,
@@ -32,13 +33,15 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
             Move("roller_nut", "from the right", past="roller_screw", tool=NUT_M3, reach="from the right"),
         ),
         (
-            Words("Cut the bars of leg and front link to length, sand their ends, degrease them and the sockets. Glue "
-                  "each bar with epoxy into the sockets of its two ends, as deep as it goes, lying on a flat plate, "
-                  "and let it cure.", needs="main_leg_bar"),
             Words("Press one bearing into either side of the hub, between flat jaws with a sheet of card, pressing "
                   "lightly, until it is flush: push on its outer ring alone.", needs="hub_bearing.*"),
             Words("Open the eye at the leg's lower end with a drill or reamer of {eye_drill} mm, turned by hand, until "
                   "the pin turns in it without rocking."),
+            Words("Cut the leg's bar to length, sand its ends, degrease them and the sockets. Glue it with epoxy into "
+                  "the sockets of both ends, lying on a flat plate with baking paper on it. A rod through the hub and "
+                  "one through the ankle's eye: push or pull until they are apart as under Order and cut, upright to "
+                  "the plate and parallel, and let it cure so. Wipe off what comes out at the mouths.",
+                  needs="main_leg_bar"),
             Words("Open the leg's hole for the springs' pin too, until its pin goes in under the push of a thumb; the "
                   "pin itself stays out until step {step_arm}.", needs="leg_spring_pin"),
             Words("Washer and roller go on the lever's left side (the lever is the short arm at the hub; it points "
@@ -46,6 +49,16 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
                   "from the right until the washer has no play: {torque_m3} N·m, hand-tight."),
         ),
         checks=(Words("The roller's outer ring spins freely; the leg turns freely on a piece of its axle."),),
+    ),
+    Plan(
+        "front", "Front link from its bar", FRONT,
+        (Move(r"front_link_(\d|bar)", way="laid"),),
+        (
+            Words("Open both eyes with the drill of {eye_drill} mm, until the pin turns in them without rocking."),
+            Words("Cut the bar, sand, degrease and glue it as the leg's, with a rod through either eye, apart as under "
+                  "Order and cut, and let it cure."),
+        ),
+        checks=(Words("Both eyes are parallel: laid on a plate, the link does not rock, and the rods stand upright."),),
     ),
     Plan(
         "foot", "Foot and front link", FOOT,
@@ -57,11 +70,17 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
         (
             Words("Degrease the soles with alcohol. Cut the pads to size and press them on for half a minute: under "
                   "either toe's tip, and around both lugs of the nose, from the sole up its round front. Leave them "
-                  "for an hour before the first jump.", needs="nose_pad_.*"),
+                  "for an hour before the first jump.", needs="nose_pad_.*", lacks="printed_nose_pad_.*"),
+            Words("Roughen soles and printed pads with emery cloth where they meet, degrease both with alcohol. Glue "
+                  "the pads on with a thin coat of super glue, pressed for a minute: under either toe's tip, and "
+                  "around both lugs of the nose, from the sole up its round front; those of the nose are bent as they "
+                  "were printed. Try them in place without glue first. Leave them for a day before the first jump.",
+                  needs="printed_nose_pad_.*"),
             Words("The toes, with their pads, come onto the foot in step {step_feet}, when its pins are in: their "
                   "screws would be in the pins' way.", needs="toe_left"),
             Words("Open the eyes of the front link with the drill of {eye_drill} mm, as the leg's; the holes of the "
-                  "foot must let the pins through without force.", needs=r"front_link(_\d)?"),
+                  "foot must let the pins through without force.", lacks="front_link_bar"),
+            Words("The holes of the foot must let the pins through without force.", needs="front_link_bar"),
         ),
         checks=(Words("Both pins turn in their eyes and do not rock."),),
     ),

@@ -1,0 +1,42 @@
+"""Which article is meant: figures of data sheets and norms."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from support.built import built
+
+from jumpcad.bundle.ordering import order_lines
+
+
+def test_the_motor_is_compared_with_its_data_sheet() -> None:
+    """Pololu 2371 (MP 6V, 298:1): 73 rpm, 70 mA, 0.67 A stalled, 2.4 kg·cm."""
+    (line,) = (line for line in order_lines(built("kenan-2.0")) if line.startswith("- gear motor"))
+    assert "298:1, 6 V, 73 rpm, 70 mA without load" in line
+    stalled = re.search(r"([\d.]+) N·m and 0.67 A stalled, shaft 3 mm with a flat, 9 mm long \(as its source", line)
+    assert stalled is not None
+    assert float(stalled[1]) == pytest.approx(2.4 * 0.0980665, abs=0.0006)
+
+
+@pytest.mark.parametrize(("confidence", "words"), [("derived", "(derived: "), ("memory", "(from memory: ")])
+def test_a_motor_known_less_surely_says_so(confidence: str, words: str) -> None:
+    robot = built("kenan-2.0")
+    layout, train = robot.layout, robot.layout.drive.train
+    motor = train.motor.model_copy(update={"confidence": confidence})
+    drive = replace(layout.drive, train=replace(train, motor=motor))
+    (line,) = (
+        line for line in order_lines(replace(robot, layout=replace(layout, drive=drive))) if "gear motor" in line
+    )
+    assert words in line
+
+
+def test_bearings_and_tape_have_their_data_sheets_sizes() -> None:
+    """ISO 15: 623 is 3 x 10 x 4 mm, MR63 3 x 6 x 2.5 mm; XIAO 21 x 17.8 mm."""
+    text = "\n".join(order_lines(built("kenan-2.0")))
+    assert "623, 3 x 10 x 4 mm; MR63, 3 x 6 x 2.5 mm" in text
+    assert "625" not in text  # not ordered
+    assert "21 x 17.8 mm (controller), 20.3 x 12.7 mm (driver)" in text
+    unknown = built("kenan-2.0")
+    hardware = tuple(replace(one, article=one.article.replace("ball bearing", "bushing")) for one in unknown.hardware)
+    unknown = replace(unknown, hardware=hardware)
+    assert "metal shields" not in "\n".join(order_lines(unknown))
