@@ -14,7 +14,7 @@ WORDS = {
     "mass_kg": "mass, with battery and motor for a robot",
     "masses.mass_kg": "mass of one piece",
     "bodies.body.mass_kg": "mass of the body",
-    "masses.kind": "`printed` or `bought`",
+    "masses.kind": "`printed`, `pad` (printed of a soft material) or `bought`",
     "quantity": "how many",
     "material": "material, or article",
     "masses.source": "where the mass comes from: printed model, catalogue, weighed",

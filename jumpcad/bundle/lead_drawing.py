@@ -22,7 +22,9 @@ from jumpcad.transforms import Array
 STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}
 WIDTH_MM, MARGIN_MM, TITLE_MM = 250.0, 6.0, 6.0
 BESIDE_TRAYS_MM = (10.0, 5.0)
-"""What the view from above shows beside the trays: along and across."""
+"""What the view from above shows beside the trays: along and, at least, across."""
+LEAD_EDGE_MM = 1.0
+"""What it shows beyond the outermost lead."""
 HEAD_MM = 2.9
 """Radius of a standoff's screw head (ISO 7380-1 M3)."""
 FINE_MM = 0.05
@@ -129,6 +131,8 @@ def _trays(layout: Layout, leads: list[Lead], top: float) -> tuple[list[str], fl
     holes = [place[0] for place in (layout.fittings.left_mm, layout.fittings.right_mm)]
     half = layout.electronics.length_mm / 2.0
     back, front = min(x - half, *holes) - along, max(x + half, *holes) + along
+    out = [max(y - high, low - y) for lead in leads for y in _ys_between(lead.points_mm, back, front)]
+    across = max(across, max(out, default=0.0) + LEAD_EDGE_MM)
     scale = min((WIDTH_MM - 2.0 * MARGIN_MM) / (front - back), 3.6)
     left = (WIDTH_MM - scale * (front - back)) / 2.0
     upper = top + TITLE_MM
@@ -161,6 +165,15 @@ def _trays(layout: Layout, leads: list[Lead], top: float) -> tuple[list[str], fl
     bottom = float(frame[1][1])
     drawn.append(_text((float(frame[1][0]), bottom + 3.0), "front →", "end"))
     return drawn, bottom + MARGIN_MM
+
+
+def _ys_between(points_mm: Array, back: float, front: float) -> Iterator[float]:
+    """Yield the y of the corners of a lead (n, 3) between two x, and of where it crosses them."""
+    for a, b in itertools.pairwise(points_mm):
+        shares = [0.0, 1.0, *((x - a[0]) / (b[0] - a[0]) for x in (back, front) if a[0] != b[0])]
+        for at in (a + share * (b - a) for share in shares if 0.0 <= share <= 1.0):
+            if back - FINE_MM <= at[0] <= front + FINE_MM:
+                yield float(at[1])
 
 
 def _lines(view: View, lead: Lead, axis: int, open_mm: Interval) -> Iterator[str]:

@@ -256,6 +256,22 @@ def test_a_net_s_name_stands_on_its_lane(robot: Robot, drawings: dict[str, ET.El
     assert dots == turns
 
 
+def test_leads_leave_the_view_from_above_at_its_ends_alone(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However little is shown beside the plates: outside them leads rise towards the sensor's terminals."""
+    monkeypatch.setattr("jumpcad.bundle.lead_drawing.BESIDE_TRAYS_MM", (30.0, 0.1))
+    root = ET.fromstring(drawings_of(robot)["leads.svg"])
+    (frame,) = (np.array(points_of(one)) for clip in root.iter(f"{SPACE}clipPath") for one in clip)
+    (group,) = (one for one in root.iter(f"{SPACE}g") if one.get("clip-path"))
+    share, inside = np.linspace(0.0, 1.0, 400)[:, None], 0
+    for line in (np.array(points_of(one)) for one in group.iter(f"{SPACE}polyline")):
+        for a, b in itertools.pairwise(line):
+            drawn = a + share * (b - a)
+            drawn = drawn[(drawn[:, 0] > frame[0][0]) & (drawn[:, 0] < frame[1][0])]
+            assert ((drawn[:, 1] > frame[0][1]) & (drawn[:, 1] < frame[1][1])).all()
+            inside += len(drawn)
+    assert inside > 4000
+
+
 LONG_ARMS = [
     # wire, mean diameter, turns, arm from the coil to its pin (mm); the largest scale at which all is on the page
     (1.3, 7.57, 4.30, 10.9, "3:1"),
