@@ -126,6 +126,7 @@ def test_shipped_workshops_are_near_with_designs_of_the_default_bounds(shop: str
     [
         ({"bought.kit": "strong-2s"}, True),
         ({"bought.retention": "nuts", "bought.leg_bearing": "", "roles.links": "PLA"}, True),
+        ({"roles.links": "PLA", "roles.body": "PLA", "roles.gears": "PLA"}, True),  # and no other material is left
         ({"bought.leg": "carbon-strip-3x6"}, False),
         ({"bought.axle_mm": 2.0}, False),
         ({"ground.pad": "rubber-2"}, False),
