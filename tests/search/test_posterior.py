@@ -267,3 +267,16 @@ def test_hyperparameters_are_kept_to_three_decimals_and_taken_up_again():
     other = SearchPosterior.from_trials(SMALL, rows_of(40), thetas, ("loop",))
     assert other.thetas["score"] == thetas["score"]
     assert other.thetas["loop"] != thetas["loop"]
+
+
+def test_hyperparameters_of_guesses_and_of_what_scores_are_more_have_their_own_names():
+    trials = [trial for trial in rows_of(24) if trial.score is not None]
+    guesses = {one.key: (SMALL.to_unit(one.variant), 0.5 * one.score) for one in trials}
+    posterior = SearchPosterior.from_trials(SMALL, trials[:6], {}, None, guesses)
+    thetas = posterior.thetas
+    assert list(thetas) == ["guess", "more"]
+    assert thetas["guess"] == pytest.approx(posterior.guess.theta, abs=6e-4)
+    assert thetas["more"] == pytest.approx(posterior.score.theta, abs=6e-4)
+    assert thetas["guess"] != thetas["more"]
+    again = SearchPosterior.from_trials(SMALL, trials[:6], thetas, (), guesses)
+    assert (again.guess.theta, again.score.theta) == (pytest.approx(thetas["guess"]), pytest.approx(thetas["more"]))
