@@ -1,6 +1,7 @@
 """What is learned of score and limits: improvement against numerical integration, feasibility against drawing."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -280,3 +281,15 @@ def test_hyperparameters_of_guesses_and_of_what_scores_are_more_have_their_own_n
     assert thetas["guess"] != thetas["more"]
     again = SearchPosterior.from_trials(SMALL, trials[:6], thetas, (), guesses)
     assert (again.guess.theta, again.score.theta) == (pytest.approx(thetas["guess"]), pytest.approx(thetas["more"]))
+
+
+def test_backward_jumps_are_learned_as_none_where_some_go_forwards():
+    """The roots of 4, 0 in place of -9, and 16; of guesses too."""
+    trials = [replace(trial, score=score) for trial, score in zip(rows_of(3), (4.0, -9.0, 16.0), strict=True)]
+    assert SearchPosterior.from_trials(SMALL, trials, {}, None).score.y.tolist() == [2.0, 0.0, 4.0]
+    guesses = {one.key: (SMALL.to_unit(one.variant), one.score) for one in trials}
+    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None, guesses)
+    assert posterior.guess.y.tolist() == [2.0, 0.0, 4.0]
+    assert posterior.score.y.tolist() == [0.0] * 3
+    backwards = [replace(trial, score=-abs(trial.score)) for trial in trials]
+    assert SearchPosterior.from_trials(SMALL, backwards, {}, None).score.y.tolist() == [-2.0, -3.0, -4.0]
