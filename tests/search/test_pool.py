@@ -257,3 +257,16 @@ def test_tasks_are_as_long_as_evaluations_took_of_late():
             mean_s += 0.1 * (outcome.duration_s - mean_s)
         assert pool._mean_s == pytest.approx(mean_s)
         assert len(pool._tasks(60)) < 10
+
+
+def test_what_a_call_without_processes_raises_comes_with_its_result():
+    """An interrupt is nobody's result."""
+    executor = InProcess()
+    assert executor.submit(int, "70", base=8).result() == 56
+    assert isinstance(executor.submit(int, "x").exception(), ValueError)
+
+    def interrupted():
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        executor.submit(interrupted)
