@@ -6,6 +6,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -185,3 +186,23 @@ def test_a_made_robot_jumps_with_the_settings_and_the_engine_that_are_asked_for(
     evaluation.evaluate_made(KENAN, None, fine, "planar", lambda one, given: (worn, icy))
     assert asked == [(robot, fine, "mujoco"), (robot, Settings(), "planar"), (worn, icy, "planar")]
     assert (got.robot, got.jump, got.findings) == (robot, jump, (*jump.findings, finding))
+
+
+@pytest.mark.parametrize(("reach_m", "extent_m", "size_m"), [(0.8, 0.2, 0.2), (0.8, 0.1, 0.16), (None, 0.2, 0.2)])
+def test_each_figure_beside_the_jump_has_its_own_name(
+    monkeypatch: pytest.MonkeyPatch, reach_m: float | None, extent_m: float, size_m: float
+) -> None:
+    """The size is the largest extent of the standing robot, or the longest link; no jump has no body lengths."""
+    train = SimpleNamespace(electrical_j=5.0, motor_j=3.5, boards_j=1.5, winding_s=7.0)
+    bodies = {name: SimpleNamespace(mass_kg=mass) for name, mass in (("body", 0.08), ("foot", 0.03))}
+    robot = SimpleNamespace(
+        layout=SimpleNamespace(drive=SimpleNamespace(train=train)), design=SimpleNamespace(l_max_mm=160.0),
+        bodies=bodies, mass_kg=0.125,
+    )  # fmt: skip
+    monkeypatch.setattr(evaluation, "extent_m", lambda _: np.array([0.05, extent_m, 0.02]))
+    found = evaluation._metrics(robot, SimpleNamespace(ballistic_range_m=reach_m))  # type: ignore[arg-type]
+    assert found == {
+        "body_lengths": pytest.approx((reach_m or 0.0) / size_m), "size_m": size_m, "mass_kg": 0.125,
+        "electrical_energy_j": 5.0, "motor_energy_j": 3.5, "boards_energy_j": 1.5, "winding_time_s": 7.0,
+        "body_mass_kg": 0.08, "foot_mass_kg": 0.03,
+    }  # fmt: skip

@@ -53,6 +53,14 @@ def test_what_is_not_said_is_asked_for_in_one_line(tmp_path: Path, text: str, me
     assert "mine.toml" in str(caught.value)
 
 
+def test_a_robot_is_weighed_with_its_error(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(HEAD + "[mass]\nrobot_g = 58.0\nrobot_error_g = 1.5")
+    measured, _ = load_measurements(path)
+    mass = measured.mass
+    assert (mass.robot_g, mass.robot_error_g) == (58.0, 1.5)
+
+
 def test_a_rate_of_one_spring_counts_twice() -> None:
     said = {"design": "kenan-2.0", "source": "mine", "release": "dog"}
     one, both = (Measurements(**said, spring={"rate_nmm_per_deg": 4.6, "springs": count}) for count in (1, 2))

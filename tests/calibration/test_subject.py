@@ -3,6 +3,7 @@
 import math
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -227,6 +228,14 @@ def test_a_flight_may_need_a_tenth_more_than_the_springs_hold(
     _require_energy(stiff, "first-touchdown", "rise", *given)
     _require_energy(robot, "resting-place", "rise", *given)
     _require_energy(robot, "first-touchdown", "absolute", *given)
+
+
+def test_a_robot_measured_again_has_the_takeoffs_that_were_seen_then(subject: Subject) -> None:
+    takeoffs: Any = ("first", "second")
+    again = subject.remeasured(subject.measured, takeoffs)
+    assert again.seen == takeoffs
+    assert again.remeasured(subject.measured).seen == ()
+    assert again.surface is subject.surface
 
 
 def test_a_spring_s_pair_is_the_robot_s_unless_said(subject: Subject) -> None:

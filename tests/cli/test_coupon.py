@@ -3,6 +3,7 @@
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -91,3 +92,18 @@ def test_a_wrong_request_is_one_line(run: Run, arguments: list[str], exit_code: 
     assert complaint in err
     assert err.count("\n") == 1
     assert sorted(Path().rglob("*")) == before
+
+
+def test_a_coupon_is_told_with_its_files_and_its_grams(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The manifest is one more file; it has kilograms."""
+    made = SimpleNamespace(files={"a.stl": "1", "coupon.md": "2"}, manifest={"mass_kg": 0.0125})
+    asked: list[object] = []
+    monkeypatch.setattr("jumpcad.coupon.export.export_coupon", lambda *given: asked.append(given) or made)
+    assert run("coupon", "--workshop", "light", "-o", "gauges", "--force")[1].splitlines() == [
+        "gauges: 3 files, 12.5 g to print", "next: read gauges/coupon.md"
+    ]  # fmt: skip
+    document = json.loads(run("coupon", "--json")[1])
+    assert document == {"folder": "exports/coupon", "files": ["a.stl", "coupon.md"], "grams": 12.5}
+    assert asked == [
+        (load_workshop("light"), Path("gauges"), True), (load_workshop("default"), Path("exports/coupon"), False)
+    ]  # fmt: skip

@@ -10,13 +10,14 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from support.commands import interruptible
-from support.searches import NARROW, QUICK, data, run
+from support.searches import NARROW, QUICK, data, refusal, run
 from typer.testing import CliRunner
 
 from jumpcad.cli import optimize
 from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.findings import Finding
+from jumpcad.search import study
 from jumpcad.search.models import robot_model
 from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.widening import Widened
@@ -279,3 +280,18 @@ def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_
     request.aim.neighbours_of = "range"
     optimize._print_result(result, Path("won.toml"))
     assert "2 designs evaluated, in 30 evaluations with their neighbours; rejected: none" in capsys.readouterr().out
+
+
+def test_a_design_that_is_edited_while_the_search_runs_is_kept_unless_it_is_to_be_replaced(folder, monkeypatch):
+    search = study.run_study
+
+    def edited(*given):
+        Path("best.toml").write_text("# mine\n")
+        return search(*given)
+
+    monkeypatch.setattr(study, "run_study", edited)
+    asked = ("optimize", "ga", *QUICK, *NARROW, "--evaluations", 12, "--study", "s.db", "-o", "best.toml")
+    assert "best.toml: exists already" in refusal(*asked)
+    assert Path("best.toml").read_text() == "# mine\n"
+    assert "next: jumpcad build best.toml" in run(*asked, "--force")
+    assert load_design("best.toml").c_coef == 1.0

@@ -18,11 +18,13 @@ def called(entry: str, *arguments: str, before: str = "") -> subprocess.Complete
 
 
 @pytest.mark.parametrize(
-    "arguments", [("--version",), ("simulate", "--help"), ("simulate", "no-such-design"), ("fly",)]
+    ("code", "arguments"),
+    [(0, ("--version",)), (0, ("simulate", "--help")), (2, ("simulate", "no-such-design")), (2, ("fly",))],
 )
-def test_a_program_writes_and_returns_what_main_does(arguments: tuple[str, ...]) -> None:
+def test_a_program_writes_and_returns_what_main_does(code: int, arguments: tuple[str, ...]) -> None:
     program, main = called("program", *arguments), called("main", *arguments)
     assert (program.returncode, program.stdout, program.stderr) == (main.returncode, main.stdout, main.stderr)
+    assert program.returncode == code
     assert program.stdout or program.stderr
 
 
@@ -63,3 +65,9 @@ def test_a_profile_of_the_program_is_printed() -> None:
     command = [sys.executable, "-m", "cProfile", "-m", "jumpcad", "--version"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert "function calls" in done.stdout
+
+
+def test_a_program_that_is_traced_ends_with_its_code_too() -> None:
+    ended = called("program", "fly", before="import sys; sys.settrace(lambda *_: None)")
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert "fly" in ended.stderr

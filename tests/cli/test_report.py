@@ -1,13 +1,17 @@
 """`jumpcad report`: the page of a bundle and of a template, and what it refuses."""
 
+import json
 import shutil
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 from support.commands import Run
 from support.searches import QUICK
 
+from jumpcad.bundle.manifest import open_bundle
 from jumpcad.errors import JumpcadError
+from jumpcad.robot import Robot
 
 
 def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, bundle: Path, tmp_path: Path) -> None:
@@ -117,3 +121,24 @@ def test_a_page_that_is_edited_while_another_is_drawn_is_not_replaced(
     assert (copy / "report.html").read_text() == "mine"
     assert run("report", copy, "--force")[0] == 0
     assert (copy / "report.html").read_text() == "drawn"
+
+
+def test_a_page_tells_of_the_files_of_its_bundle(
+    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a robot that is no bundle there are none; each page is that of the robot that was asked for."""
+    own = Path(shutil.copytree(bundle, tmp_path / "own"))
+    asked: list[tuple[str, tuple[str, ...]]] = []
+
+    def page(robot: Robot, files: Iterable[str]) -> str:
+        asked.append((robot.name, tuple(files)))
+        return "<html></html>"
+
+    monkeypatch.setattr("jumpcad.bundle.export.report_page", page)
+    assert run("report", own)[:2] == (0, f"{own / 'report.html'}\n")
+    assert run("report", own, "-o", "else.html")[:2] == (0, "else.html\n")
+    assert json.loads(run("report", "best-bo", "--workshop", "light", "--json")[1]) == {"file": "best-bo-report.html"}
+    files = tuple(open_bundle(bundle).files)
+    assert "stl/main_leg.stl" in files
+    assert asked == [("kenan-2.0", files), ("kenan-2.0", ()), ("best-bo", ())]
+    assert (own / "report.html").read_text() == (tmp_path / "else.html").read_text() == "<html></html>"

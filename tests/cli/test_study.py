@@ -42,10 +42,11 @@ def test_a_summary_counts_what_was_searched_apart_from_what_lies_around_the_best
     around = [replace(trial, score=99.0) for trial in trials(3, "robust", 1)]
     with StudyStore.write(None, IDENTITY) as store:
         store.append([*searched, *around])
+        store.remember("stages", [{"method": "ga", "evaluations": 14}, {"method": "bo", "evaluations": 7}])
         summary = study._summary(Path("s.db"), store, 2)
     scores = sorted((trial.score for trial in searched if trial.score is not None), reverse=True)
     assert 2 < len(scores) < 16
-    assert (summary["evaluations"], summary["other_evaluations"]) == (17, 3)
+    assert (summary["evaluations"], summary["other_evaluations"], summary["planned"]) == (17, 3, 21)
     assert summary["refused"] == {"loop": 16 - len(scores), "quarantined": 1}
     assert summary["evaluation_time_s"] == pytest.approx(20 * 0.1)
     assert summary["best"]["score"] == scores[0]

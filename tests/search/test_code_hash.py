@@ -1,12 +1,19 @@
 """The hash of an objective's code follows what it uses of the user's own modules, objects and closures."""
 
+import datetime
+import functools
 import importlib
+import json
+import math
+import random
+import re
 import sys
 import sysconfig
 from pathlib import Path
 from types import FunctionType, SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from jumpcad.errors import JumpcadError
@@ -98,3 +105,63 @@ def test_a_script_is_no_library_wherever_the_program_lies_that_runs_it() -> None
     assert not code_hash_module._is_library("no_such_module")
     for known in ("sys", "json", "numpy", "jumpcad.design"):
         assert code_hash_module._is_library(known)
+
+
+class Named:
+    """A value that is copied by the name that it has in its module."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __reduce__(self) -> str:
+        return self.name
+
+
+FIRST, SECOND = Named("FIRST"), Named("SECOND")
+
+
+def made(body: int) -> type:
+    """Return a class whose methods of three kinds return a number."""
+
+    class Made:
+        whole = body
+
+        @property
+        def part(self) -> int:
+            return body
+
+        @staticmethod
+        def still() -> int:
+            return body
+
+        def __eq__(self, other: object) -> bool:
+            return bool(other == body)
+
+        __hash__ = None  # type: ignore[assignment]
+
+    return Made
+
+
+@pytest.mark.parametrize(
+    ("one", "same", "other"),
+    [
+        ({1, 2, 3}, {3, 2, 1}, {1, 2, 4}), (frozenset("ab"), frozenset("ba"), frozenset("a")), (1, 1, True),
+        (1, 1, 1.0),
+        ("a", "a", b"a"), ([1, 2], [1, 2], [2, 1]), ((1, 2), (1, 2), [1, 2]), ({"a": 1}, {"a": 1}, {"a": 2}),
+        ({"a": 1}, {"a": 1}, {"b": 1}), (-0.0, -0.0, 0.0), (None, None, ...), ([[]], [[]], [[], []]),
+        (10**30, 10**30, 10**30 + 1), (np.array([1.0, 2.0]), np.array([1.0, 2.0]), np.array([1.0, 2.5])),
+        (np.array([1.0]), np.array([1.0]), np.array([1])), (math.sin, math.sin, math.cos), (math, math, json),
+        (functools.partial(round, ndigits=1), functools.partial(round, ndigits=1), functools.partial(round, ndigits=2)),
+        (made(1), made(1), made(2)), (made(1)(), made(1)(), made(2)()), ([].append, [].append, [1].append),
+        (re.compile("a"), re.compile("a"), re.compile("b")), (FIRST, FIRST, SECOND),
+        (random.Random(1), random.Random(1), random.Random(2)), (range(3), range(3), range(4)),
+        (datetime.date(2020, 1, 2), datetime.date(2020, 1, 2), datetime.date(2020, 1, 3)),
+    ],
+)  # fmt: skip
+def test_equal_values_have_one_hash_and_others_another(one: Any, same: Any, other: Any) -> None:
+    """Of a function that uses them."""
+
+    def using(value: Any) -> str:
+        return code_hash(lambda figures: value)  # type: ignore[arg-type]
+
+    assert using(one) == using(same) != using(other)

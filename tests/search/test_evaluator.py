@@ -136,7 +136,13 @@ def test_a_step_is_read_whole_or_not_at_all(evaluator, tmp_path):
     first.evaluate(designs(3), "ga", 2)
     first.store.close()
     again = evaluator(tmp_path / "s.db")
-    assert again.finished("ga", 2, 4) is again.finished("ga", 1, 3) is again.finished("bo", 2, 3) is None
+    assert (
+        again.finished("ga", 2, 2)
+        is again.finished("ga", 2, 4)
+        is again.finished("ga", 1, 3)
+        is again.finished("bo", 2, 3)
+        is None
+    )
     assert again.trials == []
     found = again.finished("ga", 2, 3)
     assert [trial.place for trial in found] == [0, 1, 2]
@@ -153,3 +159,11 @@ def test_what_is_read_from_the_study_file_is_told_apart_from_what_is_computed(ev
     again.evaluate(designs(5), "ga", 1)
     assert seen == [(0, 0, False), (0, 1, False), (0, 2, False), (1, 0, True), (1, 1, True)]
     assert again.spent == 5
+
+
+def test_a_place_of_this_run_is_taken_too(evaluator):
+    one = evaluator()
+    one.evaluate(designs(2), "ga", 0)
+    with pytest.raises(JumpcadError, match="proposes other designs"):
+        one.evaluate(designs(2, seed=1), "ga", 0)
+    assert len(one.store.trials()) == 2

@@ -2,13 +2,14 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.search.acquisition import Proposal
-from jumpcad.search.learner import HELD, ROUNDS, Learner, _last_leap
+from jumpcad.search.learner import HELD, ROUNDS, Learner, _best_of, _last_leap
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.polling import DRAWN, STEP, WITHIN
 from jumpcad.search.posterior import SearchPosterior
@@ -139,6 +140,18 @@ def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
 
 def test_none_is_passed_on():
     assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).propose(lambda *_, **__: None, 1.0) is None
+
+
+def test_the_best_of_many_proposals_is_the_one_with_the_most_to_gain_that_is_likely_to_be_built():
+    units = ([0.1, 0.1, 0.1], [0.5, 0.5, 0.5], [0.9, 0.9, 0.9])
+    proposals = [Proposal(SMALL.to_variant(unit), np.array(unit), 0.0, 0.0) for unit in units]
+    posterior = SimpleNamespace(
+        log_improvement=lambda points, best: best - 3.0 * np.abs(points[:, 0] - 0.8),
+        log_feasible=lambda points: -3.0 * points[:, 0] ** 3,
+    )
+    chosen = _best_of(proposals, posterior, 2.0)
+    assert chosen.unit.tolist() == units[1]
+    assert (chosen.log_improvement, chosen.log_feasible) == pytest.approx((1.1, -0.375))
 
 
 def found_in(*steps):

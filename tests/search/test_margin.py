@@ -7,6 +7,7 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.design import SEARCH_BOUNDS
+from jumpcad.search.acquisition import Proposal
 from jumpcad.search.margin import STEEPNESS, _missed, propose_robust
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.robust import rank_candidates
@@ -106,3 +107,29 @@ def test_only_what_was_made_as_the_space_says_is_learned_from(evaluator):
         runs.append([trial.key for trial in propose_robust(one, own, 2, 0, 0.01)])
     assert len(runs[0]) == 3
     assert runs[0] == runs[1]
+
+
+def test_for_each_confidence_another_design_is_proposed(evaluator, monkeypatch):
+    """Near the best, of what is new; its score is to be the highest of all, so it must beat nothing."""
+    one, asked = evaluator(model=Cliff()), []
+    trials = one.evaluate([SMALL.to_design(point) for point in SMALL.spread(16, np.random.default_rng(1))], "bo", 0)
+    points = [np.array([0.1 * n, 0.5, 0.5]) for n in range(5)]
+    known = one.evaluate([SMALL.to_design(points[0])], "bo", 1)
+
+    def proposed(space, posterior, best, elite, admits, generator, penalty):
+        asked.append((best, elite.tolist(), penalty(np.full((1, 3), 0.99))[0]))
+        point = next(point for point in points if admits(space.to_variant(point)))
+        return Proposal(space.to_variant(point), point, -1.0, -2.0)
+
+    monkeypatch.setattr("jumpcad.search.margin.propose", proposed)
+    found = propose_robust(one, trials, 3, 0, 0.01)
+    assert len(known) == 1
+    assert [trial.design for trial in found] == [SMALL.to_design(point) for point in points[1:4]]
+    assert [(trial.phase, trial.step, trial.place) for trial in found] == [("margin", 3, place) for place in range(3)]
+    assert [trial.proposal["log_feasible"] for trial in found] == [-2.0] * 3
+    assert "theta" in found[0].proposal
+    best = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: -trial.score)[:4]
+    assert asked[0][:2] == (0.0, [pytest.approx(SMALL.to_unit(trial.variant)) for trial in best])
+    assert [cost for *_, cost in asked] == sorted(cost for *_, cost in asked)  # the more confidence, the more it costs
+    monkeypatch.setattr("jumpcad.search.margin.propose", lambda *_: None)
+    assert propose_robust(one, trials, 4, 0, 0.01) == []

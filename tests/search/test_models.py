@@ -182,3 +182,10 @@ def test_figures_of_a_jump_are_its_numbers_alone():
     assert _figures(jump) == {
         "mass_kg": 0.1, "spring_energy_j": 0.2, "fitness": 0.0, "ballistic_range_m": 0.5,
     }  # fmt: skip
+
+
+@pytest.mark.parametrize("field", ["workshop", "settings", "engine", "stand_in"])
+def test_a_model_is_made_of_what_it_says(field):
+    """A name is no workshop: `robot_model` takes names."""
+    with pytest.raises(JumpcadError, match=field):
+        RobotModel("printed", **{field: 5 if field == "engine" else "light"})

@@ -211,3 +211,14 @@ def test_a_figure_that_there_is_not_is_named_with_those_that_there_are():
     with pytest.raises(JumpcadError, match=r"asks for 'reach'; a jump of this model has fitness, mass_kg") as error:
         find_objective(lambda m: m["reach"]).score(Evaluation("jump", {"fitness": 1.0, "mass_kg": 0.1}))
     assert "\n" not in str(error.value)
+
+
+def test_an_interrupt_in_a_users_function_is_one(tmp_path):
+    def interrupted(m):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        find_objective(interrupted).score(JUMP)
+    (tmp_path / "aims.py").write_text("raise KeyboardInterrupt\n")
+    with pytest.raises(KeyboardInterrupt):
+        find_objective(f"{tmp_path / 'aims.py'}:light")

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.hills import Hill, Trap
+from support.hills import SMALL, Hill, Trap
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED
@@ -245,3 +245,28 @@ def test_workers_and_timeouts_have_ends_that_are_told(workers, limit_s, message)
 )  # fmt: skip
 def test_how_a_worker_was_lost_is_one_line(error, said):
     assert Pool(InProcess, InProcess.shutdown, 1, 12.5)._loss(error) == said
+
+
+def test_tasks_are_as_long_as_evaluations_took_of_late():
+    """Each moves the mean by a tenth of its difference; the first tasks are of one design."""
+    with Pool(InProcess, InProcess.shutdown, 1) as pool:
+        assert [len(task) for task in pool._tasks(3)] == [1, 1, 1]
+        mean_s = pool._mean_s
+        found = list(pool.evaluate(Hill(), [SMALL.to_design([0.5, 0.01 * n, 0.5]) for n in range(60)]))
+        for outcome in found:
+            mean_s += 0.1 * (outcome.duration_s - mean_s)
+        assert pool._mean_s == pytest.approx(mean_s)
+        assert len(pool._tasks(60)) < 10
+
+
+def test_what_a_call_without_processes_raises_comes_with_its_result():
+    """An interrupt is nobody's result."""
+    executor = InProcess()
+    assert executor.submit(int, "70", base=8).result() == 56
+    assert isinstance(executor.submit(int, "x").exception(), ValueError)
+
+    def interrupted():
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        executor.submit(interrupted)

@@ -1,6 +1,7 @@
 """What is learned of score and limits: improvement against numerical integration, feasibility against drawing."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -267,3 +268,28 @@ def test_hyperparameters_are_kept_to_three_decimals_and_taken_up_again():
     other = SearchPosterior.from_trials(SMALL, rows_of(40), thetas, ("loop",))
     assert other.thetas["score"] == thetas["score"]
     assert other.thetas["loop"] != thetas["loop"]
+
+
+def test_hyperparameters_of_guesses_and_of_what_scores_are_more_have_their_own_names():
+    trials = [trial for trial in rows_of(24) if trial.score is not None]
+    guesses = {one.key: (SMALL.to_unit(one.variant), 0.5 * one.score) for one in trials}
+    posterior = SearchPosterior.from_trials(SMALL, trials[:6], {}, None, guesses)
+    thetas = posterior.thetas
+    assert list(thetas) == ["guess", "more"]
+    assert thetas["guess"] == pytest.approx(posterior.guess.theta, abs=6e-4)
+    assert thetas["more"] == pytest.approx(posterior.score.theta, abs=6e-4)
+    assert thetas["guess"] != thetas["more"]
+    again = SearchPosterior.from_trials(SMALL, trials[:6], thetas, (), guesses)
+    assert (again.guess.theta, again.score.theta) == (pytest.approx(thetas["guess"]), pytest.approx(thetas["more"]))
+
+
+def test_backward_jumps_are_learned_as_none_where_some_go_forwards():
+    """The roots of 4, 0 in place of -9, and 16; of guesses too."""
+    trials = [replace(trial, score=score) for trial, score in zip(rows_of(3), (4.0, -9.0, 16.0), strict=True)]
+    assert SearchPosterior.from_trials(SMALL, trials, {}, None).score.y.tolist() == [2.0, 0.0, 4.0]
+    guesses = {one.key: (SMALL.to_unit(one.variant), one.score) for one in trials}
+    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None, guesses)
+    assert posterior.guess.y.tolist() == [2.0, 0.0, 4.0]
+    assert posterior.score.y.tolist() == [0.0] * 3
+    backwards = [replace(trial, score=-abs(trial.score)) for trial in trials]
+    assert SearchPosterior.from_trials(SMALL, backwards, {}, None).score.y.tolist() == [-2.0, -3.0, -4.0]

@@ -20,7 +20,7 @@ from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.polling import STALLED, Progress
 from jumpcad.search.pool import local_pool
-from jumpcad.search.rehearsal import FAILED, TRIED, Rehearsal, _stayed
+from jumpcad.search.rehearsal import FAILED, GUESSED, TRIED, Rehearsal, _stayed
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.stand_in import LAID
@@ -274,3 +274,18 @@ def test_of_what_did_not_hold_the_last_are_learned():
     found = rehearsal.failures([], [1000, 1001, 1002])
     assert found == [*range(2, FAILED), 1000, 1002]
     assert rehearsal.failures([], []) == list(range(FAILED))
+
+
+def test_of_what_held_the_last_are_guessed_and_every_trial_that_jumped(monkeypatch):
+    """The first designs of a search come before what was tried."""
+    rehearsal = object.__new__(Rehearsal)
+    named = [SimpleNamespace(key=number) for number in range(GUESSED + 4)]
+    monkeypatch.setattr(rehearsal, "_tried", lambda trials, tried: iter(tried), raising=False)
+    monkeypatch.setattr(rehearsal, "_guess", lambda one: Guess(10.0 * one.key, {}), raising=False)
+    rehearsal._fit, rehearsal._first = object(), named[:2]
+    rehearsal._failure = lambda one: object() if one.key == 5 else None
+    rehearsal._space = SimpleNamespace(to_unit=lambda one: -one.key)
+    trials = [SimpleNamespace(variant=SimpleNamespace(key=key), score=score) for key, score in ((-1, 0.5), (-2, None))]
+    found = rehearsal.guesses(trials, named[2:])
+    assert list(found) == [number for number in range(3, GUESSED + 4) if number != 5] + [-1]
+    assert found[-1] == (1, -10.0)

@@ -157,6 +157,7 @@ def test_the_winners_design_is_written_and_its_workshop_beside_it(tmp_path: Path
     assert "in the file that ends in -workshop.toml" in (tmp_path / "won.toml").read_text()
     assert "Its workshop" not in (tmp_path / "plain.toml").read_text()
     assert "#   body.plate_mm = 2.75\n" in (tmp_path / "won-workshop.toml").read_text()
+    made.save(tmp_path / "won.toml")  # again: what nobody has edited is replaced
     (tmp_path / "won-workshop.toml").write_text("# mine\n")
     (tmp_path / "won.toml").unlink()
     with pytest.raises(JumpcadError, match=r"won-workshop\.toml: exists already"):

@@ -113,3 +113,18 @@ def test_texts_of_a_row_are_plain_json(trial: Trial) -> None:
     assert json.loads(row["proposal"]) == trial.proposal
     assert (row["phase"], row["step"], row["place"]) == ("bo", 1, trial.place)
     assert [row[name] for name in PARAMETERS] == trial.design.to_vector()
+
+
+def test_each_column_comes_back_in_its_own_place(trial: Trial) -> None:
+    """Numbers and texts of their own everywhere."""
+    told = replace(
+        trial, phase="bo", step=12, place=34, score=5.5, model="digest", duration_s=6.25,
+        evaluation=replace(trial.evaluation, detail="why", metrics={"fitness": 7.5, "p10": -8.0}),
+        proposal={"log_improvement": -1.5, "theta": {"score": [0.5, 0.25, 0.125]}, "tried": [[0.1, 0.2]]},
+        workshop={"body.plate_mm": 2.0, "bought.spring": "x"},
+    )  # fmt: skip
+    keys = ("body.plate_mm", "bought.spring")
+    found = again(told, keys)
+    assert found == told
+    assert (found.evaluation.detail, found.model, found.duration_s, found.score) == ("why", "digest", 6.25, 5.5)
+    assert (dict(found.proposal), dict(found.workshop)) == (told.proposal, told.workshop)

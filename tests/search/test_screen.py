@@ -330,3 +330,12 @@ def test_nothing_is_learned_where_too_few_were_built(model):
         assert screen.learn(trials) is False
         assert screen.tiers == {}
         assert screen.guess(trials[0].variant) is None
+
+
+def test_what_a_model_does_not_admit_is_left_to_its_evaluation() -> None:
+    """It is refused there at once, with its reason: no guess is asked for, and nothing is laid out."""
+    unasked = SimpleNamespace(guess=None)
+    screen = Screen.__new__(Screen)
+    screen.model = SimpleNamespace(admits=lambda _: False, laid_out=None, refused_first=None)  # type: ignore[assignment]
+    screen.tiers = {False: unasked, True: unasked}  # type: ignore[dict-item]
+    assert screen.outcomes([Variant(BEST)], 9.0) == {}

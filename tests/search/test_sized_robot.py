@@ -10,9 +10,11 @@ import pytest
 from support.built import LONG_TOES, built
 
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
+from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.linkage import toe_tip_mm
-from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
+from jumpcad.search.quick_mass import axle_measure
 from jumpcad.search.sized_robot import NUMBERS, SizedLinks, near, printed_g_mm, sized_robot, usual_bearing
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 
@@ -126,6 +128,7 @@ def test_shipped_workshops_are_near_with_designs_of_the_default_bounds(shop: str
     [
         ({"bought.kit": "strong-2s"}, True),
         ({"bought.retention": "nuts", "bought.leg_bearing": "", "roles.links": "PLA"}, True),
+        ({"roles.links": "PLA", "roles.body": "PLA", "roles.gears": "PLA"}, True),  # and no other material is left
         ({"bought.leg": "carbon-strip-3x6"}, False),
         ({"bought.axle_mm": 2.0}, False),
         ({"ground.pad": "rubber-2"}, False),
@@ -147,3 +150,52 @@ def test_workshops_are_near_that_differ_in_nothing_but_what_was_measured(
 def test_materials_of_one_s_own_are_not_near() -> None:
     petg = SHOP.materials["PETG"].model_copy(update={"density_g_cm3": 1.2})
     assert not near(DESIGN, SHOP.model_copy(update={"materials": SHOP.materials | {"PETG": petg}}))
+
+
+@pytest.mark.parametrize("preload_deg", [0.0, 8.0])
+def test_masses_places_and_inertias_are_proportional_to_what_carries_them(preload_deg: float) -> None:
+    """By bodies: plates, springs and axles; the leg, its hubs and bearings; the front link; toes, rails and bars.
+
+    Places are moments over the mass; springs count with their energy, the preload's included, and their torque's root.
+    """
+    shop = varied(SHOP, {"spring.preload_deg": preload_deg, "body.toe_half_width_mm": 40.0})
+    links, mass = SizedLinks.of(DESIGN, shop), {BODY: 90.0, MAIN_LEG: 20.0, FRONT_LINK: 5.0, FOOT: 12.0}
+    design, sized, spring = DESIGN, links.sections, links.plain.spring
+    loaded = design.compression_rad + math.radians(preload_deg)
+    torque = spring.stiffness_nm_per_rad * loaded
+    energy_mj, root = 500.0 * spring.stiffness_nm_per_rad * loaded**2, (1000.0 * torque) ** (1.0 / 3.0)
+    density = shop.material("links").density_g_cm3
+    plate = 1000.0 * printed_g_mm(shop, "body", 60.0, shop.body.plate_mm) / 60.0
+    battery = chosen_parts(shop).battery.mass_g / mass[BODY]
+    x, y = toe_tip_mm(design).tolist()
+    toes, rails, bars = links.toe_g_mm * design.l5_mm, links.rail_g_mm * design.l4_mm, density * max(0.0, 40.0 - y)
+    l1, l2, l3, l4 = design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm
+    found = {
+        "mass": links.mass_features, "x": links.places(mass), "z": links.heights(mass), "turn": links.inertias(mass)
+    }  # fmt: skip
+    known = {
+        "mass": {
+            BODY: (plate, plate * l1, energy_mj, root, axle_measure(shop)),
+            MAIN_LEG: (1.0, links.leg_g_mm * l2, 2.0 * links.bearing_g, density * sized.thickness_mm),
+            FRONT_LINK: (density * sized.thickness_mm, links.front_g_mm * l3),
+            FOOT: (1.0, toes, rails, bars, links.apart, density * sized.foot_depth_mm**2),
+        },
+        "x": {
+            BODY: (1.0, battery, battery * l1, l1, root, energy_mj),
+            MAIN_LEG: (1.0, l2, links.leg_g_mm * l2**2 / 20.0),
+            FRONT_LINK: (l3,),
+            FOOT: tuple(m / 12.0 for m in (rails * l4, toes * x, bars * x, links.apart * x / design.l5_mm, l4)),
+        },
+        "z": {
+            BODY: (1.0, l1, root, battery), MAIN_LEG: (1.0,), FRONT_LINK: (1.0,), FOOT: (1.0, sized.foot_depth_mm),
+        },
+        "turn": {
+            BODY: (90.0, 90.0 * l1**2), MAIN_LEG: (20.0 * l2**2,), FRONT_LINK: (5.0 * l3**2,),
+            FOOT: (rails * l4**2, toes * x**2, 12.0),
+        },
+    }  # fmt: skip
+    assert bars > 0.0
+    for kind, bodies in known.items():
+        assert found[kind].keys() == bodies.keys()
+        for name, values in bodies.items():
+            assert found[kind][name] == pytest.approx(values), (kind, name)

@@ -402,3 +402,11 @@ def test_what_is_remembered_is_recalled_and_replaced():
             store.remember("screen", value)
             assert store.recall("screen") == value
         assert store.identity == IDENTITY
+
+
+def test_an_apostrophe_is_no_end_of_an_identity(tmp_path):
+    """A file of an own objective may have one in its name."""
+    identity = IDENTITY | {"objective": "it's", "note": "''); DROP TABLE evaluations; --"}
+    for _ in range(2):
+        with StudyStore.write(tmp_path / "s.db", identity) as store:
+            assert store.identity == identity

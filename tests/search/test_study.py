@@ -20,13 +20,13 @@ from jumpcad.search import study
 from jumpcad.search.methods import STEPS, Method, Task
 from jumpcad.search.models import robot_model
 from jumpcad.search.neighbours import NEIGHBOURS
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.polling import gains
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.study import run_study
+from jumpcad.search.study import _read_prior, run_study
 from jumpcad.search.trial import Trial
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4, until_percent=0.0)
@@ -424,3 +424,20 @@ def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
     assert [task.first_step for _, task in asked[2:6]] == [0, STEPS, 2 * STEPS, 3 * STEPS]
     assert [task.least_gain for _, task in asked[2:6]] == [0.0, 0.0, 0.0, 0.02]
     assert asked[6:] == [("ga", Task(20, 7, screen=True))]
+
+
+def test_a_prior_study_is_scored_by_the_objective_of_the_request(tmp_path):
+    """Whatever it was made for: a rejected design has no score by any."""
+    run(replace(REQUEST, method="ga", evaluations=12), tmp_path / "prior.db")
+
+    def doubled(figures):
+        return 2.0 * figures["fitness"]
+
+    aim = find_objective(doubled)
+    trials, remark = _read_prior(replace(REQUEST, objective=aim.name, own=aim, prior=tmp_path / "prior.db"))
+    assert remark == ""
+    assert len(trials) == 12
+    assert any(trial.score is None for trial in trials)
+    for trial in trials:
+        fitness = trial.evaluation.metrics.get("fitness")
+        assert trial.score == (None if fitness is None else 2.0 * fitness)

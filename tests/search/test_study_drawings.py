@@ -84,3 +84,12 @@ def test_the_best_run_together_or_spread_by_their_reach_in_each_range() -> None:
     )
     none = [trial(*[0.5 + 0.07 * n] * 3) for n in range(5)]
     assert _spread(SMALL, none).endswith("neither run together nor spread widely in any parameter.")
+
+
+@pytest.mark.parametrize(
+    ("reach", "said"),
+    [(0.098, "run together"), (0.102, "neither"), (0.498, "neither"), (0.502, "spread over more")],
+)
+def test_a_tenth_of_the_range_is_together_and_more_than_half_apart(reach: float, said: str) -> None:
+    best = [trial(0.2 + 0.25 * reach * n, 0.2 + 0.3 * n / 4.0, 0.2 + 0.3 * n / 4.0) for n in range(5)]
+    assert said in _spread(SMALL, best)

@@ -424,3 +424,16 @@ def test_the_area_of_a_long_front_is_that_of_all_its_designs():
     assert f"The area below its line, up to 1.5 J, is {hypervolume(many):.4g} m·J (hypervolume)" in said
     assert "100 of its 150 designs are shown, evenly chosen along it." in said
     assert "The page opens on design 100 (trial 150), the one with the highest score" in said
+
+
+def test_a_page_has_all_its_sections_in_their_order(studies):
+    """A front has no winner, and of its bounds nothing is known; two free parameters have pictures of the process."""
+    headings = [text(one) for one in parsed(known_page_of(studies / "bo.db")).iter("h2")]
+    assert headings == [
+        "What was asked", "The best designs", "History", "Slices", "Parallel lines", "What the method knew at first",
+        "What the method knew at last", "Importance", "Active bounds", "Why designs were rejected",
+    ]  # fmt: skip
+    fronts = [text(one) for one in parsed(known_page_of(studies / "nsga2.db")).iter("h2")]
+    assert fronts == [
+        "What was asked", "The front", *headings[2:5], "Importance", "Active bounds", "Why designs were rejected"
+    ]  # fmt: skip

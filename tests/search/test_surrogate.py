@@ -67,3 +67,17 @@ def test_an_axis_of_names_becomes_one_for_each_name():
     assert axes.fold(np.array([9.0, 1.0, 2.0, 4.0, 8.0, 3.0, 7.0])).tolist() == [9.0, 1.0, 14.0, 3.0, 7.0]
     plain = Axes((0, 0))
     assert plain.expand(points[:, :2]).tolist() == points[:, :2].tolist()
+
+
+def test_values_scatter_about_the_function_by_the_root_of_their_noise(data):
+    """In units of the values' deviation, or of those that are given; far from all points nothing is known."""
+    x, y = data
+    theta = [0.0, *[np.log(0.2)] * 3, np.log(0.01)]
+    plain, given = Surrogate(x, y, theta, fit=False), Surrogate(x, y, theta, fit=False, units=(0.5, 4.0))
+    assert plain.theta == given.theta == pytest.approx(theta)
+    assert plain.scatter == pytest.approx(0.1 * y.std())
+    assert given.scatter == pytest.approx(0.1 * 4.0)
+    far = np.full((1, 3), 99.0)
+    for one, centre, spread in ((plain, y.mean(), y.std()), (given, 0.5, 4.0)):
+        mean, deviation = one.predict(far)
+        assert (mean[0], deviation[0]) == pytest.approx((centre, spread))

@@ -88,3 +88,15 @@ def test_a_task_has_a_result_and_a_duration_for_each_of_its_designs():
         worker.Failure("ValueError"),
     ]  # fmt: skip
     assert all(0.02 <= duration_s < 1.0 for _, duration_s in found)
+
+
+def test_what_is_wrong_with_every_design_ends_the_task():
+    """As an engine that is not installed: it is no failure of one design."""
+
+    class Wrong(Hill):
+        def __call__(self, design):
+            raise JumpcadError("no engine")
+
+    sent = cloudpickle.dumps((Wrong(), {"hill": "1"}))
+    with pytest.raises(JumpcadError, match="no engine"):
+        worker.evaluate_task(sent, [SMALL.to_design([0.5] * 3)], 0.0)

@@ -237,3 +237,22 @@ def test_drag_slows_travel_and_turning() -> None:
     assert free_spin == pytest.approx(1.0, abs=0.02)
     assert slowed_m_s < math.exp(-0.1) + 0.02  # 20/s for 5 ms
     assert slowed_spin < math.exp(-0.1)
+
+
+def test_pybullet_is_told_how_long_steps_are_and_when_its_solver_may_end(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """PyBullet does not give all of it back."""
+    bullet = pytest.importorskip("pybullet")
+    told: dict[str, float] = {}
+    set_parameters = bullet.setPhysicsEngineParameter
+    monkeypatch.setattr(
+        bullet, "setPhysicsEngineParameter", lambda **given: told.update(given) or set_parameters(**given)
+    )
+    settings = Settings(dt_s=0.0004, solver_iterations=77, solver_residual=3e-6)
+    with engine_named("pybullet").world(kenan, settings) as world:
+        client = world._client
+    assert told == {
+        "fixedTimeStep": 0.0004, "numSolverIterations": 77, "solverResidualThreshold": 3e-6, "numSubSteps": 0,
+        "physicsClientId": client,
+    }  # fmt: skip

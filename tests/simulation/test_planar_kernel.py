@@ -516,3 +516,14 @@ def test_a_push_off_tells_how_near_the_body_came_to_the_ground(kenan: Robot) -> 
         gaps.append(moment.belly_gap_m)
     assert found.belly_gap_m == pytest.approx(min(gaps), rel=1e-12)
     assert found.belly_gap_m < 0.8 * found.moment.belly_gap_m
+
+
+def test_how_near_the_body_comes_in_the_air_is_not_told(kenan: Robot) -> None:
+    """Of a robot that sinks: only the first step off the ground counts."""
+    model = model_of(kenan)
+    sinking = moving(model, -0.5)._replace(speed=Motion(-1.0j, 0.0, 0.0))
+    first = kernel.advance(model, sinking, FINE.dt_s, 1)
+    found = kernel.push_off(model, sinking, FINE.dt_s, 1.0, 0.0, 1.0, 0.01, 16)
+    assert not found.flown
+    assert found.belly_gap_m == first.belly_gap_m
+    assert found.moment.belly_gap_m < first.belly_gap_m - 0.005

@@ -1,14 +1,20 @@
 """Feasibility and verdict of a simulated jump."""
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
 from jumpcad.design import Design, load_design
+from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import RollerOff
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, run, simulate
+from jumpcad.simulation.jump import EnergyBudget
+from jumpcad.simulation.mechanics import Ballistics
+from jumpcad.simulation.simulator import _jump
 
 pytest.importorskip("pybullet")
 
@@ -100,3 +106,22 @@ def test_a_run_that_fails_its_audit_has_the_verdict_of_the_audit(monkeypatch: py
     assert [one.name for one in jump.findings].count("audit_energy") == 1
     assert jump.findings[-1].name == "audit_loop"
     assert jump.trajectory is not None
+
+
+def test_every_figure_of_a_run_comes_under_its_own_name(kenan: Robot) -> None:
+    """Fitness is range over the longest link; release and take-off are shares of the springs' energy."""
+    budget = EnergyBudget(0.1, 0.2, 0.3, 0.4, 0.5, 0.25 * kenan.spring.energy_j, 0.7, 0.8, 0.9)
+    takeoff = SimpleNamespace(flight=Ballistics(1.5, 0.25, 3.5, 62.0), energy=budget, energy_ratio=0.875, time_s=0.0625)
+    told, kept = Finding("audit_loop", "info", 1.0, "mm", "", ""), Finding("loop", "info", 2.0, "°", "", "")
+    made: Any = SimpleNamespace(
+        mechanism=kenan, takeoff=takeoff, findings=lambda: (told,), touchdown_distance_m=1.25, published="published",
+        trajectory=lambda: "path",
+    )  # fmt: skip
+    jump = _jump(made, "planar", (kept,))
+    assert vars(jump) == {
+        "verdict": "jump", "engine": "planar", "mass_kg": kenan.mass_kg, "spring_energy_j": kenan.spring.energy_j,
+        "fitness": pytest.approx(1500.0 / kenan.design.l_max_mm), "ballistic_range_m": 1.5, "com_rise_m": 0.25,
+        "release_energy_ratio": pytest.approx(0.75), "takeoff_energy_ratio": 0.875, "takeoff_speed_m_s": 3.5,
+        "takeoff_angle_deg": 62.0, "takeoff_time_s": 0.0625, "touchdown_distance_m": 1.25, "energy": budget,
+        "published": "published", "trajectory": "path", "findings": (kept, told),
+    }  # fmt: skip

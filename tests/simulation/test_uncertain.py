@@ -180,3 +180,26 @@ def test_eight_of_ten_resamples_lie_in_the_interval(robot: Robot, monkeypatch: p
     for group in found.first_order:
         assert set(found.first_order[group].values()) == {100.0}
         assert all(ends == pytest.approx([9.9, 89.1]) for ends in found.interval[group].values())
+
+
+def test_groups_vary_independently_of_each_other(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of the nine inputs has points of its own, evenly spread; a jump is changed by one row of each group."""
+    rows: list[np.ndarray] = []
+
+    def jump(
+        asked: Robot, settings: Settings, engine: str, changes: list[tuple[object, np.ndarray]]
+    ) -> tuple[float, ...]:
+        assert (asked, engine) == (robot, "planar")
+        rows.append(np.concatenate([value for _, value in changes]))
+        return (float(len(rows) % 4 > 0), 0.1)
+
+    monkeypatch.setattr(uncertain, "_jump", jump)
+    found = uncertain_jump(robot, Settings(), "planar", samples=128)
+    values = np.array(rows)
+    assert values.shape == (128, 9)
+    correlations = np.corrcoef(values.T) - np.eye(9)
+    assert np.abs(correlations).max() < 0.15
+    assert (found.jumps, found.jumps_share, found.calibrated) == (128, 0.75, False)
+    assert found.quantiles["com_rise_m"] == pytest.approx([0.1] * 3)
+    draws = Draws(spring_efficiency=(0.9, 0.95), pin_friction=(0.1, 0.2))
+    assert uncertain_jump(robot, Settings(draws=draws), "planar", samples=4).calibrated

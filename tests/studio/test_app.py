@@ -310,3 +310,16 @@ def test_what_a_person_changes_is_acted_on(study: Path, tmp_path: Path, monkeypa
     acts["point"]()
     assert shown.number == 3
     server.stop()
+
+
+def test_sliders_reach_as_far_as_the_design_to_which_they_are_reset(studio: Studio) -> None:
+    """And no less far than before."""
+    before = {key: (slider.min, slider.max) for key, slider in studio.sliders.items()}
+    far = {"carrying_link_mm": 390.0, "c_coef": 0.35}
+    studio.first = studio.first.model_copy(update=far)
+    assert studio._reset() == "as at the start"
+    assert studio.design == studio.first
+    for key, slider in studio.sliders.items():
+        low, high = before[key]
+        value = far.get(key, low)
+        assert (slider.min, slider.max) == (min(low, value), max(high, value))

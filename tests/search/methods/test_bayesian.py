@@ -287,3 +287,17 @@ def test_a_search_ends_after_so_many_steps_that_gained_too_little(
 
     monkeypatch.setattr(bayesian, "run_steps", steps_of)
     assert run_bayesian(one, Task(40, 0, least_gain=least_gain)) is ended
+
+
+def test_the_best_are_learned_from_however_far_away_they_are(monkeypatch):
+    """Of seven on a line four: the two best, at 0.1 and 0.9, and the two nearest to the very best, at 0.1."""
+    monkeypatch.setattr(bayesian, "LEARNED", 4)
+    places = (0.1, 0.2, 0.4, 0.5, 0.3, 0.7, 0.9)
+    trials = [
+        replace(one, design=SMALL.to_design([place, 0.5, 0.5]))
+        for one, place in zip(scored(9.0, 1.0, 4.0, None, 2.0, 3.0, 8.0), places, strict=True)
+    ]
+    assert learned_trials(SMALL, trials, 2) == [trials[n] for n in (0, 1, 4, 6)]
+    assert learned_trials(SMALL, trials, 0) == [trials[n] for n in (0, 1, 2, 4)]
+    rejected = [replace(trial, score=None) for trial in trials]  # from the middle
+    assert learned_trials(SMALL, rejected, 2) == [rejected[n] for n in (2, 3, 4, 5)]

@@ -18,6 +18,7 @@ from jumpcad.search.methods.genetic import (
     find_preset,
     run_genetic,
 )
+from jumpcad.search.models import robot_model
 from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -107,6 +108,13 @@ def test_what_a_screen_leaves_out_has_the_score_that_was_guessed():
         trial = Trial("ga", 0, 0, design, Evaluation(SCREENED, metrics), None, "m", 0.0)
         assert fitness.fitness(trial) == score
     assert fitness.fitness(Trial("ga", 0, 0, design, Evaluation("jump"), 3.5, "m", 0.0)) == 3.5
+
+
+def test_a_search_with_a_screen_begins_at_its_own_step(monkeypatch):
+    monkeypatch.setattr("jumpcad.search.screen.Screen", lambda *given: given)
+    evaluator = SimpleNamespace(model=robot_model(), space="space", objective="objective")
+    fitness = ScreenedFitness(evaluator, "ga", 9, -2.0, 40)
+    assert (fitness.phase, fitness.left, fitness.rejected, fitness.first_step) == ("ga", 9, -2.0, 40)
 
 
 @pytest.mark.parametrize("batteries", ["lipo-2s-180,lipo-1s-300", "lipo-1s-300"])
