@@ -71,3 +71,21 @@ def test_a_program_that_is_traced_ends_with_its_code_too() -> None:
     ended = called("program", "fly", before="import sys; sys.settrace(lambda *_: None)")
     assert (ended.returncode, ended.stdout) == (2, "")
     assert "fly" in ended.stderr
+
+
+SWALLOWED = """
+from jumpcad.cli import commands, main
+from jumpcad.interrupts import seen
+commands.run = lambda arguments: seen.append(2) or 0
+try:
+    main()
+except SystemExit as end:
+    print(end.code, seen)
+"""
+
+
+def test_an_interrupt_counts_for_its_own_command_only() -> None:
+    """Also one that a library took for its own; what the process does next is not interrupted by it."""
+    done = subprocess.run([sys.executable, "-c", SWALLOWED], capture_output=True, text=True, check=True)
+    assert done.stdout == "130 []\n"
+    assert "interrupted" in done.stderr

@@ -8,6 +8,7 @@ from support.hills import FIXED
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.space import Space
 from jumpcad.search.variant import Variant
 from jumpcad.workshop import load_workshop
@@ -266,3 +267,10 @@ def test_a_part_of_the_space_keeps_what_is_fixed_and_all_choices():
     assert held.to_variant([0.5]) == centre
     assert held.to_variant([0.5]).workshop["bought.battery"] == "lipo-1s-300"
     assert space.near(centre, ("c_coef",), None) is None
+
+
+def test_a_space_is_made_of_parameters():
+    for parameters in ("c_coef", ("c_coef",), [SearchParameter("c_coef", 0.9, 1.1)]):
+        with pytest.raises(JumpcadError, match=r"parameters"):
+            Space(parameters)
+    assert Space((SearchParameter("c_coef", 0.9, 1.1),)).dimension == 1

@@ -61,8 +61,10 @@ def test_what_a_worker_prints_goes_nowhere(monkeypatch):
     monkeypatch.setattr(worker.threading, "Thread", lambda **given: SimpleNamespace(start=lambda: ended.append(given)))
     monkeypatch.setattr(worker.os, "open", lambda path, _: path)
     monkeypatch.setattr(worker.os, "dup2", lambda source, target: made.append((source, target)))
+    monkeypatch.setattr(worker.atexit, "register", lambda *call: made.append(call))  # or these tests would end well
+    monkeypatch.setattr(worker, "collect_seldom", lambda: made.append("collects seldom"))
     worker.start_worker(7)
-    assert made == [(os.devnull, 1)]
+    assert made == [(os.devnull, 1), "collects seldom", (os._exit, 0)]
     assert [(given["args"], given["daemon"]) for given in ended] == [((7,), True)]
 
 

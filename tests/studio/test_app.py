@@ -12,6 +12,7 @@ from support.built import built
 
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.design import Design, load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.evaluation import evaluate
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -323,3 +324,15 @@ def test_sliders_reach_as_far_as_the_design_to_which_they_are_reset(studio: Stud
         low, high = before[key]
         value = far.get(key, low)
         assert (slider.min, slider.max) == (min(low, value), max(high, value))
+
+
+def test_a_point_whose_workshop_cannot_be_used_is_not_opened(
+    study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    server, points = viser.ViserServer(host="127.0.0.1", port=0, verbose=False), Points(study)
+    shown = Studio(points.trial(3).design, "four", ["fine", "of the study"], server, tmp_path, points, 3)
+    monkeypatch.setattr(points, "workshop_of", lambda _: load_workshop("no-such-workshop"))
+    with pytest.raises(JumpcadError, match="no-such-workshop"):
+        shown.open(4)
+    assert (shown.number, shown.trial.value, shown.design) == (3, 3, points.trial(3).design)
+    server.stop()

@@ -81,3 +81,13 @@ def test_a_point_is_told_with_its_place_and_score_or_why_it_has_none(study: Path
     for number in (0, 5):
         with pytest.raises(JumpcadError, match=f"has no trial {number}: its trials are 1 to 4"):
             points.trial(number)
+
+
+def test_a_trials_robot_is_built_in_its_workshop_with_the_name_of_its_study(
+    study: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A name that cannot be engraved is refused before the studio opens."""
+    points, asked = Points(study), []
+    monkeypatch.setattr("jumpcad.studio.points.build", lambda *given: asked.append(given))
+    points.require_built(4)
+    assert asked == [(points.trial(4).design, points.workshop_of(points.trial(4)), study.stem)]
