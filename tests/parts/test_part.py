@@ -50,6 +50,11 @@ def test_everything_on_a_robot_is_placed_rigidly(which: str) -> None:
         np.testing.assert_array_equal(pose[3], [0.0, 0.0, 0.0, 1.0])
 
 
+def test_a_part_that_stands_is_at_the_origin_unless_it_is_moved() -> None:
+    np.testing.assert_array_equal(upright(2.5) @ [1.0, 2.0, 3.0, 1.0], [1.0, 2.0, 5.5, 1.0])
+    np.testing.assert_array_equal(upright(0.0, 4.0, 5.0) @ [1.0, 2.0, 3.0, 1.0], [5.0, 7.0, 3.0, 1.0])
+
+
 def test_a_long_part_fits_the_bed_askew_only() -> None:
     stack, pose = laid([(0.0, 6.0, rectangle((230.0, 10.0)))])
     beam = Drawing("beam", "links", stack, (Placement(BODY, pose),))

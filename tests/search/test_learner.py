@@ -258,6 +258,15 @@ def test_a_neighbour_may_be_a_little_worse_than_the_best(less, proposed):
     assert (found is not None) == proposed
 
 
+def test_a_neighbour_without_a_guess_is_not_proposed_however_small_scores_are():
+    """Ranges in metres are less than one."""
+    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=0.2), Rehearsal()
+    rehearsal.guessing = True
+    rehearsal.guess = lambda variant: 0.2 if variant.key == best.key else None
+    learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=False)
+    assert learner.beside([best], lambda _: True, np.random.default_rng(0)) is None
+
+
 def variant_of(learner, key):
     return next(one for one in map(SMALL.to_variant, learner.tried) if one.key == key)
 
