@@ -15,6 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.dimensions import GAP_MM
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM
 from jumpcad.strength.loads import toe_load_n
@@ -35,6 +36,21 @@ def test_the_arms_forces_turn_leg_and_plates_with_the_springs_torque(name: str) 
         x, z = spring.pin_radius_mm * math.cos(angle), spring.pin_radius_mm * math.sin(angle)
         assert x * force[1] - z * force[0] == pytest.approx(sense * 1000.0 * robot.spring.peak_torque_nm)
         assert (x * force[0] + z * force[1]) / math.hypot(*force) > spring.arms.mean_mm / 2.0
+
+
+def test_printed_links_are_allowed_a_share_of_petg_s_strength() -> None:
+    case = LoadCase(built("kenan-2.0"))
+    assert case.allowable_mpa * case.workshop.safety.printed_factor == pytest.approx(45.0)
+
+
+@pytest.mark.parametrize(("axis", "matters"), [(0, True), (1, False), (2, True)])
+def test_the_push_off_is_that_of_the_body_in_the_plane_of_motion(axis: int, matters: bool) -> None:
+    """Where the body's mass is across the robot changes no force; along and above it does where the body turns."""
+    robot = built("best-printable")
+    body = robot.bodies[BODY]
+    moved = replace(body, com_m=body.com_m + 0.01 * np.eye(3)[axis])
+    forces = LoadCase(replace(robot, bodies={**robot.bodies, BODY: moved})).forces.ground_n
+    assert np.allclose(forces, LoadCase(robot).forces.ground_n, rtol=1e-3) == (not matters)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

@@ -164,6 +164,14 @@ def test_a_pull_up_is_the_largest_that_gives_a_tenth_more_than_the_contact_needs
     assert _pull_up_ohm(replace(found, components=found.components | {"sensor": needs})) == chosen
 
 
+def test_no_sensor_and_no_supply_are_pulled_up() -> None:
+    chosen = parts("light-1s")
+    others = {role: part for role, part in chosen.components.items() if role != "sensor"}
+    assert _pull_up_ohm(replace(chosen, components=others)) is None
+    dark = chosen.controller.model_copy(update={"logic_v": None})
+    assert _pull_up_ohm(replace(chosen, controller=dark)) is None
+
+
 def test_a_contact_without_a_least_current_has_the_largest_pull_up() -> None:
     """10 kOhm: 0.3 mA at 3.3 V."""
     chosen = parts("light-1s")
