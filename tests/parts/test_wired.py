@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.built import built
+from support.built import built, placed
 
 from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import load_catalogue
@@ -24,6 +24,25 @@ def test_what_has_its_place_is_not_weighed_among_the_wires_too(name: str) -> Non
     assert names.count("switch") == placed
     assert names.count("wiring_switch") == (not placed)
     assert names.count("wiring_sensor") == (robot.layout.sensor is None)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_battery_and_boards_lie_between_the_stops_of_their_trays(name: str) -> None:
+    """The battery's ends are less than a millimetre from them; every stop of the upper tray stands along a board."""
+    robot = built(name)
+    along = {
+        item.name: np.sort(item.T_body_part[0, 3] + item.shape.bounds_mm[:, 0] * item.T_body_part[0, 0])
+        for item in robot.hardware
+    }
+
+    def stops(tray: str) -> np.ndarray:
+        corners = placed(robot, f"electronics_tray_{tray}").vertices
+        return corners[corners[:, 2] > corners[:, 2].min() + 2.0, 0]
+
+    beside = [np.abs(stops("lower") - end).min() for end in along["battery"]]
+    assert all(0.0 <= gap < 1.0 for gap in beside)
+    for x in stops("upper"):
+        assert any(low <= x <= high for low, high in (along["controller"], along["driver"]))
 
 
 @pytest.mark.parametrize(
