@@ -113,7 +113,9 @@ def _template(workshop: Workshop, holes: HoleSizes) -> str:
     """Return the file for the readings: every key as a comment, with the workshop's present value."""
     fits = workshop.fits
     lines = [
-        "# Readings of the coupon; see coupon.md. Remove the # of a line and write what you found, in mm as engraved."
+        "# Readings of the coupon; see coupon.md. Remove the # of a line and write what you found, in mm as engraved.",
+        "",
+        f"axle_mm = {workshop.bought.axle_mm:g}  # the rods that this coupon is made for: leave it",
     ]
     for name in workshop.materials:
         lines += [

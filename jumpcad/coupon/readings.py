@@ -92,8 +92,9 @@ class JointReadings(TomlTable):
 
 
 class Readings(Record):
-    """Everything read from a coupon: gauges by material, joints and gears."""
+    """Everything read from a coupon made for rods of `axle_mm`: gauges by material, joints and gears."""
 
+    axle_mm: float | None = None
     gauge: dict[Name, GaugeReadings] = Field(default_factory=dict)
     joints: JointReadings = JointReadings()
     gears: GearReadings = GearReadings()
@@ -192,6 +193,11 @@ def _given(values: Iterable[float | None]) -> list[float]:
 def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
     """Yield the errors of readings that a workshop's coupon cannot give."""
     steps = series_of(coupon_holes(workshop))
+    if readings.axle_mm not in (None, workshop.bought.axle_mm):
+        yield (
+            f"axle_mm = {readings.axle_mm:g}: this coupon is for rods of {readings.axle_mm:g} mm, the workshop has "
+            f"{workshop.bought.axle_mm:g}: print the workshop's own (jumpcad coupon --workshop FILE)"
+        )
     for name, tried in readings.gauge.items():
         if name not in workshop.materials:
             yield f"gauge.{name}: the workshop prints in {', '.join(workshop.materials)}"

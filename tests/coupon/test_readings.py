@@ -102,6 +102,11 @@ def test_of_running_fits_the_widest_of_any_joint_counts(joint: str) -> None:
     [
         ("", r"r\.toml: no reading: fill in at least one"),
         ("[gauge.PETG]\n[gears]", r"r\.toml: no reading"),
+        ("axle_mm = 3", r"r\.toml: no reading"),
+        (
+            "axle_mm = 2\n[gauge.PETG]\naxle_press_mm = 0.1",
+            r"r\.toml: axle_mm = 2: this coupon is for rods of 2 mm, the workshop has 3: print the workshop's own",
+        ),
         ("[gauge.ABS]\naxle_press_mm = 0.1", r"r\.toml: gauge\.ABS: the workshop prints in PETG, PLA"),
         (
             "[gauge.PETG]\naxle_press_mm = 0.45",
