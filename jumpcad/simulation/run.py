@@ -181,8 +181,8 @@ class Run:
 
         It flies once it has been in the air for `AIRBORNE_S` and cleared the ground by `clearance_m`, rising, and the
         springs are spent: the leg joint has come to rest, or opens no more. A hop before that is a part of the
-        push-off, unless the robot stays in the air up to its highest point, where the leg may creep open against dry
-        friction.
+        push-off, unless a robot that is to clear the ground stays in the air up to its highest point, where the leg may
+        creep open against dry friction.
         """
         world, settings = self.world, self.settings
         half_wound = -self.mechanism.spring.wind_rad / 2

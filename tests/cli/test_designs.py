@@ -98,6 +98,10 @@ def test_the_next_command_takes_the_new_file(run: Run) -> None:
     assert said.endswith(" --workshop w.toml\n")
     said = run("new", "d.toml", "--from", "kenan-1.0")[1]
     assert said == "d.toml: a copy of kenan-1.0; try: jumpcad simulate d.toml\n"
+    said = run("new", "my robot.toml")[1]
+    assert said.endswith("; try: jumpcad simulate 'my robot.toml'\n")
+    first = Path("my robot.toml").read_text().splitlines()[1]
+    assert first.endswith("everything to print and buy: jumpcad build 'my robot.toml'")
 
 
 def test_a_workshop_of_ones_own_is_copied_with_all_that_it_says(run: Run, tmp_path: Path) -> None:

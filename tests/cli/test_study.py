@@ -86,6 +86,11 @@ def test_a_study_is_told_with_every_count_in_its_place(capsys: pytest.CaptureFix
     ]
 
 
+def test_an_exploration_has_no_number_of_designs_to_come(capsys: pytest.CaptureFixture[str]) -> None:
+    study._print_one(summary(planned=0, other_evaluations=0))
+    assert capsys.readouterr().out.splitlines()[1] == "31 designs"
+
+
 def test_studies_are_compared_by_their_best(capsys: pytest.CaptureFixture[str]) -> None:
     study._print_comparison([summary(), summary(study="t.db", best=None)])
     assert capsys.readouterr().out.splitlines() == [

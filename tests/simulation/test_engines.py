@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.built import built
 from support.flights import Flight
 
 from jumpcad.errors import JumpcadError
@@ -79,6 +80,17 @@ def test_dry_friction_in_the_joints_costs_energy(kenan: Robot, engine: str) -> N
     assert stiff.takeoff_energy_ratio is not None
     lost = (free.takeoff_energy_ratio - stiff.takeoff_energy_ratio) * kenan.spring.energy_j
     assert lost == pytest.approx(3 * torque * kenan.spring.wind_rad, rel=0.25)
+
+
+@pytest.mark.parametrize(("engine", "torque_nm"), [("mujoco", 0.025), ("pybullet", 0.04)])
+def test_a_leg_that_creeps_open_in_the_air_has_jumped(engine: str, torque_nm: float) -> None:
+    """Dry friction lets it open until the robot is at its highest point; the planar engine knows no contact."""
+    pytest.importorskip(engine)
+    stiff = Settings(joint_friction_nm=torque_nm)
+    jump, other = (simulate(built("kenan-2.0"), stiff, name) for name in (engine, "planar"))
+    assert (jump.verdict, other.verdict) == ("jump", "jump")
+    assert jump.ballistic_range_m == pytest.approx(other.ballistic_range_m, rel=0.01)
+    assert jump.com_rise_m == pytest.approx(other.com_rise_m, rel=0.01)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
