@@ -44,6 +44,7 @@ PRONG_MM, PRONG_ENDS_MM, PRONG_FREE_MM = (3.0, 6.0), -1.0, 0.5
 """Least and most width of the block on either side of the window, its length over the window's, and what stays free
 between it and what stands beside it, such as a standoff's screw head; judgement."""
 ROUND_OFF_MM = 1e-3
+ROUND_OFF_DEG = 1e-6
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
 
@@ -129,7 +130,7 @@ def _measured(wiring: Wiring, volts: float) -> dict[str, str]:
 def _springs(robot: Robot) -> dict[str, str]:
     """Return what hands feel of the springs; with the leg on its stop they are less loaded than at rest."""
     spring = robot.layout.drive.spring
-    at_stop = math.degrees(spring.preload_rad - robot.layout.stop.angle_rad)
+    at_stop = math.degrees(robot.layout.stop_preload_rad)
     per_deg_n, (narrower, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
     return {
         "near_stop": _near_stop(max(0.0, -at_stop), max(0.0, narrower - at_stop)),
@@ -146,15 +147,14 @@ def _springs(robot: Robot) -> dict[str, str]:
 
 def _near_stop(ordered_deg: float, narrow_deg: float) -> str:
     """Return where the leg is slack: before its stop, with springs as ordered and with the narrowest arms accepted."""
-    if ordered_deg > 0.0:
+    ordered, narrow = (math.ceil(deg - ROUND_OFF_DEG) for deg in (ordered_deg, narrow_deg))
+    if ordered > 0:
         return (
-            f"Near its stop the leg is slack, for {ordered_deg:.0f}° with springs as ordered, for up to "
-            f"{narrow_deg:.0f}° with arms narrower than ordered: that is no fault."
+            f"Near its stop the leg is slack, for up to {ordered}° with springs as ordered, for up to {narrow}° with "
+            "arms narrower than ordered: that is no fault."
         )
-    if narrow_deg > 0.0:
-        return (
-            f"With arms narrower than ordered the leg is slack for up to {narrow_deg:.0f}° before its stop: no fault."
-        )
+    if narrow > 0:
+        return f"With arms narrower than ordered the leg is slack for up to {narrow}° before its stop: no fault."
     return "The springs push it against its stop."
 
 

@@ -19,6 +19,12 @@ def stuck_items(robot: Robot) -> tuple[str, ...]:
     plus = next((str(start) for _, start, end, *_ in wires(robot) if (end.part, end.pin) == ("motor", "+")), "motor +")
     hole_mm = robot.layout.drive.train.motor.shaft_mm + 2.0 * robot.workshop.fits.loose_mm
     cells = "one cell" if chosen.battery.cells == 1 else f"{chosen.battery.cells} cells"
+    apart = (
+        "Only when it is there, pushed by the springs' preload alone, is anything taken apart; the springs' pin of the "
+        "leg first, as First winding and first jump says."
+        if robot.layout.stop_preload_rad > 0.0
+        else "Only when it hangs there, slack, is anything taken apart."
+    )
     return (
         "Glasses on. Lay the robot on its side, feet away from you. Tie leg and body together with strong cord: two "
         "turns around the main leg near its lower end and around both plates, tight and knotted, so that the leg "
@@ -44,7 +50,5 @@ def stuck_items(robot: Robot) -> tuple[str, ...]:
         "under the roller, where it is far from the drop. Nothing yields within five minutes: leave the leg tied. "
         "Print a new pinion later.",
         "Then slacken the cord slowly, from the side, feet away from you; a knot that does not open is cut with a "
-        "long knife, no hand in the leg's way. The leg goes back to its stop. Only when it hangs there, slack or "
-        "pushed by a preload alone, is anything taken apart; with a preload first the springs' pin of the leg, as "
-        "First winding and first jump says.",
+        f"long knife, no hand in the leg's way. The leg goes back to its stop. {apart}",
     )

@@ -46,7 +46,7 @@ from jumpcad.layout.stop import (
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.layout.tray_places import electronics_obstacle, standoff_places, tray_place
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.strength.sizing import Sections
+from jumpcad.strength.sizing import Sections, beside_leg_mm
 from jumpcad.transforms import Array
 
 Retention = Literal["plates", "clips", "nuts"]
@@ -108,6 +108,11 @@ class Layout:
         return self.toe_half_width_mm - float(toe_tip_mm(self.design)[1])
 
     @property
+    def stop_preload_rad(self) -> float:
+        """How far the springs are wound with the leg on its stop; below 0 they are slack there."""
+        return self.drive.spring.preload_rad - self.stop.angle_rad
+
+    @property
     def floor_mm(self) -> float:
         """Thickness of what closes the plates' bores outside; 0 where axles pass the plates."""
         return AXLE_FLOOR_MM if self.retention == "plates" else 0.0
@@ -131,7 +136,7 @@ class Layout:
     def ankle_face_mm(self) -> float:
         """How far from the middle the foot's outer faces at the ankle are, between which its pin is kept."""
         sections = self.sections
-        return sections.thickness_mm / 2.0 + GAP_MM + max(sections.lug_thickness_mm, sections.toe_width_mm)
+        return beside_leg_mm(sections.thickness_mm) + max(sections.lug_thickness_mm, sections.toe_width_mm)
 
 
 def make_layout(

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
+from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
@@ -19,7 +19,7 @@ from jumpcad.parts.toes import PIN_END_MM, lying_hole, on_the_foot
 from jumpcad.printing.bed import fit_to_bed
 from jumpcad.solids.blocks import Bar, Block, Blocks
 from jumpcad.solids.outline import Region, circle_points, disc, hull, polygon, rectangle, union
-from jumpcad.strength.sizing import Sections
+from jumpcad.strength.sizing import Sections, beside_leg_mm
 
 WEB_MM = 10.0
 """Length along x of the web that joins the rails in front of the ankle; judgement."""
@@ -44,7 +44,7 @@ def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     """Return the foot."""
     sections, l4 = layout.sections, layout.design.l4_mm
     depth, lug = sections.foot_depth_mm, sections.lug_thickness_mm
-    inner = sections.thickness_mm / 2.0 + GAP_MM
+    inner = beside_leg_mm(sections.thickness_mm)
     height = sections.rail_root_mm
     rail = polygon([(0.0, -depth), (l4, -depth), (l4, sections.rail_tip_mm - depth), (0.0, height - depth)])
     lugs = [_lug(depth, 0.0, SOLE_LENGTH * depth), _lug(depth, l4, NOSE_AHEAD * depth)]
@@ -75,7 +75,7 @@ def nose_outline(depth_mm: float) -> Region:
 
 def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float], toe_half_width_mm: float = 0.0) -> bool:
     """Tell whether a foot with its toes, which reach from the middle as far as said at least, fits the bed."""
-    half = sections.thickness_mm / 2.0 + GAP_MM + sections.lug_thickness_mm
+    half = beside_leg_mm(sections.thickness_mm) + sections.lug_thickness_mm
     nose = np.array([design.l4_mm, half - sections.foot_depth_mm])
     tip = toe_tip_mm(design)
     tip = np.array([tip[0], max(tip[1], toe_half_width_mm)])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jumpcad.catalogue import Pad
-from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, TOE_TIP_WIDTH_MM
+from jumpcad.dimensions import STOP_PAD_MM, TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT
@@ -16,6 +16,7 @@ from jumpcad.parts import toes
 from jumpcad.parts.foot import nose_outline
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.solids.outline import Region, grown, rectangle
+from jumpcad.strength.sizing import beside_leg_mm
 from jumpcad.workshop import Workshop
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ def _nose_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
     """Yield the pads around both lugs of the nose, from the sole up the round front."""
     sections = layout.sections
     depth, lug = sections.foot_depth_mm, sections.lug_thickness_mm
-    nose, inner = nose_outline(depth), sections.thickness_mm / 2.0 + GAP_MM
+    nose, inner = nose_outline(depth), beside_leg_mm(sections.thickness_mm)
     reach = 2.0 * depth + pad.thickness_mm
     low, high, back = -depth - pad.thickness_mm, -NOSE_UP_SHARE * depth, -NOSE_BEHIND_SHARE * depth
     around = rectangle((reach - back, high - low), ((reach + back) / 2.0, (high + low) / 2.0))

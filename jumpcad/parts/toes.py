@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
+from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
@@ -19,6 +19,7 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
 from jumpcad.solids.blocks import Bar, Block, Blocks, Finger, Turned
 from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
+from jumpcad.strength.sizing import beside_leg_mm
 from jumpcad.transforms import Array
 
 JOINT_MM = (12.0, 34.0)
@@ -115,7 +116,7 @@ def lying_hole(diameter_mm: float, place_mm: tuple[float, float]) -> Region:
 def _toe(layout: Layout, name: str, sign: float) -> Toe:
     """Return a toe whose root is beside the ankle, or as far behind as it takes to leave the ankle's pin its way."""
     sections, tip = layout.sections, toe_tip_mm(layout.design)
-    beside = sections.thickness_mm / 2.0 + GAP_MM + sections.toe_width_mm / 2.0
+    beside = beside_leg_mm(sections.thickness_mm) + sections.toe_width_mm / 2.0
     sideways = math.atan2(tip[1] - beside, -tip[0])
     root = np.array([-_behind_mm(sideways, sections.toe_width_mm), beside]) * (1.0, sign)
     along = tip * (1.0, sign) - root

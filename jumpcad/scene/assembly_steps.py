@@ -64,7 +64,7 @@ def assembly_steps(robot: Robot) -> list[Step]:
     """Return the steps that a robot needs; everything on it is put on in exactly one of them."""
     left = list(visuals(robot))
     layout = robot.layout
-    names = [thing.name for thing in left] + ["preload"] * (layout.drive.spring.preload_rad > layout.stop.angle_rad)
+    names = [thing.name for thing in left] + ["preload"] * (layout.stop_preload_rad > 0.0)
     names += ["spring_boss"] * (layout.spring_boss_mm > 0.0)
     names += [f"printed_{one.name}" for one in printed_pads(robot.hardware, robot.workshop)]
     built: dict[str, list[Visual]] = {}

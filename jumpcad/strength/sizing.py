@@ -282,8 +282,13 @@ def _stop_mm(workshop: Workshop, energy_j: float, width_mm: float, shell: Shell)
 
 
 def rail_middle_mm(thickness_mm: float, lug_mm: float) -> float:
-    """Return how far the middle of a rail is from that of the robot: beside the leg, with a gap."""
-    return thickness_mm / 2.0 + GAP_MM + lug_mm / 2.0
+    """Return how far the middle of a rail is from that of the robot."""
+    return beside_leg_mm(thickness_mm) + lug_mm / 2.0
+
+
+def beside_leg_mm(thickness_mm: float) -> float:
+    """Return how far what stands beside the legs begins from the robot's middle: half a leg and a gap."""
+    return thickness_mm / 2.0 + GAP_MM
 
 
 def dog_inside_mm(fits: Fits, axle_mm: float) -> float:

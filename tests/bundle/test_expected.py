@@ -85,7 +85,7 @@ def test_what_hands_feel_of_the_springs_follows_from_hookes_law(preload_deg: flo
     assert words["lift"] == "310"
     at_stop = preload_deg - 3.0
     slack = (
-        "for 3° with springs as ordered, for up to 13° with arms" if not preload_deg else "slack for up to 9° before"
+        "up to 3° with springs as ordered, for up to 13° with arms" if not preload_deg else "slack for up to 9° before"
     )
     assert slack in words["near_stop"]
     assert words["wider"] == f"{wider}"
@@ -104,7 +104,13 @@ def test_what_hands_feel_of_the_springs_follows_from_hookes_law(preload_deg: flo
 def test_springs_with_much_preload_push_the_leg_against_its_stop() -> None:
     """With 13° and more even the narrowest arms, 10° less, are loaded on a stop 3° past rest."""
     assert _near_stop(0.0, 0.0) == "The springs push it against its stop."
-    assert "no fault" in _near_stop(0.0, 0.4)
+    assert "slack for up to 1° before its stop: no fault" in _near_stop(0.0, 0.4)
+
+
+def test_slack_is_never_said_to_be_less_than_it_is() -> None:
+    """0.4° and 2.2° are 1° and 3° at most; 3° stays 3° where its last digit is lost on the way from radians."""
+    assert "slack, for up to 1° with springs as ordered, for up to 3° with" in _near_stop(0.4, 2.2)
+    assert "slack, for up to 3° with springs as ordered" in _near_stop(math.degrees(math.radians(3.0)), 13.0)
 
 
 def test_sizes_are_those_of_the_parts() -> None:

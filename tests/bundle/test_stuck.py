@@ -113,6 +113,17 @@ def test_the_cord_holds_what_both_springs_pull_at_the_legs_end(robot: Robot) -> 
     assert float(found[1]) == pytest.approx(both_nmm / robot.design.l2_mm, abs=0.51)
 
 
+@pytest.mark.parametrize(("preload_deg", "first"), [(0.0, False), (2.0, False), (4.0, True)])
+def test_springs_that_push_on_the_stop_are_taken_off_their_pin_first(preload_deg: float, first: bool) -> None:
+    """The stop is 3° past rest: a preload of 2° does not reach it."""
+    shop = load_workshop()
+    preloaded = shop.spring.model_copy(update={"preload_deg": preload_deg})
+    design = load_design("kenan-2.0").model_copy(update={"compression_ratio": 0.6})
+    last = stuck_items(build(design, shop.model_copy(update={"spring": preloaded}), "b"))[-1]
+    assert ("pushed by the springs' preload" in last) is ("the springs' pin of the leg first" in last) is first
+    assert ("hangs there, slack" in last) is not first
+
+
 def test_the_spare_battery_has_as_many_cells_as_the_kits(robot: Robot) -> None:
     cells = len(re.findall("2s", robot.workshop.bought.battery)) + 1
     assert f"({'one cell' if cells == 1 else '2 cells'});" in stuck_items(robot)[1]
