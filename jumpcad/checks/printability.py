@@ -115,16 +115,20 @@ def printability_findings(robot: Robot) -> list[Finding]:
 def _narrowest(
     name: str, what: str, regions: Sequence[tuple[str, Region]], fails: Fails, least_mm: float, remedy: str
 ) -> Finding:
-    """Return the finding of the narrowest thing in named regions, looked for up to twice the least width."""
-    worst, where = 2.0 * least_mm, ""
+    """Return the finding of the narrowest thing in named regions, looked for up to twice the least width.
+
+    A long thing may fail at a width and not at twice as much; the least width itself is tried first, on all of them.
+    """
+    kept = not any(fails(region, least_mm) for _, region in regions)
+    least_found, worst, where = (least_mm, 2.0 * least_mm, "") if kept else (0.0, least_mm, "")
     for part, region in regions:
         if not fails(region, worst):
             continue
-        low, high = 0.0, worst
+        low, high = least_found, worst
         for _ in range(HALVINGS):
             middle = (low + high) / 2.0
             low, high = (low, middle) if fails(region, middle) else (middle, high)
-        worst, where = high, part
+        worst, where = high if kept else low, part
     found = f"the narrowest {what} is {worst:.2f} mm, in {where}" if where else f"no {what} is under {worst:.2f} mm"
     message = f"{found}; {least_mm:g} mm are needed"
     if not where:  # known only to be wider than the range of the search

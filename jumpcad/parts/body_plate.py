@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from manifold3d import JoinType
 from scipy.spatial import Delaunay
 
 from jumpcad.dimensions import (
@@ -64,7 +65,7 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     label = engravable(name).strip() if name else ""
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm
-    covers, bores = _covers(layout), _bores(layout, holes)
+    covers, bores = _covers(layout, holes.fits.wall_min_mm), _bores(layout, holes)
     closed = _outline(layout, covers, "left") - _openings(layout, holes, "left")
     common = closed - bores
     y0, y1 = lateral.left_plate
@@ -161,11 +162,12 @@ class _Covers(NamedTuple):
     pockets: Region
 
 
-def _covers(layout: Layout) -> _Covers:
+def _covers(layout: Layout, wall_mm: float) -> _Covers:
     """Return the hull of all pads, and pockets between an edge, the pads and ribs that join their middles.
 
     The pockets' corners are round: what stands between them is drawn thicker by their radius, and they are widened by
-    it again. All ribs end within pads.
+    it again. All ribs end within pads. Where pads that no rib joins lie side by side, the pockets beside them are set
+    back until a printable wall is left.
     """
     pads = _pads(layout)
     around = hull(pads)
@@ -179,7 +181,19 @@ def _covers(layout: Layout) -> _Covers:
         strips(layout.hub_mm, layout.front_mm, layout.axle_mm + 2.0 * PAD_WALL_MM + more),
     ]
     pockets = (grown(around, -EDGE_MM - POCKET_RADIUS_MM) - union(solid)).simplify(2.0 * SAGITTA_MM)
-    return _Covers(rounded(around, 2.0), grown(pockets, POCKET_RADIUS_MM))
+    return _Covers(rounded(around, 2.0), _apart(grown(pockets, POCKET_RADIUS_MM), wall_mm))
+
+
+def _apart(pockets: Region, wall_mm: float) -> Region:
+    """Return pockets set back from each other where less than a wall is between two of them."""
+    half = wall_mm / 2.0 + SAGITTA_MM
+    wider = grown(pockets, half)
+    if wider.num_contour() == pockets.num_contour():
+        return pockets
+    count = len(pockets.decompose())
+    between = (wider.offset(-half, JoinType.Miter) - pockets).decompose()
+    thin = [piece for piece in between if len((pockets + grown(piece, SAGITTA_MM)).decompose()) < count]
+    return pockets - grown(union(thin), wall_mm / 2.0) if thin else pockets
 
 
 def _outline(layout: Layout, covers: _Covers, side: Face) -> Region:

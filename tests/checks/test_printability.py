@@ -53,6 +53,8 @@ def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
         # 0.8 mm are the least wall, 1.6 mm the least hole, 3 mm the least column, 10 mm the longest bridge
         ("walls", [(0.0, 5.0, rectangle((30.0, 0.5)))], 0.5 - 0.8),
         ("walls", [(0.0, 5.0, BLOCK - hole(19.0))], 0.5 - 0.8),
+        # too thin, and too short to be seen at twice the least wall
+        ("walls", [(0.0, 5.0, BLOCK - rectangle((1.2, 30.0)) + rectangle((1.4, 0.6)))], 0.6 - 0.8),
         ("holes", [(0.0, 5.0, BLOCK - hole(1.2))], 1.2 - 1.6),
         ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(2.0))], 2.0 - 3.0),
         # beside a block of the same height

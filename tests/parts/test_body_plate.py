@@ -1,5 +1,6 @@
 """Body plates, measured on their meshes: bores, the motor's seat, and a name where there is material for all of it."""
 
+import itertools
 import math
 
 import numpy as np
@@ -11,7 +12,7 @@ from support.fits import LOOSE, N20_SHAFT, RUNNING, SLIDING, TOLERANCE_MM, measu
 
 from jumpcad.building import build
 from jumpcad.catalogue import load_catalogue
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
 from jumpcad.dimensions import MOTOR_CAP_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import socket_half_mm, window_mm
 from jumpcad.parts.body_plate import (
@@ -347,7 +348,7 @@ def test_plates_have_material_around_what_they_hold(name: str, side: str) -> Non
 def test_pockets_come_as_near_to_the_strut_as_3_mm_beside_a_bore(name: str) -> None:
     """And no nearer to the plate's edge than 3.2 mm; their corners have a radius of 1.5 mm."""
     layout = built(name).layout
-    covers = _covers(layout)
+    covers = _covers(layout, 0.8)
     pockets = shapely.union_all([shapely.Polygon(contour) for contour in covers.pockets.to_polygons()])
     line = shapely.LineString([layout.hub_mm, layout.front_mm])
     assert pockets.distance(line) == pytest.approx(layout.axle_mm / 2.0 + 3.0, abs=0.05)
@@ -365,7 +366,7 @@ def test_ribs_join_every_pad_to_its_neighbours(name: str) -> None:
     middles += [np.array(place) for level in tray_slots(layout, "left") for place in level]
     rows = [pad.bounds() for pad in [*fitting_pads(layout.fittings, 0.0), plate_pad(layout.sensor)]]
     middles += [np.array([(row[0] + row[2]) / 2.0, (row[1] + row[3]) / 2.0]) for row in rows]
-    pockets = shapely.union_all([shapely.Polygon(contour) for contour in _covers(layout).pockets.to_polygons()])
+    pockets = shapely.union_all([shapely.Polygon(contour) for contour in _covers(layout, 0.8).pockets.to_polygons()])
     ribs = shapely.delaunay_triangles(shapely.MultiPoint(middles), only_edges=True).geoms
     broken = [rib for rib in ribs if rib.buffer(1.59, cap_style="flat").intersection(pockets).area > 0.05]
     assert len(ribs) > 20
@@ -388,3 +389,24 @@ def test_pads_are_as_wide_as_what_they_hold_needs(name: str, more_mm: float) -> 
     assert (
         len(found) == len(expected) + len([*fitting_pads(layout.fittings, 0.0)]) + 2
     )  # and the motor's and the sensor's
+
+
+CLOSE_POCKETS = {
+    "default": (154.0, 1.0734, 0.7499, 1.1942, 0.1128, 52.713, 18.552, 69.594),
+    "fine": (152.3, 1.1982, 0.6581, 1.1508, 0.3104, 26.695, 29.477, 71.980),
+    "light": (125.1, 0.9885, 0.8026, 0.9522, 0.5912, 50.586, 12.162, 36.483),
+}
+"""Robots that have pads side by side on which no rib ends, by workshop."""
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("workshop", CLOSE_POCKETS)
+def test_a_printable_wall_is_between_all_openings_of_a_plate(workshop: str, side: str) -> None:
+    shop = load_workshop(workshop)
+    robot = build(Design.from_vector(CLOSE_POCKETS[workshop]), shop)
+    plate = robot.layout.lateral.left_plate if side == "left" else robot.layout.lateral.right_plate
+    area = region(cut(placed(robot, f"body_plate_{side}"), sum(plate) / 2.0))
+    openings = [shapely.Polygon(ring) for ring in area.interiors]
+    least = min(one.distance(other) for one, other in itertools.combinations(openings, 2))
+    assert len(openings) > 12
+    assert least > shop.fits.wall_min_mm - 0.02
