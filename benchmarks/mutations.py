@@ -208,9 +208,9 @@ def outcome(root: Path, tests: list[str], limit_s: float = LIMIT_S) -> str:
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()
             return "timeout"
-    if process.returncode == 0:
-        return "survived"
     failed = re.findall(r"^(?:FAILED|ERROR) (.*?)(?: - .*)?$", said.decode(errors="replace"), re.M)
+    if process.returncode == 0 and not failed:
+        return "survived"
     return "killed by " + (failed[0] if failed else f"pytest itself, exit status {process.returncode}")
 
 
