@@ -26,7 +26,7 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     Raises
     ------
     JumpcadError
-        If the workshop was changed to invalid values, or has the weight of a part that no robot has; if the name
+        If design or workshop were changed to invalid values, or has the weight of a part that no robot has; if the name
         cannot be a file's name; or if an argument has a wrong type.
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
@@ -39,7 +39,7 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
     name = composed(name)
     if name:
         require_name(name)
-    workshop = (workshop or load_workshop("default")).revalidated()
+    design, workshop = design.revalidated(), (workshop or load_workshop("default")).revalidated()
     refused = errors(geometry_findings(design))
     if refused:
         raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")

@@ -32,7 +32,10 @@ def capsule_robot(design: Design) -> Mechanism:
     ------
     CannotBuildError
         If the design has no assembled pose.
+    JumpcadError
+        If the design was changed to invalid values.
     """
+    design = design.revalidated()
     l1, l2, l3, l4, l5 = (
         length / 1000.0 for length in (design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm)
     )

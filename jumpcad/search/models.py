@@ -302,7 +302,7 @@ def robot_model(
     built_in = None
     if name == "printed":
         built_in = workshop if isinstance(workshop, Workshop) else load_workshop(workshop or DEFAULT)
-    how = settings if isinstance(settings, Settings) else load_settings(settings or "default")
+    how = settings.revalidated() if isinstance(settings, Settings) else load_settings(settings or "default")
     return RobotModel(name, built_in, how, engine or default_engine())
 
 

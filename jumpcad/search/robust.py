@@ -125,7 +125,7 @@ def plan_rounds(evaluations: int) -> list[tuple[int, int]]:
 def rank_candidates(
     evaluator: Evaluator, trials: Sequence[Trial], seed: int, making: Making, evaluations: int
 ) -> list[Candidate]:
-    """Evaluate neighbours of the best of some trials, and return these, those that got farthest first.
+    """Evaluate neighbours of the best of some trials, and return these, those that got farthest and do not fail first.
 
     Successive halving: the more robust half of the candidates gets more neighbours, until one is left. The best often
     lies on a constraint; if one of its first neighbours is rejected, a few designs at a distance from the constraint
@@ -148,8 +148,8 @@ def rank_candidates(
     field = [_Examined(index, one) for index, one in enumerate(best_apart(evaluator.space, trials, rounds[0][0]))]
     left: list[_Examined] = []
     for turn, (count, new) in enumerate(rounds):
-        field.sort(key=lambda one: -one.robust_score)
-        left, field = [*field[count:], *left], field[:count]
+        ranked = _ranked(field, left)
+        field, left = ranked[:count], ranked[count:]
         if count == 1 and turn:
             new = min(new + reserve, 2 * SAMPLES - field[0].examined) // 2 * 2
         _examine(evaluator, field, new, first + turn, seed, making)
@@ -158,8 +158,16 @@ def rank_candidates(
             joining = [_Examined(MOST_CANDIDATES + n, one) for n, one in enumerate(off_edge) if one.score is not None]
             _examine(evaluator, joining, 2, first + ROUNDS - 1, seed, making)
             field, reserve = field + joining, 0
-    # Who got further has been examined more, and stands before those that were left behind.
-    return [one.candidate() for one in [*sorted(field, key=lambda one: -one.robust_score), *left] if one.examined]
+    return [one.candidate() for one in _ranked(field, left) if one.examined]
+
+
+def _ranked(field: Sequence["_Examined"], left: Sequence["_Examined"]) -> list["_Examined"]:
+    """Return all candidates, the most robust first.
+
+    Who got further has been examined more, and stands before those that were left behind, unless it fails.
+    """
+    ranked = [*sorted(field, key=lambda one: -one.robust_score), *left]
+    return sorted(ranked, key=lambda one: one.fails)
 
 
 class _Examined:
@@ -170,6 +178,12 @@ class _Examined:
         self.trial = trial
         self.scores: dict[str, list[float]] = {"parameters": [], "print": []}
         self.rejections: Counter[str] = Counter()
+        self.rejected_score = 0.0
+
+    @property
+    def fails(self) -> bool:
+        """Whether so many neighbours are rejected that its lower percentile is a rejected one's score."""
+        return bool(self.rejections) and self.robust_score <= self.rejected_score
 
     @property
     def examined(self) -> int:
@@ -212,6 +226,7 @@ def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, step: i
     rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0
     for (one, kind, _), trial in zip(asked, found, strict=True):
         if trial is not None:
+            one.rejected_score = rejected
             one.scores[kind].append(rejected if trial.score is None else trial.score)
             one.rejections.update(trial.evaluation.reasons)
 

@@ -35,9 +35,10 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
     Raises
     ------
     JumpcadError
-        If the engine is unknown, is not installed, or cannot do what the settings ask.
+        If the engine is unknown, is not installed, or cannot do what the settings ask; if the settings were changed to
+        invalid values.
     """
-    settings = settings or Settings()
+    settings = (settings or Settings()).revalidated()
     mechanism = with_spring_factor(mechanism, settings.spring_efficiency)
     maker = engine_named(engine)
     findings = geometry_findings(mechanism.design)

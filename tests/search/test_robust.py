@@ -144,6 +144,37 @@ def test_where_no_neighbour_is_rejected_the_last_candidate_gets_what_is_left(eva
     assert spent[0] == max(spent) > 20
 
 
+@dataclass(frozen=True)
+class Late(Hill):
+    """9 above a rest angle of 45°, with stiffnesses off 20 by the share `kept` at most, and 5 below."""
+
+    kept: float = 0.0
+
+    def __call__(self, design):
+        if design.rest_angle_deg < 45.0:
+            return Evaluation("jump", {"fitness": 5.0})
+        off = abs(design.stiffness_nmm_per_deg / 20.0 - 1.0)
+        return Evaluation("loop") if off > self.kept + 1e-9 else Evaluation("jump", {"fitness": 9.0})
+
+
+@pytest.mark.parametrize("below", [0.0, 100.0])
+def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below):
+    """The better one keeps its first neighbours and loses most of the others; the plateau's all jump.
+
+    Also where all scores are negative.
+    """
+    fine, edge = (SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"rest_angle_deg": a}) for a in (30.0, 60.0))
+    edge = edge.model_copy(update={"stiffness_nmm_per_deg": 20.0})
+    examined = _Examined(0, Trial("bo", 0, 0, edge, Evaluation("jump"), 9.0, "m", 0.0))
+    first = [variant.design for _, variant in examined.neighbours(2, 0, LENGTHS_ALONE)]
+    one = evaluator(model=Late(kept=max(abs(design.stiffness_nmm_per_deg / 20.0 - 1.0) for design in first)))
+    one.objective = replace(one.objective, figure=lambda metrics: metrics["fitness"] - below)
+    one.evaluate([edge, fine], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
+    assert [candidate.trial.design for candidate in ranked] == [fine, edge]
+    assert ranked[1].neighbours > ranked[0].neighbours == 2
+
+
 def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})

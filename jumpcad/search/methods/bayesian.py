@@ -34,7 +34,7 @@ LEARNED, LEARNED_BEST = 400, 100
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
 PATIENCE = 7
 """The search ends after so many proposals in a row that promise and gain too little; judgement: one or two often do."""
-IDLE = 8
+IDLE = 10
 """Where robots are guessed, it ends after so many steps in a row that gain too little; judgement."""
 
 Proposer = Callable[[Learner, Sequence[Trial], int, np.random.Generator], list[Proposal]]
