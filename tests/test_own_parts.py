@@ -73,7 +73,7 @@ def large(**figures: float) -> Tables:
         "mass_g": 65.0, "no_load_rpm": 33.0, "width_mm": 25.0, "height_mm": 25.0, "body_length_mm": 50.0,
         "shaft_mm": 4.0, "shaft_flat_mm": 3.5, "shaft_length_mm": 12.0, "boss_mm": 7.0, "boss_length_mm": 2.5,
     }  # fmt: skip
-    return joined(motor(**large_motor | figures), {"bought": {"roller": "MR63"}})
+    return joined(motor(**large_motor | figures), {"bought": {"roller": "683"}})
 
 
 def battery(length: float, width: float, height: float) -> Tables:

@@ -21,6 +21,7 @@ from jumpcad.bundle.operation import (
 )
 from jumpcad.bundle.ordering import ROD_SHORT_MM, strap_mm
 from jumpcad.bundle.springs import arms_off_deg
+from jumpcad.bundle.switch_order import nutted_screw
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import window_mm
@@ -112,6 +113,7 @@ def _drive(robot: Robot) -> dict[str, str]:
         "stroke": f"{math.degrees(cam.law.compression_rad):.0f}",
         "lift": f"{math.degrees(cam.law.lift_rad):.0f}",
         "dog_play": f"{math.degrees(robot.layout.drive.dog.play_rad):.0f}",
+        "beep": " (a short beep is the capacitor)" if "capacitor" in chosen.components else "",
         "motor_wire": f"{max((mm for *_, end, _, mm in wires(robot) if end.part == 'motor'), default=0.0):.0f}",
     }
 
@@ -185,6 +187,7 @@ def _sizes(robot: Robot) -> dict[str, str]:
         "block": f"{window[0] + 2.0 * _prong_mm(robot):g} x {window[1] + PRONG_ENDS_MM:g}",
         "groove": f"{window[0]:g}",
         "strap": f"{strap_mm(robot):.0f}",
+        "nutted_screws": f"screws {nutted_screw(robot)}",
     }
 
 

@@ -8,8 +8,9 @@ from collections.abc import Iterator, Sequence
 from jumpcad.bundle.article_order import bearings_order, motor_order, plug_order, screw_axles_order, tape_order
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.printed_pads import pad_rows, pads_order
-from jumpcad.bundle.switch_order import switch_order
+from jumpcad.bundle.switch_order import nutted_screw, switch_order
 from jumpcad.bundle.wiring import wires
+from jumpcad.catalogue import Rod
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
@@ -33,13 +34,15 @@ STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
 STRAP_OVERLAP_MM = 20.0
 """Of a strap, hook on loop; judgement."""
+STEEL_G_CM3 = 7.0
+"""Rods that are heavier are of steel."""
 THREAD_MM = 6.0
 """Of a screw inside its standoff."""
 OTHER = (
     "solder, heat-shrink tube 4 mm, 0.1 m, for joints of more than two wires, silicone or lithium grease, alcohol, "
     "adhesive tape, a strip more of foam tape, some more cable ties "
-    "2.5 mm wide; two screws M2 x 6 and two nuts M2 if the switch's ears have no thread; one more socket like the "
-    "robot's, for a battery beside the robot: keep its leads insulated until they are needed"
+    "2.5 mm wide; one more socket like the robot's, for a battery beside the robot: keep its leads insulated until they "
+    "are needed"
 )
 
 
@@ -69,6 +72,7 @@ def order_lines(robot: Robot) -> Iterator[str]:
     yield from plug_order(robot)
     yield from tape_order(robot)
     yield from switch_order(robot)
+    yield f"- if the switch's ears have no thread: two screws {nutted_screw(robot)} and two nuts M2"
     yield f"- besides: {OTHER}"
 
 
@@ -128,7 +132,8 @@ def weigh_lines(robot: Robot) -> Iterator[str]:
 
 def _rods(robot: Robot) -> Iterator[str]:
     """Yield each kind of rod with its pieces, and how grooves for clips are cut into them."""
-    kinds = "|".join(re.escape(rod.description) for rod in robot.workshop.catalogue.rods.values())
+    rods = {rod.description: rod for rod in robot.workshop.catalogue.rods.values()}
+    kinds = "|".join(map(re.escape, rods))
     pieces: defaultdict[tuple[str, str, str], list[tuple[int, float]]] = defaultdict(list)
     for item in bill_of_materials(robot).items:
         if found := re.fullmatch(rf"({kinds}) ([\d.]+) x ([\d.]+) mm(, grooves .*)?", item.name):
@@ -139,12 +144,23 @@ def _rods(robot: Robot) -> Iterator[str]:
         listed = ", ".join(f"{count} piece{'s' * (count > 1)} of {length:.1f} mm" for count, length in cut)
         yield (
             f"- {plain(kind)} {diameter} mm: {listed}, +0 / -{ROD_SHORT_MM:g} mm, "
-            f"ends square and deburred{grooves}; cut from a rod of {stock} m, ground, h6 to h9. Cut steel with "
-            "a cut-off disc, wear glasses: sparks and broken pieces fly. A rod that does not enter a bearing: polish "
-            "it with fine emery cloth until it does, do not press"
+            f"ends square and deburred{grooves}; cut from {_stock(rods[kind], stock)}. One that does not enter a "
+            "bearing: polish it with fine emery cloth until it does, do not press"
         )
         if grooves:
             yield _grooves(grooves, cut)
+
+
+def _stock(rod: Rod, metres: str) -> str:
+    """Return what rods are cut from, and how."""
+    steel = rod.density_g_cm3 > STEEL_G_CM3
+    if rod.bore_share > 0.0:
+        sold = f"a tube of {metres} m, its outside no thicker than said (tubes are drawn: measure it, many are)"
+    else:
+        sold = f"a rod of {metres} m, {'ground' if steel else 'drawn or ground'}, h6 to h9"
+    if not steel:
+        return f"{sold}. Saw it with a fine saw"
+    return f"{sold}. Cut steel with a cut-off disc, wear glasses: sparks and broken pieces fly"
 
 
 def _grooves(grooves: str, cut: Sequence[tuple[int, float]]) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.parts.fittings import KNOB_MM, SWITCH_SCREWS_MM
+from jumpcad.parts.wired import SWITCH_EAR_MM
 from jumpcad.robot import Robot
 
 SIMILAR_SWITCH, SIMILAR_A = "SS-12F15 G5", 0.5
@@ -33,6 +34,7 @@ NEEDS_SWITCH = (
     "left out"
 )
 """For more cells; judgement."""
+SIMILAR_SLIDER_MM = 5.0
 SLIDER_MM = 1.5
 """Of a switch's slider outside the plate, for a fingertip; judgement."""
 
@@ -46,13 +48,23 @@ def switch_order(robot: Robot) -> Iterator[str]:
     chosen, motor, safety = chosen_parts(robot.workshop), robot.layout.drive.train.motor, robot.workshop.safety
     supply = supply_of(chosen)
     blocked_a = supply.driven(motor, supply.full_v, safety.motor_torque_max_nm).stall_current_a
+    needed_mm = plate + SLIDER_MM
+    short = ". Its slider is too short for this plate: a smaller body.plate_mm, or another switch"
     enough = f"one rated {SIMILAR_A:g} A bears that" if blocked_a <= SIMILAR_A else "too little for this motor"
     yield (
         f"- slide switch: {2.0 * SWITCH_SCREWS_MM:g} mm between the holes of its ears, at most {switch.length_mm:g} x "
         f"{switch.width_mm:g} mm, {switch.height_mm:g} mm high behind its ears, {switch.rated_a:g} A or more at "
         f"{supply.full_v:g} V (the blocked motor draws {blocked_a:.2f} A). Its "
         f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it "
-        f"must stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No article with all of it is known here. "
+        f"must stand out of the ears by {needed_mm:.1f} mm or more. No article with all of it is known here. "
         f"The nearest is {SIMILAR_SWITCH}, which sellers rate 0.3 or {SIMILAR_A:g} A at 50 V ({enough}): {SIMILAR_FITS}"
+        f"{short if needed_mm > SIMILAR_SLIDER_MM else ''}"
         f"{NO_SWITCH if chosen.regulator is None else NEEDS_SWITCH}"
     )
+
+
+def nutted_screw(robot: Robot) -> str:
+    """Return the screws that hold a switch whose ears have no thread: through plate and ear, with a nut behind."""
+    catalogue, lateral = robot.workshop.catalogue, robot.layout.lateral
+    screw, plate = catalogue.screws["M2"], lateral.inside[0] - lateral.outside[0]
+    return f"M2 x {screw.length_for(plate + SWITCH_EAR_MM + catalogue.nuts['M2'].height_mm):g} {screw.norm}"

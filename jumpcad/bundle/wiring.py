@@ -78,7 +78,10 @@ def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
     yield "- none: the part's own legs or leads, each leg in a piece of heat-shrink tube"
     yield "- a leg too short for its way around the board: solder 40 mm of wire to it, of that colour where it is there"
     yield "- joints of more than two wires, as at the plug's minus: in heat-shrink tube of 4 mm"
-    yield "- capacitor: its wires start at the driver's supply pins; its minus is marked"
+    beep = ""
+    if "capacitor" in chosen.components:
+        yield "- capacitor: its wires start at the driver's supply pins; its minus is marked"
+        beep = "; a short beep is the capacitor"
     if wiring.resistors:
         values = ", ".join(
             f"{name.removesuffix(' resistor')} {ohm / 1000:g} kΩ" for name, ohm in wiring.resistors.items()
@@ -97,8 +100,8 @@ def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
         yield from (*BY_METER, *(OPENS if wiring.ready_level else CLOSES))
     yield "- the driver's reverse input is at ground: the cam must not turn back against its drop"
     yield "- red and black wires may be joined at any terminal of theirs; the table starts each at its source"
-    yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles (multimeter; a"
-    yield "  short beep is the capacitor)"
+    yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles"
+    yield f"  (multimeter{beep})"
 
 
 def wiring_svg(robot: Robot) -> str:

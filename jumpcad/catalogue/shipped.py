@@ -52,6 +52,7 @@ class Washer(Record):
     """A flat washer."""
 
     name: str
+    article: str
     outer_mm: PositiveFloat
     bore_mm: PositiveFloat
     height_mm: PositiveFloat

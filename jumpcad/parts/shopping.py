@@ -20,6 +20,7 @@ from jumpcad.parts.simple import box_outline, placed_screw, round_outline
 from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
 from jumpcad.parts.train import gear_turns
 from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring, stadium
+from jumpcad.strength.bearings import roller_washer
 from jumpcad.transforms import Array
 from jumpcad.workshop import BoughtParts
 
@@ -67,9 +68,9 @@ def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: 
     end = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
     roller = catalogue.bearings[chosen.roller]
     yield _bearing("roller", end, lateral.cam[0], roller)
-    washer, nut, screw = catalogue.washers["M3"], catalogue.nuts["M3 nyloc"], catalogue.screws["M3"]
+    washer, nut, screw = roller_washer(roller, catalogue), catalogue.nuts["M3 nyloc"], catalogue.screws["M3"]
     slabs = [(0.0, ROLLER_WASHER_MM, round_outline(washer.outer_mm, washer.bore_mm))]
-    yield bought("roller_washer", "washer M3 ISO 7089", MAIN_LEG, washer.mass_g, slabs, (end[0], high, end[1]))
+    yield bought("roller_washer", washer.article, MAIN_LEG, washer.mass_g, slabs, (end[0], high, end[1]))
     head = lateral.cam[1]
     length = screw.length_for(head - low + nut.height_mm, "choose a narrower bought.leg_bearing or bought.roller")
     shank = (head - length, head)

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from jumpcad.catalogue import Bearing
+from jumpcad.catalogue import Bearing, Catalogue, Washer
 from jumpcad.design import Design
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.drive import Drive
@@ -21,6 +21,8 @@ ANY = "any"
 """Instead of a bearing's name in a workshop: the lightest of the catalogue that carries its load."""
 LONGEST_ARM_MM = 10.0
 """Springs' torque over a bearing's load; judgement: about the longest of many designs, so that few hubs carry less."""
+RING_PLAY_MM = 0.2
+"""How much narrower than a roller's outer ring begins is what the screw clamps; judgement: makers differ by as much."""
 SHOULDER_MM = 0.8
 """Least distance between the seats of both bearings; judgement: four layers of 0.2 mm."""
 
@@ -53,7 +55,7 @@ def roller_bearing(workshop: Workshop) -> Bearing:
     Raises
     ------
     JumpcadError
-        If its bore is not that of the screw that holds it.
+        If its bore is not that of the screw that holds it, or there is no washer beside which its outer ring is free.
     """
     roller, screw = workshop.catalogue.bearings[workshop.bought.roller], workshop.catalogue.screws["M3"]
     if roller.bore_mm != screw.diameter_mm:
@@ -61,7 +63,28 @@ def roller_bearing(workshop: Workshop) -> Bearing:
             f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not fit the {screw.name} '
             f"screw that holds it: choose a bearing with a bore of {screw.diameter_mm:g} mm"
         )
+    roller_washer(roller, workshop.catalogue)
     return roller
+
+
+def roller_washer(roller: Bearing, catalogue: Catalogue) -> Washer:
+    """Return the widest washer between lever and roller that leaves the roller's outer ring free.
+
+    Raises
+    ------
+    JumpcadError
+        If there is none, or the screw's head on the other side touches the outer ring.
+    """
+    head, free = catalogue.screws["M3"].button_head_mm, roller.outer_ring_mm - RING_PLAY_MM
+    washers = sorted(catalogue.washers.values(), key=lambda washer: -washer.outer_mm)
+    for washer in washers:
+        if max(washer.outer_mm, head) <= free:
+            return washer
+    raise JumpcadError(
+        f'bought.roller = "{roller.name}": the screw clamps its outer ring, which begins at about '
+        f"{roller.outer_ring_mm:.1f} mm, between the screw's head of {head:g} mm and the smallest washer of "
+        f"{washers[-1].outer_mm:g} mm: choose a bearing of 7 mm diameter or more"
+    )
 
 
 def first_guess(bearings: list[Bearing | None], design: Design, workshop: Workshop) -> int:

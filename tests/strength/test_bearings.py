@@ -9,6 +9,7 @@ from support.fits import LOADS
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.strength.bearings import (
     allowed_n,
     bearing_load_n,
@@ -16,6 +17,8 @@ from jumpcad.strength.bearings import (
     hub_bearings,
     hub_width_mm,
     loaded_forces_n,
+    roller_bearing,
+    roller_washer,
 )
 from jumpcad.workshop import load_workshop
 
@@ -35,6 +38,27 @@ def test_a_force_beside_the_leg_presses_the_nearer_bearing_by_more_than_itself(l
     load = bearing_load_n((NONE, np.array([20.0, 0.0])), leg_mm, 4.0, BEARING)
     assert load * apart == pytest.approx(20.0 * (beside + apart / 2.0))
     assert load > 20.0
+
+
+@pytest.mark.parametrize(
+    ("outer_mm", "outer_ring_mm", "washer_mm"),
+    # where SKF's tables of 623, 619/3 (693) and 618/3 (683) have the edge of the outer ring, about
+    [(10.0, 8.2, 7.0), (8.0, 6.7, 6.0), (7.0, 6.0, 5.0)],
+)
+def test_the_washer_beside_the_roller_leaves_its_outer_ring_free(
+    outer_mm: float, outer_ring_mm: float, washer_mm: float
+) -> None:
+    roller = load_catalogue().bearings["623"].model_copy(update={"outer_mm": outer_mm})
+    assert roller.outer_ring_mm == pytest.approx(outer_ring_mm, abs=0.05)
+    assert roller_washer(roller, load_catalogue()).outer_mm == washer_mm < outer_ring_mm
+
+
+def test_a_roller_whose_outer_ring_the_screws_head_would_clamp_is_refused() -> None:
+    """The head of ISO 7380-1 M3 is 5.7 mm wide; the outer ring of an MR63 (6 mm) begins nearer."""
+    shop = load_workshop()
+    small = shop.model_copy(update={"bought": shop.bought.model_copy(update={"roller": "MR63"})})
+    with pytest.raises(JumpcadError, match=r'^bought\.roller = "MR63": .* head of 5\.7 mm .* choose a bearing of 7 mm'):
+        roller_bearing(small)
 
 
 def test_a_narrow_leg_grows_to_the_width_that_two_bearings_need() -> None:

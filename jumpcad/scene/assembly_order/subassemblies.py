@@ -107,7 +107,7 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
             Words("Solder the switch's leads to it first, those of the table under Wiring: later there is no room for "
                   "the iron.", needs="switch"),
             Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside. Ears "
-                  "without thread: screws 2 mm longer, and an M2 nut behind each ear.", needs="switch"),
+                  "without thread: {nutted_screws} in their place, and an M2 nut behind each ear.", needs="switch"),
             Words("Lead the wires through the window and push the motor into its socket from above, its shaft up, its "
                   "shorter side as the socket's, until its rear stands on the socket's floor. Its front is now level "
                   "with the socket's rim or up to 0.4 mm above it ({clamp} mm as drawn). Higher: solder or a wire is "
@@ -165,8 +165,8 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
                   "until step {step_left}."),
             Words("Cut the foam tape out where a board has wires or legs underneath, so that the board lies flat. Then "
                   "lay every board on its piece, in its place, against the tray's rim where there is one, the "
-                  "controller's USB socket to the right, and pull a cable tie over it. Plug and capacitor get a tie "
-                  "too: the plug opens forwards. Heads of ties lie on top, beside what they hold, with their ends cut "
+                  "controller's USB socket to the right, and pull a cable tie over it. The plug gets a tie too, and "
+                  "opens forwards; so does the capacitor, if there is one. Heads of ties lie on top, beside what they hold, with their ends cut "
                   "off; below the tray they would touch the battery's strap. None covers a button of the controller. "
                   "Tie the wires together beside the boards, so that no joint bears a pull."),
             Words("Put the firmware on the controller over USB (firmware/README.md) before the battery is plugged in "
@@ -174,9 +174,8 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
         ),
         (
             Words("{charge_how}"),
-            Words("Before the battery is plugged in: switch on, multimeter across the plug's poles, no contact (a "
-                  "short beep is the capacitor). Plus "
-                  "of plug and battery must agree: makers of batteries do not."),
+            Words("Before the battery is plugged in: switch on, multimeter across the plug's poles, no contact{beep}. "
+                  "Plus of plug and battery must agree: makers of batteries do not."),
         ),
     ),
     Plan(
