@@ -131,9 +131,10 @@ def test_mujoco_reads_angles_in_radians() -> None:
 
 
 @pytest.mark.parametrize("write", [write_mjcf, write_robot])
-def test_as_it_is_loaded_the_robot_stands_on_the_ground_at_rest(write: Callable[[Robot], str]) -> None:
-    """Without a key frame, every body is where its pose at rest has it."""
-    mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0"])
+def test_as_it_is_loaded_the_robot_stands_on_the_ground_at_rest(write: Callable[[Robot], str], name: str) -> None:
+    """Without a key frame, every body is where its pose at rest has it; Kenan 1.0 stands with its body leaning."""
+    mujoco, robot = pytest.importorskip("mujoco"), built(name)
     model = mujoco.MjModel.from_xml_string(without_meshes(write(robot)))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)

@@ -1,6 +1,7 @@
 """Every bore measured on the meshes: the largest circle in a section is the nominal diameter plus the fit."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -26,6 +27,7 @@ from support.fits import (
     measured,
 )
 
+from jumpcad.parts import foot, links
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
@@ -67,6 +69,24 @@ def test_foot_holds_its_pins(kenan: Robot, side: float) -> None:
     y = side * (kenan.layout.lateral.lug_left[0] + 2.0)
     for x in (0.0, kenan.design.l4_mm):
         assert measured(kenan, "foot", y, np.array([x, 0.0])) == pytest.approx(LYING_HOLE, abs=TOLERANCE_MM)
+
+
+def test_each_bore_has_its_own_fit(kenan: Robot) -> None:
+    """In the default workshop tight bores, eyes and lying holes have the same 0.1 mm, in others not."""
+    apart = {"press_mm": 0.05, "eye_mm": 0.08, "lying_mm": 0.15}
+    holes = HoleSizes.of(kenan.workshop, kenan.layout.hub_bearing)
+    holes = replace(holes, fits=holes.fits.model_copy(update=apart))
+    layout, design = kenan.layout, kenan.design
+    lug = layout.lateral.lug_left[0] + 2.0
+    expected = [
+        (*links.main_leg(layout, holes), 2.5, {0.0: MR63_OUTER + 0.1, layout.leg_pin_mm: 3.1, design.l2_mm: 3.16}),
+        (links.front_link(layout, holes), 0.5, {0.0: 3.16, design.l3_mm: 3.16}),
+        (foot.foot(layout, holes), lug, {0.0: 3.3, design.l4_mm: 3.3}),
+    ]
+    for drawing, y, bores in expected:
+        section = cut(drawing.mesh.copy().apply_transform(drawing.placements[0].T_body_part), y)
+        for x, diameter in bores.items():
+            assert inscribed_diameter(section, np.array([x, 0.0])) == pytest.approx(diameter, abs=TOLERANCE_MM)
 
 
 def test_cam_and_gears(kenan: Robot) -> None:
