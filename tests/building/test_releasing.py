@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support.built import built, part
+from support.strengths import with_own
 
 from jumpcad.building import releasing
 from jumpcad.building.releasing import release_of
@@ -14,6 +15,7 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import Workshop
+from jumpcad.workshop.workshop import Role
 
 
 @pytest.fixture(scope="module")
@@ -70,6 +72,14 @@ def test_the_roller_moves_with_a_quarter_of_its_lever(robot: Robot, moving: Movi
     process = robot.workshop.process.model_copy(update={"infill": 1.0})
     filled = moving_in(robot, robot.workshop.model_copy(update={"process": process}))
     assert filled.roller_kg - bearing == pytest.approx(solid, rel=1e-3)
+
+
+@pytest.mark.parametrize(("role", "share"), [("links", 0.5), ("gears", 1.0), ("body", 1.0)])
+def test_the_lever_is_printed_as_links_are(robot: Robot, moving: MovingParts, role: Role, share: float) -> None:
+    bearing = sum(item.mass_kg for item in robot.hardware if item.name.startswith("roller"))
+    found = moving_in(robot, with_own(robot.workshop, role, 0.5))
+    assert found.lever_n_per_m == pytest.approx(share * moving.lever_n_per_m)
+    assert found.roller_kg - bearing == pytest.approx(share * (moving.roller_kg - bearing))
 
 
 def test_the_lever_bends_as_a_cantilever_that_tapers(robot: Robot, moving: MovingParts) -> None:

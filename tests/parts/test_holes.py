@@ -1,7 +1,6 @@
 """Every bore measured on the meshes: the largest circle in a section is the nominal diameter plus the fit."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -25,6 +24,7 @@ from support.fits import (
     SLIDING,
     TOLERANCE_MM,
     measured,
+    with_fits_apart,
 )
 
 from jumpcad.parts import foot, links
@@ -73,9 +73,7 @@ def test_foot_holds_its_pins(kenan: Robot, side: float) -> None:
 
 def test_each_bore_has_its_own_fit(kenan: Robot) -> None:
     """In the default workshop tight bores, eyes and lying holes have the same 0.1 mm, in others not."""
-    apart = {"press_mm": 0.05, "eye_mm": 0.08, "lying_mm": 0.15}
-    holes = HoleSizes.of(kenan.workshop, kenan.layout.hub_bearing)
-    holes = replace(holes, fits=holes.fits.model_copy(update=apart))
+    holes = HoleSizes.of(with_fits_apart(kenan.workshop), kenan.layout.hub_bearing)
     layout, design = kenan.layout, kenan.design
     lug = layout.lateral.lug_left[0] + 2.0
     expected = [

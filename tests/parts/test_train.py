@@ -11,6 +11,7 @@ import trimesh
 from scipy.optimize import brentq
 from shapely import affinity
 from support.built import built, cut, geared, hole_centres, in_body, placed, region
+from support.fits import with_fits_apart
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
@@ -297,8 +298,8 @@ def test_a_motors_shaft_is_held_by_five_ribs() -> None:
 
     Every rib leaves the shaft's own section narrower by its overlap; nothing else of the bore touches the shaft.
     """
-    holes = HoleSizes.of(load_workshop(), None)
-    fits = load_workshop().fits
+    holes = HoleSizes.of(with_fits_apart(load_workshop()), None)
+    fits = holes.fits
     bore = shapely.union_all([shapely.Polygon(one) for one in ribbed_d_bore(3.0, 2.5, holes).to_polygons()])
     shaft = shapely.Point(0.0, 0.0).buffer(1.5, 128).intersection(shapely.box(-2.0, -2.0, 1.0, 2.0))
     ribs = [one for one in shaft.difference(bore).geoms if one.area > 1e-4]
