@@ -64,6 +64,17 @@ def test_energy_gained_counts_as_a_share_of_the_springs() -> None:
         assert (run.worst_energy_ratio, run.worst_gap_m) == pytest.approx((ratio, gap_m))
 
 
+@pytest.mark.parametrize(
+    ("ratio", "gap_m", "sound"),
+    [(1.005, 5e-4, True), (1.006, 0.0, False), (1.0, 6e-4, False), (math.inf, math.inf, False)],
+)
+def test_a_run_is_sound_while_it_keeps_its_energy_and_its_loop(ratio: float, gap_m: float, sound: bool) -> None:
+    """Half a percent more energy than at the start, and half a millimetre of gap, are the most."""
+    run = object.__new__(Run)
+    run.worst_energy_ratio, run.worst_gap_m = ratio, gap_m
+    assert run.sound is sound
+
+
 @pytest.mark.parametrize("trajectory", [False, True])
 def test_a_push_off_is_audited_every_hundredth_of_a_second(
     kenan: Robot, monkeypatch: pytest.MonkeyPatch, trajectory: bool
