@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from collections import Counter
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from support.elsewhere import environment
 from support.places import ROOT
 
 from jumpcad.building import build
-from jumpcad.building.assembly import layout_of
+from jumpcad.building.assembly import _contacts, layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
@@ -300,6 +301,13 @@ def test_what_touches_the_ground_is_where_the_design_says(name: str) -> None:
     for end, sign in (("back", -1.0), ("front", 1.0)):
         assert ends[end][0] == pytest.approx([sign * design.l1_mm / 2.0, 0.0, 0.0])
         assert ends[end][1] == pytest.approx(1.5 + 3.0)  # a seat of 3 mm around an axle of 3 mm
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 4.0])
+def test_the_bodys_ends_are_as_thick_as_their_seats_around_the_axles(axle_mm: float) -> None:
+    """A seat of 3 mm around an axle; the ground is that far from its middle."""
+    ends = _contacts(replace(built("kenan-2.0").layout, axle_mm=axle_mm))[BODY]
+    assert [1000.0 * one.radius_m for one in ends] == pytest.approx([axle_mm / 2.0 + 3.0] * 2)
 
 
 def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:

@@ -209,20 +209,31 @@ def test_the_leg_takes_its_share_of_the_springs_energy(kenan: Robot) -> None:
     assert flex.limit == pytest.approx(100.0 * kenan.workshop.safety.leg_flex_share)
 
 
+def test_a_thinner_axle_presses_harder_on_the_plates(kenan: Robot) -> None:
+    """By projected area: 3 to 2."""
+    thin = replace(kenan, layout=replace(kenan.layout, axle_mm=2.0))
+    usual, pressed = (
+        next(one.value for one in strength_findings(robot) if one.name == "plate_seat") for robot in (kenan, thin)
+    )
+    assert pressed == pytest.approx(1.5 * usual)
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0])
 @pytest.mark.parametrize("robot", ["kenan", "strongest"])
-def test_the_dog_bears_the_cams_torque_and_its_blow(robot: str, request: pytest.FixtureRequest) -> None:
+def test_the_dog_bears_the_cams_torque_and_its_blow(robot: str, axle_mm: float, request: pytest.FixtureRequest) -> None:
     """Two jaws as cantilevers along the axle, as long as the cam gear is wide, and the boss in torsion, as a tube."""
     strong = request.getfixturevalue(robot)
+    strong = replace(strong, layout=replace(strong.layout, axle_mm=axle_mm))
     (dog,) = (finding for finding in strength_findings(strong) if finding.name == "cam_dog_strength")
     drive, case = strong.layout.drive, LoadCase(strong)
     torque = 1000.0 * max(drive.cam.peak_torque_nm, strong.release.blow_nm)
     fits, outer = case.workshop.fits, drive.dog.outer_mm
-    inner = 3.0 + 4.0 * fits.sliding_mm + 2.0 * fits.wall_min_mm
+    inner = axle_mm + 4.0 * fits.sliding_mm + 2.0 * fits.wall_min_mm
     root, radius = (outer - inner) / 2.0, (outer + inner) / 4.0
     force, along = torque / 2.0 / radius, radius * drive.dog.jaw_rad
     width = drive.train.stages[-1].wheel.face_width_mm
     jaws = math.hypot(6.0 * force * width / 2.0 / (root * along**2), math.sqrt(3.0) * 1.5 * force / (root * along))
-    bore = 3.0 + 2.0 * fits.sliding_mm
+    bore = axle_mm + 2.0 * fits.sliding_mm
     boss = math.sqrt(3.0) * 16.0 * torque * outer / (math.pi * (outer**4 - bore**4))
     assert dog.value == pytest.approx(max(jaws, boss))
 

@@ -89,6 +89,7 @@ def test_contacts_and_the_loop_are_as_stiff_as_mujoco_allows(dt_s: float) -> Non
     assert step == pytest.approx(dt_s / 4.0)
     soft = np.array([node.attrib["solref"].split() for node in root.iter() if "solref" in node.attrib], dtype=float)
     assert len(soft) > 2
+    assert all("solref" in node.attrib for tag in ("connect", "pair") for node in root.iter(tag))
     assert soft == pytest.approx(np.tile([2.0 * step, 1.0], (len(soft), 1)))
 
 

@@ -1,6 +1,7 @@
 """Every bore measured on the meshes: the largest circle in a section is the nominal diameter plus the fit."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -27,6 +28,7 @@ from support.fits import (
     with_fits_apart,
 )
 
+from jumpcad.building.assembly import drawings
 from jumpcad.parts import foot, links
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
@@ -139,6 +141,36 @@ def test_idler_turns_on_its_axle() -> None:
     robot = geared()
     y = sum(robot.layout.lateral.gears[-1]) / 2.0
     assert measured(robot, "idler", y, robot.layout.idler_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+
+
+def test_bores_of_thinner_axles_are_as_much_narrower() -> None:
+    """For axles of 2 mm where the default is 3 mm: what turns has 0.2 mm around them, all else 0.1 mm."""
+    usual = geared()
+    layout, lateral = replace(usual.layout, axle_mm=2.0, spring_boss_mm=2.0), usual.layout.lateral
+    holes = replace(HoleSizes.of(usual.workshop, layout.hub_bearing), axle_mm=2.0)
+    drawn = {drawing.name: drawing for drawing in drawings(layout, holes, "")}
+    (right, left), l2, pin = lateral.inside, layout.design.l2_mm, layout.spring_pin_mm
+    hub, front, cam, idler, tight, running = layout.hub_mm, *list(layout.axles.values())[1:], 2.2, 2.4
+    expected = {
+        ("main_leg", 0.01): {(layout.leg_pin_mm, 0.0): tight, (l2, 0.0): tight},
+        ("front_link", 0.5): {(0.0, 0.0): tight, (layout.design.l3_mm, 0.0): tight},
+        ("foot", lateral.lug_left[0] + 2.0): {(0.0, 0.0): tight, (layout.design.l4_mm, 0.0): tight},
+        ("body_plate_left", left + 0.6): dict.fromkeys(map(tuple, (hub, front, cam, idler, pin)), running),
+        ("body_plate_right", right - 0.6): dict.fromkeys(map(tuple, (hub, front, cam, idler, pin)), running),
+        ("body_plate_left", left - 0.5): {tuple(hub): running},
+        ("body_plate_right", right + 0.5): {tuple(hub): running, tuple(pin): running},
+        ("spring_bushing_left", sum(lateral.spring_left) / 2.0): {tuple(hub): running},
+        ("spring_bushing_right", sum(lateral.spring_right) / 2.0): {tuple(hub): running},
+        ("front_spacer_left", left - 2.0): {tuple(front): running},
+        ("cam", sum(lateral.cam) / 2.0): {tuple(cam): running},
+        ("cam_gear", sum(lateral.gears[0]) / 2.0): {tuple(cam): running},
+        ("idler", sum(lateral.gears[-1]) / 2.0): {tuple(idler): running},
+    }  # fmt: skip
+    for (name, y), bores in expected.items():
+        mesh = drawn[name].mesh.copy().apply_transform(drawn[name].placements[0].T_body_part)
+        for centre, diameter in bores.items():
+            found = inscribed_diameter(cut(mesh, y), np.array(centre))
+            assert found == pytest.approx(diameter, abs=TOLERANCE_MM), (name, centre)
 
 
 def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:

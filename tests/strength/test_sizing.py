@@ -84,6 +84,15 @@ def test_what_others_are_printed_in_does_not_size_the_links(role: Role) -> None:
         assert getattr(weak, name) > getattr(usual, name), name
 
 
+def test_eyes_and_a_thin_dog_grow_with_the_axle() -> None:
+    """Half a millimetre of radius, and one of diameter where the jaws are as thin as can be printed."""
+    linkage, shop = Linkage(load_design("kenan-2.0")), load_workshop()
+    thick = shop.model_copy(update={"bought": shop.bought.model_copy(update={"axle_mm": shop.bought.axle_mm + 1.0})})
+    before, after = sections(linkage, shop), sections(linkage, thick)
+    assert after.eye_radius_mm - before.eye_radius_mm == pytest.approx(0.5)
+    assert after.dog_mm - before.dog_mm == pytest.approx(1.0)
+
+
 def test_hollow_links_are_higher_than_solid_ones() -> None:
     design, workshop = load_design("best-bo"), load_workshop()
     solid = workshop.model_copy(update={"process": workshop.process.model_copy(update={"infill": 1.0})})
