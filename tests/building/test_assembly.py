@@ -17,7 +17,7 @@ from support.elsewhere import environment
 from support.places import ROOT
 
 from jumpcad.building import build
-from jumpcad.building.assembly import _contacts, layout_of
+from jumpcad.building.assembly import _contacts, _printed, layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
@@ -301,6 +301,14 @@ def test_what_touches_the_ground_is_where_the_design_says(name: str) -> None:
     for end, sign in (("back", -1.0), ("front", 1.0)):
         assert ends[end][0] == pytest.approx([sign * design.l1_mm / 2.0, 0.0, 0.0])
         assert ends[end][1] == pytest.approx(1.5 + 3.0)  # a seat of 3 mm around an axle of 3 mm
+
+
+def test_a_part_weighs_what_the_printers_own_nozzle_lays() -> None:
+    """A wider one bridges the infill of a plate with thicker threads."""
+    workshop = load_workshop()
+    wide = workshop.model_copy(update={"printer": workshop.printer.model_copy(update={"nozzle_mm": 0.6})})
+    drawing = next(part.drawing for part in built("kenan-2.0").parts if part.name == "body_plate_right")
+    assert _printed(drawing, wide).mass_kg > 1.001 * _printed(drawing, workshop).mass_kg
 
 
 @pytest.mark.parametrize("axle_mm", [2.0, 4.0])
