@@ -274,6 +274,17 @@ def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     assert caught.value.exit_code == 2
 
 
+def test_stop_plates_and_toes_are_those_of_the_workshops_body() -> None:
+    """A degree farther and 0.4 mm thicker than in the default workshop, and toes with bars across them."""
+    usual = load_workshop().body
+    wanted = {"stop_deg": usual.stop_deg + 1.0, "plate_mm": usual.plate_mm + 0.4, "toe_half_width_mm": 65.0}
+    layout, _ = layout_of(KENAN, changed(body=wanted))
+    assert math.degrees(layout.stop.angle_rad) == pytest.approx(wanted["stop_deg"])
+    for low, high in (layout.lateral.left_plate, layout.lateral.right_plate):
+        assert high - low == pytest.approx(wanted["plate_mm"])
+    assert layout.toe_half_width_mm == 65.0
+
+
 def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
     robot = geared()
     names = {item.name for item in robot.hardware}

@@ -115,6 +115,30 @@ def test_a_thick_lever_or_dog_pushes_the_cam_away() -> None:
     assert thick.train.cam_gear_root_min_mm == pytest.approx(usual.train.cam_gear_root_min_mm + corner)
 
 
+@pytest.mark.parametrize(
+    ("table", "key", "value", "name"),
+    [
+        ("release", "energy_ratio_min", 0.9, "energy_ratio_min"), ("release", "corner_radius_mm", 1.2, "rounding_mm"),
+        ("release", "friction", 0.45, "friction"), ("release", "rebound", 0.2, "rebound"),
+        ("release", "train_nm_per_rad", 90.0, "train_nm_per_rad"),
+        ("release", "rotor_kg_m2", (1e-9, 5e-8), "rotor_kg_m2"),
+        ("safety", "kick_reserve", 0.35, "kick_reserve"), ("safety", "motor_torque_max_nm", 0.12, "motor_nm"),
+    ],
+)  # fmt: skip
+def test_a_figure_of_the_release_is_its_own_limit(table: str, key: str, value: Any, name: str) -> None:
+    before, after = release_limits(load_workshop()), release_limits(changed(table, **{key: value}))
+    differ = [field.name for field in fields(before) if getattr(before, field.name) != getattr(after, field.name)]
+    assert differ == [name]
+    assert getattr(after, name) == value
+
+
+def test_a_cam_lets_the_leg_swing_to_its_stop_and_into_the_pad() -> None:
+    """With a stop two degrees farther past rest, two degrees more."""
+    far = changed("body", stop_deg=load_workshop().body.stop_deg + 2.0)
+    more = limits(far).cam.overshoot_rad - limits(load_workshop()).cam.overshoot_rad
+    assert math.degrees(more) == pytest.approx(2.0)
+
+
 def test_the_release_is_computed_with_the_workshops_figures_in_si_units() -> None:
     """Backlash in degrees and stiffness in N/mm are given; printed teeth bear what gears do."""
     shop = changed("release", backlash_deg=(3.0, 6.0), contact_n_per_mm=700.0)

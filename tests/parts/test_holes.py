@@ -163,6 +163,7 @@ def test_bores_of_thinner_axles_are_as_much_narrower() -> None:
         ("spring_bushing_right", sum(lateral.spring_right) / 2.0): {tuple(hub): running},
         ("front_spacer_left", left - 2.0): {tuple(front): running},
         ("cam", sum(lateral.cam) / 2.0): {tuple(cam): running},
+        ("cam", sum(lateral.gears[0]) / 2.0): {tuple(cam): 2.0 + 2.0 * (0.2 + 0.8 + 0.2)},  # jaws around the gear's hub
         ("cam_gear", sum(lateral.gears[0]) / 2.0): {tuple(cam): running},
         ("idler", sum(lateral.gears[-1]) / 2.0): {tuple(idler): running},
     }  # fmt: skip
