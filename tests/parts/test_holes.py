@@ -29,7 +29,7 @@ from support.fits import (
 )
 
 from jumpcad.building.assembly import drawings
-from jumpcad.parts import foot, links
+from jumpcad.parts import body_plate, foot, links, small
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
@@ -172,6 +172,27 @@ def test_bores_of_thinner_axles_are_as_much_narrower() -> None:
         for centre, diameter in bores.items():
             found = inscribed_diameter(cut(mesh, y), np.array(centre))
             assert found == pytest.approx(diameter, abs=TOLERANCE_MM), (name, centre)
+
+
+def test_screws_have_the_workshops_own_holes(kenan: Robot) -> None:
+    """M3 through the lever and the plates, M2 through the motor's cap and into its socket: wider than the defaults."""
+    layout, lateral = kenan.layout, kenan.layout.lateral
+    fits = kenan.workshop.fits.model_copy(update={"m3_clearance_mm": 3.8, "m2_clearance_mm": 2.7, "m2_tap_mm": 1.8})
+    holes = replace(HoleSizes.of(kenan.workshop, layout.hub_bearing), fits=fits)
+    (leg,), (left, right) = links.main_leg(layout, holes), body_plate.plates(layout, holes, "")
+    angle = layout.drive.cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
+    lever = layout.drive.cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
+    expected = [
+        (leg, 0.01, [lever], 3.8), (left, lateral.inside[1] + 0.5, layout.standoffs_mm, 3.8),
+        (right, lateral.inside[0] - 0.5, layout.standoffs_mm, 3.8),
+        (right, lateral.motor[1] - 2.0, body_plate.ear_places(layout), 1.8),
+        (small.motor_cap(layout, holes), lateral.motor_cap[0] + 0.2, body_plate.ear_places(layout), 2.7),
+    ]  # fmt: skip
+    for drawing, y, places, diameter in expected:
+        section = cut(drawing.mesh.copy().apply_transform(drawing.placements[0].T_body_part), y)
+        for place in places:
+            found = inscribed_diameter(section, np.asarray(place))
+            assert found == pytest.approx(diameter, abs=TOLERANCE_MM), (drawing.name, y)
 
 
 def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:
