@@ -407,3 +407,12 @@ def test_pads_are_as_wide_as_what_they_hold_needs(name: str, more_mm: float) -> 
     assert (
         len(found) == len(expected) + len([*fitting_pads(layout.fittings, 0.0)]) + 2
     )  # and the motor's and the sensor's
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0, 4.0])
+def test_plates_have_three_millimetres_around_axles_of_any_size(axle_mm: float) -> None:
+    layout = replace(built("kenan-2.0").layout, axle_mm=axle_mm)
+    boxes = [np.array(pad.bounds()).reshape(2, 2) for pad in _pads(layout)]
+    for place in layout.axles.values():
+        sizes = [np.ptp(box, axis=0) for box in boxes if np.allclose(box.mean(axis=0), place, atol=0.01)]
+        assert any(size == pytest.approx([axle_mm + 6.0] * 2, abs=0.01) for size in sizes)
