@@ -40,9 +40,8 @@ THREAD_MM = 6.0
 """Of a screw inside its standoff."""
 OTHER = (
     "solder, heat-shrink tube 4 mm, 0.1 m, for joints of more than two wires, silicone or lithium grease, alcohol, "
-    "adhesive tape, a strip more of foam tape, some more cable ties "
-    "2.5 mm wide; one more socket like the robot's, for a battery beside the robot: keep its leads insulated until they "
-    "are needed"
+    "adhesive tape, a strip more of foam tape, some more cable ties 2.5 mm wide; one more socket like the robot's, for "
+    "a battery beside the robot: keep its leads insulated until they are needed"
 )
 
 

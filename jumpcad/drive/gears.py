@@ -26,9 +26,12 @@ def involute(angle_rad: float) -> float:
 
 
 def inverse_involute(value: npt.ArrayLike) -> Array:
-    """Return the angles (rad) of positive involute values, by Newton's method."""
+    """Return the angles (rad) of positive involute values, by Newton's method.
+
+    It begins above the angle: tan(a) - a is at least a³/3, and tan(a) = value + a at most value + π/2.
+    """
     value = np.asarray(value, dtype=float)
-    angle = np.cbrt(3 * value)
+    angle = np.minimum(np.cbrt(3 * value), np.arctan(value + math.pi / 2))
     for _ in range(20):
         tangent = np.tan(angle)
         angle = angle - (tangent - angle - value) / tangent**2

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from collections import Counter
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from support.elsewhere import environment
 from support.places import ROOT
 
 from jumpcad.building import build
-from jumpcad.building.assembly import layout_of
+from jumpcad.building.assembly import _contacts, _printed, layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
@@ -273,6 +274,17 @@ def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     assert caught.value.exit_code == 2
 
 
+def test_stop_plates_and_toes_are_those_of_the_workshops_body() -> None:
+    """A degree farther and 0.4 mm thicker than in the default workshop, and toes with bars across them."""
+    usual = load_workshop().body
+    wanted = {"stop_deg": usual.stop_deg + 1.0, "plate_mm": usual.plate_mm + 0.4, "toe_half_width_mm": 65.0}
+    layout, _ = layout_of(KENAN, changed(body=wanted))
+    assert math.degrees(layout.stop.angle_rad) == pytest.approx(wanted["stop_deg"])
+    for low, high in (layout.lateral.left_plate, layout.lateral.right_plate):
+        assert high - low == pytest.approx(wanted["plate_mm"])
+    assert layout.toe_half_width_mm == 65.0
+
+
 def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
     robot = geared()
     names = {item.name for item in robot.hardware}
@@ -300,6 +312,21 @@ def test_what_touches_the_ground_is_where_the_design_says(name: str) -> None:
     for end, sign in (("back", -1.0), ("front", 1.0)):
         assert ends[end][0] == pytest.approx([sign * design.l1_mm / 2.0, 0.0, 0.0])
         assert ends[end][1] == pytest.approx(1.5 + 3.0)  # a seat of 3 mm around an axle of 3 mm
+
+
+def test_a_part_weighs_what_the_printers_own_nozzle_lays() -> None:
+    """A wider one bridges the infill of a plate with thicker threads."""
+    workshop = load_workshop()
+    wide = workshop.model_copy(update={"printer": workshop.printer.model_copy(update={"nozzle_mm": 0.6})})
+    drawing = next(part.drawing for part in built("kenan-2.0").parts if part.name == "body_plate_right")
+    assert _printed(drawing, wide).mass_kg > 1.001 * _printed(drawing, workshop).mass_kg
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 4.0])
+def test_the_bodys_ends_are_as_thick_as_their_seats_around_the_axles(axle_mm: float) -> None:
+    """A seat of 3 mm around an axle; the ground is that far from its middle."""
+    ends = _contacts(replace(built("kenan-2.0").layout, axle_mm=axle_mm))[BODY]
+    assert [1000.0 * one.radius_m for one in ends] == pytest.approx([axle_mm / 2.0 + 3.0] * 2)
 
 
 def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from support.limits import default_limits
+from support.strengths import with_own
 
 from jumpcad.building.limits import drive_limits, release_limits
 from jumpcad.catalogue import load_catalogue
@@ -17,6 +18,7 @@ from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.sizing import sections
 from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop.workshop import Role
 
 SECTIONS = sections(Linkage(load_design("kenan-2.0")), load_workshop())
 ROLLER = load_catalogue().bearings["623"]
@@ -51,6 +53,24 @@ def test_a_figure_of_the_workshop_is_a_limit(table: str, key: str, value: float,
     before, after = limits(load_workshop()), limits(changed(table, **{key: value}))
     one, other = getattr(before, of), getattr(after, of)
     assert {field.name for field in fields(one) if getattr(one, field.name) != getattr(other, field.name)} == names
+
+
+@pytest.mark.parametrize(
+    ("role", "names"), [("gears", {"stress_mpa", "modulus_mpa"}), ("links", set()), ("body", set())]
+)
+def test_teeth_and_cam_are_as_strong_and_stiff_as_what_gears_are_printed_in(role: Role, names: set[str]) -> None:
+    """The stress of their teeth, also at the release, and the modulus under the roller; nothing of the drive else."""
+    usual, weak = load_workshop(), with_own(load_workshop(), role, 0.5)
+    before, after = limits(usual), limits(weak)
+    found = {
+        field.name: getattr(getattr(after, of), field.name) / getattr(getattr(before, of), field.name)
+        for of in ("cam", "train", "spring")
+        for field in fields(getattr(before, of))
+        if getattr(getattr(before, of), field.name) != getattr(getattr(after, of), field.name)
+    }
+    assert found == dict.fromkeys(names, pytest.approx(0.5))
+    teeth = release_limits(weak).teeth_mpa / release_limits(usual).teeth_mpa
+    assert teeth == pytest.approx(0.5 if role == "gears" else 1.0)
 
 
 def test_the_default_workshop_has_the_limits_of_its_comments() -> None:
@@ -93,6 +113,30 @@ def test_a_thick_lever_or_dog_pushes_the_cam_away() -> None:
     corner = (20.0 - SECTIONS.dog_mm) / 2.0
     assert thick.cam.core_radius_mm == pytest.approx(usual.cam.core_radius_mm + corner)
     assert thick.train.cam_gear_root_min_mm == pytest.approx(usual.train.cam_gear_root_min_mm + corner)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "value", "name"),
+    [
+        ("release", "energy_ratio_min", 0.9, "energy_ratio_min"), ("release", "corner_radius_mm", 1.2, "rounding_mm"),
+        ("release", "friction", 0.45, "friction"), ("release", "rebound", 0.2, "rebound"),
+        ("release", "train_nm_per_rad", 90.0, "train_nm_per_rad"),
+        ("release", "rotor_kg_m2", (1e-9, 5e-8), "rotor_kg_m2"),
+        ("safety", "kick_reserve", 0.35, "kick_reserve"), ("safety", "motor_torque_max_nm", 0.12, "motor_nm"),
+    ],
+)  # fmt: skip
+def test_a_figure_of_the_release_is_its_own_limit(table: str, key: str, value: Any, name: str) -> None:
+    before, after = release_limits(load_workshop()), release_limits(changed(table, **{key: value}))
+    differ = [field.name for field in fields(before) if getattr(before, field.name) != getattr(after, field.name)]
+    assert differ == [name]
+    assert getattr(after, name) == value
+
+
+def test_a_cam_lets_the_leg_swing_to_its_stop_and_into_the_pad() -> None:
+    """With a stop two degrees farther past rest, two degrees more."""
+    far = changed("body", stop_deg=load_workshop().body.stop_deg + 2.0)
+    more = limits(far).cam.overshoot_rad - limits(load_workshop()).cam.overshoot_rad
+    assert math.degrees(more) == pytest.approx(2.0)
 
 
 def test_the_release_is_computed_with_the_workshops_figures_in_si_units() -> None:

@@ -1,11 +1,13 @@
 """What the release is computed from: inertias and masses of the finished parts, by trimesh and handbook formulas."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from support.built import built, part
+from support.strengths import with_own
 
 from jumpcad.building import releasing
 from jumpcad.building.releasing import release_of
@@ -14,6 +16,7 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import Workshop
+from jumpcad.workshop.workshop import Role
 
 
 @pytest.fixture(scope="module")
@@ -72,6 +75,14 @@ def test_the_roller_moves_with_a_quarter_of_its_lever(robot: Robot, moving: Movi
     assert filled.roller_kg - bearing == pytest.approx(solid, rel=1e-3)
 
 
+@pytest.mark.parametrize(("role", "share"), [("links", 0.5), ("gears", 1.0), ("body", 1.0)])
+def test_the_lever_is_printed_as_links_are(robot: Robot, moving: MovingParts, role: Role, share: float) -> None:
+    bearing = sum(item.mass_kg for item in robot.hardware if item.name.startswith("roller"))
+    found = moving_in(robot, with_own(robot.workshop, role, 0.5))
+    assert found.lever_n_per_m == pytest.approx(share * moving.lever_n_per_m)
+    assert found.roller_kg - bearing == pytest.approx(share * (moving.roller_kg - bearing))
+
+
 def test_the_lever_bends_as_a_cantilever_that_tapers(robot: Robot, moving: MovingParts) -> None:
     """F/f = 3·E·I/L³; between that of its root's section and that of its eye's, less what infill leaves out."""
     sections, material = robot.layout.sections, robot.workshop.material("links")
@@ -84,6 +95,8 @@ def test_the_lever_bends_as_a_cantilever_that_tapers(robot: Robot, moving: Movin
 
 
 def test_the_cam_runs_on_its_axle_with_the_running_fit(robot: Robot, moving: MovingParts) -> None:
-    assert robot.layout.axle_mm < moving.bore_mm < robot.layout.axle_mm + 1.0
+    assert moving.bore_mm == pytest.approx(3.4)  # 0.2 mm around an axle of 3 mm
+    thin = replace(robot, layout=replace(robot.layout, axle_mm=2.0))
+    assert moving_in(thin, robot.workshop).bore_mm == pytest.approx(2.4)
     assert moving.spring is robot.spring
     assert math.isfinite(moving.leg.push_off_s(robot.spring, 0.0))

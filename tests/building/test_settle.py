@@ -54,6 +54,21 @@ def test_settling_again_changes_nothing(name: str, factor: float) -> None:
     assert drive.cam.profile_mm.tobytes() == settled.drive.cam.profile_mm.tobytes()
 
 
+def test_a_roller_falls_past_rest_to_the_stop_and_into_its_pad(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stop at 5° and 3° for its pad: the cam must not come round before the leg is there."""
+    shop, asked = load_workshop(), list[float]()
+    far = shop.model_copy(update={"body": shop.body.model_copy(update={"stop_deg": 5.0})})
+
+    def noted(*given: Any) -> float:
+        asked.append(given[-1])
+        raise CannotBuildError("enough")
+
+    monkeypatch.setattr(settling, "fall_s", noted)
+    with pytest.raises(CannotBuildError, match="enough"):
+        settle(load_design("kenan-2.0"), far, Growth())
+    assert [math.degrees(past_rad) for past_rad in asked] == pytest.approx([8.0])
+
+
 def test_a_cam_does_not_depend_on_the_threads_of_the_linear_algebra() -> None:
     """The best one lies on a kink, where sums in another order end elsewhere; found at random, one of a hundred."""
     design = Design.from_vector([167.4201, 0.9483, 0.5257, 1.015, 0.6302, 29.5419, 11.6559, 47.5284])

@@ -12,6 +12,7 @@ from support.built import built, geared, placed
 
 from jumpcad.bundle.arrival import arrival_lines
 from jumpcad.bundle.spring_sheet import spring_sheets
+from jumpcad.bundle.springs import torque_shares
 from jumpcad.bundle.wiring import drawings_of
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
@@ -146,6 +147,8 @@ def test_a_spring_is_asked_for_with_its_figures(robot: Robot, drawings: dict[str
         )
         torque, closed = re.findall(r"^(\d+) N·mm.*closed by ([\d.]+)°", rows["LOADED (requirement)"])[0]
         assert float(torque) == pytest.approx(spring.rate_nmm_per_deg * float(closed), rel=0.01)
+        least, most = torque_shares(robot)
+        assert f"N·mm, +{100.0 * most - 100.0:.0f} % / -{100.0 - 100.0 * least:.0f} %, " in rows["LOADED (requirement)"]
         wound = spring.turns + float(closed) / 360.0
         assert float(rows["body length, loaded"].split()[0]) == pytest.approx((wound + 1.0) * spring.wire_mm, abs=0.06)
         inside = spring.arms.mean_mm * spring.turns / wound - spring.wire_mm

@@ -14,7 +14,7 @@ from jumpcad.bundle.arrival import arrival_lines, grams_at
 from jumpcad.bundle.bom import Bill, BilledPlate, BillLine, bill_of_materials
 from jumpcad.bundle.expected import expected
 from jumpcad.bundle.firmware import firmware_files, numbers
-from jumpcad.bundle.guide import _put_on, _tables, with_bill, write_guide
+from jumpcad.bundle.guide import _put_on, _tables, duration, with_bill, write_guide
 from jumpcad.bundle.ordering import order_lines, strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
@@ -208,6 +208,13 @@ def test_a_guide_takes_times_in_and_changes_nothing_else(robot: Robot) -> None:
     assert "| plate-1-PETG | PETG | 2:01 h |" in timed
     assert timed.split("## Springs")[1] == guide.split("## Springs")[1]
     assert with_bill(timed, bill) == guide
+
+
+@pytest.mark.parametrize(
+    ("seconds", "written"), [(29.0, "0:00 h"), (31.0, "0:01 h"), (3599.0, "1:00 h"), (9089.0, "2:31 h")]
+)
+def test_times_are_rounded_to_whole_minutes(seconds: float, written: str) -> None:
+    assert duration(seconds) == written
 
 
 def test_the_springs_ordered_are_those_of_the_design(robot: Robot) -> None:

@@ -179,3 +179,12 @@ def test_bars_of_legs_are_ordered_with_glue_and_glued_to_the_designs_lengths() -
     assert float(eyes[2]) == pytest.approx(robot.design.carrying_link_mm * robot.design.c_coef, abs=0.051)
     assert "epoxy" in "\n".join(tool_lines(robot, []))
     assert "epoxy" not in order()
+
+
+@pytest.mark.parametrize(("length", "enough"), [("97.9", 200), ("98.0", 200), ("98.1", 210)])
+def test_bars_are_ordered_with_two_millimetres_for_every_cut(length: str, enough: int) -> None:
+    """Two pieces of 98 mm and two cuts of 2 mm are 200 mm."""
+    robot = with_article(built("kenan-2.0", leg="carbon-strip-3x6"), r"(, cut )[\d.]+( mm long)", rf"\g<1>{length}\2")
+    (line,) = (line for line in order_lines(robot) if line.startswith("- pultruded carbon strip"))
+    assert f"2 of {length} mm" in line
+    assert f"order {enough} mm of it" in line

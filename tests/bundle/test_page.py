@@ -6,6 +6,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from html.parser import HTMLParser
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from jumpcad.building import build
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.compared import compared_of
 from jumpcad.bundle.limits import limits, verdict_on
-from jumpcad.bundle.page import write_report
+from jumpcad.bundle.page import ACCOUNT, _energy, write_report
 from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.calibration.measurements import load_measurements
 from jumpcad.checks import constraint_findings
@@ -50,6 +51,15 @@ def parsed(page: str) -> ElementTree.Element:
 def cells(page: str) -> dict[str, list[str]]:
     rows = ([cell.text or "" for cell in row.iter("td")] for row in parsed(page).iter("tr"))
     return {row[0]: row for row in rows if row}
+
+
+def test_energies_are_shares_of_what_was_loaded_and_less_than_none_has_no_width() -> None:
+    """Of 1 J, what rounding makes a little less than nothing is told, not drawn."""
+    account = dict(zip(ACCOUNT, (0.7, 0.31, -0.01), strict=False))
+    page = "".join(_energy(SimpleNamespace(energy_account_j=account)))
+    assert re.findall(r"width: ([\d.]+)%", page) == ["70.00", "31.00", "0.00"]
+    assert "Of 1000.0 mJ" in page
+    assert "-1.0 %" in page
 
 
 def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:

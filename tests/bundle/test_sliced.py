@@ -9,7 +9,7 @@ import trimesh
 from support.slicers import OBEDIENT, pretend_slicer, three_parts
 
 from jumpcad.bundle.export import export
-from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, _StlPart, slice_bundle
+from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, _modelled_grams, _StlPart, slice_bundle
 from jumpcad.errors import JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
@@ -73,3 +73,12 @@ def test_a_sliced_workshop_has_the_slicers_grams_to_a_milligram() -> None:
     assert found.weighed.mass.weighed_g == {"cam": 2.346, "foot": 9.0}
     assert shop.mass.weighed_g["cam"] == 1.5
     assert found.weighed.process == shop.process
+
+
+def test_a_file_is_modelled_with_the_printers_own_nozzle(tmp_path: Path) -> None:
+    """A wider one bridges the infill of a block with thicker threads."""
+    path, workshop = tmp_path / "block.stl", load_workshop()
+    path.write_bytes(trimesh.creation.box((30.0, 20.0, 6.0)).export(file_type="stl"))
+    wide = workshop.model_copy(update={"printer": workshop.printer.model_copy(update={"nozzle_mm": 0.6})})
+    usual, more = (_modelled_grams(path, shop, shop.material("body")) for shop in (workshop, wide))
+    assert more > 1.001 * usual

@@ -44,6 +44,14 @@ def test_the_torque_that_is_accepted_is_between_weak_and_strong(robot: Robot) ->
     assert words.endswith("a pair within 5 %")
 
 
+def test_the_wire_bears_what_is_in_reserve_for_stress_and_for_nothing_else(robot: Robot) -> None:
+    """20 % more than it is sized for, whatever the motor's torque has in reserve."""
+    reserves = {"stress_reserve": 0.2, "motor_torque_reserve": 0.4, "kick_reserve": 0.3}
+    safety = robot.workshop.safety.model_copy(update=reserves)
+    other = replace(robot, workshop=robot.workshop.model_copy(update={"safety": safety}))
+    assert allowable_mpa(other) == pytest.approx(1.2 * robot.layout.drive.spring.allowable_mpa)
+
+
 def test_loaded_arms_have_closed_by_the_springs_angle(robot: Robot) -> None:
     """180° less the part of a turn beyond whole ones, less what the leg winds."""
     spring = robot.layout.drive.spring

@@ -1,6 +1,7 @@
 """The way out of loaded springs: an iron reaches the shaft's end, a stick the gear, no cutter the teeth in mesh."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -127,3 +128,12 @@ def test_springs_that_push_on_the_stop_are_taken_off_their_pin_first(preload_deg
 def test_the_spare_battery_has_as_many_cells_as_the_kits(robot: Robot) -> None:
     cells = len(re.findall("2s", robot.workshop.bought.battery)) + 1
     assert f"({'one cell' if cells == 1 else '2 cells'});" in stuck_items(robot)[1]
+
+
+def test_the_hole_around_a_thicker_shaft_is_told_as_it_is() -> None:
+    """A shaft of 4 mm, where axles have 3 mm, is loose by 0.3 mm on every side."""
+    robot = built("kenan-2.0")
+    train = robot.layout.drive.train
+    thick = replace(train, motor=train.motor.model_copy(update={"shaft_mm": 4.0}))
+    layout = replace(robot.layout, drive=replace(robot.layout.drive, train=thick))
+    assert "round hole of 4.6 mm" in stuck_items(replace(robot, layout=layout))[2]

@@ -26,6 +26,13 @@ def test_lengths_and_masses_of_ones_own_may_be_what_the_reference_tells(kind: st
     assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []
 
 
+@pytest.mark.parametrize("source", ["", " ", " \u00a0 "])
+def test_a_blank_source_is_none(source: str) -> None:
+    table = load_catalogue().pads["tpu-2"].model_dump()
+    with pytest.raises(ValidationError, match="say where the figures come from"):
+        Pad(name="soft", **table | {"source": source})
+
+
 def test_an_article_of_ones_own_has_the_name_of_its_table() -> None:
     table = load_catalogue().pads["tpu-2"].model_dump()
     assert "name" not in table

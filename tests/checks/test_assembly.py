@@ -10,6 +10,7 @@ from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, checked, placed
 
 from jumpcad.building import assembly, build
+from jumpcad.checks import assembly as checked_assembly
 from jumpcad.checks.assembly import (
     TOLERANCE_MM2,
     Blocked,
@@ -257,6 +258,19 @@ def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
         assert (free.severity, free.message, free.margin) == ("info", "all is free", free.limit)
         assert free.limit > 0.0
         assert f"{free.limit:g} mm² are allowed" in found.message
+
+
+@pytest.mark.parametrize(("path", "tool"), [(False, True), (True, False)])
+def test_a_blocked_path_is_no_blocked_tool(monkeypatch: pytest.MonkeyPatch, path: bool, tool: bool) -> None:
+    """Each finding tells of its own, and what is free how many there are: a move, and two fasteners."""
+    stop = Blocked(SimpleNamespace(title="Close the body"), "standoff_screw_1", "body_plate_left", 2.5)
+    monkeypatch.setattr(checked_assembly, "assembly_ways", lambda _: [])
+    monkeypatch.setattr(checked_assembly, "paths", lambda _: iter([("move", stop if path else None)]))
+    monkeypatch.setattr(checked_assembly, "tools", lambda _: iter([(1, 1, None), (2, 1, stop if tool else None)]))
+    found = {one.name: one for one in assembly_findings(built("kenan-2.0"))}
+    assert [found[name].severity == "error" for name in ("assembly_paths", "tool_access")] == [path, tool]
+    free, said = ("assembly_paths", "all 1 moves") if tool else ("tool_access", "all 2 fasteners")
+    assert said in found[free].message
 
 
 @pytest.mark.parametrize(

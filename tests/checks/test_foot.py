@@ -8,7 +8,7 @@ import pytest
 from support.built import LONG_TOES, built
 from support.strengths import changed
 
-from jumpcad.checks.foot import foot_findings
+from jumpcad.checks.foot import _toe_joint_mpa, foot_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.robot import Robot
 
@@ -100,3 +100,15 @@ def test_a_hollow_leg_is_bent_sideways_between_its_layers(kenan: Robot) -> None:
     twisted = math.sqrt(3.0) * moment * math.cos(angle) / (long * short**2) * (3.0 + 1.8 * short / long)
     bent = moment * math.sin(angle) * thick / 2.0 / second
     assert found(case)["leg_sideways"] == pytest.approx(math.hypot(bent, twisted))
+
+
+@pytest.mark.parametrize("hole_mm", [2.0, 3.4, 5.0])
+def test_toes_that_are_screwed_on_bear_beside_the_workshops_own_holes(kenan: Robot, hole_mm: float) -> None:
+    """The tap in the stub, half as wide as the hole in the toe: bearing or tear-out, whichever is worst."""
+    case = LoadCase(changed(kenan, "fits", m3_clearance_mm=hole_mm, m3_tap_mm=hole_mm / 2.0))
+    sections, wall = case.layout.sections, case.workshop.fits.wall_mm
+    width, height = sections.toe_width_mm, max(sections.toe_root_mm, hole_mm + 4.0 * wall)
+    force = 10.0 * (case.layout.design.l5_mm - 16.0) / 14.0  # lever about the inner of two screws 14 mm apart
+    pressed = [force / (bore * width) for bore in (hole_mm / 2.0, hole_mm)]
+    torn = [math.sqrt(3.0) * force / ((height - bore) * width) for bore in (hole_mm / 2.0, hole_mm)]
+    assert _toe_joint_mpa(case, 10.0) == pytest.approx(max(*pressed, *torn))

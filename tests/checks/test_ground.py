@@ -8,7 +8,7 @@ import pytest
 from manifold3d import Manifold
 from support.built import body_in_plane, built, geared
 
-from jumpcad.checks.ground import foot_findings, ground_findings
+from jumpcad.checks.ground import _body_discs, foot_findings, ground_findings
 from jumpcad.checks.interference import Moment, components, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
@@ -197,3 +197,15 @@ def test_round_things_count_with_their_radius(what: str) -> None:
     (finding,) = ground_findings(replace(robot, layout=sunk))
     assert "the body" in finding.message
     assert finding.margin + 0.6 == pytest.approx(lowest_mm(robot, middle, lambda up: radius), abs=1e-6)
+
+
+@pytest.mark.parametrize(("axle_mm", "radius_mm"), [(2.0, 4.0), (4.0, 5.0), (1.0, 3.6)])
+def test_plates_are_round_about_their_axles_by_three_millimetres(axle_mm: float, radius_mm: float) -> None:
+    """And as wide as a clip of 6.3 mm (DIN 6799) with the plate's play, where a thin axle's seat is smaller."""
+    robot = built("kenan-2.0")
+    thin = replace(robot, layout=replace(robot.layout, axle_mm=axle_mm))
+    middles, radii = _body_discs(thin)
+    for place in robot.layout.axles.values():
+        assert radius_mm in [
+            pytest.approx(radius) for middle, radius in zip(middles, radii, strict=True) if np.allclose(middle, place)
+        ]

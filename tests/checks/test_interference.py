@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.built import body_in_plane, checked
+from support.built import body_in_plane, checked, in_body
 
+from jumpcad.checks import interference
 from jumpcad.checks.interference import (
     Component,
     Moment,
@@ -14,13 +15,15 @@ from jumpcad.checks.interference import (
     components,
     interference_findings,
     moments,
+    overlaps,
     pose_of,
     shared_volume_mm3,
 )
 from jumpcad.findings import errors
-from jumpcad.mechanism.model import BODY, BODY_NAMES
+from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
+from jumpcad.parts.part import lying_on_left
 from jumpcad.robot import Robot
-from jumpcad.solids.outline import rectangle
+from jumpcad.solids.outline import disc, rectangle
 from jumpcad.solids.stack import Stack
 
 
@@ -63,6 +66,28 @@ def test_every_two_boxes_that_overlap_are_looked_at_once() -> None:
     for row in (boxes, boxes[::-1]):
         assert [(int(i), int(j)) for i, j in _near(row)] == [(0, 1), (2, 3)]
     assert [(int(i), int(j)) for i, j in _near([boxes[0]] * 3)] == [(0, 1), (0, 2), (1, 2)]
+
+
+@pytest.mark.parametrize("name", ["eye", "cam"])
+def test_what_meets_in_one_position_only_is_found_there_with_all_that_it_shares(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """A disc on the leg's ankle, or 12 mm beside the cam's axis, comes nearer to a post of its size and covers it."""
+    cam_axis, at = kenan.layout.cam_axis_mm, moments(kenan)[7]
+    if name == "eye":
+        body, start = MAIN_LEG, np.array([kenan.design.l2_mm, 0.0])
+        met = in_body(kenan, MAIN_LEG, -at.leg_rad, start)
+    else:
+        body, start = BODY, cam_axis + np.array([12.0, 0.0])
+        met = cam_axis + 12.0 * np.array([np.cos(at.cam_rad), -np.sin(at.cam_rad)])  # about +y, which carries z to x
+    slab = Stack.of([(0.0, 4.0, disc(8.0))])
+    mover = Component(name, body, slab, lying_on_left(2.0, *start))
+    post = Component("post", BODY, slab, lying_on_left(2.0, *met))
+    monkeypatch.setattr(interference, "components", lambda _: [mover, post])
+    ((*pair, label, volume),) = overlaps(kenan)
+    assert pair == [name, "post"]
+    assert label.endswith(f" {-np.degrees(at.leg_rad):.1f}°")
+    assert volume == pytest.approx(np.pi * 16.0 * 4.0, rel=5e-3)
 
 
 @pytest.mark.parametrize("turned", [False, True])

@@ -119,6 +119,39 @@ def test_steps_of_45_degrees_are_no_overhang_and_steeper_ones_are(kenan: Robot) 
     assert found(kenan, steps(1.0))["overhangs"].margin == pytest.approx(0.9 - 1.0, abs=0.05)
 
 
+@pytest.mark.parametrize(
+    ("layer_mm", "overhang_deg", "steepest_mm"),
+    [(0.2, 45.0, 0.2), (0.3, 45.0, 0.3), (0.2, 60.0, 0.3464), (0.2, 30.0, 0.1155)],
+)
+def test_a_step_is_an_overhang_from_the_workshops_own_angle_and_layer_on(
+    kenan: Robot, layer_mm: float, overhang_deg: float, steepest_mm: float
+) -> None:
+    """One layer up, the tangent of the angle out; seen from below, the next layer is not held farther out."""
+    shop = kenan.workshop
+    own = replace(
+        kenan,
+        workshop=shop.model_copy(
+            update={
+                "process": shop.process.model_copy(update={"layer_height_mm": layer_mm}),
+                "fits": shop.fits.model_copy(update={"overhang_deg": overhang_deg}),
+            }
+        ),
+    )
+    for out_mm, over in ((steepest_mm - 0.02, False), (steepest_mm + 0.03, True)):
+        slabs = [(layer_mm * n, layer_mm * (n + 1), disc(10.0 + 2.0 * out_mm * n)) for n in range(4)]
+        value = found(own, Stack.of(slabs))["overhangs"].value
+        assert bool(value) == over
+
+
+def test_limits_of_holes_and_overhangs_are_the_workshops_own(kenan: Robot) -> None:
+    """The smaller of a hole and a screw's tap; two lines."""
+    shop = kenan.workshop
+    fits, process = {"m2_tap_mm": 1.3, "hole_min_mm": 1.9}, {"line_width_mm": 0.6}
+    tables = {"fits": shop.fits.model_copy(update=fits), "process": shop.process.model_copy(update=process)}
+    findings = found(replace(kenan, workshop=shop.model_copy(update=tables)), Stack.of([(0.0, 5.0, BLOCK)]))
+    assert (findings["holes"].limit, findings["overhangs"].limit) == (1.3, pytest.approx(1.2))
+
+
 def test_solids_that_are_no_stacks(kenan: Robot) -> None:
     block = Bar(rectangle((30.0, 10.0), (15.0, 5.0)), ((0.0, 20.0),))
     tunnel = Bar(rectangle((14.0, 4.0), (15.0, 4.0)), ((-5.0, 35.0),))

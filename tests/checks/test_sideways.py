@@ -153,3 +153,13 @@ def test_the_state_in_which_least_is_left_is_told(kenan: Robot, state: str, monk
     (finding,) = sideways_findings(kenan)
     assert finding.message.startswith(f"{state}, the robot tips sideways at 9.0°")
     assert (finding.value, finding.limit) == (4.0, 2.0)
+
+
+@pytest.mark.parametrize("reserve_deg", [0.5, 2.0, 60.0])
+def test_the_workshops_reserve_is_what_must_be_left(kenan: Robot, reserve_deg: float) -> None:
+    """More than the robot has is too much, whatever the default asks for."""
+    safety = kenan.workshop.safety.model_copy(update={"roll_reserve_deg": reserve_deg})
+    (found,) = sideways_findings(replace(kenan, workshop=kenan.workshop.model_copy(update={"safety": safety})))
+    left = min(roll.margin_deg for roll in rolls(kenan))
+    assert (found.limit, found.margin) == (reserve_deg, pytest.approx(left - reserve_deg))
+    assert (found.severity == "info") == (left >= reserve_deg)

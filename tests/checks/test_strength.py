@@ -1,26 +1,55 @@
 """Every strength check fails where it must, and passes where nothing breaks."""
 
+import itertools
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.fits import LOADS
-from support.strengths import changed, margins
+from support.fits import LOADS, with_fits_apart
+from support.strengths import changed, margins, with_own
 
 from jumpcad.building import build
+from jumpcad.checks.blocked import blocked_findings
 from jumpcad.checks.load_case import LoadCase
+from jumpcad.checks.stop import stop_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import Robot
+from jumpcad.workshop.workshop import Role
 
 
 def test_silent_on_what_was_sized_for_it(kenan: Robot, strongest: Robot) -> None:
     assert not errors(strength_findings(kenan))
     assert not errors(strength_findings(strongest))
     assert all(finding.severity == "info" for finding in strength_findings(kenan))
+
+
+OF_ROLES = {
+    "links": {
+        "leg_strength", "hub_strength", "lever_strength", "leg_flex", "front_link_strength", "front_link_buckling",
+        "eye_strength", "toe_strength", "toe_landing", "rail_strength", "rail_twist", "foot_lug_strength",
+        "leg_sideways", "stop_strength", "stop_leg",
+    },
+    "body": {"plate_seat", "axle_retention", "stop_plates"},
+    "gears": {"cam_dog_strength", "cam_dog_blocked", "gear_blocked"},
+}  # fmt: skip
+"""What breaks in which kind of part: the foot and the rest stop's bar are links, cam and dog gears."""
+
+
+@pytest.mark.parametrize("role", OF_ROLES)
+def test_each_part_is_as_strong_as_what_it_is_printed_in(kenan: Robot, role: Role) -> None:
+    """In the default workshop links and gears have one material; with half of it for one, only that one is weaker."""
+
+    def found(robot: Robot) -> dict[str, float]:
+        checks = strength_findings(robot), stop_findings(robot), blocked_findings(robot)
+        return {finding.name: finding.margin for finding in itertools.chain(*checks)}
+
+    usual, weak = found(kenan), found(replace(kenan, workshop=with_own(kenan.workshop, role, 0.5)))
+    assert {name for name in usual if weak[name] < usual[name]} == OF_ROLES[role]
+    assert {name for name in usual if weak[name] > usual[name]} == set()
 
 
 WEAK_LINKS = (
@@ -180,20 +209,31 @@ def test_the_leg_takes_its_share_of_the_springs_energy(kenan: Robot) -> None:
     assert flex.limit == pytest.approx(100.0 * kenan.workshop.safety.leg_flex_share)
 
 
+def test_a_thinner_axle_presses_harder_on_the_plates(kenan: Robot) -> None:
+    """By projected area: 3 to 2."""
+    thin = replace(kenan, layout=replace(kenan.layout, axle_mm=2.0))
+    usual, pressed = (
+        next(one.value for one in strength_findings(robot) if one.name == "plate_seat") for robot in (kenan, thin)
+    )
+    assert pressed == pytest.approx(1.5 * usual)
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0])
 @pytest.mark.parametrize("robot", ["kenan", "strongest"])
-def test_the_dog_bears_the_cams_torque_and_its_blow(robot: str, request: pytest.FixtureRequest) -> None:
+def test_the_dog_bears_the_cams_torque_and_its_blow(robot: str, axle_mm: float, request: pytest.FixtureRequest) -> None:
     """Two jaws as cantilevers along the axle, as long as the cam gear is wide, and the boss in torsion, as a tube."""
     strong = request.getfixturevalue(robot)
+    strong = replace(strong, layout=replace(strong.layout, axle_mm=axle_mm))
     (dog,) = (finding for finding in strength_findings(strong) if finding.name == "cam_dog_strength")
     drive, case = strong.layout.drive, LoadCase(strong)
     torque = 1000.0 * max(drive.cam.peak_torque_nm, strong.release.blow_nm)
     fits, outer = case.workshop.fits, drive.dog.outer_mm
-    inner = 3.0 + 4.0 * fits.sliding_mm + 2.0 * fits.wall_min_mm
+    inner = axle_mm + 4.0 * fits.sliding_mm + 2.0 * fits.wall_min_mm
     root, radius = (outer - inner) / 2.0, (outer + inner) / 4.0
     force, along = torque / 2.0 / radius, radius * drive.dog.jaw_rad
     width = drive.train.stages[-1].wheel.face_width_mm
     jaws = math.hypot(6.0 * force * width / 2.0 / (root * along**2), math.sqrt(3.0) * 1.5 * force / (root * along))
-    bore = 3.0 + 2.0 * fits.sliding_mm
+    bore = axle_mm + 2.0 * fits.sliding_mm
     boss = math.sqrt(3.0) * 16.0 * torque * outer / (math.pi * (outer**4 - bore**4))
     assert dog.value == pytest.approx(max(jaws, boss))
 
@@ -204,7 +244,8 @@ def test_what_is_pulled_along_and_at_its_eyes_by_hand(robot: str, request: pytes
 
     The lever's moment falls to 0 at the roller, where it is as high as its eye; the cam pushes along it with N·sin α.
     """
-    case = LoadCase(request.getfixturevalue(robot))
+    usual: Robot = request.getfixturevalue(robot)
+    case = LoadCase(replace(usual, workshop=with_fits_apart(usual.workshop)))
     found = {one.name: one for one in strength_findings(case.robot)}
     sections, shell, thick = case.layout.sections, case.shell, case.layout.sections.thickness_mm
 
@@ -227,7 +268,7 @@ def test_what_is_pulled_along_and_at_its_eyes_by_hand(robot: str, request: pytes
     force, fits, axle = max(case.ankle_n, case.front_n), case.workshop.fits, case.layout.axle_mm
     largest, bore = max(force, case.landing_n), axle + 2.0 * fits.eye_mm
     assert found["eye_strength"].value == pytest.approx(eye(largest, thick, 2.0 * sections.eye_radius_mm, bore))
-    lug = eye(force / 2.0, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, case.holes.lying(axle))
+    lug = eye(force / 2.0, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, axle + 2.0 * fits.lying_mm)
     assert found["foot_lug_strength"].value == pytest.approx(lug)
 
 

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 
 from jumpcad.coupon import export
-from jumpcad.coupon.export import _guide, export_coupon
+from jumpcad.coupon.export import _guide, _mass_kg, export_coupon
 from jumpcad.coupon.joints import joint_pieces
 from jumpcad.coupon.pieces import coupon_holes, pieces
 from jumpcad.errors import JumpcadError
+from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.workshop import load_workshop
 
 
@@ -52,6 +53,18 @@ def test_the_guide_names_the_material_in_which_each_piece_is_printed(role: str) 
     assert {"taps", "shaft_bores", "lying_holes", "dog_pockets", "axle_floor", "seat"} <= said.keys()
     assert {name: made[name] for name in said} == said
     assert f"gears in {roles['gears']}" in _guide(workshop, holes)
+
+
+def test_a_piece_weighs_what_the_printers_own_nozzle_lays() -> None:
+    """A wider one bridges the infill with thicker threads."""
+    workshop = load_workshop()
+    wide = workshop.model_copy(update={"printer": workshop.printer.model_copy(update={"nozzle_mm": 0.6})})
+    (piece,) = (one for one in pieces(coupon_holes(workshop), ["PETG"], "PETG") if one.name == "gauge_PETG")
+    density = workshop.materials["PETG"].density_g_cm3
+    for shop, nozzle_mm in ((workshop, 0.4), (wide, 0.6)):
+        expected = mass_properties(piece.shape, density, shop.process, nozzle_mm)
+        assert _mass_kg(piece, shop) == expected.mass_kg
+    assert _mass_kg(piece, wide) > _mass_kg(piece, workshop)
 
 
 def test_the_coupon_weighs_what_its_pieces_weigh_each_in_its_material(coupon: Path) -> None:

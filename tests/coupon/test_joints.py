@@ -6,8 +6,10 @@ import math
 import numpy as np
 import pytest
 from manifold3d import CrossSection
+from support.fits import with_fits_apart
 
 from jumpcad.coupon import joints
+from jumpcad.coupon.export import _guide
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
 from jumpcad.coupon.pieces import MARGIN_MM, Piece, coupon_holes, engraved
 from jumpcad.solids.outline import hole, rectangle
@@ -143,6 +145,19 @@ def test_lying_holes_get_larger_towards_the_cut_corner(pieces: dict[str, Piece])
         assert box[0, 1] == pytest.approx(5.0 - 1.5 - step, abs=0.01)
     corner = CrossSection([[(32.5, 7.5), (35.0, 7.5), (35.0, 10.0), (32.5, 10.0)]])
     assert (section ^ corner).area() == pytest.approx(2.5**2 - (3.0**2 / 2.0 - 0.5**2), abs=0.01)
+
+
+def test_lying_holes_are_tried_around_their_own_fit() -> None:
+    """0.15 mm here, where bores have 0.05 mm; the guide names the steps that the bar has."""
+    workshop = with_fits_apart(load_workshop())
+    holes = coupon_holes(workshop)
+    (bar,) = (piece for piece in joint_pieces(workshop, holes) if piece.name == "lying_holes")
+    section = bar.shape.solid().rotate((-90.0, 0.0, 0.0)).slice(-2.5)
+    widths = sorted(np.ptp(points[:, 0]) for points in section.to_polygons())[:3]
+    assert widths == pytest.approx([3.2, 3.3, 3.4], abs=0.01)
+    assert "**lying_holes**" in _guide(workshop, holes)
+    (line,) = (one for one in _guide(workshop, holes).splitlines() if "**lying_holes**" in one)
+    assert ".10 .15 .20" in line
 
 
 def test_every_opening_has_its_label_in_front_of_it_3_mm_from_the_plates_edge(pieces: dict[str, Piece]) -> None:

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import CrossSection, JoinType, Manifold, Mesh64
+from support.fits import with_fits_apart
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.joints import joint_pieces
-from jumpcad.coupon.pieces import Piece, coupon_holes, pieces, series_of
+from jumpcad.coupon.pieces import Piece, _holder, coupon_holes, pieces, series_of
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
 from jumpcad.solids.stl import write_stl
@@ -116,6 +117,14 @@ def test_every_piece_is_one_closed_part_that_hangs_over_nothing() -> None:
             )  # 45° at layers of 0.2 mm; less at a tooth's corners
             allowed = OVERHANGS_MM2.get(piece.name, 0.1)
             assert (solid.slice(above) - reach).area() < allowed, (piece.name, above)
+
+
+def test_the_holder_of_gears_grips_its_axles() -> None:
+    """0.05 mm around axles of 3 mm here, and two walls of 1.2 mm on each side."""
+    bar = _holder(coupon_holes(with_fits_apart(WORKSHOP)), 20.0)
+    _, ends = contours(bar.regions_at([3.0])[0])
+    assert [width(polygon) for polygon in ends] == pytest.approx([3.1, 3.1], abs=2e-3)
+    assert np.ptp(bar.bounds_mm, axis=0)[1] == pytest.approx(3.1 + 4.8)
 
 
 def test_pinions_play_by_the_backlash_engraved_on_them() -> None:

@@ -11,6 +11,7 @@ from support.built import built
 
 from jumpcad.drive.cam import CamGeometry
 from jumpcad.drive.corner import _crossing, _rounding, _window, clear_window_rad, roll_over
+from jumpcad.transforms import turned_about_y
 
 TEMPLATES = ("kenan-2.0", "best-ga")
 
@@ -104,6 +105,20 @@ def test_a_cam_that_is_everywhere_leaves_no_window_and_one_that_is_nowhere_all_o
     assert math.isnan(end)
     small = (nearest - cam.roller_radius_mm - 0.1) * circle
     assert _window(cam, small) == pytest.approx((0.0, 2.0 * math.pi - cam.law.lift_rad))
+
+
+@pytest.mark.parametrize("end", ["loaded", "past rest"])
+def test_what_is_beyond_an_end_of_the_rollers_way_is_in_it_while_nearer_than_its_radius(end: str) -> None:
+    """A point on the arc of the roller's centre, 0.15 rad beyond it at the end of the lift, and carried away."""
+    cam = geometry("kenan-2.0")
+    last = cam.law.compression_rad if end == "loaded" else -cam.overshoot_rad
+    beyond = cam.roller_mm(last + math.copysign(0.15, last))
+    lift, way = cam.law.lift_rad, np.linspace(-cam.overshoot_rad, cam.law.compression_rad, 800)
+    point = turned_about_y(beyond - cam.axis_mm, -lift)
+    begin, _ = _window(cam, point[None])
+    carried = shapely.Point(cam.in_body(point, lift + begin))
+    assert begin > 0.05
+    assert shapely.LineString(cam.roller_mm(way)).distance(carried) == pytest.approx(cam.roller_radius_mm, abs=0.05)
 
 
 def test_a_gap_opens_between_two_samples_by_a_straight_line() -> None:

@@ -82,6 +82,17 @@ def test_the_least_cam_gear_turns_the_cam_alone_and_none_smaller_does(name):
         assert tip - 2.25 * max(LIMITS.modules_mm) < LIMITS.cam_gear_root_min_mm
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_a_motor_that_must_be_farther_away_asks_for_a_larger_cam_gear(name):
+    """Of all single pairs that keep 40 mm to the motor, the one with the smallest cam gear."""
+    far = dataclasses.replace(LIMITS, motor_distance_min_mm=40.0)
+    tip = least_tip_mm(law_of(name), MOTORS, far)
+    assert tip > least_tip_mm(law_of(name), MOTORS, LIMITS) + 1.0
+    any_size = dataclasses.replace(far, cam_gear_tip_max_mm=1.2 * tip)
+    tips = [pair.wheel.tip_radius_mm for _, (pair,) in by_cost(law_of(name), MOTORS, any_size, 1)]
+    assert min(tips) == pytest.approx(tip)
+
+
 @pytest.mark.parametrize(("seconds_per_gram", "count"), [(2.0, 1), (0.5, 1), (2.0, 2), (0.2, 2)])
 def test_gears_come_in_the_order_of_their_mass_and_of_what_time_is_worth(seconds_per_gram, count):
     """Solid discs of PETG, 1.27 g/cm³, as wide as the teeth, over their pitch circles; and the motors' own mass."""

@@ -7,7 +7,7 @@ import pytest
 from manifold3d import CrossSection
 from scipy.optimize import brentq
 
-from jumpcad.drive.gears import Gear, least_shift
+from jumpcad.drive.gears import Gear, inverse_involute, least_shift
 from jumpcad.errors import JumpcadError
 
 GEARS = [Gear(20, 1.0, 0.0, 5), Gear(12, 1.25, 0.35, 5, 0.08), Gear(31, 1.5, -0.1, 6, 0.05), Gear(17, 1.0, 0.2, 5)]
@@ -43,6 +43,13 @@ def test_a_caliper_over_teeth_reads_the_span(gear):
     ]
     span = (last @ across).max() - (first @ across).min()
     assert span == pytest.approx(gear.span_mm(teeth), abs=0.004)
+
+
+def test_the_inverse_involute_finds_every_angle_back():
+    """Handbooks: inv 20° = 0.014904, inv 45° = 0.214602."""
+    assert np.degrees(inverse_involute([0.014904, 0.214602])) == pytest.approx([20.0, 45.0], abs=1e-3)
+    angles = np.radians([1.0, 10.0, 30.0, 60.0, 75.0, 85.0])
+    np.testing.assert_allclose(inverse_involute(np.tan(angles) - angles), angles, rtol=1e-12)
 
 
 def test_span_of_a_handbook_gear():

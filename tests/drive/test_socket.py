@@ -3,7 +3,7 @@
 import pytest
 from support.built import built
 
-from jumpcad.drive.socket import front_length_mm, socket_half_mm
+from jumpcad.drive.socket import front_length_mm, socket_half_mm, window_mm
 
 
 def test_the_socket_has_walls_around_the_motor_and_ears_across() -> None:
@@ -18,3 +18,8 @@ def test_a_boss_that_is_longer_than_the_cap_reaches_further() -> None:
     capped = front_length_mm(motor.model_copy(update={"boss_length_mm": 0.0}))
     assert capped == front_length_mm(motor)
     assert front_length_mm(motor.model_copy(update={"boss_length_mm": capped + 3.0})) == capped + 3.0
+
+
+def test_the_sockets_floor_holds_a_millimetre_of_the_motors_rear_on_every_side() -> None:
+    """A motor of 10 x 12 mm; the rest is open for terminals and wires."""
+    assert window_mm(built("kenan-2.0").layout.drive.train.motor) == (8.0, 10.0)

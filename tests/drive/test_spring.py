@@ -67,6 +67,16 @@ def test_the_wound_coil_keeps_its_wire_and_clears_its_bushing(name):
     assert spring.pin_radius_mm - spring.outer_diameter_mm / 2 == pytest.approx(LIMITS.arm_reach_mm, abs=1e-6)
 
 
+@pytest.mark.parametrize("least_mm", [0.0, 14.0, 16.0])
+def test_pins_keep_away_from_the_hub_though_the_coil_is_small(least_mm):
+    """As far as hub and leg ask for; else as near as the coil and the arm's reach beside it allow."""
+    coil_mm = 20.0
+    limits = replace(LIMITS, pin_radius_min_mm=least_mm)
+    assert limits.pin_radius_mm(coil_mm) == max(least_mm, 10.0 + limits.arm_reach_mm)
+    _, spring = spring_of("kenan-2.0", limits)
+    assert spring.pin_radius_mm >= max(least_mm, spring.outer_diameter_mm / 2 + limits.arm_reach_mm) - 1e-6
+
+
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("preload_deg", [0.0, 15.0])
 def test_a_preloaded_coil_winds_up_by_preload_and_travel_together(name, preload_deg):

@@ -11,7 +11,7 @@ from jumpcad.bundle.page import write_report
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import write_urdf
-from jumpcad.exporters.xml import add, allowed, document, rpy
+from jumpcad.exporters.xml import add, allowed, document, rpy, shorten, written
 from jumpcad.files.names import NAME
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
@@ -56,6 +56,26 @@ def test_every_article_of_a_bill_can_be_given_a_price(small_robot: Robot) -> Non
     """Prices are named by the beginnings of articles, which must therefore be names."""
     for item in bill_of_materials(small_robot).items:
         assert NAME.fullmatch(item.name[:50]), item.name
+
+
+def test_numbers_read_back_as_the_same_doubles() -> None:
+    """Of a light part's inertia too, 1e-10 kg·m²; a zero has no sign."""
+    numbers = np.array([[1.0 / 3.0, 2.0e-10 / 3.0], [-1.0e9 / 7.0, 0.1 + 0.2]])
+    assert [float(one) for one in written(numbers).split()] == numbers.ravel().tolist()
+    assert written(-0.0) == written(0) == "0.0"
+
+
+@pytest.mark.parametrize(
+    ("given", "kept"),
+    [
+        ("1 4e-13 0.3333333333333333", "1 0 0.333333333333"), ("4e-13 2e-14 -1e-26", "4e-13 2e-14 0"),
+        ("2000 1e-10", "2000 0"), ("2000 1e-8", "2000 1e-08"), ("one 4e-13", "one 4e-13"),
+    ],
+)  # fmt: skip
+def test_of_numbers_twelve_digits_are_kept_and_what_is_none_beside_the_largest_is_0(given: str, kept: str) -> None:
+    root = ET.Element("a", pos=given)
+    shorten(root)
+    assert root.get("pos") == kept
 
 
 @pytest.mark.filterwarnings("error")

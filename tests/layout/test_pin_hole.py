@@ -61,14 +61,15 @@ def test_what_stands_in_its_way_or_in_the_material_around_it_is_named(
         hole(robot, post(-0.3, moving))
 
 
-def test_the_hole_keeps_off_the_bores_of_the_axles() -> None:
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0])
+def test_the_hole_keeps_off_the_bores_of_the_axles(axle_mm: float) -> None:
     robot = built("kenan-2.0")
     layout = robot.layout
-    near = AXLE_MM / 2.0 + 0.8 + HOLE_MM / 2.0 + 2.0  # the bore, a clearance, and half of the hole with its edge
+    near = axle_mm / 2.0 + 0.8 + HOLE_MM / 2.0 + 2.0  # the bore, a clearance, and half of the hole with its edge
     given = (robot.linkage, [], layout.stop, layout.lateral)
-    assert pin_hole(*given, near + 0.01, HOLE_MM, AXLE_MM).diameter_mm == HOLE_MM
+    assert pin_hole(*given, near + 0.01, HOLE_MM, axle_mm).diameter_mm == HOLE_MM
     with pytest.raises(CannotBuildError, match=r"0\.1 mm too little beside the bore of the leg axle"):
-        pin_hole(*given, near - 0.1, HOLE_MM, AXLE_MM)
+        pin_hole(*given, near - 0.09, HOLE_MM, axle_mm)
 
 
 @pytest.mark.parametrize("more_mm", [-0.1, 0.1])

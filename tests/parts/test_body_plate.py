@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from jumpcad.parts.body_plate import (
     _drawing,
     _pads,
     ear_reach_mm,
+    plates,
     socket_about_axis,
     tray_slots,
 )
@@ -62,6 +64,23 @@ def test_the_motors_shaft_and_the_sensors_switch_pass_the_left_plate(name: str) 
         assert plate.intersection(opened).area < 1e-3, y
         assert plate.intersection(shaft.buffer(0.5)).area > 0.5, y
         assert plate.intersection(opened.buffer(0.5)).area > 5.0, y
+
+
+def test_a_thicker_shaft_has_a_wider_hole() -> None:
+    """Of 4 mm, where axles have 3 mm: loose in a hole of 4.6 mm."""
+    robot = built("kenan-2.0")
+    layout, train = robot.layout, robot.layout.drive.train
+    thick = replace(train, motor=train.motor.model_copy(update={"shaft_mm": 4.0}))
+    layout = replace(layout, drive=replace(layout.drive, train=thick))
+    left, _ = plates(layout, HoleSizes.of(robot.workshop, layout.hub_bearing), "")
+    (section,) = left.shape.regions_at([1.2])
+    at = left.placements[0].T_body_part
+    found = []
+    for points in section.to_polygons():
+        x, _, z, _ = at @ [*points.mean(axis=0), 0.0, 1.0]
+        if math.dist((x, z), layout.motor_mm) < 0.01:
+            found += np.ptp(points, axis=0).tolist()
+    assert found == pytest.approx([4.6, 4.6], abs=0.02)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -410,3 +429,12 @@ def test_a_printable_wall_is_between_all_openings_of_a_plate(workshop: str, side
     least = min(one.distance(other) for one, other in itertools.combinations(openings, 2))
     assert len(openings) > 12
     assert least > shop.fits.wall_min_mm - 0.02
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0, 4.0])
+def test_plates_have_three_millimetres_around_axles_of_any_size(axle_mm: float) -> None:
+    layout = replace(built("kenan-2.0").layout, axle_mm=axle_mm)
+    boxes = [np.array(pad.bounds()).reshape(2, 2) for pad in _pads(layout)]
+    for place in layout.axles.values():
+        sizes = [np.ptp(box, axis=0) for box in boxes if np.allclose(box.mean(axis=0), place, atol=0.01)]
+        assert any(size == pytest.approx([axle_mm + 6.0] * 2, abs=0.01) for size in sizes)

@@ -9,6 +9,7 @@ import shapely
 import trimesh
 from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, body_in_plane, built, cut, hole_centres, placed, region
+from support.fits import with_fits_apart
 from support.robots import FOLDED
 
 from jumpcad.building import build
@@ -138,8 +139,9 @@ def test_the_ankles_pin_fits_its_lugs_and_its_ends_have_room_outside(name: str, 
 def test_the_ankles_boss_has_two_walls_around_its_pin_and_more_than_its_ends_have_room(axle_mm: float) -> None:
     """Round about the ankle, and as wide down to the sole; the ends of a pin have 7 mm of room outside it."""
     robot = built("kenan-2.0")
-    layout, fits = replace(robot.layout, axle_mm=axle_mm), robot.workshop.fits
-    holes = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), axle_mm=axle_mm)
+    layout = replace(robot.layout, axle_mm=axle_mm)
+    holes = replace(HoleSizes.of(with_fits_apart(robot.workshop), layout.hub_bearing), axle_mm=axle_mm)
+    fits = holes.fits
     low_x, low_z, high_x, high_z = foot_part._ankle_boss(layout, holes).bounds()
     outer = max(8.0, axle_mm + 2.0 * fits.lying_mm + 4.0 * fits.wall_mm)
     assert (-low_x, high_x, high_z) == pytest.approx([outer / 2.0] * 3, abs=1e-6)

@@ -1,6 +1,7 @@
 """Every bore measured on the meshes: the largest circle in a section is the nominal diameter plus the fit."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,9 +25,13 @@ from support.fits import (
     SLIDING,
     TOLERANCE_MM,
     measured,
+    with_fits_apart,
 )
 
+from jumpcad.building.assembly import drawings
+from jumpcad.parts import body_plate, foot, links, small
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import rectangle
@@ -67,6 +72,22 @@ def test_foot_holds_its_pins(kenan: Robot, side: float) -> None:
     y = side * (kenan.layout.lateral.lug_left[0] + 2.0)
     for x in (0.0, kenan.design.l4_mm):
         assert measured(kenan, "foot", y, np.array([x, 0.0])) == pytest.approx(LYING_HOLE, abs=TOLERANCE_MM)
+
+
+def test_each_bore_has_its_own_fit(kenan: Robot) -> None:
+    """In the default workshop tight bores, eyes and lying holes have the same 0.1 mm, in others not."""
+    holes = HoleSizes.of(with_fits_apart(kenan.workshop), kenan.layout.hub_bearing)
+    layout, design = kenan.layout, kenan.design
+    lug = layout.lateral.lug_left[0] + 2.0
+    expected = [
+        (*links.main_leg(layout, holes), 2.5, {0.0: MR63_OUTER + 0.1, layout.leg_pin_mm: 3.1, design.l2_mm: 3.16}),
+        (links.front_link(layout, holes), 0.5, {0.0: 3.16, design.l3_mm: 3.16}),
+        (foot.foot(layout, holes), lug, {0.0: 3.3, design.l4_mm: 3.3}),
+    ]
+    for drawing, y, bores in expected:
+        section = cut(drawing.mesh.copy().apply_transform(drawing.placements[0].T_body_part), y)
+        for x, diameter in bores.items():
+            assert inscribed_diameter(section, np.array([x, 0.0])) == pytest.approx(diameter, abs=TOLERANCE_MM)
 
 
 def test_cam_and_gears(kenan: Robot) -> None:
@@ -121,6 +142,64 @@ def test_idler_turns_on_its_axle() -> None:
     robot = geared()
     y = sum(robot.layout.lateral.gears[-1]) / 2.0
     assert measured(robot, "idler", y, robot.layout.idler_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+
+
+def bore_mm(drawing: Drawing, y_mm: float, centre_mm: tuple[float, float]) -> float:
+    """Return the diameter of the bore about a place; of stacks, whose meshes take longer, from the outlines there."""
+    pose = drawing.placements[0].T_body_part
+    if not isinstance(drawing.shape, Stack):
+        return inscribed_diameter(cut(drawing.mesh.copy().apply_transform(pose), y_mm), np.array(centre_mm))
+    x, z, height, _ = np.linalg.inv(pose) @ [centre_mm[0], y_mm, centre_mm[1], 1.0]
+    outlines = drawing.shape.regions_at([height])[0].to_polygons()
+    return 2.0 * min(shapely.LinearRing(points).distance(shapely.Point(x, z)) for points in outlines)
+
+
+def test_bores_of_thinner_axles_are_as_much_narrower() -> None:
+    """For axles of 2 mm where the default is 3 mm: what turns has 0.2 mm around them, all else 0.1 mm."""
+    usual = geared()
+    layout, lateral = replace(usual.layout, axle_mm=2.0, spring_boss_mm=2.0), usual.layout.lateral
+    holes = replace(HoleSizes.of(usual.workshop, layout.hub_bearing), axle_mm=2.0)
+    drawn = {drawing.name: drawing for drawing in drawings(layout, holes, "")}
+    (right, left), l2, pin = lateral.inside, layout.design.l2_mm, layout.spring_pin_mm
+    hub, front, cam, idler, tight, running = layout.hub_mm, *list(layout.axles.values())[1:], 2.2, 2.4
+    expected = {
+        ("main_leg", 0.01): {(layout.leg_pin_mm, 0.0): tight, (l2, 0.0): tight},
+        ("front_link", 0.5): {(0.0, 0.0): tight, (layout.design.l3_mm, 0.0): tight},
+        ("foot", lateral.lug_left[0] + 2.0): {(0.0, 0.0): tight, (layout.design.l4_mm, 0.0): tight},
+        ("body_plate_left", left + 0.6): dict.fromkeys(map(tuple, (hub, front, cam, idler, pin)), running),
+        ("body_plate_right", right - 0.6): dict.fromkeys(map(tuple, (hub, front, cam, idler, pin)), running),
+        ("body_plate_left", left - 0.5): {tuple(hub): running},
+        ("body_plate_right", right + 0.5): {tuple(hub): running, tuple(pin): running},
+        ("spring_bushing_left", sum(lateral.spring_left) / 2.0): {tuple(hub): running},
+        ("spring_bushing_right", sum(lateral.spring_right) / 2.0): {tuple(hub): running},
+        ("front_spacer_left", left - 2.0): {tuple(front): running},
+        ("cam", sum(lateral.cam) / 2.0): {tuple(cam): running},
+        ("cam", sum(lateral.gears[0]) / 2.0): {tuple(cam): 2.0 + 2.0 * (0.2 + 0.8 + 0.2)},  # jaws around the gear's hub
+        ("cam_gear", sum(lateral.gears[0]) / 2.0): {tuple(cam): running},
+        ("idler", sum(lateral.gears[-1]) / 2.0): {tuple(idler): running},
+    }  # fmt: skip
+    for (name, y), bores in expected.items():
+        for centre, diameter in bores.items():
+            assert bore_mm(drawn[name], y, centre) == pytest.approx(diameter, abs=TOLERANCE_MM), (name, centre)
+
+
+def test_screws_have_the_workshops_own_holes(kenan: Robot) -> None:
+    """M3 through the lever and the plates, M2 through the motor's cap and into its socket: wider than the defaults."""
+    layout, lateral = kenan.layout, kenan.layout.lateral
+    fits = kenan.workshop.fits.model_copy(update={"m3_clearance_mm": 3.8, "m2_clearance_mm": 2.7, "m2_tap_mm": 1.8})
+    holes = replace(HoleSizes.of(kenan.workshop, layout.hub_bearing), fits=fits)
+    (leg,), (left, right) = links.main_leg(layout, holes), body_plate.plates(layout, holes, "")
+    angle = layout.drive.cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
+    lever = layout.drive.cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
+    expected = [
+        (leg, 0.01, [lever], 3.8), (left, lateral.inside[1] + 0.5, layout.standoffs_mm, 3.8),
+        (right, lateral.inside[0] - 0.5, layout.standoffs_mm, 3.8),
+        (right, lateral.motor[1] - 2.0, body_plate.ear_places(layout), 1.8),
+        (small.motor_cap(layout, holes), lateral.motor_cap[0] + 0.2, body_plate.ear_places(layout), 2.7),
+    ]  # fmt: skip
+    for drawing, y, places, diameter in expected:
+        for place in places:
+            assert bore_mm(drawing, y, tuple(place)) == pytest.approx(diameter, abs=TOLERANCE_MM), (drawing.name, y)
 
 
 def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:

@@ -6,17 +6,19 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+from manifold3d import CrossSection
+from support.fits import with_fits_apart
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check, constraint_findings, leg_bar
-from jumpcad.checks.leg_bar import leg_bar_findings
+from jumpcad.checks.leg_bar import _socket, leg_bar_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.layout.leg_bars import BarPlace
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.links import front_bar_place, leg_bar_place
+from jumpcad.parts.links import front_bar_place, leg_bar_place, main_leg
 from jumpcad.robot import Robot
 from jumpcad.strength.leg_bar import Socket, bar_bending_mpa, bar_shear_mpa, bent_energy_nmm, buckling_n
 from jumpcad.workshop import Workshop
@@ -113,6 +115,33 @@ def test_the_socket_is_bent_by_what_is_left_of_the_torque_at_its_floor() -> None
     second = (sections.thickness_mm * height**3 - 3.2 * 6.2**3) / 12.0
     (socket,) = (finding for finding in leg_bar_findings(case) if finding.name == "leg_socket_strength")
     assert socket.value == pytest.approx(torque * height / 2.0 / second, rel=1e-6)
+
+
+def test_a_bar_has_the_fit_of_lying_holes_in_its_sockets() -> None:
+    """A strip of 3 x 6 mm with 0.15 mm on every side, 3.3 x 6.3 mm, printed and checked; other fits are smaller."""
+    found = robot("carbon-strip-3x6")
+    shop = with_fits_apart(found.workshop)
+    layout, holes = found.layout, HoleSizes.of(shop, found.layout.hub_bearing)
+    place, middle = leg_bar_place(layout, holes), layout.sections.thickness_mm / 2.0
+    assert place is not None
+    drawing, *_ = main_leg(layout, holes)
+    levels = middle + np.array([-1.7, -1.6, 0.0, 1.6, 1.7])
+    across = CrossSection.square((1.0, 50.0), True).translate((place.mouth_mm - 2.0, 0.0))
+    left = np.array([(across ^ one).area() for one in drawing.shape.regions_at(levels)])
+    assert left[0] - left == pytest.approx([0.0, 6.3, 6.3, 6.3, 0.0], abs=1e-3)
+    assert _socket(LoadCase(replace(found, workshop=shop)), place).gap_mm == 0.15
+
+
+def test_sockets_begin_two_walls_beside_the_holes_of_pins() -> None:
+    """Walls of 1.2 mm; the springs' pin of 3 mm has 0.05 mm around it here, the pins in eyes have 0.08 mm."""
+    found = robot("carbon-strip-3x6")
+    layout, design = found.layout, found.design
+    holes = HoleSizes.of(with_fits_apart(found.workshop), layout.hub_bearing)
+    leg, front = leg_bar_place(layout, holes), front_bar_place(layout, holes)
+    assert leg is not None
+    assert front is not None
+    assert (leg.floor_mm, leg.far_floor_mm) == pytest.approx((layout.leg_pin_mm + 3.95, design.l2_mm - 3.98))
+    assert (front.floor_mm, front.far_floor_mm) == pytest.approx((3.98, design.l3_mm - 3.98))
 
 
 @pytest.mark.parametrize("worst", ["bar_bending_mpa", "bar_sideways_mpa", "bar_shear_mpa"])

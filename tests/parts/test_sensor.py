@@ -12,7 +12,7 @@ from support.built import built, cut, hole_centres, placed, region
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.sensor import EAR_MM, THREAD_MIN_MM, ear_height_mm, plate_pad, screw_mm, sensor_mount
+from jumpcad.parts.sensor import EAR_MM, THREAD_MIN_MM, _require_base, ear_height_mm, plate_pad, screw_mm, sensor_mount
 from jumpcad.robot import Robot
 
 
@@ -161,3 +161,13 @@ def test_the_plates_pad_under_the_mount_reaches_2_mm_beyond_the_opening(robot: R
     wide = max(sensor.half_mm[1], sensor.case_mm[1] / 2.0 + 0.4 + 2.0) + more_mm
     assert (-low_x, high_x) == pytest.approx([sensor.half_mm[0] + more_mm] * 2, abs=2e-3)
     assert (-low_y, high_y) == pytest.approx([wide] * 2, abs=2e-3)
+
+
+@pytest.mark.parametrize(("layer", "fits"), [("first_layer_mm", False), ("layer_height_mm", True)])
+def test_the_base_of_the_switch_is_at_least_a_first_layer_outside_the_plate(layer: str, fits: bool) -> None:
+    """However high the layers above are: the rim of the mount around it is printed first."""
+    robot = built("kenan-2.0")
+    holes, base = HoleSizes.of(robot.workshop, robot.layout.hub_bearing), robot.layout.sensor.base_mm
+    process = holes.process.model_copy(update={"first_layer_mm": base - 0.01, layer: base + 0.01})
+    with nullcontext() if fits else pytest.raises(CannotBuildError, match=f"{base + 0.01:.2f} mm are needed"):
+        _require_base(robot.layout, replace(holes, process=process))

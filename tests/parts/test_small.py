@@ -34,6 +34,16 @@ def test_bushings_turn_on_the_axle_and_fill_the_wound_spring(kenan: Robot, side:
     assert outside == pytest.approx(inside_wound - 0.3, abs=0.01)
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_beyond_the_spring_the_bushing_is_a_tube_with_a_wall_of_1_5_mm(name: str) -> None:
+    """Where the coil has room for it: 3 mm of axle, 0.2 mm around it, and the wall."""
+    layout = built(name).layout
+    y = (layout.lateral.spring_left[1] + layout.lateral.inside[1]) / 2.0
+    points = cut(placed(built(name), "spring_bushing_left"), y).reshape(-1, 2) - layout.hub_mm
+    widest = min(3.0 + 2.0 * (0.2 + 1.5), layout.drive.spring.mandrel_mm)
+    assert 2.0 * np.hypot(*points.T).max() == pytest.approx(widest, abs=0.01)
+
+
 def at_hub(robot: Robot, name: str) -> np.ndarray:
     """Return the y at which a printed part of the body has points within 5 mm of the leg's axle."""
     points = placed(robot, name).vertices

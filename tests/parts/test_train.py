@@ -11,15 +11,17 @@ import trimesh
 from scipy.optimize import brentq
 from shapely import affinity
 from support.built import built, cut, geared, hole_centres, in_body, placed, region
+from support.fits import with_fits_apart
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
 from jumpcad.drive.gear_pair import gear_pair
+from jumpcad.drive.gears import Gear
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing
-from jumpcad.parts.train import _webbed, gear_turns, gears, ribbed_d_bore
+from jumpcad.parts.train import _cam_gear, _webbed, gear_turns, gears, ribbed_d_bore
 from jumpcad.robot import Robot
 from jumpcad.solids import outline
 from jumpcad.workshop import load_workshop
@@ -285,6 +287,20 @@ def test_web_holes_can_be_printed_and_leave_the_sensors_track_a_wall(teeth: int)
         assert corners.min() > sensor.radius_mm + sensor.half_width_mm + 1.59
 
 
+def test_web_holes_inside_the_sensors_track_leave_it_a_wall_too() -> None:
+    """A wheel of 80 mm with a groove from 28 to 30 mm: holes on both sides of it, none nearer than 1.6 mm."""
+    robot = built("kenan-2.0")
+    holes, dog = HoleSizes.of(robot.workshop, None), robot.layout.drive.dog
+    gear = _cam_gear(Gear(80, 1.0, 0.0, 5.0), dog, 3.0, holes, 0.0, (28.0, 30.0))
+    outlines = map(shapely.Polygon, gear.regions_at([2.5])[0].to_polygons())
+    webs = [hole for hole in outlines if hole.distance(shapely.Point(0.0, 0.0)) > dog.outer_mm / 2.0 + 1.0]
+    reach = [np.hypot(*np.array(hole.exterior.coords).T) for hole in webs]
+    inside, outside = [one for one in reach if one.max() < 29.0], [one for one in reach if one.min() > 29.0]
+    assert len(inside) == len(outside) == 6
+    assert max(one.max() for one in inside) == pytest.approx(26.4, abs=0.01)
+    assert min(one.min() for one in outside) == pytest.approx(31.6, abs=0.01)
+
+
 def test_the_sensors_land_is_one_piece_with_a_gear_whose_web_has_holes() -> None:
     _, gear = with_wheel(42)
     solid = gear.shape.solid()
@@ -297,8 +313,8 @@ def test_a_motors_shaft_is_held_by_five_ribs() -> None:
 
     Every rib leaves the shaft's own section narrower by its overlap; nothing else of the bore touches the shaft.
     """
-    holes = HoleSizes.of(load_workshop(), None)
-    fits = load_workshop().fits
+    holes = HoleSizes.of(with_fits_apart(load_workshop()), None)
+    fits = holes.fits
     bore = shapely.union_all([shapely.Polygon(one) for one in ribbed_d_bore(3.0, 2.5, holes).to_polygons()])
     shaft = shapely.Point(0.0, 0.0).buffer(1.5, 128).intersection(shapely.box(-2.0, -2.0, 1.0, 2.0))
     ribs = [one for one in shaft.difference(bore).geoms if one.area > 1e-4]

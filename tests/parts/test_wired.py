@@ -12,7 +12,7 @@ from support.built import built, placed
 from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import load_catalogue
 from jumpcad.parts.fittings import wire_hole_mm
-from jumpcad.parts.wired import _soldered, electronics
+from jumpcad.parts.wired import _soldered, _switch, electronics
 from jumpcad.workshop import load_workshop
 
 
@@ -104,6 +104,16 @@ def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
         assert bounds.mean(axis=0)[[0, 2]] == pytest.approx([x + side * 7.5, z], abs=1e-3)
         assert bounds[0, 1] < low
         assert bounds[1, 1] >= inside + 0.5 - 1e-6  # through the switch's ear
+
+
+@pytest.mark.parametrize(("plate_mm", "screw_mm"), [(3.4, 4.0), (3.6, 5.0), (4.4, 5.0), (4.6, 6.0)])
+def test_the_switchs_screws_are_the_shortest_that_reach_through_plate_and_ear(plate_mm: float, screw_mm: float) -> None:
+    """ISO 14580 has M2 screws of 4, 5 and 6 mm; the ear takes 0.5 mm."""
+    layout = built("kenan-2.0").layout
+    inside = layout.lateral.inside[0]
+    thick = replace(layout, lateral=replace(layout.lateral, right_plate=(inside - plate_mm, inside)))
+    _, *screws = _switch(thick, load_catalogue())
+    assert [screw.article for screw in screws] == [f"screw M2 x {screw_mm:g} ISO 14580"] * 2
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

@@ -55,6 +55,16 @@ def test_more_plastic_weighs_more():
         assert masses[-1] > 1.05 * masses[0]
 
 
+def test_a_wider_nozzle_bridges_with_a_thicker_thread():
+    """Round ones, 0.05 mm apart, in the first layer over the infill: π·d²/4 over their distance and the layer."""
+    s = 0.45 - 0.2 * (1.0 - math.pi / 4.0)
+    shell = 2.0 * s + (0.45 - s) / 2.0
+    core = (40.0 - 2.0 * shell) * (30.0 - 2.0 * shell)
+    thin, thick = (1000.0 * mass_properties(BOX, 1.0, PROCESS, nozzle).mass_kg for nozzle in (0.4, 0.5))
+    more = math.pi / 4.0 * (0.5**2 / 0.55 - 0.4**2 / 0.45) * core
+    assert thick - thin == pytest.approx(more / 1000.0, rel=1e-6)
+
+
 def test_a_hollow_part_turns_as_if_its_mass_lay_outside():
     solid = mass_properties(BOX, 1.0, PROCESS, 0.4, "solid")
     printed = mass_properties(BOX, 1.0, PROCESS, 0.4)

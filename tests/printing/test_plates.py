@@ -5,6 +5,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
 from support.built import built
 
@@ -125,3 +126,14 @@ def test_parts_are_turned_by_a_right_angle_as_needed():
     assert high - low == pytest.approx([100.0, 40.0, 5.0])
     (plate,) = packed([box("tall", (40, 100, 5)), box("wide", (100, 40, 5))], (100.0, 85.0, 50.0), 5.0)
     assert len(plate.items) == 2
+
+
+@pytest.mark.parametrize("mirrored", [1.0, -1.0])
+def test_a_long_part_without_symmetry_is_turned_the_way_that_fits(mirrored):
+    """A right triangle of 280 x 80 mm fits a bed of 250 x 210 mm only askew, and turned the other way it does not."""
+    corners_mm = np.array([[0.0, 0.0], [280.0, 0.0], [0.0, 80.0 * mirrored]])
+    wedge = trimesh.creation.extrude_polygon(shapely.Polygon(corners_mm), 5.0)
+    (plate,) = packed([Part("wedge", wedge, "PLA")], (250.0, 210.0, 50.0), 5.0)
+    low, high = corners(plate.items[0])
+    assert np.all(low >= -1e-6)
+    assert np.all(high <= np.array([250.0, 210.0, 50.0]) + 1e-6)

@@ -1,5 +1,7 @@
 """What pictures of steps show: things stand before their places, behind what comes first, and turn as they will."""
 
+import itertools
+
 import numpy as np
 import pytest
 from support.built import built, geared
@@ -26,6 +28,21 @@ def test_labels_name_what_is_put_on_and_lead_to_its_place(views: dict[str, list[
     assert pin.at_m[1] > pin.place_m[1] + 0.005, "from the left"
     assert np.allclose(pin.at_m[[0, 2]], pin.place_m[[0, 2]], atol=1e-6)
     assert {"left-hand spring", "right-hand spring"} <= {label.text for label in views["legs"][0].labels}
+
+
+def test_assemblies_on_the_bench_lie_apart(views: dict[str, list[StepView]]) -> None:
+    """Plates and trays that wires join, each with its own parts after it: 12 mm or more between any two."""
+    view = views["power"][0]
+    boxes: list[list[np.ndarray]] = []
+    for thing, pose in zip(view.things, view.poses, strict=True):
+        if thing.name.startswith(("body_plate", "electronics_tray")):
+            boxes.append([])
+        corners = thing.mesh.bounds / 1000.0 @ pose[:3, :3].T + pose[:3, 3]
+        boxes[-1] += [corners.min(axis=0), corners.max(axis=0)]
+    assert len(boxes) == 4
+    for one, other in itertools.combinations(map(np.array, boxes), 2):
+        gaps = np.maximum(one.min(axis=0) - other.max(axis=0), other.min(axis=0) - one.max(axis=0))
+        assert max(gaps[0], gaps[2]) >= 0.012 - 1e-6
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

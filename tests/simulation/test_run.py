@@ -35,6 +35,18 @@ def test_audit_rejects_a_loop_that_comes_apart(jumping: list[Flight]) -> None:
     assert "dt_s" in finding.remedy
 
 
+@pytest.mark.parametrize("gravity_m_s2", [1.62, 9.81, 15.0])
+def test_what_lifts_a_robot_becomes_height(kenan: Robot, gravity_m_s2: float) -> None:
+    """On the Moon too: m·g·rise is the energy of its rising and what has lifted it before; it moves on meanwhile."""
+    jump = simulate(kenan, Settings(gravity_m_s2=gravity_m_s2))
+    assert jump.energy is not None
+    weight = kenan.mass_kg * gravity_m_s2
+    assert jump.com_rise_m == pytest.approx((jump.energy.upward_j + jump.energy.lift_j) / weight, rel=1e-6)
+    up, forward = (math.sqrt(2.0 * one / kenan.mass_kg) for one in (jump.energy.upward_j, jump.energy.forward_j))
+    flown = forward * (up + math.sqrt(2.0 * gravity_m_s2 * jump.com_rise_m)) / gravity_m_s2
+    assert jump.ballistic_range_m == pytest.approx(flown, abs=0.05)  # and what it has moved on the ground
+
+
 def test_audit_rejects_energy_from_nowhere(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     """An engine whose spring pushes twice as hard as the robot's."""
     from jumpcad.simulation.bullet import BulletWorld
@@ -62,6 +74,17 @@ def test_energy_gained_counts_as_a_share_of_the_springs() -> None:
         )
         run._look(None, record=False)  # type: ignore[arg-type]
         assert (run.worst_energy_ratio, run.worst_gap_m) == pytest.approx((ratio, gap_m))
+
+
+@pytest.mark.parametrize(
+    ("ratio", "gap_m", "sound"),
+    [(1.005, 5e-4, True), (1.006, 0.0, False), (1.0, 6e-4, False), (math.inf, math.inf, False)],
+)
+def test_a_run_is_sound_while_it_keeps_its_energy_and_its_loop(ratio: float, gap_m: float, sound: bool) -> None:
+    """Half a percent more energy than at the start, and half a millimetre of gap, are the most."""
+    run = object.__new__(Run)
+    run.worst_energy_ratio, run.worst_gap_m = ratio, gap_m
+    assert run.sound is sound
 
 
 @pytest.mark.parametrize("trajectory", [False, True])
@@ -190,19 +213,20 @@ def test_touchdown_is_looked_for_after_every_step_of_the_flight(kenan: Robot, mo
     assert len(asked) - first > 0.1 / settings.dt_s  # a flight of a tenth of a second at least
 
 
-def test_who_stays_is_as_fast_as_its_springs_made_it() -> None:
+@pytest.mark.parametrize("gravity_m_s2", [9.81, 1.62])
+def test_who_stays_is_as_fast_as_its_springs_made_it(gravity_m_s2: float) -> None:
     """At the end of the push-off, not when it stands again; √(g·height) would leave the ground (Froude number 1)."""
     run = object.__new__(Run)
-    run.settings = Settings()
-    speeds: dict[str, float] = {"spent": 0.6, "still": 0.0}
+    run.settings = Settings(gravity_m_s2=gravity_m_s2)
+    speeds: dict[str, float] = {"spent": 0.1, "still": 0.0}
     run.mechanics = SimpleNamespace(  # type: ignore[assignment]
         velocity_m_s=lambda state: np.array([0.8 * speeds[state], 0.0, 0.6 * speeds[state]]),
         centre_of_mass_m=lambda state: np.array([0.0, 0.0, 0.05 if state == "spent" else 0.02]),
     )
     run.world = SimpleNamespace(state=lambda: "still")  # type: ignore[assignment]
-    for spent, speed, height_m in (("spent", 0.6, 0.05), (None, 0.0, 0.02)):
+    for spent, speed, height_m in (("spent", 0.1, 0.05), (None, 0.0, 0.02)):
         run._spent = spent  # type: ignore[assignment]
-        found, needed = run.standing(), math.sqrt(9.81 * height_m)
+        found, needed = run.standing(), math.sqrt(gravity_m_s2 * height_m)
         assert (found.name, found.severity) == ("no_takeoff", "error")
         assert (found.value, found.limit, found.margin) == pytest.approx((speed, needed, speed - needed))
     speeds["spent"], run._spent = 0.9, "spent"  # type: ignore[assignment]

@@ -157,3 +157,14 @@ def test_a_hexagon_has_its_size_across_flats(across_mm):
     corners, middles = reach(region)
     assert corners == pytest.approx(np.full(6, corner))
     assert middles == pytest.approx(np.full(6, across_mm / 2.0))
+
+
+@pytest.mark.parametrize(("wide_mm", "kept"), [(0.015, False), (0.03, True)])
+def test_gaps_and_walls_of_a_fiftieth_of_a_millimetre_are_slivers(wide_mm, kept):
+    """Two blocks, a gap, and a wall beside one of them; the corners of blocks stay where they are."""
+    blocks = [outline.rectangle((10.0, 4.0), (x, 0.0)) for x in (-5.0, 5.0 + wide_mm)]
+    assert len(outline.without_slivers(outline.union(blocks)).to_polygons()) == (2 if kept else 1)
+    walled = outline.union([blocks[0], outline.rectangle((wide_mm, 2.0), (3.0, 0.0))])
+    clean = outline.without_slivers(walled)
+    assert clean.area() == pytest.approx(40.0 + 2.0 * wide_mm * kept, abs=1e-3)
+    assert outline.without_slivers(blocks[0]).bounds() == pytest.approx((-10.0, -2.0, 0.0, 2.0), abs=1e-6)

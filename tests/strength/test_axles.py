@@ -77,6 +77,8 @@ def test_the_weaker_of_rod_and_the_workshops_steel_counts() -> None:
     assert axle_bar(careful).yield_mpa == 900.0
     tubes = workshop(retention="clips", axle="steel-tube", axle_mm=3.0)
     assert pin_bar(tubes).yield_mpa == 210.0
+    stout = shop.model_copy(update={"safety": shop.safety.model_copy(update={"steel_yield_mpa": 123.0})})
+    assert pin_bar(stout).yield_mpa == 123.0  # clevis pins too
     thin = workshop(axle_mm=2.0)
     careful = thin.model_copy(update={"safety": thin.safety.model_copy(update={"steel_yield_mpa": 300.0})})
     assert (pin_bar(thin).yield_mpa, pin_bar(careful).yield_mpa) == (400.0, 300.0)

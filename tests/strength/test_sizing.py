@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from support.fits import LOADS
+from support.fits import LOADS, with_fits_apart
+from support.strengths import with_own
 
 from jumpcad.design import load_design
 from jumpcad.dimensions import STOP_SEAT_MM
@@ -14,6 +15,7 @@ from jumpcad.strength.loads import push_off, toe_load_n
 from jumpcad.strength.sizing import TYPICAL_BODY, Growth, leg_flex_share, sections
 from jumpcad.strength.stress import Beam
 from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop.workshop import Role
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
 
@@ -47,7 +49,7 @@ def test_no_section_exceeds_the_design_stress_even_as_a_solid_bar(name: str) -> 
 @pytest.mark.parametrize("name", ["carbon-tube-4x2", "carbon-tube-6x4", "carbon-strip-3x6"])
 def test_legs_with_a_bar_have_walls_around_its_socket(name: str) -> None:
     """Above and below it a wall, beside it a thin one, and the play of a lying hole on every side."""
-    workshop = load_workshop()
+    workshop = with_fits_apart(load_workshop())
     bought = workshop.bought.model_copy(update={"leg": name})
     sizes = sections(Linkage(load_design("kenan-2.0")), workshop.model_copy(update={"bought": bought}))
     bar, fits = workshop.catalogue.bars[name], workshop.fits
@@ -69,6 +71,26 @@ def test_weaker_or_softer_links_grow() -> None:
         # a thicker leg changes the foot's depth a little, and with it the toes' loads
         assert getattr(soft, name) == pytest.approx(getattr(usual, name), rel=5e-3)
     assert soft.leg_root_mm > 1.1 * usual.leg_root_mm
+
+
+@pytest.mark.parametrize("role", ["gears", "body"])
+def test_what_others_are_printed_in_does_not_size_the_links(role: Role) -> None:
+    """Nor the rest stop's bar, which is printed as links are; of weak links all that bears grows."""
+    linkage, workshop = Linkage(load_design("best-bo")), load_workshop()
+    usual = sections(linkage, workshop)
+    assert sections(linkage, with_own(workshop, role, 0.2)) == usual
+    weak = sections(linkage, with_own(workshop, "links", 0.2))
+    for name in ("leg_root_mm", "lever_root_mm", "rail_root_mm", "toe_root_mm", "stop_mm"):
+        assert getattr(weak, name) > getattr(usual, name), name
+
+
+def test_eyes_and_a_thin_dog_grow_with_the_axle() -> None:
+    """Half a millimetre of radius, and one of diameter where the jaws are as thin as can be printed."""
+    linkage, shop = Linkage(load_design("kenan-2.0")), load_workshop()
+    thick = shop.model_copy(update={"bought": shop.bought.model_copy(update={"axle_mm": shop.bought.axle_mm + 1.0})})
+    before, after = sections(linkage, shop), sections(linkage, thick)
+    assert after.eye_radius_mm - before.eye_radius_mm == pytest.approx(0.5)
+    assert after.dog_mm - before.dog_mm == pytest.approx(1.0)
 
 
 def test_hollow_links_are_higher_than_solid_ones() -> None:

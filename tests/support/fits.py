@@ -3,6 +3,7 @@
 import numpy as np
 
 from jumpcad.robot import Robot
+from jumpcad.workshop import Workshop
 from support.built import cut, inscribed_diameter, placed
 
 PRESS, SLIDING, LOOSE, EYE, LYING, RIB = 0.10, 0.20, 0.30, 0.10, 0.10, 0.05
@@ -12,8 +13,16 @@ AXLE, MR63_OUTER, N20_SHAFT, N20_FLAT = 3.0, 6.0, 3.0, 2.5
 
 RUNNING, PRESSED, EYES, LYING_HOLE = (AXLE + 2 * fit for fit in (SLIDING, PRESS, EYE, LYING))
 
+APART = {"press_mm": 0.05, "eye_mm": 0.08, "lying_mm": 0.15}
+"""Tight bores, eyes and lying holes have the same fit in the default workshop; here they differ."""
+
 LOADS = 1.1 * 1.05
 """Stiffest springs within ±10 %, and a reserve of 5 %, in the default workshop's [safety]."""
+
+
+def with_fits_apart(workshop: Workshop) -> Workshop:
+    """Return a workshop in which no two of the tight fits are equal."""
+    return workshop.model_copy(update={"fits": workshop.fits.model_copy(update=APART)})
 
 
 def measured(robot: Robot, name: str, y: float, centre: np.ndarray, copy: int = 0) -> float:

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 from jumpcad.checks.strength import strength_findings
 from jumpcad.robot import Robot
+from jumpcad.workshop import Workshop
+from jumpcad.workshop.workshop import Role
 
 
 def changed(robot: Robot, role: str, **figures: float) -> Robot:
@@ -18,6 +20,15 @@ def changed(robot: Robot, role: str, **figures: float) -> Robot:
         )
     section = getattr(workshop, role).model_copy(update=figures)
     return replace(robot, workshop=workshop.model_copy(update={role: section}))
+
+
+def with_own(workshop: Workshop, role: Role, share: float) -> Workshop:
+    """Return a workshop in which one kind of part has a material of its own: a share of its strength and stiffness."""
+    usual = workshop.material(role)
+    figures = ("strength_in_plane_mpa", "strength_interlayer_mpa", "modulus_mpa", "density_g_cm3")
+    own = usual.model_copy(update={name: share * getattr(usual, name) for name in figures})
+    roles = workshop.roles.model_copy(update={role: "own"})
+    return workshop.model_copy(update={"roles": roles, "materials": {**workshop.materials, "own": own}})
 
 
 def margins(robot: Robot) -> dict[str, float]:

@@ -94,14 +94,16 @@ def test_a_dogs_play_is_given_in_degrees_or_follows_from_the_cam(play_deg, play_
 
 def test_a_motors_share_has_its_reserve_and_the_stiffest_springs():
     """5 % in reserve, springs up to 10 % stiffer than ordered: 0.95/1.1."""
-    safety = load_workshop().safety.model_copy(update={"motor_torque_reserve": 0.05, "spring_rate_scatter": 0.1})
+    figures = {"motor_torque_reserve": 0.05, "spring_rate_scatter": 0.1, "stress_reserve": 0.3, "kick_reserve": 0.4}
+    safety = load_workshop().safety.model_copy(update=figures)
     assert safety.motor_share == pytest.approx(0.95 / 1.1)
 
 
 def test_factors_of_safety_multiply():
     """Springs up to 10 % stiffer and 5 % in reserve: 1.155 times the load; on top of 3 for prints, 1.5 for metal."""
     figures = {"spring_rate_scatter": 0.1, "stress_reserve": 0.05, "strength_factor": 3.0, "steel_factor": 1.5}
-    safety = load_workshop().safety.model_copy(update=figures)
+    others = {"motor_torque_reserve": 0.3, "kick_reserve": 0.4, "leg_flex_share": 0.2}
+    safety = load_workshop().safety.model_copy(update=figures | others)
     assert safety.load_factor == pytest.approx(1.155)
     assert safety.printed_factor == pytest.approx(3.465)
     assert safety.metal_factor == pytest.approx(1.7325)
