@@ -166,9 +166,10 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
             Words("Cut the foam tape out where a board has wires or legs underneath, so that the board lies flat. Then "
                   "lay every board on its piece, in its place, against the tray's rim where there is one, the "
                   "controller's USB socket to the right, and pull a cable tie over it. The plug gets a tie too, and "
-                  "opens forwards; the capacitor, if there is one, gets one as well. Heads of ties lie on top, beside what they "
-                  "hold, with their ends cut off; below the tray they would touch the battery's strap. None covers a "
-                  "button of the controller. Tie the wires together beside the boards, so that no joint bears a pull."),
+                  "opens forwards; the capacitor, if there is one, gets one as well. Heads of ties lie on top, beside "
+                  "what they hold, with their ends cut off; below the tray they would touch the battery's strap. None "
+                  "covers a button of the controller. Tie the wires together beside the boards, so that no joint bears "
+                  "a pull."),
             Words("Put the firmware on the controller over USB (firmware/README.md) before the battery is plugged in "
                   "for the first time."),
         ),
