@@ -7,6 +7,8 @@ A part that is a stack of extruded outlines is exact: flat faces, and cylinders 
 import io
 from collections.abc import Iterator
 from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from build123d import Edge, Shape, Solid, Wire
 
 FIXED_DATE = "1980-01-01T00:00:00"
+SLIVER_MM = 1e-3
 FUZZY_MM = (0.0, 1e-4, 1e-3)
 """Distances up to which two faces count as one; tried in this order until the solid closes."""
 
@@ -54,28 +57,58 @@ def write_step(drawing: Drawing) -> bytes:
     Raises
     ------
     CannotBuildError
-        If its faces do not make one valid solid.
+        If its faces do not make one valid solid, as drawn and read from the file.
     """
     from build123d import export_step
 
     tries = _stacked(drawing.shape) if isinstance(drawing.shape, Stack) else _faceted(drawing)
-    solid = next((solid for solid in tries if len(solid.solids()) == 1 and solid.is_valid), None)
-    if solid is None:
-        raise CannotBuildError(f"part {drawing.name} is no valid solid as STEP: build without --step")
-    solid.label = drawing.name
-    buffer = io.BytesIO()
-    export_step(solid, buffer, timestamp=FIXED_DATE)
-    return buffer.getvalue()
+    for solid in tries:
+        solid.label = drawing.name
+        buffer = io.BytesIO()
+        if _is_sound(solid) and export_step(solid, buffer, timestamp=FIXED_DATE) and _is_sound(_read(buffer.getvalue())):
+            return buffer.getvalue()
+    raise CannotBuildError(f"part {drawing.name} is no valid solid as STEP: build without --step")
+
+
+def _is_sound(shape: "Shape[Any]") -> bool:
+    return len(shape.solids()) == 1 and bool(shape.is_valid)
+
+
+def _read(data: bytes) -> "Shape[Any]":
+    """Return what a file holds: faces that are valid where they were made may not be when they are read."""
+    from build123d import import_step
+
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "part.step"
+        path.write_bytes(data)
+        return import_step(path)
 
 
 def _stacked(stack: Stack) -> "Iterator[Shape[Any]]":
-    """Yield a stack as one solid of flat and cylindrical faces, once for each tolerance of `FUZZY_MM`."""
+    """Yield a stack as one solid of flat and cylindrical faces, for each tolerance of `FUZZY_MM` as made and healed.
+
+    The arc of one slab and the circle of another that it lies on may differ by a micron, and leave slivers between.
+    """
     first, *others = (solid for slab in stack.slabs for solid in _extruded(slab))
     if not others:
         yield first
         return
     for tolerance in FUZZY_MM:
-        yield first.fuse(*others, tol=tolerance).clean()
+        solid = first.fuse(*others, tol=tolerance).clean()
+        yield solid
+        yield _without_slivers(solid)
+
+
+def _without_slivers(solid: "Shape[Any]") -> "Shape[Any]":
+    """Return a solid without faces narrower than `SLIVER_MM`."""
+    from OCP.ShapeFix import ShapeFix_FixSmallFace
+
+    fix = ShapeFix_FixSmallFace()
+    fix.Init(solid.wrapped)
+    fix.SetPrecision(SLIVER_MM)
+    fix.SetMaxTolerance(2.0 * SLIVER_MM)
+    fix.Perform()
+    return type(solid).cast(fix.FixShape())
 
 
 def _extruded(slab: Slab) -> "list[Solid]":
