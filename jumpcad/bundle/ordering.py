@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from jumpcad.bundle.article_order import bearings_order, motor_order, plug_order, screw_axles_order, tape_order
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.printed_pads import pad_rows, pads_order
-from jumpcad.bundle.switch_order import nutted_screw, switch_order
+from jumpcad.bundle.switch_order import switch_order
 from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import Rod
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
@@ -71,7 +71,6 @@ def order_lines(robot: Robot) -> Iterator[str]:
     yield from plug_order(robot)
     yield from tape_order(robot)
     yield from switch_order(robot)
-    yield f"- if the switch's ears have no thread: two screws {nutted_screw(robot)} and two nuts M2"
     yield f"- besides: {OTHER}"
 
 

@@ -56,8 +56,10 @@ def switch_order(robot: Robot) -> Iterator[str]:
         f"{switch.width_mm:g} mm, {switch.height_mm:g} mm high behind its ears, {switch.rated_a:g} A or more at "
         f"{supply.full_v:g} V (the blocked motor draws {blocked_a:.2f} A). Its "
         f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it "
-        f"must stand out of the ears by {needed_mm:.1f} mm or more. No article with all of it is known here. "
-        f"The nearest is {SIMILAR_SWITCH}, which sellers rate 0.3 or {SIMILAR_A:g} A at 50 V ({enough}): {SIMILAR_FITS}"
+        f"must stand out of the ears by {needed_mm:.1f} mm or more. Ears without thread: two screws "
+        f"{nutted_screw(robot)} and two nuts M2 in place of the bill's screws. No article with all of it is known "
+        f"here. The nearest is {SIMILAR_SWITCH}, which sellers rate 0.3 or {SIMILAR_A:g} A at 50 V ({enough}): "
+        f"{SIMILAR_FITS}"
         f"{short if needed_mm > SIMILAR_SLIDER_MM else ''}"
         f"{NO_SWITCH if chosen.regulator is None else NEEDS_SWITCH}"
     )

@@ -65,7 +65,9 @@ class SearchOptions:
     dask: Annotated[
         str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")
     ] = None
-    limit: Annotated[float, typer.Option(help="Timeout per evaluation (s), own objectives apart.", metavar="SECONDS")] = 60.0
+    limit: Annotated[
+        float, typer.Option(help="Timeout per evaluation (s), own objectives apart.", metavar="SECONDS")
+    ] = 60.0
 
     def robot_model(self) -> "RobotModel":
         """Return the model that the options describe."""

@@ -65,7 +65,11 @@ def write_step(drawing: Drawing) -> bytes:
     for solid in tries:
         solid.label = drawing.name
         buffer = io.BytesIO()
-        if _is_sound(solid) and export_step(solid, buffer, timestamp=FIXED_DATE) and _is_sound(_read(buffer.getvalue())):
+        if (
+            _is_sound(solid)
+            and export_step(solid, buffer, timestamp=FIXED_DATE)
+            and _is_sound(_read(buffer.getvalue()))
+        ):
             return buffer.getvalue()
     raise CannotBuildError(f"part {drawing.name} is no valid solid as STEP: build without --step")
 

@@ -205,4 +205,7 @@ def test_the_capacitors_wires_start_at_named_pins_of_the_driver() -> None:
     assert pins[0] in driver.supply_v
     assert pins[1] in driver.with_function("ground")
     bare = robot.workshop.model_copy(update={"bought": robot.workshop.bought.model_copy(update={"capacitor": ""})})
-    assert expected(replace(robot, workshop=bare), [])["driver_supply"] == "the driver's supply pins"
+    without = expected(replace(robot, workshop=bare), [])
+    assert without["driver_supply"] == "the driver's supply pins"
+    # a beep between the plug's poles is a short circuit, unless a capacitor is being charged
+    assert (without["beep"], expected(robot, [])["beep"]) == ("", " (a short beep is the capacitor)")

@@ -62,6 +62,26 @@ def test_a_rod_is_cut_into_its_pieces_with_a_cut_after_each(length: str, stock: 
     assert f"cut from a rod of {stock} m, ground" in line
 
 
+@pytest.mark.parametrize(
+    ("axle", "sold"),
+    [
+        ("spring-steel", r"a rod of 0\.33 m, ground, h6 to h9\. Cut steel .* sparks"),
+        ("aluminium-7075", r"a rod of 0\.33 m, drawn or ground, h6 to h9\. Saw it"),
+        ("steel-tube", r"a tube of 0\.33 m, its outside no thicker than said .*\. Cut steel .* sparks"),
+    ],
+)
+def test_tubes_are_not_ground_and_aluminium_gives_no_sparks(axle: str, sold: str) -> None:
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update={"axle": axle})
+    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought}))
+    kind = shop.catalogue.rods[axle].description
+    lines = [line for line in order_lines(robot) if line.startswith(f"- {kind}")]
+    assert lines
+    for line in lines:
+        assert re.search(rf"cut from {sold}", line)
+    assert any("sparks" in line for line in order_lines(robot)) is (axle != "aluminium-7075")
+
+
 def test_a_strip_is_as_long_as_its_pieces_with_a_cut_after_each() -> None:
     """Toes' pads: 2 x (10.4 + 2) + 2 x (9.5 + 2) = 47.8 mm; the stop's: 8 + 2 = 10 mm."""
     robot = built("kenan-2.0")

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 from support.built import built
 
+from jumpcad.bundle.expected import expected
 from jumpcad.bundle.switch_order import switch_order
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
@@ -59,3 +60,18 @@ def test_a_robot_without_a_switch_orders_none() -> None:
     for gone in ({"switch": None}, {"switch_mm": None}):
         fittings = replace(robot.layout.fittings, **gone)
         assert list(switch_order(replace(robot, layout=replace(robot.layout, fittings=fittings)))) == []
+
+
+@pytest.mark.parametrize(
+    ("plate_mm", "screw", "reaches"), [(2.4, "M2 x 5", True), (3.6, "M2 x 6", False), (4.0, "M2 x 8", False)]
+)
+def test_thick_plates_need_longer_screws_and_sliders(plate_mm: float, screw: str, reaches: bool) -> None:
+    """Plate, an ear of 0.5 mm and a nut of 1.6 mm (ISO 4032); the nearest switch's slider is 5 mm, 1.5 are needed."""
+    robot = built("kenan-2.0")
+    lateral = robot.layout.lateral
+    plate = (lateral.inside[0] - plate_mm, lateral.inside[0])
+    thick = replace(robot, layout=replace(robot.layout, lateral=replace(lateral, right_plate=plate)))
+    (line,) = switch_order(thick)
+    assert f"two screws {screw} ISO 14580 and two nuts M2" in line
+    assert ("Its slider is too short for this plate" in line) is not reaches
+    assert expected(thick, [])["nutted_screws"] == f"screws {screw} ISO 14580"
