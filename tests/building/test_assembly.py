@@ -238,8 +238,8 @@ CASES: dict[str, tuple[Design, Workshop, str]] = {
         r"^no wire of .* makes a torsion spring for \d+ N·mm .*: lower stiffness_nmm_per_deg or compression_ratio",
     ),
     "hardly wound": (
-        KENAN.model_copy(update={"compression_ratio": 0.001}), changed(),
-        r"loaded by 0\.09°, less than 0\.5°: raise compression_ratio",
+        KENAN.model_copy(update={"compression_ratio": 0.01, "rest_angle_deg": 40.0}), changed(),
+        r"loaded by 0\.40°, less than 0\.5°: raise compression_ratio",
     ),
     "weak motor": (
         load_design("best-bo"), changed(bought={"motors": ("n20-30",)}, safety={"motor_stall_share": 0.03}),

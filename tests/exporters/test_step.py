@@ -1,5 +1,6 @@
 """STEP files read back: volume, box, faces, one valid solid."""
 
+import io
 import math
 import os
 import subprocess
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.built import built
 from support.places import ROOT, TESTS
 from support.stacks import HOLED
 
@@ -37,6 +39,14 @@ def read(data: bytes, folder: Path):
     (solid,) = import_step(folder / "part.step").solids()
     assert solid.is_valid
     return solid
+
+
+def exported(solid) -> bytes:
+    from build123d import export_step
+
+    buffer = io.BytesIO()
+    export_step(solid, buffer)
+    return buffer.getvalue()
 
 
 @needs_step
@@ -110,6 +120,17 @@ def test_faces_within_a_thousandth_of_a_millimetre_are_one(tmp_path: Path) -> No
     assert read(step.write_step(plate(5e-4)), tmp_path).volume == pytest.approx(3.0 * 200.0 + 3.0 * 50.0, rel=1e-3)
     with pytest.raises(CannotBuildError, match="no valid solid"):
         step.write_step(plate(5e-3))
+
+
+@needs_step
+def test_slivers_between_an_arc_and_its_circle_are_closed_before_the_file_is_written(tmp_path: Path) -> None:
+    """The cam's jaws stand on a boss of their diameter: as made the solid is valid, read again it would not be."""
+    cam = next(part for part in built("kenan-2.0").parts if part.name == "cam")
+    made = next(step._stacked(cam.drawing.shape))
+    assert made.is_valid
+    assert not step._read(exported(made)).is_valid
+    solid = read(step.write_step(cam.drawing), tmp_path)
+    assert solid.volume == pytest.approx(cam.mesh.volume, rel=1e-3)
 
 
 @needs_step
