@@ -46,6 +46,7 @@ PRONG_MM, PRONG_ENDS_MM, PRONG_FREE_MM = (3.0, 6.0), -1.0, 0.5
 between it and what stands beside it, such as a standoff's screw head; judgement."""
 ROUND_OFF_MM = 1e-3
 ROUND_OFF_DEG = 1e-6
+"""By how much lengths and angles that are computed miss round numbers."""
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
 

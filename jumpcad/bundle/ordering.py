@@ -153,7 +153,7 @@ def _stock(rod: Rod, metres: str) -> str:
     """Return what rods are cut from, and how."""
     steel = rod.density_g_cm3 > STEEL_G_CM3
     if rod.bore_share > 0.0:
-        sold = f"a tube of {metres} m, its outside no thicker than said (tubes are drawn: measure it, many are)"
+        sold = f"a tube of {metres} m, its outside no thicker than said: measure it, many tubes are"
     else:
         sold = f"a rod of {metres} m, {'ground' if steel else 'drawn or ground'}, h6 to h9"
     if not steel:

@@ -12,9 +12,10 @@ SIMILAR_SWITCH, SIMILAR_A = "SS-12F15 G5", 0.5
 """A slide switch of that size, and what sellers rate it at most (0.3 or 0.5 A at 50 V). Sizes as public bills of
 material state them (several projects, the same figures); holes and height behind the ears: BOM.md of
 github.com/morria/pocket-cat, which scaled the distance of the holes off the maker's drawing."""
+SIMILAR_SLIDER_MM = 5.0
 SIMILAR_FITS = (
     "19.8 x 5.6 mm (0.2 mm longer than drawn, which the room around it bears), 5.0 mm high behind its ears, slider 3 x "
-    "3 x 5 mm that goes 3 mm. The holes of its ears, 2.2 mm "
+    f"3 x {SIMILAR_SLIDER_MM:g} mm that goes 3 mm. The holes of its ears, 2.2 mm "
     "without thread, are 14.4 mm apart as scaled off a drawing: the screws, each with a nut, then pass with no play "
     "left; where they do not, open the plate's holes to 2.8 mm with a drill. Not tried; no price with a date is known"
 )
@@ -34,7 +35,6 @@ NEEDS_SWITCH = (
     "left out"
 )
 """For more cells; judgement."""
-SIMILAR_SLIDER_MM = 5.0
 SLIDER_MM = 1.5
 """Of a switch's slider outside the plate, for a fingertip; judgement."""
 

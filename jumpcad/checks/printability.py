@@ -117,7 +117,7 @@ def _narrowest(
 ) -> Finding:
     """Return the finding of the narrowest thing in named regions, looked for up to twice the least width.
 
-    A long thing may fail at a width and not at twice as much; the least width itself is tried first, on all of them.
+    A short wall may fail at a width and not at twice as much; the least width itself is tried first, on all of them.
     """
     kept = not any(fails(region, least_mm) for _, region in regions)
     least_found, worst, where = (least_mm, 2.0 * least_mm, "") if kept else (0.0, least_mm, "")

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 FIXED_DATE = "1980-01-01T00:00:00"
 SLIVER_MM = 1e-3
+"""Faces narrower than this are closed where a solid is not valid with them; half of what outlines leave of a circle."""
 FUZZY_MM = (0.0, 1e-4, 1e-3)
 """Distances up to which two faces count as one; tried in this order until the solid closes."""
 

@@ -362,3 +362,11 @@ def test_the_drawing_names_resistors_in_kiloohms(robot: Robot) -> None:
     for name, ohm in wiring.resistors.items():
         (said,) = set(re.findall(rf"{name}: ([\d.]+) kΩ", drawn))
         assert 1000.0 * float(said) == ohm
+
+
+def test_without_a_capacitor_no_note_speaks_of_one() -> None:
+    """Then a beep between the plug's poles is a short circuit."""
+    shop, kenan = load_workshop(), load_design("kenan-2.0")
+    without = shop.model_copy(update={"bought": shop.bought.model_copy(update={"capacitor": ""})})
+    assert "a short beep is the capacitor" in "\n".join(wiring_lines(built("kenan-2.0")))
+    assert "capacitor" not in "\n".join(wiring_lines(build(kenan, without)))
