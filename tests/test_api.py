@@ -11,6 +11,7 @@ import jumpcad
 from jumpcad import checks
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
+from jumpcad.search.models import robot_model
 
 
 def test_a_bundle_has_pictures_and_no_step_files_unless_it_is_told_otherwise(
@@ -48,6 +49,7 @@ def test_settings_changed_to_what_they_cannot_be_are_refused(wrong: dict[str, fl
         lambda: jumpcad.simulate(jumpcad.capsule_robot(design), settings),
         lambda: jumpcad.evaluate(design, settings=settings),
         lambda: jumpcad.optimize(settings=settings, evaluations=8),
+        lambda: robot_model("capsule", settings=settings),  # before a study is opened
     ]
     for call in calls:
         with pytest.raises(JumpcadError, match=said):

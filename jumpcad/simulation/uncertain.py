@@ -90,7 +90,6 @@ def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0,
     JumpcadError
         If there is no such engine, or it is not installed.
     """
-    settings = settings.revalidated()
     groups = _groups(robot, settings)
     width = sum(group.inputs for group in groups.values())
     points = sobol(width, samples, np.random.default_rng(seed))

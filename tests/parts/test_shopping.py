@@ -336,6 +336,7 @@ def test_rings_have_their_bores(assembled_robot: Robot) -> None:
     catalogue, seen = load_catalogue(), set()
     for item in assembled_robot.hardware:
         if item.name == "roller_washer":
+            assert item.article == "washer M3 ISO 7089"
             outer, bore, width = 7.0, 3.2, 0.5
         elif item.article.startswith("ball bearing "):
             bearing = catalogue.bearings[item.article.removeprefix("ball bearing ")]

@@ -175,6 +175,17 @@ def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below
     assert ranked[1].neighbours > ranked[0].neighbours == 2
 
 
+def test_one_rejected_neighbour_of_many_is_no_failure():
+    """Also where scores are negative: of twenty at -2 and one rejected at -9 the lower percentile is -2."""
+    one = _Examined(0, Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), -1.0, "m", 0.0))
+    assert not one.fails
+    one.scores = {"parameters": [-2.0] * 20 + [-9.0], "print": [-2.0] * 20}
+    one.rejections["loop"], one.rejected_score = 1, -9.0
+    assert not one.fails
+    one.scores["parameters"] = [-2.0] * 10 + [-9.0] * 11
+    assert one.fails
+
+
 def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
