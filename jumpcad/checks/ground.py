@@ -1,9 +1,8 @@
 """Clearance of body, legs and lever above the ground, and of the body above the foot, while the legs move (mm)."""
 
 import numpy as np
-from manifold3d import Manifold
 
-from jumpcad.checks.interference import Component, Moment, components, pose_of
+from jumpcad.checks.interference import Moment, box_of, components, pose_of
 from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, STOP_PAD_MM
 from jumpcad.findings import Basis, Finding, at_least, limit
 from jumpcad.layout.stop import TAB_MM
@@ -61,16 +60,17 @@ def foot_findings(robot: Robot) -> list[Finding]:
     linkage = robot.linkage
     loaded = Moment("springs loaded", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
 
-    def placed(piece: Component) -> Manifold:
-        return piece.solid.transform(pose_of(piece, layout, linkage, loaded)[:3])
-
-    pieces = {body: [p for p in components(robot) if p.body == body] for body in (BODY, FOOT)}
-    foot = [placed(piece) for piece in pieces[FOOT]]
-    gap, name = min(
-        (solid.min_gap(other, SEARCH_MM), piece.name)
-        for piece, solid in ((piece, placed(piece)) for piece in pieces[BODY])
-        for other in foot
+    body, foot = (
+        [(piece, pose_of(piece, layout, linkage, loaded)) for piece in components(robot) if piece.body == name]
+        for name in (BODY, FOOT)
     )
+    gaps = (
+        (one.solid.transform(T_one[:3]).min_gap(other.solid.transform(T_other[:3]), SEARCH_MM), one.name)
+        for one, T_one in body
+        for other, T_other in foot
+        if _near(box_of(one, T_one), box_of(other, T_other))
+    )
+    gap, name = min(gaps, default=(SEARCH_MM, ""))
     found = f"{name} comes within {gap:.1f} mm" if gap < SEARCH_MM else f"nothing comes within {gap:g} mm"
     return [
         limit(
@@ -80,6 +80,11 @@ def foot_findings(robot: Robot) -> list[Finding]:
             value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
         )
     ]  # fmt: skip
+
+
+def _near(a: Array, b: Array) -> bool:
+    """Whether two boxes (2, 3) may be nearer to each other than is searched."""
+    return bool((a[0] < b[1] + SEARCH_MM).all() and (b[0] < a[1] + SEARCH_MM).all())
 
 
 def _along(vector: Array, unit: Array) -> Array:

@@ -33,6 +33,8 @@ play."""
 TOLERANCE_MM3 = 0.05
 """Facets of two circles that touch share less than this."""
 TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
+COUPLED = {"cam", "cam_gear"}
+"""They turn as one, but where the cam has run ahead."""
 INTENDED = (
     ("cap_screw", "body_plate_right", "thread"),
     ("sensor_screw", "body_plate_left", "thread"),
@@ -131,16 +133,18 @@ def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
     linkage = robot.linkage
     pieces = components(robot)
     worst: dict[tuple[int, int], tuple[float, str]] = {}
-    settled: set[tuple[int, int]] = set()
+    settled: set[tuple[int, int, float]] = set()
     for moment in moments(robot):
         poses = [pose_of(piece, layout, linkage, moment) for piece in pieces]
-        boxes = [_box(piece, pose) for piece, pose in zip(pieces, poses, strict=True)]
+        boxes = [box_of(piece, pose) for piece, pose in zip(pieces, poses, strict=True)]
         for i, j in _near(boxes):
             a, b = pieces[i], pieces[j]
-            fixed = a.body == b.body and a.name not in TURNING and b.name not in TURNING
-            if (fixed and (i, j) in settled) or may_share(a.name, b.name):
+            still = a.body == b.body and a.name not in TURNING and b.name not in TURNING
+            together = still or {a.name, b.name} == COUPLED
+            case = (i, j, 0.0 if still else moment.ahead_rad)
+            if (together and case in settled) or may_share(a.name, b.name):
                 continue
-            settled.add((i, j))
+            settled.add(case)
             volume = shared_volume_mm3(a, poses[i], b, poses[j])
             if volume > max(TOLERANCE_MM3, worst.get((i, j), (0.0, ""))[0]):
                 worst[i, j] = (float(volume), moment.label)
@@ -209,7 +213,7 @@ def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float
     return layout.motor_mm, idler if len(stages) == 1 else -idler * stages[0].ratio
 
 
-def _box(piece: Component, pose: Array) -> Array:
+def box_of(piece: Component, pose: Array) -> Array:
     """Return lower and upper corner (2, 3) of a placed piece's bounding box."""
     corners = (piece.corners @ pose.T)[:, :3]
     return np.stack([corners.min(axis=0), corners.max(axis=0)])

@@ -4,6 +4,7 @@ Drawn in the body frame and printed outside down, so that the motor's socket sta
 """
 
 import itertools
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -34,6 +35,7 @@ from jumpcad.parts.stop import stop_slot
 from jumpcad.solids.outline import (
     SAGITTA_MM,
     Region,
+    boxes_apart,
     disc,
     filleted,
     grown,
@@ -190,10 +192,15 @@ def _apart(pockets: Region, wall_mm: float) -> Region:
     wider = grown(pockets, half)
     if wider.num_contour() == pockets.num_contour():
         return pockets
-    count = len(pockets.decompose())
+    each = pockets.decompose()
     between = (wider.offset(-half, JoinType.Miter) - pockets).decompose()
-    thin = [piece for piece in between if len((pockets + grown(piece, SAGITTA_MM)).decompose()) < count]
+    thin = [piece for piece in between if _touched(grown(piece, SAGITTA_MM), each) > 1]
     return pockets - grown(union(thin), wall_mm / 2.0) if thin else pockets
+
+
+def _touched(piece: Region, regions: Sequence[Region]) -> int:
+    """Return how many of some regions a piece overlaps."""
+    return sum(not (piece ^ region).is_empty() for region in regions if not boxes_apart(piece, region))
 
 
 def _outline(layout: Layout, covers: _Covers, side: Face) -> Region:

@@ -184,6 +184,13 @@ def without_slivers(region: Region) -> Region:
     return closed.offset(SLIVER_MM, JoinType.Miter)
 
 
+def boxes_apart(a: Region, b: Region) -> bool:
+    """Tell whether the bounding boxes of two regions do not meet."""
+    ax0, ay0, ax1, ay1 = a.bounds()
+    bx0, by0, bx1, by1 = b.bounds()
+    return bool(ax1 <= bx0 or bx1 <= ax0 or ay1 <= by0 or by1 <= ay0)
+
+
 def middle_of(region: Region) -> Array:
     """Return the middle (2,) of a region's bounding box."""
     low_x, low_z, high_x, high_z = region.bounds()

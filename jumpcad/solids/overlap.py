@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jumpcad.solids.outline import Region
+from jumpcad.solids.outline import boxes_apart
 from jumpcad.solids.slab import SMALLEST_AREA_MM2, Z_DIGITS
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import Array
@@ -38,16 +38,9 @@ def overlap_volume_mm3(a: Stack, T_world_a: Array, b: Stack, T_world_b: Array) -
                 continue
             if region_b is None:
                 region_b = slab_b.region.transform(flat)
-            if _apart(slab_a.region, region_b):
+            if boxes_apart(slab_a.region, region_b):
                 continue
             area = (slab_a.region ^ region_b).area()
             if area > SMALLEST_AREA_MM2:
                 total += area * height
     return total
-
-
-def _apart(a: Region, b: Region) -> bool:
-    """Tell whether two bounding boxes do not meet."""
-    ax0, ay0, ax1, ay1 = a.bounds()
-    bx0, by0, bx1, by1 = b.bounds()
-    return bool(ax1 <= bx0 or bx1 <= ax0 or ay1 <= by0 or by1 <= ay0)

@@ -8,11 +8,14 @@ import pytest
 from manifold3d import Manifold
 from support.built import body_in_plane, built, geared
 
+from jumpcad.checks import ground
 from jumpcad.checks.ground import _body_discs, foot_findings, ground_findings
-from jumpcad.checks.interference import Moment, components, pose_of
+from jumpcad.checks.interference import Component, Moment, components, pose_of
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
+from jumpcad.solids.outline import rectangle
+from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_y
 
 
@@ -78,6 +81,22 @@ def test_foot_clearance_fires_on_a_battery_that_sinks(kenan: Robot) -> None:
     (finding,) = foot_findings(replace(kenan, hardware=tuple(hardware)))
     assert finding.severity == "error"
     assert "battery" in finding.message
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("gap_mm", [-2.9, 2.9, 3.1])
+def test_gaps_of_up_to_3_mm_are_measured_on_all_sides_of_the_foot(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch, axis: int, gap_mm: float
+) -> None:
+    """A cube of 10 mm of the body beside one of the foot."""
+    cube, far, shift = Stack.of([(0.0, 10.0, rectangle((10.0, 10.0)))]), np.eye(4), abs(gap_mm) + 10.0
+    far[axis, 3] = np.copysign(shift, gap_mm)
+    cubes = [Component("sole", FOOT, cube, np.eye(4)), Component("cube", BODY, cube, far)]
+    monkeypatch.setattr(ground, "components", lambda _: cubes)
+    monkeypatch.setattr(ground, "pose_of", lambda piece, *_: piece.T_body_part)
+    (finding,) = foot_findings(kenan)
+    assert finding.value == (pytest.approx(2.9, abs=1e-4) if abs(gap_mm) < 3.0 else None)
+    assert ("cube" in finding.message) == (abs(gap_mm) < 3.0)
 
 
 @pytest.mark.parametrize("name", ["front_eye_pin", "toe_right_pad"])

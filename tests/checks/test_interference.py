@@ -1,6 +1,7 @@
 """Interference: none in the templates, and exact for parts that are pushed into one another."""
 
 import itertools
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -88,6 +89,20 @@ def test_what_meets_in_one_position_only_is_found_there_with_all_that_it_shares(
     assert pair == [name, "post"]
     assert label.endswith(f" {-np.degrees(at.leg_rad):.1f}°")
     assert volume == pytest.approx(np.pi * 16.0 * 4.0, rel=5e-3)
+
+
+def test_what_turns_as_one_is_looked_at_anew_only_where_the_cam_has_run_ahead(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Large discs, so that all boxes always meet: cam and gear differ by none, half and all of the dog's play."""
+    slab, seen = Stack.of([(0.0, 4.0, disc(300.0))]), Counter[tuple[str, str]]()
+    names = ("cam", "cam_gear", "motor_pinion", "post", "plate")
+    discs = [Component(name, BODY, slab, lying_on_left(2.0, 0.0, 0.0)) for name in names]
+    monkeypatch.setattr(interference, "components", lambda _: discs)
+    monkeypatch.setattr(interference, "shared_volume_mm3", lambda a, _, b, __: seen.update([(a.name, b.name)]) or 0.0)
+    assert list(overlaps(kenan)) == []
+    once = {("post", "plate"): 1, ("cam", "cam_gear"): 3}
+    assert seen == {pair: once.get(pair, len(moments(kenan))) for pair in itertools.combinations(names, 2)}
 
 
 @pytest.mark.parametrize("turned", [False, True])
