@@ -34,7 +34,9 @@ def test_arms_are_tangents_of_the_coil_at_the_ordered_angle(name: str) -> None:
         assert _between_deg(far, near) == pytest.approx(math.degrees(spring.free_arm_angle_rad), abs=1e-4)
         assert _between_deg(far, wound) == pytest.approx(math.degrees(spring.wound_rad), abs=1e-4)
         turns.append(np.sign(np.cross([*far, 0.0], [*wound, 0.0])[2]))
-        assert any("N·mm/°" in one.dxf.text for one in space.query("TEXT"))
+        words = sorted(space.query("TEXT"), key=lambda one: -one.dxf.insert.y)  # from above
+        assert words[0].dxf.text.startswith(f"robot: {name}")
+        assert any("N·mm/°" in one.dxf.text for one in words)
     assert list(drawings) == ["order/spring-right-hand.dxf", "order/spring-left-hand.dxf"]
     # seen along its axis a right-hand coil goes away clockwise; loading winds it further, as DXF has y up
     assert turns == [-1.0, 1.0]

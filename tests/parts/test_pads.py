@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from support.built import built, cut, placed, region
 
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.pads import is_printed, pads
+from jumpcad.parts.pads import is_printed, pads, printed_pads
 from jumpcad.robot import Robot
 
 
@@ -149,3 +150,16 @@ def test_a_pad_is_printed_where_its_kind_is(under: bool | None, stop: bool) -> N
     found = {item.name for item in robot.hardware if is_printed(item, foot_pad, stop_pad)}
     under_the_foot = {"nose_pad_left", "nose_pad_right", "toe_left_pad", "toe_right_pad"}
     assert found == (under_the_foot if under else set()) | ({"stop_pad"} if stop else set())
+
+
+def test_a_printed_pad_is_of_its_own_kind() -> None:
+    robot = built("kenan-2.0")
+    assert robot.workshop.foot_pad is not None
+    kinds = [robot.workshop.foot_pad, robot.workshop.stop_pad]
+    foot_pad, stop_pad = (
+        kind.model_copy(update={"printed": True, "name": name}) for kind, name in zip(kinds, "ab", strict=True)
+    )
+    workshop = SimpleNamespace(foot_pad=foot_pad, stop_pad=stop_pad)
+    found = {pad.name: (pad.pad.thickness_mm, pad.material) for pad in printed_pads(robot.hardware, workshop)}
+    assert found.pop("stop_pad") == (kinds[1].thickness_mm, "b")
+    assert set(found.values()) == {(kinds[0].thickness_mm, "a")}

@@ -111,6 +111,14 @@ def test_a_box_around_a_finger_is_that_of_its_solid():
     assert finger.bounds_mm[1] == pytest.approx([5.0, 10.5, 8.0], abs=0.01)
 
 
+def test_a_box_around_a_bar_in_two_pieces_is_around_both() -> None:
+    """From 3 to 5 and from -4 to 1 along y, in either order."""
+    pieces = ((3.0, 5.0), (-4.0, 1.0))
+    for order in (pieces, pieces[::-1]):
+        bar = Bar(rectangle((20.0, 4.0), (10.0, 2.0)), order)
+        assert bar.bounds_mm.tolist() == [[0.0, -4.0, 0.0], [20.0, 5.0, 4.0]]
+
+
 def test_outlines_span_what_is_seen_from_above() -> None:
     """The hull of a bar across, 20 x 6 mm, and of a finger that tapers beside it."""
     bar = Bar(rectangle((20.0, 4.0), (10.0, 2.0)), ((-3.0, 3.0),))
