@@ -192,7 +192,7 @@ def drawn(root: Path, only: str, mixed: bool) -> Iterator[Mutant]:
 
 
 def fields_alike(root: Path) -> dict[str, set[str]]:
-    """Return for each field of the package's classes those of its type and unit that are in all classes that have it."""
+    """Return for each field of the package's classes those of its type and unit in all classes that have it."""
     alike: dict[str, set[str]] = {}
     for path in (root / PACKAGE).rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_bytes())):
