@@ -50,7 +50,7 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
         weak = [finding for finding in errors(findings) if finding.grows]
         if not weak:
             break
-        found = _first_with_room(design, workshop, name, (growth.more(weak, uses), growth.more(weak)))
+        found = _first_with_room(design, workshop, name, (growth.leap(weak, uses), growth.more(weak)))
         if found is None:  # the checks report what stays too weak
             break
         uses = growth.uses(weak)
