@@ -129,13 +129,12 @@ def moments(robot: Robot) -> list[Moment]:
 
 def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
     """Yield pairs of pieces that share more than the tolerance: names, position, volume (mm³); each pair's worst."""
-    layout = robot.layout
-    linkage = robot.linkage
-    pieces = components(robot)
+    layout, pieces = robot.layout, components(robot)
     worst: dict[tuple[int, int], tuple[float, str]] = {}
     settled: set[tuple[int, int, float]] = set()
     for moment in moments(robot):
-        poses = [pose_of(piece, layout, linkage, moment) for piece in pieces]
+        frames = _frames(robot.linkage, moment.leg_rad)
+        poses = [_pose_within(piece, layout, moment, frames[piece.body]) for piece in pieces]
         boxes = [box_of(piece, pose) for piece, pose in zip(pieces, poses, strict=True)]
         for i, j in _near(boxes):
             a, b = pieces[i], pieces[j]
@@ -186,20 +185,28 @@ def shared_volume_mm3(a: Component, T_a: Array, b: Component, T_b: Array) -> flo
 
 def pose_of(piece: Component, layout: Layout, linkage: Linkage, moment: Moment) -> Array:
     """Return the pose (4, 4) of a piece in the body's frame (mm)."""
-    pose = linkage.pose([moment.leg_rad])
-    places = {
-        BODY: (np.zeros(2), 0.0),
-        MAIN_LEG: (linkage.back_pivot_mm, linkage.rest_rad + moment.leg_rad),
-        FRONT_LINK: (linkage.front_pivot_mm, linkage.rest_rad + float(pose.front_rad[0])),
-        FOOT: (pose.ankle_mm[0], float(pose.foot_rad[0])),
+    return _pose_within(piece, layout, moment, _frames(linkage, moment.leg_rad)[piece.body])
+
+
+def _frames(linkage: Linkage, leg_rad: float) -> dict[str, Array]:
+    """Return the poses (4, 4) of all bodies in the body's frame (mm)."""
+    pose = linkage.pose([leg_rad])
+    return {
+        BODY: np.eye(4),
+        MAIN_LEG: pose_about_y(linkage.rest_rad + leg_rad, linkage.back_pivot_mm),
+        FRONT_LINK: pose_about_y(linkage.rest_rad + float(pose.front_rad[0]), linkage.front_pivot_mm),
+        FOOT: pose_about_y(float(pose.foot_rad[0]), pose.ankle_mm[0]),
     }
-    origin, angle = places[piece.body]
-    T_world_piece = pose_about_y(angle, origin) @ piece.T_body_part
+
+
+def _pose_within(piece: Component, layout: Layout, moment: Moment, T_frame_body: Array) -> Array:
+    """Return the pose (4, 4) of a piece in a frame in which its body has a pose (mm)."""
+    T_frame_piece: Array = T_frame_body @ piece.T_body_part
     if piece.name not in TURNING:
-        return T_world_piece
+        return T_frame_piece
     ahead = moment.ahead_rad if piece.name == "cam" else 0.0
     centre, turn = _train_turn(piece.name, layout, moment.cam_rad + ahead)
-    return pose_about_y(turn, centre) @ pose_about_y(0.0, -centre) @ T_world_piece
+    return pose_about_y(turn, centre) @ pose_about_y(0.0, -centre) @ T_frame_piece
 
 
 def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float]:

@@ -17,7 +17,7 @@ from jumpcad.findings import Basis, Finding, at_least, at_most, limit
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import faults
-from jumpcad.solids.outline import Region, grown, hull, union
+from jumpcad.solids.outline import Region, box_around, grown, hull, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Fits, Process
@@ -193,10 +193,11 @@ def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tupl
     leaning = process.layer_height_mm * math.tan(angle) + ROUND_OFF_MM
     slabs = drawing.shape.slabs
     for below, above in itertools.pairwise(slabs):
-        if (above.region - grown(below.region, leaning)).area() < SMALLEST_PIECE_MM2:
+        carried = grown(below.region, leaning)
+        if (above.region - carried).area() < SMALLEST_PIECE_MM2:
             continue
         for ledge in (above.region - below.region).decompose():
-            if (ledge - grown(below.region, leaning)).area() < SMALLEST_PIECE_MM2:
+            if (ledge - carried).area() < SMALLEST_PIECE_MM2:
                 continue
             held = (grown(ledge, TOUCH_MM) ^ below.region).decompose()
             ring = any(True for piece in held for _ in _contours(piece, -1.0))
@@ -207,7 +208,8 @@ def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tupl
             if len(held) > 1 or (ring and inside) or between:
                 yield True, _least(partial(_vanishes, ledge), _longest_mm(ledge))
             else:
-                yield False, _least(partial(_covered, ledge, below.region), _longest_mm(ledge))
+                reach = _longest_mm(ledge)
+                yield False, _least(partial(_covered, ledge, below.region ^ box_around(ledge, 2.0 * reach)), reach)
 
 
 def _covered(ledge: Region, below: Region, reach_mm: float) -> bool:

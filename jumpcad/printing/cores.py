@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.solids.moments import areas_and_borders, borders_mm
-from jumpcad.solids.outline import Region, rectangle, union
+from jumpcad.solids.outline import Region, box_around, union
 from jumpcad.solids.slab import NOTHING, Sections
 from jumpcad.transforms import Array
 
@@ -60,7 +60,7 @@ def shared(core: Region, number: int, others: Sequence[int], sections: Sections)
         else:
             regions.append(sections.outlines[outline] - other if not other.is_empty() else sections.outlines[outline])
     if beyond:
-        regions.append(_around(core, 1.0) - union(beyond))
+        regions.append(box_around(core, 1.0) - union(beyond))
     return CrossSection.batch_boolean(regions, OpType.Intersect)
 
 
@@ -77,11 +77,4 @@ def _set_back(outline: Region, distance_mm: float) -> Region:
 
 def _apart_from(pocket: Region, outline: Region, distance_mm: float) -> Region:
     """Return a region that contains an outline, less what is nearer to a pocket than a distance."""
-    return _set_back(_around(outline, 2.0 * distance_mm) - pocket, distance_mm)
-
-
-def _around(region: Region, margin_mm: float) -> Region:
-    """Return a rectangle that is larger than a region by a margin on all sides."""
-    x0, y0, x1, y1 = region.bounds()
-    size = x1 - x0 + 2.0 * margin_mm, y1 - y0 + 2.0 * margin_mm
-    return rectangle(size, ((x0 + x1) / 2.0, (y0 + y1) / 2.0))
+    return _set_back(box_around(outline, 2.0 * distance_mm) - pocket, distance_mm)

@@ -191,6 +191,13 @@ def boxes_apart(a: Region, b: Region) -> bool:
     return bool(ax1 <= bx0 or bx1 <= ax0 or ay1 <= by0 or by1 <= ay0)
 
 
+def box_around(region: Region, margin_mm: float) -> Region:
+    """Return a rectangle that is larger than a region by a margin on all sides."""
+    x0, y0, x1, y1 = region.bounds()
+    size = x1 - x0 + 2.0 * margin_mm, y1 - y0 + 2.0 * margin_mm
+    return rectangle(size, ((x0 + x1) / 2.0, (y0 + y1) / 2.0))
+
+
 def middle_of(region: Region) -> Array:
     """Return the middle (2,) of a region's bounding box."""
     low_x, low_z, high_x, high_z = region.bounds()
