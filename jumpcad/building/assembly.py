@@ -131,6 +131,8 @@ def _laid_out(
         carried.regulator,
         parts.get("plug"),
         parts.get("capacitor"),
+        settled.holes.fits.wall_min_mm,
+        settled.holes.fits.sliding_mm,
     )
     layout = make_layout(
         settled.linkage,

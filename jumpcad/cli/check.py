@@ -9,6 +9,9 @@ from jumpcad.cli.output import JsonFlag, console, print_json
 from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completion, note_template
 
 if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.text import Text
+
     from jumpcad.errors import JumpcadError
     from jumpcad.findings import Finding
 
@@ -19,6 +22,8 @@ TIGHT = 0.8
 """Use of a limit from which it is shown also without --all."""
 COUNTED = "", "faults", "mm³"
 """Units of counts and of quantities that must be 0: a margin of 0 is not tight."""
+NARROW = 76
+"""Columns of a terminal in which less than 20 would be left for what was found: it then stands in lines of its own."""
 SMALL = 0.005
 """Margins below this, in the printed unit, are "at the limit" or "just beyond"."""
 
@@ -136,24 +141,45 @@ def _print_explained(name: str, findings: "list[Finding]") -> None:
 
 
 def _print_table(findings: "list[Finding]", every: bool) -> None:
+    shown = [finding for finding in findings if every or finding.severity != "info" or is_tight(finding)]
+    screen = console()
+    if shown and screen.width >= NARROW:
+        _print_columns(screen, shown)
+    else:
+        _print_lines(screen, shown)
+    counts = {severity: sum(finding.severity == severity for finding in findings) for severity in SEVERITIES}
+    screen.print(f"{counts['error']} errors, {counts['warning']} warnings, {counts['info']} limits hold")
+    if left := len(findings) - len(shown):
+        screen.print(f"{left} of them hold with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
+
+
+def _print_columns(screen: "Console", shown: "list[Finding]") -> None:
     from rich.table import Table
-    from rich.text import Text
 
     table = Table(box=None, pad_edge=False)
     for title in ("", "check", "used", "margin", "found"):
         to_right = title in ("used", "margin")
         table.add_column(title, justify="right" if to_right else "left", no_wrap=title != "found")
-    shown = [finding for finding in findings if every or finding.severity != "info" or is_tight(finding)]
     for finding in shown:
-        remedy = "" if finding.severity == "info" else f" → {finding.remedy}"
-        tight = finding.severity == "info" and is_tight(finding)
-        word = Text("tight", STYLES["warning"]) if tight else Text(WORDS[finding.severity], STYLES[finding.severity])
-        use = "" if finding.use is None else f"{100.0 * finding.use:.0f} %"
-        table.add_row(word, finding.name, use, margin_in_words(finding), finding.message + remedy)
-    screen = console()
-    if shown:
-        screen.print(table)
-    counts = {severity: sum(finding.severity == severity for finding in findings) for severity in SEVERITIES}
-    screen.print(f"{counts['error']} errors, {counts['warning']} warnings, {counts['info']} limits hold")
-    if left := len(findings) - len(shown):
-        screen.print(f"{left} of them hold with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
+        table.add_row(*_cells(finding))
+    screen.print(table)
+
+
+def _print_lines(screen: "Console", shown: "list[Finding]") -> None:
+    from rich.padding import Padding
+
+    for finding in shown:
+        word, name, use, margin, found = _cells(finding)
+        screen.print(word, name, *filter(None, (use, margin)))
+        screen.print(Padding(found, (0, 0, 0, 2)))
+
+
+def _cells(finding: "Finding") -> "tuple[Text, str, str, str, str]":
+    """Return what is printed of a finding: a word, its name, use, margin, and what was found with the remedy."""
+    from rich.text import Text
+
+    remedy = "" if finding.severity == "info" else f" → {finding.remedy}"
+    tight = finding.severity == "info" and is_tight(finding)
+    word = Text("tight", STYLES["warning"]) if tight else Text(WORDS[finding.severity], STYLES[finding.severity])
+    use = "" if finding.use is None else f"{100.0 * finding.use:.0f} %"
+    return word, finding.name, use, margin_in_words(finding), finding.message + remedy

@@ -26,8 +26,8 @@ from jumpcad.cli import (
     studio,
     study,
 )
-from jumpcad.cli.output import OutputClosed, complain, standard_output
-from jumpcad.errors import JumpcadError
+from jumpcad.cli.output import OutputClosed, complain, print_json, standard_output
+from jumpcad.errors import CannotBuildError, JumpcadError
 
 WRONG_REQUEST, BUG = 2, 3
 OUTPUT_CLOSED = 141
@@ -114,6 +114,11 @@ def _carry_out(arguments: list[str]) -> int:
             command.invoke(context)
     except typer.Exit as end:
         return end.exit_code
+    except CannotBuildError as error:
+        if "--json" in arguments:
+            refused = {"limit": error.limit, "margin": error.margin, "unit": error.unit}
+            print_json({"verdict": "cannot_build", "message": str(error)} | (refused if error.limit else {}))
+        raise
     return 0
 
 

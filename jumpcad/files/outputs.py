@@ -145,7 +145,7 @@ def require_free(path: Path, force: bool = False) -> None:
         raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
     if not stat.S_ISREG(mode):
         raise JumpcadError(f"{path}: is there already and is no plain file; choose another name")
-    if not force and not _is_sealed(path):
+    if not force and not is_sealed(path):
         raise JumpcadError(f"{path}: exists already; choose another name, or replace it with --force")
 
 
@@ -188,7 +188,8 @@ def _lies_below(path: Path, file: Path) -> bool:
     return os.path.realpath(path).startswith(os.path.realpath(file) + os.sep)
 
 
-def _is_sealed(path: Path) -> bool:
+def is_sealed(path: Path) -> bool:
+    """Whether a file is as jumpcad wrote it: see `sealed`."""
     try:
         data = path.read_bytes()
     except OSError:

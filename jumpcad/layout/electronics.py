@@ -37,9 +37,9 @@ BALANCE_MM = 10.0
 USB_BESIDE_MM, BESIDE_PLATE_MM = 0.9, 0.6
 """From a board's end to the plate, which keeps it there: of the controller, whose USB socket stands into the plate's
 opening, and of the others; judgement."""
-TRAY_SIDE_MM = 1.0
-"""From a tie's slot to the plate: a wall of two lines and the tray's play; judgement."""
-TIES_APART_MM = 2.0 * (SEAT_PLAY_MM + TIE_SLOT_MM[0]) + 0.8
+WALL_MM, PLAY_MM = 0.8, 0.2
+"""Least wall beside a tie's slot, of two lines, and play of a tray between the plates; where a workshop needs more,
+what it needs; judgement."""
 """Between boards: a slot for the tie of either, and a wall of two lines."""
 
 
@@ -63,6 +63,8 @@ class Electronics:
     The battery is strapped to the lower tray. On the upper one the boards lie in a row across it, from the back: the
     controller with its USB socket at the right plate, the others at the left one. The capacitor lies beside the
     controller, the plug beside the foremost board and opens to the front.
+
+    `wall_mm` is the thinnest wall that can be printed, `play_mm` that of a tray between the plates on either side.
     """
 
     battery: Battery
@@ -71,6 +73,18 @@ class Electronics:
     regulator: Board | None = None
     plug: Component | None = None
     capacitor: Component | None = None
+    wall_mm: float = WALL_MM
+    play_mm: float = PLAY_MM
+
+    @property
+    def side_mm(self) -> float:
+        """From a tie's slot to the plate: a wall and the tray's play."""
+        return max(WALL_MM, self.wall_mm) + max(PLAY_MM, self.play_mm)
+
+    @property
+    def ties_apart_mm(self) -> float:
+        """From one board to the next: the ties of both, and a wall between them."""
+        return 2.0 * (SEAT_PLAY_MM + TIE_SLOT_MM[0]) + max(WALL_MM, self.wall_mm)
 
     @property
     def boards(self) -> dict[str, Board]:
@@ -123,7 +137,7 @@ class Electronics:
     def boards_mm(self) -> float:
         """Length of all boards one behind the other, across which each has its length."""
         widths = [board.width_mm for board in self.boards.values()]
-        return sum(widths) + TIES_APART_MM * (len(widths) - 1)
+        return sum(widths) + self.ties_apart_mm * (len(widths) - 1)
 
     @property
     def width_mm(self) -> float:
@@ -164,7 +178,7 @@ class Electronics:
         """Return the room across the robot that a board needs besides its own length."""
         part = self.tied.get(self._neighbour(role))
         tied = 0.0 if part is None else (part.width_mm or 0.0) + 2.0 * TIE_SLOT_MM[0]
-        return _from_plate_mm(role) + SEAT_PLAY_MM + RIM_MM + tied + TRAY_SIDE_MM
+        return _from_plate_mm(role) + SEAT_PLAY_MM + RIM_MM + tied + self.side_mm
 
     def seats(self, inside: Interval) -> dict[str, Seat]:
         """Return where everything lies on the trays between the plates."""
@@ -187,7 +201,7 @@ class Electronics:
                 end = board.length_mm / 2.0 + SEAT_PLAY_MM + RIM_MM + TIE_SLOT_MM[0]
                 at = self.length_mm / 2.0 - size[0] / 2.0 if beside == "plug" else x
                 seats[beside] = Seat(at, y + side * (end + size[1] / 2.0), board_bottom - TAPE_MM, size)
-            start += board.width_mm + TIES_APART_MM
+            start += board.width_mm + self.ties_apart_mm
         return seats
 
     def tie_slots(self, inside: Interval) -> dict[str, list[tuple[float, float, tuple[float, float]]]]:
@@ -213,9 +227,9 @@ class Electronics:
         """
         seats = self.seats(inside)
         controller = seats["controller"]
-        x = controller.x_mm + (controller.size_mm[0] + TIES_APART_MM) / 2.0
+        x = controller.x_mm + (controller.size_mm[0] + self.ties_apart_mm) / 2.0
         ties = [y for role in list(self.boards)[:2] for _, y, _ in self.tie_slots(inside)[role]]
-        low, high = inside[0] + TRAY_SIDE_MM, inside[1] - TRAY_SIDE_MM
+        low, high = inside[0] + self.side_mm, inside[1] - self.side_mm
         free: list[float] = []
         length = SMALL_MM[1] + 2.0 * SEAT_PLAY_MM
         for start in np.arange(low, high - length, 0.5):

@@ -1,5 +1,6 @@
 """The studio's page: sliders, figures, motion and the points of a study, on a viser server."""
 
+import itertools
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -9,7 +10,7 @@ from jumpcad.bundle.export import export
 from jumpcad.bundle.viewer import parts_facts
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.files.outputs import require_free, sealed, write_atomically
+from jumpcad.files.outputs import is_sealed, require_free, sealed, write_atomically
 from jumpcad.robot import Robot
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
 from jumpcad.studio.inputs import slider_ends, slider_step, when_changed
@@ -153,7 +154,11 @@ class Studio:
     def _ask(self) -> None:
         """Show the capsule robot's figures at once; let the thread build the newest design."""
         self.player.pause()
-        design = self.design
+        try:
+            design = self.design
+        except JumpcadError as error:  # half a number is typed
+            self.quick.content = f"**no design**: {error}"
+            return
         self.quick.content = capsule_answer(design)
         with self._newest:
             self._wanted = design
@@ -231,7 +236,9 @@ class Studio:
         return "kept: figures show the difference to it"
 
     def _save(self) -> str:
-        path = self.folder / f"{self.name}-studio.toml"
+        path, numbers = self.folder / f"{self.name}-studio.toml", itertools.count(2)
+        while path.exists() and not is_sealed(path):  # a person has changed it since
+            path = self.folder / f"{self.name}-studio-{next(numbers)}.toml"
         require_free(path)
         write_atomically(path, sealed(self.design.to_toml()))
         return f"saved {path}"

@@ -58,6 +58,17 @@ def test_it_shows_what_is_tight_and_with_all_the_rest(monkeypatch: pytest.Monkey
     assert "--all" not in long
 
 
+@pytest.mark.parametrize("columns", ["30", "75", "76", "200"])
+def test_whatever_the_terminals_width_all_is_said(monkeypatch: pytest.MonkeyPatch, columns: str) -> None:
+    one = checks.Check(lambda _: [at_most("a_long_name_of_a_check", 3.0, 2.0, "mm", "far too long", "cut it")], {})
+    monkeypatch.setattr(checks, "CHECKS", (one,))
+    monkeypatch.setenv("COLUMNS", columns)
+    said = CliRunner().invoke(app, ["check", "kenan-2.0"]).output
+    assert max(map(len, said.splitlines())) <= int(columns)
+    for words in ("error", "a_long_name_of_a_check", "150 %", "-1 mm", "far too long → cut it", "1 errors"):
+        assert words.replace(" ", "") in re.sub(r"\s", "", said)
+
+
 @pytest.mark.parametrize(
     ("margin", "unit", "words"),
     [

@@ -18,6 +18,7 @@ from typer.main import get_command
 from jumpcad.cli import commands
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
+from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.version import __version__
 
@@ -51,10 +52,25 @@ def test_wrong_request_is_one_line_and_exit_code_2(run: Run, tmp_path: Path, arg
 def test_design_that_cannot_be_assembled_is_exit_code_1(run: Run, tmp_path: Path) -> None:
     crossed = load_design("kenan-2.0").model_copy(update={"c_coef": 2.5})
     (tmp_path / "crossed.toml").write_text(crossed.to_toml())
-    code, out, err = run("simulate", "crossed.toml", "--published", "--json")
-    assert (code, out) == (1, "")
-    assert err.startswith("jumpcad: no assembled pose")
-    assert err.count("\n") == 1
+    for command in (["simulate", "--published"], ["simulate"], ["check"], ["build"], ["report"]):
+        code, out, err = run(*command, "crossed.toml")
+        assert (code, out) == (1, "")
+        assert err.startswith("jumpcad: ")
+        assert err.count("\n") == 1
+        code, out, same = run(*command, "crossed.toml", "--json")
+        refused = json.loads(out)
+        assert (code, same, refused["verdict"]) == (1, err, "cannot_build")
+        assert err == f"jumpcad: {refused['message']}\n"
+
+
+def test_a_document_of_a_refusal_names_limit_and_margin(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*_: object) -> None:
+        raise CannotBuildError("too long", "room", -3.0)
+
+    monkeypatch.setattr("jumpcad.building.build", refused)
+    code, out, _ = run("check", "kenan-2.0", "--json")
+    document = {"verdict": "cannot_build", "message": "too long", "limit": "room", "margin": -3.0, "unit": "mm"}
+    assert (code, json.loads(out)) == (1, document)
 
 
 def test_a_bug_is_exit_code_3_with_its_traceback(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

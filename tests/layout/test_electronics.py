@@ -37,11 +37,13 @@ def test_sizes_are_those_of_what_lies_on_the_trays() -> None:
     assert CARRIED.battery_mm == pytest.approx(CARRIED.length_mm / 2 - battery.length_mm / 2 - 1.7 - lead)
 
 
-def test_what_lies_on_a_tray_has_its_own_place_between_the_plates() -> None:
+@pytest.mark.parametrize(("wall_mm", "play_mm"), [(0.8, 0.2), (0.54, 0.14), (0.8, 0.35), (1.2, 0.2), (1.2, 0.5)])
+def test_what_lies_on_a_tray_has_its_own_place_between_the_plates(wall_mm: float, play_mm: float) -> None:
+    """And the tray, which is narrower by its play, has a printable wall around and between all slots."""
     parts = CATALOGUE.components
     full = replace(
         CARRIED, regulator=CATALOGUE.boards["s7v7f5"],
-        plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"],
+        plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"], wall_mm=wall_mm, play_mm=play_mm,
     )  # fmt: skip
     inside = (-full.width_mm / 2.0, full.width_mm / 2.0)
     boxes = {
@@ -51,12 +53,13 @@ def test_what_lies_on_a_tray_has_its_own_place_between_the_plates() -> None:
     }  # fmt: skip
     slots = [shapely.box(x - w / 2, y - h / 2, x + w / 2, y + h / 2)
              for pairs in full.tie_slots(inside).values() for x, y, (w, h) in pairs]  # fmt: skip
-    tray = shapely.box(-full.length_mm / 2, inside[0], full.length_mm / 2, inside[1])
+    tray = shapely.box(-full.length_mm / 2, inside[0] + play_mm, full.length_mm / 2, inside[1] - play_mm)
     upper = [box for role, box in boxes.items() if role != "battery"]
     assert len(upper) == 5
     assert len(slots) == 10
     assert all(tray.covers(box) for box in boxes.values())
-    assert all(tray.buffer(-0.8).covers(slot) for slot in slots)
+    assert all(tray.buffer(1e-6 - wall_mm).covers(slot) for slot in slots)
+    assert all(one.distance(other) > wall_mm - 1e-6 for one, other in itertools.combinations(slots, 2))
     for one, other in itertools.combinations([*upper, *slots], 2):
         assert one.intersection(other).area < 1e-6
 

@@ -191,10 +191,29 @@ def test_sliders_hold_the_design_and_reset(studio: Studio) -> None:
 def test_a_saved_design_is_read_again_and_a_users_file_is_kept(studio: Studio, tmp_path: Path) -> None:
     studio._run_action(studio._save)
     assert load_design(tmp_path / "kenan-2.0-studio.toml") == studio.design
-    (tmp_path / "kenan-2.0-studio.toml").write_text("mine")
     studio._run_action(studio._save)
-    assert "not possible" in studio.status.content
-    assert (tmp_path / "kenan-2.0-studio.toml").read_text() == "mine"
+    assert [path.name for path in tmp_path.iterdir()] == ["kenan-2.0-studio.toml"]
+    for name in ("kenan-2.0-studio.toml", "kenan-2.0-studio-2.toml"):
+        (tmp_path / name).write_text("mine")
+    studio.sliders["e_coef"].value = 1.1
+    studio._run_action(studio._save)
+    assert studio.status.content == f"saved {tmp_path / 'kenan-2.0-studio-3.toml'}"
+    assert load_design(tmp_path / "kenan-2.0-studio-3.toml").e_coef == 1.1
+    assert {(tmp_path / name).read_text() for name in ("kenan-2.0-studio.toml", "kenan-2.0-studio-2.toml")} == {"mine"}
+
+
+@pytest.mark.parametrize(("key", "half"), [("compression_ratio", 0.0), ("carrying_link_mm", 1.0), ("c_coef", -5.0)])
+def test_half_a_number_typed_is_told_and_changes_nothing(studio: Studio, key: str, half: float) -> None:
+    """A browser sends a number after every key: "0" on the way to "0.9"."""
+    before, studio._wanted = studio.sliders[key].value, None
+    studio.sliders[key].value = half
+    studio._ask()
+    assert studio.quick.content.startswith(f"**no design**: {key} = {half}: must be ")
+    assert studio._wanted is None
+    studio.sliders[key].value = before
+    studio._ask()
+    assert studio._wanted == studio.design
+    assert studio.quick.content == capsule_answer(studio.design)
 
 
 def test_the_answer_at_once_is_the_capsule_robots() -> None:
