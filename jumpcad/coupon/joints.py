@@ -76,8 +76,11 @@ def steps_mm(fit_mm: float, step_mm: float = STEP_MM) -> tuple[float, ...]:
 
 
 def rib_steps_mm(fits: Fits) -> tuple[float, ...]:
-    """Return the overlaps of ribs and shaft in the three bores; none is negative."""
-    return steps_mm(max(fits.rib_mm, STEP_MM))
+    """Return the overlaps of ribs and shaft in the three bores; none is negative.
+
+    Where the bore itself is smaller than the shaft, the first has ribs that just vanish in it.
+    """
+    return steps_mm(max(fits.rib_mm, STEP_MM, STEP_MM - fits.press_mm))
 
 
 def _motor(workshop: Workshop) -> Motor:

@@ -20,6 +20,12 @@ class TomlTable(BaseModel):
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True, strict=True)
 
+    def __setattr__(self, name: str, _: Any) -> None:
+        raise JumpcadError(
+            f"{type(self).__name__}.{name} cannot be changed: make a copy that differs, "
+            f"copy = old.model_copy(update={{{name!r}: …}})"
+        )
+
 
 class Record(TomlTable):
     """A `TomlTable` that users give by keyword, in Python or in a TOML file; errors are `JumpcadError`."""

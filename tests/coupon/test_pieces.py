@@ -12,7 +12,7 @@ from support.fits import with_fits_apart
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.joints import joint_pieces
-from jumpcad.coupon.pieces import Piece, _holder, coupon_holes, pieces, series_of
+from jumpcad.coupon.pieces import Piece, _holder, coupon_holes, pieces, pinion, series_of
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
 from jumpcad.solids.stl import write_stl
@@ -158,6 +158,14 @@ def test_series_reach_beyond_the_fits_on_both_sides() -> None:
         assert np.ptp(np.diff(steps.axle_mm)) == pytest.approx(0.0, abs=1e-9)
     tight = series_of(coupon_holes(changed("fits", backlash_circumferential_mm=0.0)))
     assert tight.backlash_mm == (0.0, 0.05, 0.1)
+
+
+def test_pinions_keep_their_tips_whatever_the_backlash() -> None:
+    """Teeth of a module of 1.25 mm that are 0.7 mm thinner would be pointed."""
+    for backlash in (0.4, 0.6, 1.0):
+        steps = series_of(coupon_holes(changed("fits", backlash_circumferential_mm=backlash))).backlash_mm
+        assert steps == pytest.approx((0.3, 0.35, 0.4, 0.45, 0.5))
+    assert pinion(steps[-1]).tip_thickness_mm > 0.15
 
 
 def test_legs_without_a_bearing_need_no_seats() -> None:
