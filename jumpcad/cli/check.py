@@ -78,7 +78,7 @@ def check(
 def is_tight(finding: "Finding") -> bool:
     """Tell whether a limit that holds is nearly reached: used by `TIGHT` or more, or without a margin."""
     if finding.use is not None:
-        return finding.use >= TIGHT
+        return finding.use > 1.0
     return margin_in_words(finding) == "at the limit"
 
 

@@ -71,7 +71,7 @@ def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) 
         "ignored": {key: {"asked": asked, "used": used} for key, (asked, used) in found.ignored.items()},
         "parts": [vars(part) | {"difference": part.difference} for part in found.parts],
         "plates": [vars(plate) for plate in found.plates],
-        "grams": sum(plate.grams for plate in found.plates),
+        "grams": sum(part.grams for part in found.parts),
         "time_s": sum(plate.time_s for plate in found.plates),
         "workshop": write_masses and str(write_masses),
         "written": found.billed,

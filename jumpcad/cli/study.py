@@ -110,7 +110,7 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
         "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])),
         "evaluations": len(proposed),
         "other_evaluations": len(trials) - len(proposed),
-        "refused": count_rejections(proposed),
+        "refused": count_rejections(trials),
         "evaluation_time_s": sum(trial.duration_s for trial in trials),
         "best": top[0].to_dict() if top else None,
         "top": [{"trial": numbers[trial.position], **trial.to_dict()} for trial in top[:best]],

@@ -96,7 +96,7 @@ def propose(
 
     def log_acquisition(points: Array) -> Array:
         value = posterior.log_improvement(points, best) + posterior.log_feasible(points)
-        return value if penalty is None else value - penalty(points)
+        return value
 
     candidates = [space.spread(CANDIDATES, generator)]
     for point in elite:

@@ -53,6 +53,16 @@ def test_lengths_are_those_of_a_robot_made_with_them() -> None:
     assert moved.linkage.l1 == made.linkage.l1
 
 
+def test_a_leg_goes_on_into_its_stop_with_the_torque_of_its_own_springs() -> None:
+    """Both are of the robot that was built: its stop, and springs that its design does not tell."""
+    design = load_design("kenan-2.0")
+    robot = capsule_robot(design)
+    joints = tuple(replace(one, upper_rad=0.08, effort_nm=0.9) if one.name == "leg" else one for one in robot.joints)
+    longer = design.model_copy(update={"c_coef": design.c_coef + 0.004})
+    leg = with_lengths(replace(robot, joints=joints), longer).joint("leg")
+    assert (leg.lower_rad, leg.upper_rad, leg.effort_nm) == (-longer.compression_rad, 0.08, 0.9)
+
+
 def test_links_are_longer_by_their_errors_and_nothing_else_changes() -> None:
     design = load_design("kenan-2.0")
     changed = with_length_errors(design, np.array([0.2, -0.1, 0.15, 0.05]))

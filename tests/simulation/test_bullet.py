@@ -6,10 +6,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support.built import built
 from support.machines import let_go
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Friction
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
@@ -140,6 +142,26 @@ def test_the_pins_rub_once_and_at_the_leg() -> None:
         assert world._dry_nm == pytest.approx([0.003 + pins, 0.003, 0.003])
     with engine_named("pybullet").world(plain, Settings()) as world:
         assert world._dry_nm == [0.0, 0.0, 0.0]
+
+
+def test_a_stop_s_pad_halts_the_leg_within_one_of_the_settings_steps() -> None:
+    """By no more than the leg's inertia times its rate over the step, where the pad is stiffer."""
+    robot = built("kenan-2.0")
+    assert robot.stop is not None
+    beyond, rate = robot.stop.angle_rad + 0.5, 1e-3
+    inertia = leg_inertia_kg_m2(robot, robot.stop.angle_rad)
+    for dt_s in (0.0005, 0.0001):
+        with engine_named("pybullet").world(robot, Settings(dt_s=dt_s)) as world:
+            assert world._pad.torque_nm(beyond, rate) == pytest.approx(inertia * rate / dt_s)
+
+
+def test_a_foot_that_slides_loses_energy_also_without_pads_of_its_own(kenan: Robot) -> None:
+    """On ice; on the study's floor, on which no foot slides, nothing is looked up."""
+    icy, dry = (simulate(kenan, Settings(ground_friction=ground)).energy for ground in (0.1, None))
+    assert icy is not None
+    assert dry is not None
+    assert icy.slip_j > 0.001 * kenan.spring.energy_j
+    assert dry.slip_j == 0.0
 
 
 def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:

@@ -4,6 +4,7 @@ import queue
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ from jumpcad.workshop import load_workshop
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Points, Studio, app, inputs  # noqa: E402
-from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
+from jumpcad.studio.answers import Printed, capsule_answer, printed_answer  # noqa: E402
 from jumpcad.studio.app import BY_NUMBER  # noqa: E402
 
 
@@ -202,7 +203,7 @@ def test_the_answer_at_once_is_the_capsule_robots() -> None:
     assert "190 mm" in words  # the README's range with the study's masses
 
 
-def test_the_workshop_can_be_changed(studio: Studio) -> None:
+def test_the_workshop_can_be_changed(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
     """The panel names the one that is used, which at first is the first; what is there to choose is all."""
     assert studio.choice.options == ("default", "fine")
     assert studio.choice.value == "default"
@@ -210,6 +211,10 @@ def test_the_workshop_can_be_changed(studio: Studio) -> None:
     studio.choice.value = "fine"
     assert studio._change_workshop() == "workshop fine"
     assert studio.workshop == load_workshop("fine")
+    built: list[Any] = []
+    monkeypatch.setattr(app, "printed_answer", lambda *given: built.append(given) or Printed(given[0], reason="none"))
+    studio.answer(studio.design)
+    assert built == [(studio.design, load_workshop("fine"), "kenan-2.0")]
     assert {key: slider.value for key, slider in studio.sliders.items()} == load_design("kenan-2.0").model_dump()
 
 
