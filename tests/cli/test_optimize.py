@@ -23,6 +23,7 @@ from jumpcad.findings import Finding
 from jumpcad.search import study
 from jumpcad.search.models import robot_model
 from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
+from jumpcad.search.space import Space
 from jumpcad.search.widening import Widened
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -69,13 +70,18 @@ def test_each_option_reaches_the_search(folder, monkeypatch, method, words, more
     monkeypatch.setattr("jumpcad.search.pool.open_pool", lambda *how: nullcontext(how))
     Path("shop.toml").write_text('[springs.own]\nlike = "9271K619"\nsource = "a test"\n')
     words = [*words, "--evaluations", 60, "--seed", 4, "--preset", "published", "--from-study", "before.db"]
+    words += ["--objective", "rise", "--around", "kenan-2.0", "--only", "c_coef, rest_angle_deg", "--within", 5]
     words += ["--hours", 2, "--workers", 3, "--limit", 7, "--engine", "planar", "--study", "mine.db"]
     if method == "bo":
         words += ["--workshop", "shop.toml", "--choose", "bought.spring=own,9271K619"]
     assert "enough" in refusal("optimize", method, *words)
     ((request, path, pool),) = asked
     more = more | {"evaluations": 60, "seed": 4, "preset": "published", "prior": Path("before.db"), "hours": 2.0}
+    more |= {"objective": "rise"}
     assert {name: getattr(request, name) for name in more} == more
+    of_design = [one for one in request.space.free if one not in request.space.of_workshop]
+    near = Space.make(around=load_design("kenan-2.0"), only=["c_coef", "rest_angle_deg"], within_percent=5)
+    assert of_design == list(near.free)
     assert (request.method, request.model.engine, path, pool) == (method, "planar", Path("mine.db"), (3, None, 7.0))
     assert [one.names for one in request.space.of_workshop] == ([("own", "9271K619")] if method == "bo" else [])
 

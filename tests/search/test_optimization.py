@@ -91,8 +91,12 @@ def test_each_option_reaches_the_search(monkeypatch, method, more):
     monkeypatch.setattr("jumpcad.search.optimization.run_study", lambda *study: study)
     monkeypatch.setattr("jumpcad.search.optimization.open_pool", lambda *how: nullcontext(how))
     more |= {"evaluations": 60, "seed": 4, "preset": "published", "prior": Path("before.db"), "hours": 2.0}
+    more |= {"objective": "rise"}
     how = {"workers": 3, "limit_s": 7.0, "engine": "planar", "study": "mine.db"}
-    request, path, pool = jumpcad.optimize(method, **more, **how)
+    near = {"around": "kenan-2.0", "only": ["c_coef", "rest_angle_deg"], "within_percent": 5}
+    request, path, pool = jumpcad.optimize(method, **more, **how, **near)
+    assert request.space == jumpcad.search.Space.make(**near | {"around": jumpcad.load_design("kenan-2.0")})
+    assert [parameter.name for parameter in request.space.free] == near["only"]
     assert {name: getattr(request, name) for name in more} == more
     assert (request.method, request.model.engine, path, pool) == (method, "planar", Path("mine.db"), (3, None, 7.0))
 

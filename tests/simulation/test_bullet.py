@@ -6,12 +6,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.built import built
 from support.machines import let_go
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Friction
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
@@ -144,17 +142,6 @@ def test_the_pins_rub_once_and_at_the_leg() -> None:
         assert world._dry_nm == [0.0, 0.0, 0.0]
 
 
-def test_a_stop_s_pad_halts_the_leg_within_one_of_the_settings_steps() -> None:
-    """By no more than the leg's inertia times its rate over the step, where the pad is stiffer."""
-    robot = built("kenan-2.0")
-    assert robot.stop is not None
-    beyond, rate = robot.stop.angle_rad + 0.5, 1e-3
-    inertia = leg_inertia_kg_m2(robot, robot.stop.angle_rad)
-    for dt_s in (0.0005, 0.0001):
-        with engine_named("pybullet").world(robot, Settings(dt_s=dt_s)) as world:
-            assert world._pad.torque_nm(beyond, rate) == pytest.approx(inertia * rate / dt_s)
-
-
 def test_a_foot_that_slides_loses_energy_also_without_pads_of_its_own(kenan: Robot) -> None:
     """On ice; on the study's floor, on which no foot slides, nothing is looked up."""
     icy, dry = (simulate(kenan, Settings(ground_friction=ground)).energy for ground in (0.1, None))
@@ -169,7 +156,7 @@ def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:
     bullet = pytest.importorskip("pybullet")
     settings = Settings(
         dt_s=0.0004, solver_iterations=77, restitution=0.25, rolling_friction_m=0.001, spinning_friction_m=0.002,
-        foot_friction=0.8, body_friction=0.3,
+        foot_friction=0.8, body_friction=0.3, gravity_m_s2=1.62,
     )  # fmt: skip
     rubs = coefficients(kenan, settings)
     with engine_named("pybullet").world(kenan, settings) as world:
@@ -183,6 +170,7 @@ def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:
             assert joint[13] == (0.0, 1.0, 0.0)
         asked = bullet.getPhysicsEngineParameters(physicsClientId=client)
         assert (asked["fixedTimeStep"], asked["numSolverIterations"], asked["numSubSteps"]) == (0.0004, 77, 0)
+        assert [asked[f"gravityAcceleration{axis}"] for axis in "XYZ"] == [0.0, 0.0, -1.62]
         assert bullet.getNumBodies(physicsClientId=client) == 2
         assert world.loaded() or world.advance(3) < 0.0
     assert bullet.getNumBodies(physicsClientId=client) == 1  # the ground
