@@ -70,7 +70,8 @@ def test_a_guess_is_the_jump_of_the_robot_with_the_fitted_figures(monkeypatch):
     guesser = Guesser(SPACE, quick(), find_objective("range"), "pybullet", first_trial())
     one = np.eye(45)[0]
     constant = {name: value * one for name, value in FIGURES.items() if name != "body_mass_kg"}
-    fit = Fit(0, constant | {"size_m": 0.1 * one, "log body_mass_kg": np.eye(45)[1] - 3.0 * one}, {})
+    fitted = {"size_m": 0.1 * one, "ballistic_range_m": 9.0 * one}  # a range is a figure of robots too: not of this one
+    fit = Fit(0, constant | fitted | {"log body_mass_kg": np.eye(45)[1] - 3.0 * one}, {})
     for share in (0.3, 0.8):
         point = SPACE.to_unit(BEST)
         point[0] = share
