@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -186,6 +187,20 @@ def test_a_made_robot_jumps_with_the_settings_and_the_engine_that_are_asked_for(
     evaluation.evaluate_made(KENAN, None, fine, "planar", lambda one, given: (worn, icy))
     assert asked == [(robot, fine, "mujoco"), (robot, Settings(), "planar"), (worn, icy, "planar")]
     assert (got.robot, got.jump, got.findings) == (robot, jump, (*jump.findings, finding))
+
+
+def test_what_is_made_is_designed_in_the_workshop_that_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Once for all that is made of one design, and again in another workshop."""
+    robot, solid, designed = built("kenan-2.0"), changed(mass={"model": "solid"}), []
+    monkeypatch.setattr(evaluation, "_designed", lru_cache(maxsize=1)(evaluation._designed.__wrapped__))
+    monkeypatch.setattr(
+        evaluation, "built_and_checked", lambda *order, name: designed.append((*order, name)) or (robot, [])
+    )
+    jump = simulate(robot, engine="planar")
+    monkeypatch.setattr(evaluation, "simulate", lambda *_: jump)
+    for workshop in (solid, solid, None):
+        evaluation.evaluate_made(KENAN, workshop, None, "planar", lambda one, given: (one, given))
+    assert designed == [(KENAN, solid, ""), (KENAN, None, "")]
 
 
 @pytest.mark.parametrize(("reach_m", "extent_m", "size_m"), [(0.8, 0.2, 0.2), (0.8, 0.1, 0.16), (None, 0.2, 0.2)])

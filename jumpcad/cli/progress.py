@@ -94,7 +94,7 @@ def watching(total: int, quiet: bool, clock: Callable[[], float] = time.monotoni
                 progress.console.print(warning, markup=False) if terminal else _print_line(warning)
             if terminal:
                 line = tally.line().removeprefix(f"{tally.phase}: ")
-                progress.update(task, completion=tally.done, total=tally.total, description=tally.phase, line=line)
+                progress.update(task, completed=tally.done, total=tally.total, description=tally.phase, line=line)
             elif computed and clock() - printed_s >= LINE_EVERY_S:
                 printed_s = clock()
                 _print_line(tally.line())

@@ -174,7 +174,7 @@ def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = No
 def _of_workshop(change: Change, workshop: Workshop) -> SearchParameter:
     """Return a parameter that is a value of the workshop, which checks every value.
 
-    If the workshop's own value is a whole number, the parameter's choices are whole numbers.
+    If the workshop's own value is a whole number, the parameter's choices are the whole numbers of its range.
     """
     name, held = change.name, workshop_value(workshop, change.name)
     values = [_tried(workshop, name, value) for value in change.values]
@@ -182,8 +182,13 @@ def _of_workshop(change: Change, workshop: Workshop) -> SearchParameter:
     if not texts:
         parameter = _parameter(change, [float(value) for value in values])
         if isinstance(held, int) and parameter.free and not parameter.choices:
-            whole = tuple(map(float, range(math.ceil(parameter.lower), math.floor(parameter.upper) + 1)))
-            return replace(parameter, choices=whole)
+            whole = [float(number) for number in range(math.ceil(parameter.lower), math.floor(parameter.upper) + 1)]
+            if not whole:
+                asked = f"{parameter.lower:g}:{parameter.upper:g}"
+                raise JumpcadError(
+                    f"{name} = {asked} holds no whole number, and it takes nothing else: widen the range"
+                )
+            return _parameter(Change("choose", name, ()), whole)
         return parameter
     if change.kind == "bound" or len(texts) < len(values):
         raise JumpcadError(f"{name}: names and numbers do not mix: choose among names, or give a range of numbers")

@@ -17,11 +17,12 @@ from support.elsewhere import environment
 from support.places import ROOT
 
 from jumpcad.building import build
-from jumpcad.building.assembly import _contacts, _printed, layout_of
+from jumpcad.building.assembly import _contacts, _friction, _printed, _sensor_needs, layout_of
 from jumpcad.design import Design, load_design
+from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Friction
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.stl import write_stl
@@ -278,7 +279,8 @@ def test_stop_plates_and_toes_are_those_of_the_workshops_body() -> None:
     """A degree farther and 0.4 mm thicker than in the default workshop, and toes with bars across them."""
     usual = load_workshop().body
     wanted = {"stop_deg": usual.stop_deg + 1.0, "plate_mm": usual.plate_mm + 0.4, "toe_half_width_mm": 65.0}
-    layout, _ = layout_of(KENAN, changed(body=wanted))
+    layout, _ = layout_of(KENAN, changed(body=wanted, bought={"axle_mm": 2.0, "leg_bearing": ""}))
+    assert layout.axle_mm == 2.0
     assert math.degrees(layout.stop.angle_rad) == pytest.approx(wanted["stop_deg"])
     for low, high in (layout.lateral.left_plate, layout.lateral.right_plate):
         assert high - low == pytest.approx(wanted["plate_mm"])
@@ -335,6 +337,9 @@ def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
     assert robot.layout.hub_bearing is not None
     assert robot.friction.pin_radius_m == (0.0, 0.0015, 0.0015, 0.0015)
     assert build(load_design("kenan-2.0"), plain).friction.pin_radius_m == (0.0015,) * 4
+    rough = changed(pins={"friction": 0.4}, ground={"friction": 0.7, "bare_friction": 0.5})
+    rubbing = Friction(foot=0.7, body=0.5, pin=0.4, pin_radius_m=(0.0, 0.002, 0.002, 0.002))
+    assert _friction(replace(robot.layout, axle_mm=4.0), rough) == rubbing
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -347,6 +352,9 @@ def test_the_sensors_place_knows_the_workshops_errors_and_how_far_the_cam_runs_o
     assert needs.reserve_rad == pytest.approx(math.radians(seats.sensor_reserve_deg))
     assert needs.layer_mm == robot.workshop.process.layer_height_mm
     assert needs.part.name == robot.workshop.bought.sensor
+    late = changed(seats={"sensor_stop_s": 0.08})
+    slower = _sensor_needs(late, chosen_parts(late), robot.layout.drive)
+    assert slower.stop_rad == pytest.approx(0.08 / seats.sensor_stop_s * needs.stop_rad, rel=1e-4)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -405,6 +413,9 @@ def test_nothing_that_is_bought_is_left_out() -> None:
     assert {name: bought[name] for name in needed} == needed
     names = [item.name for item in built("kenan-2.0").hardware]
     assert len(set(names)) == len(names)
+    soles = {item.article for item in built("kenan-2.0").hardware if re.match("nose_pad|toe_pad", item.name)}
+    assert soles
+    assert all(article.startswith(load_workshop().foot_pad.description) for article in soles)
     standoffs = len(built("kenan-2.0").layout.standoffs_mm)
     assert bought["standoff"] == standoffs >= 2
     for number in range(1, standoffs + 1):

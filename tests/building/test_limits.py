@@ -82,6 +82,7 @@ def test_the_default_workshop_has_the_limits_of_its_comments() -> None:
     assert (found.cam.roller_radius_mm, found.cam.cam_width_mm) == (5.0, 4.0)
     assert found.cam.roller_load_n == pytest.approx(220.0 / (1.1 * 1.05))  # static rating of a 623, both reserves
     assert limits(load_workshop()).motors == ("n20-298-mp",)
+    assert (found.preload_rad, limits(changed("spring", preload_deg=4.0)).preload_rad) == (0.0, math.radians(4.0))
 
 
 def test_reserves_are_kept_on_the_side_where_it_is_harder() -> None:
@@ -98,6 +99,8 @@ def test_reserves_are_kept_on_the_side_where_it_is_harder() -> None:
     stiffest = safety.motor_torque_max_nm / (1.0 + safety.spring_rate_scatter)
     assert none.train.torque_max_nm == pytest.approx(stiffest)
     assert much.train.torque_max_nm == pytest.approx(0.7 * stiffest)
+    assert none.train.stall_share == pytest.approx(safety.motor_stall_share / (1.0 + safety.spring_rate_scatter))
+    assert much.train.stall_share == pytest.approx(0.7 * none.train.stall_share)
 
 
 def test_springs_that_last_longer_are_stressed_less() -> None:
@@ -108,6 +111,7 @@ def test_springs_that_last_longer_are_stressed_less() -> None:
 def test_a_thick_lever_or_dog_pushes_the_cam_away() -> None:
     workshop, holes = load_workshop(), HoleSizes.of(load_workshop(), None)
     thick = drive_limits(workshop, ROLLER, replace(SECTIONS, lever_root_mm=20.0, dog_mm=20.0), holes)
+    assert thick.dog_mm == 20.0
     usual = limits(workshop)
     assert thick.cam.gap_min_mm == pytest.approx(usual.cam.gap_min_mm + 10.0 - 4.5)
     corner = (20.0 - SECTIONS.dog_mm) / 2.0

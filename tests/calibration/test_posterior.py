@@ -3,11 +3,13 @@
 import math
 import sys
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from jumpcad.calibration import posterior as module
 from jumpcad.calibration.likelihood import CalibrationParameter, Datum, Model, Predicted
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, _residual, _verdict, require_data, sampled
@@ -69,6 +71,13 @@ def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: Calibra
     assert first.walkers == 8 * len(posterior.model.parameters)
     assert first.steps == SHORTEST["steps"] - SHORTEST["steps"] // 3  # a third is burn-in, and is not kept
     assert len(first.z) == first.steps * first.walkers
+
+
+def test_a_calibration_is_of_each_robot_that_is_named_and_drawn_by_its_seed(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, made in (("load_subject", lambda name: SimpleNamespace(name=name)), ("Model", list)):
+        monkeypatch.setattr(module, name, made)
+    monkeypatch.setattr(module, "sampled", lambda model, seed=0: ([subject.name for subject in model], seed))
+    assert module.calibrate(["kenan-1.0", "kenan-2.0"], 7) == (["kenan-1.0", "kenan-2.0"], 7)
 
 
 def test_distance_of_an_unknown_kind_is_wider(subject: Subject, posterior: CalibrationPosterior) -> None:

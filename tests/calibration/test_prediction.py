@@ -44,6 +44,16 @@ def test_shared_parameters_are_those_of_the_calibration(posterior: CalibrationPo
     )
 
 
+def test_springs_that_robots_share_are_those_of_the_calibration(
+    posterior: CalibrationPosterior, subject: Subject
+) -> None:
+    shared = posterior.values["rate:kenan-2.0"]
+    found = predicted_jump(posterior, twin(subject, jumps=JUMPS, spring={"pair": "kenan-2.0"}))
+    assert found.values["rate:kenan-2.0"] is shared
+    (rate,) = (one for one in explanations(found, 0.3) if one.unit == "N·mm/°")
+    assert rate.predicted == pytest.approx(subject.rate_nmm_per_deg * np.median(shared))
+
+
 def test_what_stays_open_is_drawn_by_the_seed(posterior: CalibrationPosterior, subject: Subject) -> None:
     other = twin(subject, jumps=JUMPS, mass={"robot_g": 103.0})
     draws = [predicted_jump(posterior, other, seed).values["floor:twin"].tolist() for seed in (0, 0, 1)]

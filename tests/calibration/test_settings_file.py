@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.calibration.settings_file import DIGITS, SAVED, settings_toml
+from jumpcad.calibration.settings_file import DIGITS, SAVED, elsewhere, settings_toml
 
 
 def posterior(*shapes: str, **more: Any) -> Any:
@@ -31,6 +31,22 @@ def test_what_settings_do_not_take_is_cut_off() -> None:
     draws = tomllib.loads(settings_toml(posterior("uniform", **wild)))["draws"]
     assert (min(draws["spring_efficiency"]), max(draws["spring_efficiency"])) == (0.1, 1.5)
     assert (min(draws["pin_friction"]), max(draws["pin_friction"])) == (0.0, 2.0)
+
+
+def test_what_is_found_of_a_robot_is_told_for_the_place_where_it_stands() -> None:
+    """The floor of feet with or without pads; the rate of a shared pair of springs, from stock or made to order."""
+    found = {"rate:ours": np.full(991, 1.25), "floor:k2": np.full(991, 0.3)}
+    told = posterior("lognormal", "uniform", "lognormal", **found)
+    stock = SimpleNamespace(name="9271K619", rate_nmm_per_deg=8.0)
+    for subject, pad, spring in zip(told.model.subjects, ("rubber", "rubber", ""), (None, stock, None), strict=True):
+        subject.pair = "ours"
+        shop = SimpleNamespace(ground=SimpleNamespace(pad=pad), stock_spring=spring)
+        subject.robot = SimpleNamespace(workshop=shop, design=SimpleNamespace(stiffness_nmm_per_deg=20.0))
+    assert list(elsewhere(told)) == [
+        "k0, in its workshop: [ground] friction = 0.70", "k0, in its design: stiffness_nmm_per_deg = 25",
+        "k1, in [springs.9271K619]: rate_nmm_per_deg = 10",
+        "k2, in its workshop: [ground] bare_friction = 0.30", "k2, in its design: stiffness_nmm_per_deg = 25",
+    ]  # fmt: skip
 
 
 def test_robots_and_drive_are_told_in_the_heading() -> None:

@@ -1,6 +1,7 @@
 """Measurements against the robot that was built: units, contradictions, priors."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -15,6 +16,7 @@ from jumpcad.calibration.subject import (
     LARGEST_FACTOR,
     Subject,
     _require_energy,
+    _require_plausible,
     _require_unit,
     _with_weights,
     load_subject,
@@ -27,7 +29,7 @@ from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump
 from jumpcad.transforms import Array
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, varied
 
 HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
 FAR, HIGH = '[[jumps]]\ndistance_of = "first-touchdown"\n', '[[jumps]]\nheight_of = "rise"\n'
@@ -95,7 +97,11 @@ def test_priors_follow_what_was_measured(subject: Subject) -> None:
     nothing = subject.remeasured(Measurements(**said))
     assert (nothing.mass.first, nothing.rate.first, nothing.floor.shape) == (1.0, 1.0, "uniform")
     assert nothing.rate.second == subject.robot.workshop.safety.spring_rate_scatter / 2.0
+    loose = varied(subject.robot.workshop, {"safety.spring_rate_scatter": 0.3})
+    assert replace(nothing, robot=replace(subject.robot, workshop=loose)).rate.second == 0.15
     grams = 1000.0 * subject.robot.mass_kg
+    rough = subject.remeasured(Measurements(**said, mass={"robot_g": grams, "robot_error_g": 0.05 * grams}))
+    assert (rough.mass.first, rough.mass.second) == pytest.approx((1.0, 0.05))
     much = subject.remeasured(
         Measurements(
             **said,
@@ -132,8 +138,25 @@ def test_weighed_parts_count_in_the_model(tmp_path: Path) -> None:
 
 def test_a_design_beside_the_measurements(tmp_path: Path, subject: Subject) -> None:
     (tmp_path / "own.toml").write_text(subject.robot.design.to_toml())
-    (tmp_path / "mine.toml").write_text(HEAD.replace("kenan-2.0", "own.toml"))
-    assert load_subject(tmp_path / "mine.toml").robot.design == subject.robot.design
+    (tmp_path / "shop.toml").write_text("[body]\nplate_mm = 2.05\n")
+    (tmp_path / "mine.toml").write_text(HEAD.replace("kenan-2.0", "own.toml") + 'workshop = "shop.toml"\n')
+    built = load_subject(tmp_path / "mine.toml").robot
+    assert built.design == subject.robot.design
+    assert built.workshop == varied(load_workshop(), {"body.plate_mm": 2.05})
+    assert built.mass_kg < subject.robot.mass_kg
+
+
+def test_a_pull_along_the_floor_is_compared_with_the_weight_on_the_scale(
+    subject: Subject, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With the model's where nothing is weighed."""
+    asked: list[float] = []
+    monkeypatch.setattr(subject_module, "contradictions", lambda _, standing, weight: asked.append(weight) or ())
+    monkeypatch.setattr(subject_module, "simulate", lambda *_: None)
+    said = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
+    for mass in ({}, {"robot_g": 150.0}):
+        _require_plausible(subject.remeasured(Measurements(**said, mass=mass)), "mine.toml")
+    assert asked == pytest.approx([9.81 * subject.robot.mass_kg, 9.81 * 0.15])
 
 
 def test_names_of_robots_differ(subject: Subject) -> None:

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from jumpcad.calibration import surface as module
 from jumpcad.calibration.priors import FLOOR
 from jumpcad.calibration.subject import Subject
-from jumpcad.calibration.surface import DT_S, FINE, NODES, Surface, _line, surface_of
+from jumpcad.calibration.surface import CHECKED_POINTS, DT_S, FINE, NODES, Surface, _line, surface_of
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
@@ -32,6 +33,15 @@ def test_its_error_is_said(surface: Surface) -> None:
     """A coarse grid: within 1 % where the foot sticks, within 5 % where it begins to slip."""
     assert 0.0 < surface.error < 0.01
     assert surface.errors.max() < 0.05
+
+
+def test_its_error_is_that_of_jumps_with_its_own_settings(surface: Surface, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    jump = Jump("jump", "planar", 0.1, 0.2, ballistic_range_m=0.5)
+    monkeypatch.setattr(module, "_jump", lambda robot, settings, *point: asked.append(settings) or jump)
+    light = Settings(dt_s=DT_S, gravity_m_s2=5.0)
+    assert len(replace(surface, settings=light).errors) > 0
+    assert asked == [light] * CHECKED_POINTS
 
 
 def test_weaker_springs_are_a_heavier_robot(subject: Subject) -> None:

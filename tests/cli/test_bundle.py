@@ -24,7 +24,7 @@ from jumpcad.findings import at_most
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.robot import Robot
-from jumpcad.simulation import Jump
+from jumpcad.simulation import Jump, Settings
 
 
 def test_a_bundle_has_what_the_contract_says(bundle: Path) -> None:
@@ -36,6 +36,20 @@ def test_a_bundle_has_what_the_contract_says(bundle: Path) -> None:
         "urdf/meshes/motor.stl", "dxf/body_plate_left.dxf",
     } <= files  # fmt: skip
     assert any(file.startswith("print/") and file.endswith(".3mf") for file in files)
+
+
+def test_what_is_drawn_is_built_in_the_workshop_that_is_named_and_flies_in_the_first_engine(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    jumped, robot = [], SimpleNamespace(name="frog")
+    jump = Jump("tips", "mujoco", 0.1, 0.2)
+    monkeypatch.setattr("jumpcad.cli.bundle.printed_robot", lambda *given: jumped.append(given) or robot)
+    monkeypatch.setattr("jumpcad.bundle.renders.renders", lambda _: {"rest": b"png"})
+    monkeypatch.setattr("jumpcad.simulation.simulate", lambda *given: jumped.append(given) or jump)
+    monkeypatch.setattr("jumpcad.simulation.engines.default_engine", lambda: "mujoco")
+    document = json.loads(run("render", "kenan-2.0", "--workshop", "light", "--json")[1])
+    assert jumped == [("kenan-2.0", "light"), (robot, Settings(flight="simulated", trajectory=True), "mujoco")]
+    assert document == {"folder": "frog-pictures", "files": ["rest.png"], "verdict": "tips"}
 
 
 def test_build_says_how_far_it_jumps_and_what_it_weighs(

@@ -103,6 +103,21 @@ def test_pictures_of_one_s_own_are_not_replaced_unasked(
     assert run(*command, "--force")[2] == "jumpcad: begun\n"
 
 
+def test_the_posterior_and_what_it_predicts_are_drawn_by_one_seed(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def predicting(*given: object) -> NoReturn:
+        asked.append(given)
+        raise JumpcadError("enough")
+
+    other = SimpleNamespace(name="other")
+    monkeypatch.setattr("jumpcad.calibration.calibrate", lambda files, seed=0: (files, seed))
+    monkeypatch.setattr("jumpcad.calibration.load_subject", lambda _: other)
+    monkeypatch.setattr("jumpcad.calibration.predicted_jump", predicting)
+    assert run("calibrate", "kenan-2.0", "--predict", "kenan-1.0", "--seed", 7)[2] == "jumpcad: enough\n"
+    assert asked == [((["kenan-2.0"], 7), other, 7)]
+
+
 def test_an_output_over_the_measurements(run: Run, tmp_path: Path) -> None:
     text = (templates_folder() / "measurements" / "kenan-2.0.toml").read_text()
     (tmp_path / "mine.toml").write_text(text)

@@ -43,6 +43,14 @@ def test_a_workshop_s_file_is_read_back_as_the_workshop(name: str, tmp_path: Pat
     tomllib.loads(text)
 
 
+def test_of_a_shipped_material_what_was_measured_is_written_and_nothing_else(tmp_path: Path) -> None:
+    """As `coupon --measured` lowers a strength."""
+    weaker = varied(DEFAULT, {"materials.PETG.strength_in_plane_mpa": 40.0})
+    text = commented_workshop(weaker, "here")
+    assert tomllib.loads(text)["materials"] == {"PETG": {"strength_in_plane_mpa": 40.0}}
+    assert read_back(text, tmp_path) == weaker
+
+
 def test_only_values_that_differ_are_other_lines() -> None:
     """Of a workshop with two other values, all comments stay beside theirs."""
     plain = commented_workshop(DEFAULT, "here").splitlines()

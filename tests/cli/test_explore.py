@@ -10,6 +10,7 @@ import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
 
 from jumpcad.cli import explore
+from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.explore import Sweep
 
@@ -58,6 +59,32 @@ def test_the_designs_that_progress_expects_are_those_that_a_view_evaluates(folde
     monkeypatch.setattr("jumpcad.cli.explore.watching", watching)
     data("explore", view, *QUICK, *NARROW, *options)
     assert (expected, len(done)) == ([designs], designs)
+
+
+@pytest.mark.parametrize(
+    ("view", "words", "maker", "given"),
+    [
+        ("sweep", ["--points", 7], "_swept", ("best-ga", 7)),
+        ("feasibility", ["--points", 7, "--over", "c_coef,e_coef"], "_mapped", ("best-ga", "c_coef,e_coef", 7)),
+        ("pca", ["--samples", 40, "--seed", 3], "_sampled", ("pca", 40, 3)),
+    ],
+)
+def test_a_view_is_of_what_is_asked_for(folder, monkeypatch, view, words, maker, given):
+    """And its study is known by that, so that another question does not go on with it."""
+    asked, identities = [], []
+    monkeypatch.setattr(explore, maker, lambda *values: asked.append(values))
+
+    def stop(path, identity):
+        identities.append(identity)
+        raise JumpcadError("enough")
+
+    monkeypatch.setattr("jumpcad.search.store.StudyStore.write", stop)
+    if view != "pca":
+        words, given = [*words, "--around", given[0]], (load_design(given[0]), *given[1:])
+    assert "enough" in refusal("explore", view, *QUICK, *words)
+    assert asked == [given]
+    around = load_design(explore.AROUND if view == "pca" else "best-ga").model_dump()
+    assert [(one["around"], one["seed"]) for one in identities] == [(around, 3 if view == "pca" else 0)]
 
 
 def test_views_tell_in_json_what_they_looked_at(folder):

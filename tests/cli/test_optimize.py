@@ -6,9 +6,11 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
 
+import pytest
 from support.commands import interruptible
 from support.searches import NARROW, QUICK, data, refusal, run
 from typer.testing import CliRunner
@@ -16,10 +18,12 @@ from typer.testing import CliRunner
 from jumpcad.cli import optimize
 from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search import study
 from jumpcad.search.models import robot_model
 from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
+from jumpcad.search.space import Space
 from jumpcad.search.widening import Widened
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -45,6 +49,41 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
     assert summary["evaluations"] + summary["other_evaluations"] == found["evaluations"]
     assert summary["best"]["score"] == found["best"]["score"]
     assert f"{found['best']['score']:.4f}" in run("study", "s.db")
+
+
+@pytest.mark.parametrize(
+    ("method", "words", "more"),
+    [
+        ("bo", ["--batch", 3, "--until", 1, "--widen"], {"batch": 3, "until_percent": 1.0, "widen": True}),
+        ("ga", ["--screen"], {"screen": True}),
+    ],
+)
+def test_each_option_reaches_the_search(folder, monkeypatch, method, words, more):
+    """Every value is another than the usual one; the workshop's own spring is one to choose."""
+    asked = []
+
+    def stop(*given):
+        asked.append(given[:3])
+        raise JumpcadError("enough")
+
+    monkeypatch.setattr(study, "run_study", stop)
+    monkeypatch.setattr("jumpcad.search.pool.open_pool", lambda *how: nullcontext(how))
+    Path("shop.toml").write_text('[springs.own]\nlike = "9271K619"\nsource = "a test"\n')
+    words = [*words, "--evaluations", 60, "--seed", 4, "--preset", "published", "--from-study", "before.db"]
+    words += ["--objective", "rise", "--around", "kenan-2.0", "--only", "c_coef, rest_angle_deg", "--within", 5]
+    words += ["--hours", 2, "--workers", 3, "--limit", 7, "--engine", "planar", "--study", "mine.db"]
+    if method == "bo":
+        words += ["--workshop", "shop.toml", "--choose", "bought.spring=own,9271K619"]
+    assert "enough" in refusal("optimize", method, *words)
+    ((request, path, pool),) = asked
+    more = more | {"evaluations": 60, "seed": 4, "preset": "published", "prior": Path("before.db"), "hours": 2.0}
+    more |= {"objective": "rise"}
+    assert {name: getattr(request, name) for name in more} == more
+    of_design = [one for one in request.space.free if one not in request.space.of_workshop]
+    near = Space.make(around=load_design("kenan-2.0"), only=["c_coef", "rest_angle_deg"], within_percent=5)
+    assert of_design == list(near.free)
+    assert (request.method, request.model.engine, path, pool) == (method, "planar", Path("mine.db"), (3, None, 7.0))
+    assert [one.names for one in request.space.of_workshop] == ([("own", "9271K619")] if method == "bo" else [])
 
 
 def test_what_optimize_finds_jumps_like_that(folder):

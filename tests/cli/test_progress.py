@@ -1,6 +1,9 @@
 """Progress of a search on standard error."""
 
+from io import StringIO
+
 import pytest
+from rich.progress import Progress
 from support.hills import SMALL, Hill
 
 from jumpcad.cli.progress import Tally, duration, watching
@@ -62,6 +65,21 @@ def test_one_line_a_minute_where_there_is_no_terminal(capfd):
     lines = capfd.readouterr().err.splitlines()
     assert len(lines) == 3  # 210 s
     assert lines[0].startswith("jumpcad: bo: 9 of 30 evaluations, best 5, 0.14/s, about 2 min left")
+
+
+def test_a_bar_on_a_terminal_is_as_long_as_the_share_that_is_done(monkeypatch):
+    """Also where the robust pick takes more than was asked for; what is done is told beside it."""
+    ended, stop, screen = [], Progress.stop, StringIO()
+    screen.isatty = lambda: True
+    monkeypatch.setattr("sys.stderr", screen)
+    monkeypatch.setattr(Progress, "stop", lambda bar: ended.extend(bar.tasks) or stop(bar))
+    for total, share in ((40, 25.0), (8, 100.0)):
+        with watching(total, False, Clock()) as watch:
+            for number in range(10):
+                watch(trial(number), True)
+        task = ended.pop()
+        assert (task.percentage, task.total, task.description) == (share, max(total, 10), "bo")
+        assert task.fields["line"].startswith(f"10 of {max(total, 10)} evaluations, best 5")
 
 
 def test_a_quiet_search_says_nothing(capfd):

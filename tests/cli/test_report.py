@@ -4,6 +4,7 @@ import json
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from support.commands import Run
@@ -20,6 +21,17 @@ def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, b
     assert (code, out.strip()) == (0, str(copy / "report.html"))
     assert 'id="viewer-glb"' in (copy / "report.html").read_text()  # built without pictures it had none
     assert run("verify", copy)[0] == 0
+
+
+def test_a_page_is_of_the_robot_of_the_workshop_that_is_named(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    built, robot = [], SimpleNamespace(name="frog")
+    monkeypatch.setattr("jumpcad.cli.report.printed_robot", lambda *given: built.append(given) or robot)
+    monkeypatch.setattr("jumpcad.bundle.export.report_page", lambda one, files: f"<p>{one.name}{len(files)}</p>")
+    assert run("report", "kenan-2.0", "--workshop", "light")[:2] == (0, "frog-report.html\n")
+    assert built == [("kenan-2.0", "light")]
+    assert "<p>frog0</p>" in (tmp_path / "frog-report.html").read_text()
 
 
 def test_an_edited_page_of_a_bundle_is_not_replaced(

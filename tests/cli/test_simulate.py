@@ -4,12 +4,13 @@ import csv
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from support.commands import Run
 
 from jumpcad.cli import simulate as module
-from jumpcad.cli.uncertain import uncertain_lines
+from jumpcad.cli.uncertain import uncertain, uncertain_lines
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
@@ -135,6 +136,14 @@ def test_quantiles_are_printed_in_millimetres():
     }  # fmt: skip
     lines = uncertain_lines(found)
     assert [line.split()[-2:] for line in lines[1:3]] == [["200…300…400", "mm"], ["50…60…70", "mm"]]
+
+
+def test_uncertain_inputs_are_drawn_by_the_seed_and_simulated_as_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    found = SimpleNamespace(to_dict=lambda: {"jumps": 8})
+    monkeypatch.setattr("jumpcad.simulation.uncertain_jump", lambda *given: asked.append(given) or found)
+    assert uncertain("robot", "settings", "planar", 7) == {"jumps": 8}  # type: ignore[arg-type]
+    assert asked == [("robot", "settings", "planar", 7)]
 
 
 def test_the_uncertain_robot_is_built_in_the_workshop_that_is_named(

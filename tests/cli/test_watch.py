@@ -2,15 +2,30 @@
 
 import threading
 import time
+from dataclasses import replace
 
 from support.hills import SMALL, Hill
 from support.searches import refusal, run
+from support.studies import IDENTITY, trials
 
 from jumpcad.cli import study as command
 from jumpcad.search.database import is_written
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
+from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
+
+
+def test_designs_of_the_search_and_around_the_best_are_counted_apart(tmp_path, capsys):
+    """Of a search that has ended there is one line, with the best score of what it proposed."""
+    searched = trials(12)
+    around = [replace(trial, phase="robust", score=99.0) for trial in trials(5, step=1)]
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        store.append(searched + around)
+        store.remember("stages", [{"method": "ga", "evaluations": 20, "initial": 0, "widen": False}])
+    command._watch(tmp_path / "s.db")
+    best = max(trial.score for trial in searched if trial.score is not None)
+    assert capsys.readouterr().out == f"12 of 20 designs, best {best:.4f}, 5 around the best\n"
 
 
 def test_it_follows_a_search_until_it_ends(tmp_path, monkeypatch, capsys):

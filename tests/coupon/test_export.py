@@ -3,14 +3,17 @@
 import json
 import re
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
+from support.fits import with_fits_apart
 
 from jumpcad.coupon import export
-from jumpcad.coupon.export import _guide, _mass_kg, export_coupon
+from jumpcad.coupon.export import _guide, _mass_kg, _template, export_coupon
 from jumpcad.coupon.joints import joint_pieces
 from jumpcad.coupon.pieces import coupon_holes, pieces
+from jumpcad.coupon.readings import Readings, measured_workshop
 from jumpcad.errors import JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.workshop import load_workshop
@@ -53,6 +56,35 @@ def test_the_guide_names_the_material_in_which_each_piece_is_printed(role: str) 
     assert {"taps", "shaft_bores", "lying_holes", "dog_pockets", "axle_floor", "seat"} <= said.keys()
     assert {name: made[name] for name in said} == said
     assert f"gears in {roles['gears']}" in _guide(workshop, holes)
+
+
+def test_the_file_for_readings_has_every_fit_of_the_workshop_and_is_read_as_it_stands() -> None:
+    """With the # of all lines removed nothing changes, but what holes without a fit need: twice the press fit."""
+    workshop = with_fits_apart(load_workshop("fine"))
+    filled = re.sub("(?m)^# (?=[a-z0-9_]+ = )", "", _template(workshop, coupon_holes(workshop)))
+    found = measured_workshop(Readings.from_data(tomllib.loads(filled), "r.toml", filled), workshop)
+    assert found.fits.model_dump() == workshop.fits.model_dump() | {
+        "hole_allowance_diameter_mm": pytest.approx(2.0 * workshop.fits.press_mm)
+    }
+    for name in workshop.materials:
+        gauge = tomllib.loads(filled)["gauge"][name]
+        assert [gauge[f"axle_{fit}"] for fit in ("press_mm", "sliding_mm", "loose_mm")] == [
+            getattr(workshop.fits, fit) for fit in ("press_mm", "sliding_mm", "loose_mm")
+        ]
+        assert gauge["bearing_press_mm"] == workshop.fits.press_mm
+
+
+def test_wheels_are_printed_in_the_gears_material_and_gauges_in_every_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    workshop = load_workshop()
+    workshop = workshop.model_copy(update={"roles": workshop.roles.model_copy(update={"gears": "PLA"})})
+    monkeypatch.setattr(export, "_mass_kg", lambda *_: 0.001)
+    monkeypatch.setattr(export, "write_folder", lambda folder, kind, facts, *_: facts["masses"])
+    materials = {line["name"]: line["material"] for line in export_coupon(workshop, "unwritten")}  # type: ignore[attr-defined]
+    wheels = {name: of for name, of in materials.items() if re.match("gear_|pinion_", name)}
+    assert len(wheels) > 3
+    assert set(wheels.values()) == {"PLA"}
+    gauges = {name: of for name, of in materials.items() if name.startswith("gauge_")}
+    assert gauges == {f"gauge_{name}": name for name in workshop.materials}
 
 
 def test_a_piece_weighs_what_the_printers_own_nozzle_lays() -> None:

@@ -8,7 +8,8 @@ from manifold3d import JoinType
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.pieces import coupon_holes, coupon_pair, pinion, series_of
-from jumpcad.coupon.readings import LEAST_PLAY_MM, Readings, measured_workshop
+from jumpcad.coupon.readings import LEAST_PLAY_MM, Readings, floor_breaks_n, measured_workshop
+from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.errors import JumpcadError
 from jumpcad.solids.outline import polygon
 from jumpcad.workshop import Workshop, load_workshop
@@ -61,6 +62,19 @@ def test_the_reading_counts_with_which_every_material_still_works() -> None:
     ).fits
     assert (fits.press_mm, fits.sliding_mm, fits.loose_mm) == (0.10, 0.25, 0.35)
     assert fits.hole_allowance_diameter_mm == 0.30
+
+
+def test_a_floor_is_of_the_bodys_material_and_pegs_tell_of_the_gears() -> None:
+    """Links alone in PETG: the floor bears π·d·t·σ/√3 of PLA, and PLA's pegs, 0.1 mm too thick, take 0.2/cos 20°."""
+    roles = WORKSHOP.roles.model_copy(update={"links": "PETG", "body": "PLA", "gears": "PLA"})
+    bought = WORKSHOP.bought.model_copy(update={"axle_mm": 4.0, "leg_bearing": ""})
+    shop = WORKSHOP.model_copy(update={"roles": roles, "bought": bought})
+    strength = shop.materials["PLA"].strength_in_plane_mpa
+    assert strength != shop.materials["PETG"].strength_in_plane_mpa
+    assert floor_breaks_n(shop) == pytest.approx(math.pi * 4.0 * AXLE_FLOOR_MM * strength / math.sqrt(3.0))
+    fits = read("[gauge.PLA]\npegs_mm = [4.1, 6.1, 8.1]\n[gauge.PETG]\npegs_mm = [4.3, 6.3, 8.3]", shop).fits
+    play = LEAST_PLAY_MM + 0.2 / math.cos(math.radians(20.0))
+    assert fits.backlash_circumferential_mm == pytest.approx(play, abs=5e-4)
 
 
 def test_joints_are_read_too() -> None:

@@ -141,6 +141,8 @@ def test_lifting_work_of_a_parallelogram() -> None:
     legs = robot.bodies["main_leg"].mass_kg + robot.bodies["front_link"].mass_kg
     work = GRAVITY_M_S2 * rise * (robot.bodies["body"].mass_kg + legs / 2)
     assert weak.margin == pytest.approx(design.spring_energy_j - TAKEOFF_ENERGY_FACTOR * work, rel=1e-9)
+    moon = statics_findings(robot, 1.62)[1]
+    assert moon.limit == pytest.approx(TAKEOFF_ENERGY_FACTOR * work * 1.62 / GRAVITY_M_S2)
 
 
 def test_a_robot_tips_over_its_nose_as_well_as_over_its_toes() -> None:

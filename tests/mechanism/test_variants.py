@@ -53,6 +53,28 @@ def test_lengths_are_those_of_a_robot_made_with_them() -> None:
     assert moved.linkage.l1 == made.linkage.l1
 
 
+def test_toes_that_are_longer_reach_farther_back() -> None:
+    """By their length times the cosine of their angle; the nose stays where it is."""
+    design = load_design("kenan-2.0")
+    longer = design.model_copy(update={"e_coef": design.e_coef + 0.01})
+    robot = capsule_robot(design)
+    more = (longer.l5_mm - design.l5_mm) * np.cos(np.radians(design.ground_link_angle_deg)) / 1000.0
+    assert more > 5e-4
+    for one, other in zip(robot.bodies[FOOT].contacts, with_lengths(robot, longer).bodies[FOOT].contacts, strict=True):
+        moved = 0.0 if one.name == "front_eye" else -more
+        assert other.centre_m - one.centre_m == pytest.approx([moved, 0.0, 0.0], abs=1e-12)
+
+
+def test_a_leg_goes_on_into_its_stop_with_the_torque_of_its_own_springs() -> None:
+    """Both are of the robot that was built: its stop, and springs that its design does not tell."""
+    design = load_design("kenan-2.0")
+    robot = capsule_robot(design)
+    joints = tuple(replace(one, upper_rad=0.08, effort_nm=0.9) if one.name == "leg" else one for one in robot.joints)
+    longer = design.model_copy(update={"c_coef": design.c_coef + 0.004})
+    leg = with_lengths(replace(robot, joints=joints), longer).joint("leg")
+    assert (leg.lower_rad, leg.upper_rad, leg.effort_nm) == (-longer.compression_rad, 0.08, 0.9)
+
+
 def test_links_are_longer_by_their_errors_and_nothing_else_changes() -> None:
     design = load_design("kenan-2.0")
     changed = with_length_errors(design, np.array([0.2, -0.1, 0.15, 0.05]))

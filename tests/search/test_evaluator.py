@@ -106,6 +106,7 @@ def test_what_is_left_out_is_a_row_with_its_outcome_and_is_not_evaluated(evaluat
     assert [trial.design for trial in trials] == [first, second, third]
     assert (trials[1].evaluation, trials[1].score) == (Evaluation("screened", {"guessed": 0.5}), None)
     assert [dict(trial.proposal) for trial in trials] == [notes[0], {}, notes[2]]
+    assert {trial.model for trial in trials} == {one.model.digest}
     assert [one.holds(Variant.of(design)) for design in designs(4)] == [True, True, True, False]
 
 

@@ -21,8 +21,9 @@ from jumpcad.search.explore import (
     sample,
     sweep,
 )
+from jumpcad.search.models import robot_model
 from jumpcad.search.space import Space
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, varied
 
 CENTRE = SMALL.to_design([0.5, 0.5, 0.5])
 
@@ -141,6 +142,8 @@ def test_a_place_in_a_workshop_has_its_values_and_those_that_are_fixed(evaluator
     assert _with(start, {plates: 2.25, battery: 1.0}).workshop == {
         "process.infill": 0.35, "body.plate_mm": 2.25, "bought.battery": "lipo-1s-300",
     }  # fmt: skip
+    own = evaluator(model=robot_model("printed", varied(usual, {"body.plate_mm": 2.05})), space=space)
+    assert _start(own, CENTRE).workshop["body.plate_mm"] == 2.05
     assert _grid(battery, 9).tolist() == [0.0, 1.0]
     assert _grid(plates, 4).tolist() == pytest.approx([1.2, 1.6, 2.0, 2.4])
 

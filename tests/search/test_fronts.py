@@ -37,7 +37,11 @@ def test_front_is_what_nothing_dominates(trials):
 
 def test_hypervolume_is_pygads(trials):
     points = np.array([[trial.score, -energy_j(trial.design)] for trial in trials if trial.score is not None])
-    assert hypervolume(trials) == pytest.approx(reference_hypervolume(points, [0.0, -REFERENCE_ENERGY_J]), rel=1e-12)
+    energies = [energy_j(trial.design) for trial in front(trials)]
+    for energy_j_at_most in (REFERENCE_ENERGY_J, float(np.median(energies)) + 1e-3, 3.0):
+        theirs = reference_hypervolume(points[points[:, 1] > -energy_j_at_most], [0.0, -energy_j_at_most])
+        assert hypervolume(trials, energy_j_at_most) == pytest.approx(theirs, rel=1e-12)
+    assert hypervolume(trials) == hypervolume(trials, REFERENCE_ENERGY_J)
     assert hypervolume([]) == 0.0
 
 

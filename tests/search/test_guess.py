@@ -13,7 +13,7 @@ from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.stand_in import EXTENTS, LAID, laid_out, stand_in
 from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
-from jumpcad.simulation import simulate
+from jumpcad.simulation import Settings, simulate
 from jumpcad.workshop import load_workshop, varied
 
 
@@ -70,7 +70,8 @@ def test_a_guess_is_the_jump_of_the_robot_with_the_fitted_figures(monkeypatch):
     guesser = Guesser(SPACE, quick(), find_objective("range"), "pybullet", first_trial())
     one = np.eye(45)[0]
     constant = {name: value * one for name, value in FIGURES.items() if name != "body_mass_kg"}
-    fit = Fit(0, constant | {"size_m": 0.1 * one, "log body_mass_kg": np.eye(45)[1] - 3.0 * one}, {})
+    fitted = {"size_m": 0.1 * one, "ballistic_range_m": 9.0 * one}  # a range is a figure of robots too: not of this one
+    fit = Fit(0, constant | fitted | {"log body_mass_kg": np.eye(45)[1] - 3.0 * one}, {})
     for share in (0.3, 0.8):
         point = SPACE.to_unit(BEST)
         point[0] = share
@@ -116,6 +117,18 @@ def test_a_stand_in_has_the_springs_of_its_robot(chosen):
 
 def first_trial():
     return Trial("bo", 0, 0, BEST, Evaluation("jump"), 1.0, "m", 0.0)
+
+
+def test_what_a_guess_takes_from_a_robot_is_that_of_its_own_workshop(monkeypatch):
+    """It is built in the search's workshop with the trial's values; what the planar engine lacks, the search's has."""
+    asked = []
+    monkeypatch.setattr("jumpcad.search.guess.build", lambda *order: asked.append(order) or LIKE)
+    for shop, restitution, engine in ((load_workshop("light"), 0.3, "pybullet"), (load_workshop(), 0.0, "planar")):
+        model = replace(quick(), workshop=shop, settings=Settings(restitution=restitution))
+        first = replace(first_trial(), workshop={"body.plate_mm": 2.0})
+        guesser = Guesser.quick(SPACE, model, find_objective("range"), first)
+        assert asked.pop() == (BEST, varied(shop, {"body.plate_mm": 2.0}))
+        assert (guesser.engine, guesser.model.settings) == (engine, model.guess_settings)
 
 
 @pytest.mark.parametrize(("known", "rows"), [(7, 0), (8, 8), (9, 8), (10, 8), (11, 10), (15, 14), (100, 85)])

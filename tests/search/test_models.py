@@ -17,7 +17,7 @@ from jumpcad.search.tolerances import Making
 from jumpcad.search.variant import Variant
 from jumpcad.settings import load_settings
 from jumpcad.simulation import Jump
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, varied
 
 
 def test_only_a_printed_robot_has_a_workshop_a_size_and_a_quick_score():
@@ -64,6 +64,23 @@ def test_a_model_has_the_workshop_settings_and_engine_that_are_named():
     assert fine != usual.settings
 
 
+def test_a_design_is_evaluated_in_the_model_s_own_workshop_settings_and_engine(monkeypatch):
+    """With other values of that workshop too; springs scatter and lengths are off as it says."""
+    light, fine, design = load_workshop("light"), load_settings("fine"), load_design("kenan-2.0")
+    jump, asked = Jump("jump", "mujoco", 0.1, 0.2), []
+    monkeypatch.setattr("jumpcad.simulation.simulate", lambda *given: asked.append(given[1:]) or jump)
+    robot_model("capsule", None, fine, "mujoco")(design)
+    monkeypatch.setattr("jumpcad.evaluation.evaluate_made", lambda *given: asked.append(given[1:4]) or 1 / 0)
+    thick = {"body.plate_mm": 2.0, "safety.spring_rate_scatter": 0.2, "fits.sliding_mm": 0.25}
+    printed = robot_model("printed", light, fine, "mujoco")
+    for model in (printed, printed.varied(thick)):
+        with pytest.raises(ZeroDivisionError):
+            model._printed(design)
+    shop = varied(light, thick)
+    assert asked == [(fine, "mujoco"), (light, fine, "mujoco"), (shop, fine, "mujoco")]
+    assert (model.making.length_mm, model.making.rate) == (0.5, 0.1)
+
+
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga"])
 @pytest.mark.parametrize("distance_m", [0.6, 0.0])
 def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes(monkeypatch, name, distance_m):
@@ -80,7 +97,9 @@ def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes(mon
 
 
 def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbids_it(small_robot, monkeypatch):
-    """What the design keeps stands in the design's own trial, with the room that is left."""
+    """What the design keeps stands in the design's own trial, with the room that is left in its workshop."""
+    reserve_mm = small_robot.workshop.safety.room_reserve_mm + 0.7
+    small_robot = replace(small_robot, workshop=varied(small_robot.workshop, {"safety.room_reserve_mm": reserve_mm}))
     jumped, kept, broken = (
         Finding(name, severity, 1.0, "", "", "")
         for name, severity in (("audit_loop", "info"), ("walls", "info"), ("stop", "error"))
@@ -94,7 +113,6 @@ def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbi
     design = load_design("kenan-2.0")
     found = plain._printed(design)
     assert found.findings[:3] == (jumped, kept, broken)
-    reserve_mm = plain.workshop.safety.room_reserve_mm
     assert found.findings[3:] == tuple(room_findings(small_robot.layout, reserve_mm))
     assert found.findings[3:] != tuple(room_findings(small_robot.layout, reserve_mm + 1.0))
     assert made._printed(design).findings == (jumped, broken)
@@ -175,6 +193,8 @@ def test_guesses_and_quick_scores_have_settings_of_their_own():
     dragged = replace(plain, settings=plain.settings.model_copy(update={"drag_per_s": 0.1}))
     assert (dragged.guess_engine, dragged.guess_settings.dt_s) == ("mujoco", 0.002)
     assert robot_model("capsule", None, "fine").guess_settings.dt_s == 0.002
+    slow = replace(plain, settings=plain.settings.model_copy(update={"dt_s": 0.004}))
+    assert slow.guess_settings.dt_s == 0.004
 
 
 def test_figures_of_a_jump_are_its_numbers_alone():

@@ -51,6 +51,19 @@ def test_each_neighbour_counts_with_its_own_score(scores):
     assert Counting("capsule", neighbours_of="fitness")(DESIGN).metrics["p10"] == 1.0
 
 
+def test_it_is_a_quantile_of_the_score_that_is_asked_for():
+    """Here of the rise, which falls where the range over the longest link grows."""
+
+    class Rising(Slope):
+        def _alone(self, design):
+            return Evaluation(
+                "jump", {"fitness": design.compression_ratio, "com_rise_m": 2.0 - design.compression_ratio}
+            )
+
+    found = Rising("capsule", neighbours_of="rise")(DESIGN)
+    assert 2.0 - 1.01 * DESIGN.compression_ratio <= found.metrics["p10"] < 2.0 - DESIGN.compression_ratio
+
+
 def test_a_design_is_rejected_with_its_first_neighbour():
     class Near(Slope):
         limit = DESIGN.compression_ratio * 1.002

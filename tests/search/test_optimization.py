@@ -1,6 +1,7 @@
 """`jumpcad.optimize`: the search of the command line, in one call."""
 
 import json
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ from typer.testing import CliRunner
 import jumpcad
 from jumpcad.cli.commands import app
 from jumpcad.errors import JumpcadError
+from jumpcad.workshop import load_workshop
 
 WEAK = {"stiffness_nmm_per_deg": 5, "compression_ratio": 0.1}
 QUICK = {"model": "capsule", "settings": "screening", "workers": 0}
@@ -79,6 +81,36 @@ def test_wrong_arguments_are_one_line(folder, options, message):
         jumpcad.optimize(**({"model": "capsule", "evaluations": 2} | options))
     assert "\n" not in str(error.value)
     assert list(folder.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("method", "more"), [("bo", {"batch": 3, "until_percent": 1.0, "widen": True}), ("ga", {"screen": True})]
+)
+def test_each_option_reaches_the_search(monkeypatch, method, more):
+    """Every value is another than the usual one; the workshop's own spring is one to choose."""
+    monkeypatch.setattr("jumpcad.search.optimization.run_study", lambda *study: study)
+    monkeypatch.setattr("jumpcad.search.optimization.open_pool", lambda *how: nullcontext(how))
+    more |= {"evaluations": 60, "seed": 4, "preset": "published", "prior": Path("before.db"), "hours": 2.0}
+    more |= {"objective": "rise"}
+    how = {"workers": 3, "limit_s": 7.0, "engine": "planar", "study": "mine.db"}
+    near = {"around": "kenan-2.0", "only": ["c_coef", "rest_angle_deg"], "within_percent": 5}
+    request, path, pool = jumpcad.optimize(method, **more, **how, **near)
+    assert request.space == jumpcad.search.Space.make(**near | {"around": jumpcad.load_design("kenan-2.0")})
+    assert [parameter.name for parameter in request.space.free] == near["only"]
+    assert {name: getattr(request, name) for name in more} == more
+    assert (request.method, request.model.engine, path, pool) == (method, "planar", Path("mine.db"), (3, None, 7.0))
+
+
+def test_what_a_workshop_has_is_chosen_in_that_workshop(monkeypatch):
+    monkeypatch.setattr("jumpcad.search.optimization.run_study", lambda request, *_: request)
+    shop = load_workshop()
+    own = shop.catalogue.springs["9271K619"].model_copy(update={"name": "own"})
+    shop = shop.model_copy(update={"springs": {**shop.springs, "own": own}}).revalidated()
+    choices = {"bought.spring": ["own", "9271K619"]}
+    with pytest.raises(JumpcadError, match="own"):
+        jumpcad.optimize(choices=choices, workers=0)
+    (parameter,) = jumpcad.optimize(choices=choices, workshop=shop, workers=0).space.of_workshop
+    assert parameter.names == ("own", "9271K619")
 
 
 def test_a_search_is_around_a_design_however_it_is_named(folder, monkeypatch):

@@ -14,6 +14,7 @@ from jumpcad.search.parameter import (
     physical_limits,
     read_change,
 )
+from jumpcad.search.space import Space
 from jumpcad.workshop import load_workshop
 
 
@@ -71,6 +72,13 @@ def test_a_range_without_width_is_empty(bounds: str) -> None:
 def test_a_whole_number_of_the_workshop_stays_one_from_bound_to_bound() -> None:
     found = changed_parameters([read_change("bound", "process.perimeters=2:5")], load_workshop())
     assert found["process.perimeters"].choices == (2.0, 3.0, 4.0, 5.0)
+    shop = load_workshop()
+    for bounds, said in (("2.5:5.5", {"choices": [3.0, 4.0, 5.0]}), ("2.5:3.4", {"fixed": 3.0})):
+        space = Space.parse(bound=[f"process.perimeters={bounds}"], workshop=shop)
+        assert space.describe()["process.perimeters"] == said
+        assert Space.from_record(space.describe()) == space  # as a study is read again
+    with pytest.raises(JumpcadError, match=r"perimeters = 2.2:2.8 holds no whole number, .*: widen the range"):
+        Space.parse(bound=["process.perimeters=2.2:2.8"], workshop=shop)
     found = changed_parameters([read_change("bound", "process.infill=0.2:0.5")], load_workshop())
     assert found["process.infill"].choices == ()
 

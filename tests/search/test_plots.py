@@ -1,16 +1,22 @@
 """Pictures of searches show the trials and the surrogate."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgba
 from support.bumps import REST, studied
+from support.hills import SMALL
 
+from jumpcad.findings import Finding
 from jumpcad.search import plots
-from jumpcad.search.explore import Sweep
+from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import MEANINGS, PICTURES, panels, save_figure
-from jumpcad.search.objective import find_objective
+from jumpcad.search.fronts import energy_j
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial
 
 
 def test_the_surrogate_in_the_picture_is_the_bump(tmp_path):
@@ -40,6 +46,8 @@ def test_history_shows_every_row_and_the_best_so_far(tmp_path):
     assert np.isfinite(lines["ga"]).sum() == len(scores)
     assert len(lines["rejected"]) == len(trials) - len(scores)
     assert np.nanmax(lines["best so far"]) == max(scores)
+    (line,) = (line for line in axes.lines if line.get_label() == "best so far")
+    assert list(line.get_xdata()) == list(range(1, len(trials) + 1))
 
 
 def test_slices_mark_the_best(tmp_path):
@@ -71,6 +79,97 @@ def test_sweeps_show_the_centre_without_a_score_that_nobody_computed(tmp_path, r
     assert low < ratio < high
     points = [(x, y) for line in drawn.values() for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)]
     assert [point for point in points if np.isfinite(point[1])] == [(0.3, 5.0), (0.5, 9.0), (0.8, 0.0)]
+
+
+def trial(unit, score, *reasons):
+    """Return a trial at a point of the space of compression ratio, rest angle and stiffness."""
+    findings = tuple(Finding(name, "error", -1.0, "mm", "", "") for name in reasons)
+    return Trial("ga", 0, 0, SMALL.to_design(unit), Evaluation("jump", {}, findings), score, "m", 0.0)
+
+
+def test_a_front_is_level_from_each_design_to_the_next_that_takes_more_energy():
+    """So that one reads off it the best score that an energy gives."""
+    trials = [trial((0.5, 0.5, stiffness), score) for stiffness, score in ((0.9, 3.0), (0.1, 1.0), (0.5, 2.0))]
+    trials.append(trial((0.5, 0.5, 0.7), 0.5))
+    (axes,) = plots.pareto(trials, find_objective("fitness")).axes
+    lines = {line.get_label(): line for line in axes.lines}
+    shown = lines["front"]
+    assert list(shown.get_xdata()) == [energy_j(trials[index].design) for index in (1, 2, 0)]
+    assert (list(shown.get_ydata()), shown.get_drawstyle()) == ([1.0, 2.0, 3.0], "steps-post")
+    assert list(lines["other designs"].get_ydata()) == [3.0, 1.0, 2.0, 0.5]
+
+
+def test_each_importance_has_its_own_error():
+    """The largest at the top."""
+    mean, deviation = np.array([0.3, 0.1, 0.2]), np.array([0.01, 0.02, 0.03])
+    (axes,) = plots.importance(Importance(("a", "b", "c"), mean, deviation, 0.9, 40)).axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["b", "c", "a"]
+    assert [bar.get_width() for bar in axes.patches] == pytest.approx([0.1, 0.2, 0.3])
+    (errors,) = axes.collections
+    ends = [[float(x) for x, _ in segment] for segment in errors.get_segments()]
+    assert ends == [pytest.approx(pair) for pair in ([0.08, 0.12], [0.17, 0.23], [0.29, 0.31])]
+
+
+def test_shares_of_components_stand_beside_equal_ones():
+    """Of four parameters each would have a quarter, however many views there are."""
+    view = Components(("a", "b", "c", "d"), np.array([0.6, 0.2, 0.15, 0.05]), np.eye(4), 20)
+    for axes in plots.components({"sampled": view, "elite": view}).axes:
+        assert list(axes.lines[0].get_ydata()) == [0.25, 0.25]
+        assert [bar.get_height() for bar in axes.patches] == [0.6, 0.2, 0.15, 0.05]
+
+
+def test_the_best_line_is_the_darkest_and_lies_above_the_others():
+    trials = [trial((share, 0.5, 0.5), share) for share in (0.4, 0.9, 0.1, 0.6)]
+    (axes,) = plots.parallel(SMALL, trials).axes
+    assert [line.get_ydata()[0] for line in axes.lines] == pytest.approx([0.1, 0.4, 0.6, 0.9], abs=1e-6)
+    shades = [to_rgba(line.get_color())[3] for line in axes.lines]
+    assert shades == sorted(shades)
+    assert (shades[0], shades[-1]) == pytest.approx((0.05, 0.95))
+
+
+def test_a_map_has_its_ring_where_the_centre_is_and_a_colour_for_each_first_reason():
+    x, y = np.array([0.2, 0.4, 0.6]), np.array([20.0, 60.0])
+    rows = [
+        [trial((0.5, 0.5, 0.5), 1.0)] * 3,
+        [trial((0.5, 0.5, 0.5), None, name) for name in ("tips", "loop", "tips")],
+    ]
+    centre = SMALL.to_design((0.5, 0.5, 0.5)).model_copy(update={"compression_ratio": 0.4, "rest_angle_deg": 60.0})
+    found = FeasibilityMap("compression_ratio", "rest_angle_deg", x, y, rows)
+    figure = plots.feasibility(found, centre)
+    (axes,) = figure.axes
+    assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines] == [(0.4, 60.0)]
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert words == ["jump", "loop", "tips", "centre design"]
+    assert axes.collections[0].get_array().reshape(2, 3).tolist() == [[0, 0, 0], [2, 1, 2]]
+
+
+def test_a_surrogate_is_drawn_within_two_deviations_of_the_score_s_root():
+    """Roots of 3 ± 2·0.5: scores of 4 to 16 about 9."""
+    line = Space.parse(fix=[*REST, "rest_angle_deg=50"])
+    known = SimpleNamespace(
+        score=SimpleNamespace(predict=lambda points: (np.full(len(points), 3.0), np.full(len(points), 0.5))),
+        log_improvement=lambda points, best: -points[:, 0], log_feasible=lambda points: 0.0 * points[:, 0],
+    )  # fmt: skip
+    above, _ = plots._one_parameter(line, [], known, find_objective("fitness"), 1.0, 6.4).axes
+    heights = above.collections[0].get_paths()[0].vertices[:, 1]
+    assert (heights.min(), heights.max()) == pytest.approx((4.0, 16.0))
+    assert set(np.round(above.lines[0].get_ydata(), 9)) == {9.0}
+
+
+def test_a_surrogate_of_two_parameters_has_the_first_across_and_the_second_up():
+    """A score of the square of the first one's place, a process of its root; what may be gained grows upwards."""
+    plane = Space.parse(fix=REST)
+    assert plane.dimension == 2
+    known = SimpleNamespace(
+        score=SimpleNamespace(predict=lambda points: (points[:, 0], 0.1 + 0.0 * points[:, 0])),
+        log_improvement=lambda points, best: np.log(10.0) * points[:, 1],
+        log_feasible=lambda points: 0.0 * points[:, 0],
+    )
+    left, right, *_ = plots._two(plane, [], known, find_objective("fitness"), 1.0, 2).axes
+    scores, gains = (np.asarray(axes.collections[0].get_array()).reshape(61, 61) for axes in (left, right))
+    assert scores == pytest.approx(np.tile(np.linspace(0.0, 1.0, 61) ** 2, (61, 1)))
+    assert gains == pytest.approx(np.tile(np.linspace(0.0, 1.0, 61)[:, None], (1, 61)))
+    assert (left.get_xlabel(), left.get_ylabel()) == tuple(parameter.name for parameter in plane.free)
 
 
 def test_every_picture_says_what_it_means(tmp_path):

@@ -42,6 +42,8 @@ def test_a_promise_is_twice_the_expected_gain_of_the_score_s_root():
     few = [*first, *scored(0.25, step=1), *scored(0.25, step=2, **HALF)]
     assert promised(few) == pytest.approx([0.8])
     assert promised(scored(1.0, phase="ga", **HALF)) == []
+    batch = [scored(None, **LITTLE)[0], *scored(None, None, **HALF)[1:]]
+    assert promised([*scored(4.0, step=0), *batch]) == pytest.approx([0.2])
 
 
 def test_a_gain_is_that_of_a_step_s_best_over_the_best_before():

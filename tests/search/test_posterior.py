@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -195,6 +196,16 @@ def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
     assert np.exp(guided.log_improvement(points, 4.0)) == pytest.approx(promised, rel=1e-6, abs=1e-12)
     fewer = dict(list(guesses.items())[4:])  # of no trial that was measured
     assert SearchPosterior.from_trials(SMALL, measured, {}, None, fewer).guess is None
+
+
+def test_what_guess_and_steps_leave_open_adds_to_what_may_be_gained():
+    """Means add up, deviations and the scores' scatter as roots of sums of squares: 0.3, 0.4 and 1.2 make 1.3."""
+    point = np.zeros((1, 3))
+    guess = SimpleNamespace(predict=lambda _: (np.array([2.0]), np.array([0.4])))
+    more = SimpleNamespace(predict=lambda _: (np.array([0.5]), np.array([0.3])), scatter=1.2)
+    z = (2.5 - 3.0) / 1.3
+    gain = 1.3 * (norm.pdf(z) + z * norm.cdf(z))
+    assert SearchPosterior(more, {}, guess).log_improvement(point, 9.0) == pytest.approx(math.log(gain))
 
 
 def test_a_measured_score_without_a_guess_is_learned_too():

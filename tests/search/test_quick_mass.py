@@ -142,6 +142,9 @@ def test_legs_of_bars_weigh_as_their_bars_and_their_ends_the_same_at_any_length(
     assert whole[MAIN_LEG][:3] == pytest.approx((1.0, 0.0, density * DESIGN.l2_mm))
     assert mass_features(strong, SHOP)[MAIN_LEG][3] == pytest.approx(2.0 * whole[MAIN_LEG][3])
     assert mass_features(strong, SHOP)[FOOT][3] == pytest.approx(2.0 * whole[FOOT][3])
+    loaded = mass_features(DESIGN, varied(SHOP, {"spring.preload_deg": 5.0}))
+    moment = 1.0 + math.radians(5.0) / DESIGN.compression_rad
+    assert loaded[MAIN_LEG][3] == pytest.approx(math.sqrt(moment) * whole[MAIN_LEG][3])
 
 
 def test_the_root_of_the_peak_moment_is_that_of_newton_metres() -> None:

@@ -11,13 +11,13 @@ from support.quick import LIKE, SPACE, quick
 from jumpcad.design import load_design
 from jumpcad.findings import Finding
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.fitting import Table
-from jumpcad.search.guess import Guess
+from jumpcad.search.fitting import MARK, Table
+from jumpcad.search.guess import Guess, Guesser
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import IDLE, run_bayesian
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.polling import STALLED, Progress
 from jumpcad.search.pool import local_pool
 from jumpcad.search.rehearsal import FAILED, GUESSED, TRIED, Rehearsal, _stayed
@@ -25,6 +25,7 @@ from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.stand_in import LAID
 from jumpcad.search.store import StudyStore
+from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
 from jumpcad.simulation import simulate
 
@@ -224,6 +225,27 @@ def test_guesses_take_the_planar_engine_with_long_steps_where_it_has_what_the_se
     jump = simulate(LIKE)
     quick_jump = simulate(LIKE, model.guess_settings, model.guess_engine)
     assert quick_jump.ballistic_range_m == pytest.approx(jump.ballistic_range_m, rel=0.02)
+
+
+def test_the_first_guesses_follow_from_the_seed_of_the_search(monkeypatch):
+    monkeypatch.setattr("jumpcad.search.rehearsal.ranked_points", lambda _, generator: generator.random(3).tolist())
+    with local_pool(0) as pool, StudyStore.write(None, {"space": SPACE.describe()}) as store:
+        evaluator = Evaluator(SPACE, find_objective("body_lengths"), quick(), store, pool)
+        one, again, other = (Rehearsal(evaluator, "bo", Task(9, seed)).ranked for seed in (0, 0, 1))
+    assert one == again != other
+
+
+def test_guesses_are_of_the_objective_of_the_search(monkeypatch):
+    asked = []
+    monkeypatch.setattr(Guesser, "quick", lambda *given: asked.append(given))
+    monkeypatch.setattr("jumpcad.search.rehearsal.ranked_points", lambda *_: [])
+    monkeypatch.setattr("jumpcad.search.rehearsal.Table", lambda *_, **__: SimpleNamespace(coefficients=dict))
+    aim, model = find_objective("rise"), quick()
+    design = SPACE.to_design(np.full(SPACE.dimension, 0.5))
+    trials = [Trial("bo", 0, place, design, Evaluation("jump", {MARK: 1.0}), 1.0, "m", 0.0) for place in range(8)]
+    with local_pool(0) as pool, StudyStore.write(None, {"space": SPACE.describe()}) as store:
+        Rehearsal(Evaluator(SPACE, aim, model, store, pool), "bo", Task(9, 0)).learn(trials)
+    assert asked == [(SPACE, model, aim, trials[0])]
 
 
 def test_what_was_refused_for_any_trial_is_not_proposed_again_also_after_a_restart(trials):

@@ -2,17 +2,32 @@
 
 import sqlite3
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from support.bumps import REST, Bump, studied
-from support.studies import trials
+from support.studies import IDENTITY, trials
 
+from jumpcad.search import replay
 from jumpcad.search.pool import local_pool
 from jumpcad.search.replay import _share, known
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
+from jumpcad.search.trial import feasible_trials
+
+
+def test_bounds_are_those_of_the_winner_where_it_is_not_the_best(tmp_path, monkeypatch):
+    asked, found = [], feasible_trials(trials(24))
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        store.append(trials(24))
+    monkeypatch.setattr(replay, "_share", lambda *_: 8)
+    monkeypatch.setattr(replay, "rank_candidates", lambda *_: [SimpleNamespace(trial=found[1])])
+    monkeypatch.setattr(replay, "active_bounds", lambda _, trial, step: asked.append((trial, step)) or [])
+    with StudyStore.read(tmp_path / "s.db") as store:
+        assert known(store).winner == found[1] != found[0]
+    assert asked == [(found[1], 0)]
 
 
 @pytest.mark.parametrize("top", [0.45, 0.72], ids=["bound below the bump", "constraint beside it"])

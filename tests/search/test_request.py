@@ -104,6 +104,14 @@ def test_what_is_not_said_is_the_same_in_python_and_on_the_command_line():
     assert typed["model"] == called["model"] == "printed"
 
 
+@pytest.mark.parametrize(("prior", "first"), [(0, 9), (4, 5), (20, 0)])
+def test_designs_of_a_prior_study_stand_for_first_ones(prior, first):
+    """Of three for each of three free parameters; also where bounds are moved later."""
+    for widen in (False, True):
+        request = Request(SMALL, Hill(), method="bo", evaluations=240, widen=widen)
+        assert plan_stages(request, prior)[0].initial == first
+
+
 def test_half_of_a_search_that_widens_goes_on_in_three_steps_from_moved_bounds():
     """Of 240 evaluations 180 are the search's: 90, then three times 30 by `bo`, whatever came before."""
     for method in ("bo", "ga"):

@@ -1,6 +1,7 @@
 """The robust pick: the scores of the neighbours decide."""
 
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -194,6 +195,18 @@ def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     one.evaluate([edge, inside], "bo", 0)
     ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [inside, edge]
+
+
+@pytest.mark.parametrize(("scores", "rejected"), [((-1.0, -3.0), -5.0), ((2.0, -3.0), 0.0)])
+def test_a_rejected_neighbour_is_as_far_below_the_worst_as_the_best_is_above_it(scores, rejected):
+    """Where all scores are negative; else it counts 0."""
+    design = SMALL.to_design([0.5, 0.5, 0.5])
+    trials = [Trial("bo", 0, 0, design, Evaluation("jump"), score, "m", 0.0) for score in scores]
+    refused = Trial("robust", 0, 0, design, Evaluation("loop"), None, "m", 0.0)
+    known = SimpleNamespace(trials=trials, evaluate=lambda variants, *_: [refused] * len(variants))
+    one = _Examined(0, trials[0])
+    _examine(known, [one], 2, 0, 0, LENGTHS_ALONE)
+    assert (one.scores, one.rejected_score) == ({"parameters": [rejected], "print": [rejected]}, rejected)
 
 
 def test_the_best_differ_from_one_another(evaluator):

@@ -326,7 +326,8 @@ def test_nothing_is_learned_where_too_few_were_built(model):
     jump, stayed = Evaluation("jump", {"body_lengths": 1.0}), Evaluation("no_takeoff", {MARK: 1.0})
     refused = [Trial("ga", 0, place, BEST, jump, 1.0, "m", 0.0) for place in range(100)]
     failed = [Trial("ga", 0, place, BEST, stayed, None, "m", 0.0) for place in range(100)]
-    for trials in (refused, failed):
+    few = [*refused, *(replace(trial, evaluation=Evaluation("jump", {MARK: 1.0})) for trial in refused[: LEAST - 1])]
+    for trials in (refused, failed, few):
         assert screen.learn(trials) is False
         assert screen.tiers == {}
         assert screen.guess(trials[0].variant) is None

@@ -31,6 +31,19 @@ def test_links_are_told_from_the_hub_to_the_toe() -> None:
     assert "body.plate_mm 3 mm" in text
 
 
+def test_all_designs_are_drawn_to_one_scale_in_which_the_largest_fits() -> None:
+    large = DESIGN.model_copy(update={"carrying_link_mm": 1.5 * DESIGN.carrying_link_mm})
+    trials = [Trial("bo", 1, n, one, Evaluation("jump"), 2.5, "m", 0.0) for n, one in enumerate((DESIGN, large))]
+    text = "\n".join(shown_designs(trials, [1, 2], find_objective("range"), "s.db"))
+    boxes = re.findall(r'class="side" viewBox="([^"]*)"', text)
+    assert len(boxes) == 2
+    assert len(set(boxes)) == 1
+    left, top, width, height = map(float, boxes[0].split())
+    joints = [(float(x), float(y)) for x, y in re.findall(r'<circle cx="([^"]*)" cy="([^"]*)"', text)]
+    assert len(joints) == 16
+    assert all(left < x < left + width and top < y < top + height for x, y in joints)
+
+
 def test_headlines_come_first_and_nothing_twice() -> None:
     figures = {"a_share": 0.5, **dict.fromkeys(HEADLINES, 0.125)}
     text = told(**figures)

@@ -54,6 +54,10 @@ def test_the_drawing_is_xml_and_lies_in_its_box():
         circles = [(float(one.get("cx")), -float(one.get("cy"))) for one in root.iter("circle")]
         assert len(circles) == 8
         assert all(box[0] < x < box[2] and box[1] < z < box[3] for x, z in circles)
+        left, top, width, height = map(float, root.get("viewBox").split())
+        words = [(float(one.get("x")), float(one.get("y"))) for one in root.iter("text")]
+        assert len(words) == 1  # below the ground, at the scale
+        assert all(left < x < left + width and top < y < top + height for x, y in words)
         assert {one.text for one in root.iter("title")} >= {"at rest", "springs loaded", "main leg, at rest"}
 
 

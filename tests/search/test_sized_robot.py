@@ -91,6 +91,13 @@ def test_a_solid_bar_weighs_its_volume_and_infill_saves_the_inside() -> None:
     assert inside == pytest.approx(layers + 0.2 * (20.0 - layers))
 
 
+def test_links_weigh_the_same_whatever_gears_are_printed_in() -> None:
+    """In the default workshop links and gears are of one material."""
+    plain, other = (SizedLinks.of(DESIGN, shop) for shop in (SHOP, varied(SHOP, {"roles.gears": "PLA"})))
+    for name in ("leg_g_mm", "front_g_mm", "toe_g_mm", "rail_g_mm", "mass_features"):
+        assert getattr(plain, name) == getattr(other, name)
+
+
 def test_toes_apart_are_heavier_by_their_screws() -> None:
     """A bed on which the foot fits keeps it in one piece."""
     small, large = (SizedLinks.of(built(LONG_TOES).design, shop) for shop in (SHOP, with_bed(600.0)))

@@ -403,6 +403,19 @@ def test_as_many_designs_with_neighbours_are_tried_together_as_fit(monkeypatch, 
     assert not trials
 
 
+def test_bounds_of_the_winner_are_examined_with_what_its_pick_leaves(monkeypatch):
+    """Of the most robust candidate, whatever scores best."""
+    asked, rank = [], study.rank_candidates
+    monkeypatch.setattr(study, "rank_candidates", lambda *given: rank(*given)[::-1])
+    monkeypatch.setattr(study, "active_bounds", lambda _, trial, step, left: asked.append((trial, left)) or [])
+    request = replace(REQUEST, method="ga", evaluations=80)
+    found = run(request)
+    used = found.evaluations - len(found.trials)
+    assert 0 < used < request.pick == 20
+    assert asked == [(found.winner, request.pick - used)]
+    assert found.winner is not found.best
+
+
 def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
     """Its share of the evaluations, first designs where it learns; only the last one ends early, if it can."""
     asked = []

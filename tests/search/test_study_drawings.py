@@ -1,14 +1,17 @@
 """What a study's page says beside its drawings: gains, values and spread, of made-up studies."""
 
+import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.hills import SMALL
 
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.study_drawings import _best, _end, _gain, _line, _spread
+from jumpcad.search.replay import Known
+from jumpcad.search.study_drawings import _best, _end, _gain, _line, _spread, history, slices
 from jumpcad.search.trial import Trial
 
 NAN = float("nan")
@@ -63,6 +66,39 @@ def test_the_best_value_is_told_with_the_end_that_it_lies_on(number: float, said
 def trial(*unit: float) -> Trial:
     """Return a trial at a point of the space of compression ratio, rest angle and stiffness."""
     return Trial("ga", 0, 0, SMALL.to_design(unit), Evaluation("jump"), 1.0, "m", 0.0)
+
+
+def at(kind: str, page: str) -> list[float]:
+    """Return where the marks of a kind begin, outside of legends."""
+    drawing = re.sub('<p class="legend">.*?</p>', "", page, flags=re.DOTALL)
+    paths = re.findall(f'<path class="{kind}" d="([^"]*)"', drawing)
+    return [float(x) for path in paths for x in re.findall(r"M([\d.]+)", path)]
+
+
+def known(*scores: float | None) -> Known:
+    """Return what is known of a study of designs with these scores, whose compression ratio grows."""
+    shares = np.linspace(0.1, 0.9, len(scores)).tolist()
+    trials = [replace(trial(share, 0.5, 0.5), score=score) for share, score in zip(shares, scores, strict=True)]
+    return Known(SMALL, find_objective("fitness"), trials, None, [], [], {})
+
+
+def test_a_history_has_each_design_above_its_number() -> None:
+    """Jumps as dots, what was rejected as ticks: numbers begin at 1."""
+    page = "\n".join(history(known(1.0, None, 2.0, 1.5, None)))
+    ticks = re.findall(r'<text x="([\d.]+)" y="[\d.]+" text-anchor="middle">(\d)<', page)
+    numbers = {label: float(x) for x, label in ticks}
+    assert at("dots phase0", page) == [numbers[label] for label in "134"]
+    assert at("rejected", page) == [numbers[label] for label in "25"]
+
+
+def test_dots_of_a_slice_are_as_old_as_the_jumps_before_them() -> None:
+    """A fifth of the designs that jump in each colour, whatever was rejected meanwhile."""
+    page = "\n".join(slices(known(*[1.0, 2.0, 3.0, 4.0, 5.0], *[None] * 20), ()))
+    first = page.split("</figure>")[0]
+    places = [at(f"dots age{age}", first) for age in range(5)]
+    ages = [age for age in range(5) for _ in places[age]]
+    assert ages == [0, 1, 2, 3, 4]
+    assert places == sorted(places)
 
 
 def test_a_line_goes_down_through_the_places_in_the_ranges() -> None:

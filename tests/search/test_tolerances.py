@@ -1,6 +1,7 @@
 """Robots as they are made: lengths, springs and floors about a design, and which values are refused."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -49,6 +50,9 @@ def test_printed_robots_have_springs_a_mass_and_a_floor_that_scatter() -> None:
     assert springs.mean() == pytest.approx(1.0, abs=0.01)
     assert np.log(floors).std() == pytest.approx(0.15, rel=0.15)
     assert np.log(floors).mean() == pytest.approx(0.0, abs=0.02)
+    heavy = replace(PRINTED, rate=0.0).neighbours(Variant.of(DESIGN), np.random.default_rng(2))
+    masses = [1.0 / float(one.workshop[SPRINGS]) for one in heavy]
+    assert abs(np.corrcoef(masses, np.log(floors))[0, 1]) < 0.4  # a floor does not know who stands on it
     exact = Making(0.2, rate=0.05, printed=True).neighbours(Variant.of(DESIGN), np.random.default_rng(2))
     assert np.std([float(one.workshop[SPRINGS]) for one in exact]) == pytest.approx(0.05, rel=0.15)
     assert {float(one.workshop[FLOOR]) for one in exact} == {1.0}

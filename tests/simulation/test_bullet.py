@@ -142,12 +142,21 @@ def test_the_pins_rub_once_and_at_the_leg() -> None:
         assert world._dry_nm == [0.0, 0.0, 0.0]
 
 
+def test_a_foot_that_slides_loses_energy_also_without_pads_of_its_own(kenan: Robot) -> None:
+    """On ice; on the study's floor, on which no foot slides, nothing is looked up."""
+    icy, dry = (simulate(kenan, Settings(ground_friction=ground)).energy for ground in (0.1, None))
+    assert icy is not None
+    assert dry is not None
+    assert icy.slip_j > 0.001 * kenan.spring.energy_j
+    assert dry.slip_j == 0.0
+
+
 def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:
     """Read back: friction, bounce and rolling of every link, axes of joints, steps, iterations."""
     bullet = pytest.importorskip("pybullet")
     settings = Settings(
         dt_s=0.0004, solver_iterations=77, restitution=0.25, rolling_friction_m=0.001, spinning_friction_m=0.002,
-        foot_friction=0.8, body_friction=0.3,
+        foot_friction=0.8, body_friction=0.3, gravity_m_s2=1.62,
     )  # fmt: skip
     rubs = coefficients(kenan, settings)
     with engine_named("pybullet").world(kenan, settings) as world:
@@ -161,6 +170,7 @@ def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:
             assert joint[13] == (0.0, 1.0, 0.0)
         asked = bullet.getPhysicsEngineParameters(physicsClientId=client)
         assert (asked["fixedTimeStep"], asked["numSolverIterations"], asked["numSubSteps"]) == (0.0004, 77, 0)
+        assert [asked[f"gravityAcceleration{axis}"] for axis in "XYZ"] == [0.0, 0.0, -1.62]
         assert bullet.getNumBodies(physicsClientId=client) == 2
         assert world.loaded() or world.advance(3) < 0.0
     assert bullet.getNumBodies(physicsClientId=client) == 1  # the ground

@@ -204,6 +204,15 @@ def test_accidents_are_one_line_or_harmless(read: Callable[..., Robot], file: st
     assert all(told.isprintable() for told in refused)
 
 
+def test_springs_are_read_as_they_were_written(read: Callable[..., Robot]) -> None:
+    """Loaded already at rest, or with arms that only push."""
+    for more in ({"preload_rad": 0.2}, {"one_sided": True}):
+        robot = replace(KENAN, spring=replace(KENAN.spring, **more))
+        found = read(loop=write_loop(robot)).spring
+        assert (found.preload_rad, found.one_sided) == (robot.spring.preload_rad, robot.spring.one_sided)
+        assert found.energy_j == pytest.approx(robot.spring.energy_j, rel=1e-9)
+
+
 def test_every_joint_keeps_its_limits(read: Callable[..., Robot]) -> None:
     """The mechanism's travel is that of the loop file, to which the URDF adds room."""
     got = read()

@@ -75,6 +75,9 @@ def test_energy_of_a_known_motion(lopsided: Robot) -> None:
         about_axes = (turn @ axes).T @ spin
         total += 0.5 * float(moments @ about_axes**2)
         total += 0.5 * body.mass_kg * float(np.sum((drift + np.cross(spin, place)) ** 2))
+    masses = [lopsided.bodies[name].mass_kg for name in BODY_NAMES]
+    mean = np.average(state.velocity_m_s, axis=0, weights=masses)
+    assert Mechanics(lopsided, 9.81).velocity_m_s(state) == pytest.approx(mean)
     energies = Mechanics(lopsided, 9.81).energies(state)
     assert energies.kinetic_j == pytest.approx(total, rel=1e-12)
     height = sum(lopsided.bodies[name].mass_kg * place[2] for name, place in zip(BODY_NAMES, com, strict=True))

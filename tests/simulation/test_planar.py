@@ -28,6 +28,13 @@ def test_verdicts(flights: list[Flight]) -> None:
     assert weak_as_no_takeoff == {flight.name: flight.verdict for flight in flights}
 
 
+def test_a_robot_that_does_not_clear_what_is_asked_for_does_not_jump(kenan: Robot) -> None:
+    """Its foot is 70 mm above the ground at the highest point, whatever engine computes the push-off."""
+    for engine in ("planar", "pybullet"):
+        low, high = (simulate(kenan, Settings(takeoff_clearance_m=asked), engine) for asked in (0.002, 0.1))
+        assert (low.verdict, high.verdict) == ("jump", "no_takeoff"), engine
+
+
 def test_jumps_of_the_table(jumping: list[Flight]) -> None:
     """At the default step."""
     for flight in jumping:

@@ -1,12 +1,15 @@
 """The planar model: what the plane takes of a robot."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from jumpcad.mechanism.model import Stop
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.planar_model import planar_model
 
 
 def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
@@ -16,6 +19,15 @@ def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
     ranges = [simulate(kenan, settings, "planar").ballistic_range_m for settings in pairs]
     assert ranges[0] == ranges[1]
     assert ranges[2] > 1.5 * ranges[0]
+
+
+def test_gravity_and_stop_are_those_of_the_settings_and_the_robot(kenan: Robot) -> None:
+    """Capsules have no stop."""
+    moon = Settings(gravity_m_s2=1.62)
+    free = planar_model(kenan, moon)
+    held = planar_model(replace(kenan, stop=Stop("leg", 0.11, 25.0)), moon)
+    assert (free.gravity_m_s2, free.stop_rad, free.stop_nm_per_rad) == (1.62, math.inf, 0.0)
+    assert (held.gravity_m_s2, held.stop_rad, held.stop_nm_per_rad) == (1.62, 0.11, 25.0)
 
 
 @pytest.mark.parametrize("preload_rad", [0.0, 0.2])

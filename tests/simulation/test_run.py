@@ -47,6 +47,16 @@ def test_what_lifts_a_robot_becomes_height(kenan: Robot, gravity_m_s2: float) ->
     assert jump.ballistic_range_m == pytest.approx(flown, abs=0.05)  # and what it has moved on the ground
 
 
+@pytest.mark.parametrize("engine", ["pybullet", "planar"])
+def test_a_flight_is_simulated_up_to_its_touchdown_or_the_time_limit(kenan: Robot, engine: str) -> None:
+    """What follows from the take-off is known anyway."""
+    flown, cut = (simulate(kenan, Settings(flight="simulated", max_time_s=time_s), engine) for time_s in (3.0, 0.15))
+    assert flown.takeoff_time_s < 0.15
+    assert flown.touchdown_distance_m > 0.1
+    assert cut.touchdown_distance_m is None
+    assert cut.ballistic_range_m == flown.ballistic_range_m
+
+
 def test_audit_rejects_energy_from_nowhere(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     """An engine whose spring pushes twice as hard as the robot's."""
     from jumpcad.simulation.bullet import BulletWorld

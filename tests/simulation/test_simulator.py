@@ -10,6 +10,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import RollerOff
+from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, run, simulate
 from jumpcad.simulation.jump import EnergyBudget
@@ -17,6 +18,16 @@ from jumpcad.simulation.mechanics import Ballistics
 from jumpcad.simulation.simulator import _jump
 
 pytest.importorskip("pybullet")
+
+
+def test_springs_that_give_less_than_they_hold_jump_as_weaker_ones(kenan: Robot) -> None:
+    """Efficiency 0.8: as with 0.8 of the stiffness; with 0.1 they are too weak to try."""
+    jump = simulate(kenan, Settings(spring_efficiency=0.8), "planar")
+    weaker = simulate(with_spring_factor(kenan, 0.8), engine="planar")
+    assert jump.spring_energy_j == pytest.approx(0.8 * kenan.spring.energy_j)
+    assert jump.ballistic_range_m == weaker.ballistic_range_m
+    assert jump.energy == weaker.energy
+    assert simulate(kenan, Settings(spring_efficiency=0.1), "planar").verdict == "too_weak"
 
 
 @pytest.mark.parametrize(

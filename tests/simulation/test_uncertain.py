@@ -12,6 +12,7 @@ from jumpcad.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
 from jumpcad.simulation import simulate, uncertain
 from jumpcad.simulation.uncertain import Uncertainty, _first_order, _groups, uncertain_jump
+from jumpcad.workshop import varied
 
 
 @pytest.fixture(scope="module")
@@ -110,6 +111,23 @@ def test_inputs_are_spread_as_the_workshop_and_the_model_say(robot: Robot) -> No
     middle, above = (changed("calibration", share)[1] for share in (0.5, up))
     assert (middle.spring_efficiency, middle.pin_friction) == pytest.approx((0.95, rubs.pin))
     assert (above.spring_efficiency, above.pin_friction) == pytest.approx((1.0, rubs.pin * np.exp(0.4)))
+
+
+def test_what_workshop_and_settings_say_of_lengths_floor_and_pins_is_what_varies(robot: Robot) -> None:
+    """Sliding fits of 0.25 mm let links be 0.5 mm off; a floor and pins that were measured are the middle."""
+    loose = replace(robot, workshop=varied(robot.workshop, {"fits.sliding_mm": 0.25}))
+    groups = _groups(loose, Settings(ground_friction=0.5, pin_friction=0.4))
+    assert groups["lengths"].values(np.array([[0.0, 1.0, 0.5, 0.0]]))[0] == pytest.approx([-0.5, 0.5, 0.0, -0.5])
+    assert groups["floor"].values(np.array([[0.5]]))[0] == pytest.approx([0.5])
+    assert groups["calibration"].values(np.array([[0.5, 0.5]]))[0] == pytest.approx([0.95, 0.4])
+
+
+def test_every_jump_is_simulated_by_the_engine_that_is_asked_for(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked, jump = [], simulate(robot, engine="planar")
+    monkeypatch.setattr(uncertain, "simulate", lambda *given: asked.append(given[2]) or jump)
+    monkeypatch.setattr(uncertain, "RESAMPLES", 2)
+    uncertain_jump(robot, Settings(), "mujoco", samples=8)
+    assert asked == ["mujoco"] * 8
 
 
 def test_draws_of_a_calibration_are_taken_in_pairs(robot: Robot) -> None:

@@ -4,6 +4,7 @@ import queue
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,8 +22,9 @@ from jumpcad.workshop import load_workshop
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Points, Studio, app, inputs  # noqa: E402
-from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
+from jumpcad.studio.answers import Printed, capsule_answer, printed_answer  # noqa: E402
 from jumpcad.studio.app import BY_NUMBER  # noqa: E402
+from jumpcad.studio.stage import Stage  # noqa: E402
 
 
 @pytest.fixture
@@ -69,6 +71,28 @@ def test_differences_are_those_from_the_robot_before() -> None:
     assert f"| mass | {mass:.1f} g (+{mass - before:.1f}) |" in new.to_markdown(old)
     assert f"| mass | {before:.1f} g (-{mass - before:.1f}) |" in old.to_markdown(new)
     assert f"| mass | {mass:.1f} g |" in new.to_markdown()
+
+
+def test_the_camera_stands_farther_off_large_robots_and_on_a_high_page(tmp_path: Path) -> None:
+    """As many times as legs and toes together are longer; a page higher than wide shows less from side to side."""
+    calls: list[Any] = []
+    server: Any = SimpleNamespace(
+        initial_camera=SimpleNamespace(), on_client_connect=calls.append,
+        scene=SimpleNamespace(set_up_direction=lambda _: None, add_grid=lambda *_, **__: None),
+    )  # fmt: skip
+    stage, design, places = Stage(server), load_design("kenan-2.0"), []
+    larger = design.model_copy(update={"carrying_link_mm": 2.0 * design.carrying_link_mm})
+    toes = design.model_copy(update={"e_coef": 2.0 * design.e_coef + 1.0})
+    for one in (design, larger, toes):
+        stage.look_at(one)
+        places.append(np.array([server.initial_camera.position, server.initial_camera.look_at]))
+    assert places[1] == pytest.approx(2.0 * places[0])
+    assert places[2] == pytest.approx(2.0 * places[0])
+    for aspect, moved in ((1.5, False), (0.6, True)):
+        camera = SimpleNamespace(aspect=aspect, position=tuple(places[2][0]), look_at=tuple(places[2][1]))
+        calls[-1](SimpleNamespace(camera=camera))
+        away = np.linalg.norm(np.subtract(camera.position, camera.look_at))
+        assert (away > 1.2 * np.linalg.norm(places[2][0] - places[2][1])) == moved
 
 
 def test_only_what_changes_is_sent_again(studio: Studio) -> None:
@@ -221,7 +245,7 @@ def test_the_answer_at_once_is_the_capsule_robots() -> None:
     assert "190 mm" in words  # the README's range with the study's masses
 
 
-def test_the_workshop_can_be_changed(studio: Studio) -> None:
+def test_the_workshop_can_be_changed(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
     """The panel names the one that is used, which at first is the first; what is there to choose is all."""
     assert studio.choice.options == ("default", "fine")
     assert studio.choice.value == "default"
@@ -229,6 +253,10 @@ def test_the_workshop_can_be_changed(studio: Studio) -> None:
     studio.choice.value = "fine"
     assert studio._change_workshop() == "workshop fine"
     assert studio.workshop == load_workshop("fine")
+    built: list[Any] = []
+    monkeypatch.setattr(app, "printed_answer", lambda *given: built.append(given) or Printed(given[0], reason="none"))
+    studio.answer(studio.design)
+    assert built == [(studio.design, load_workshop("fine"), "kenan-2.0")]
     assert {key: slider.value for key, slider in studio.sliders.items()} == load_design("kenan-2.0").model_dump()
 
 

@@ -1,5 +1,6 @@
 """The points of a study: numbered as the study's table is, chosen by number, refused in one line."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.store import StudyStore
 from jumpcad.search.table import write_table
 from jumpcad.studio.points import Points
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, varied
 
 pytest.importorskip("viser", reason="the extra studio is not installed")
 
@@ -44,6 +45,7 @@ def test_the_workshop_is_that_of_the_study_with_the_trials_values(tmp_path: Path
     points = Points(file)
     assert points.workshop == fine
     one = points.trial(1)
+    assert points.workshop_of(one) == fine
     object.__setattr__(one, "workshop", {"body.plate_mm": 4.0})
     assert points.workshop_of(one).body.plate_mm == 4.0
     assert points.workshop_of(one).printer == fine.printer
@@ -89,5 +91,8 @@ def test_a_trials_robot_is_built_in_its_workshop_with_the_name_of_its_study(
     """A name that cannot be engraved is refused before the studio opens."""
     points, asked = Points(study), []
     monkeypatch.setattr("jumpcad.studio.points.build", lambda *given: asked.append(given))
-    points.require_built(4)
-    assert asked == [(points.trial(4).design, points.workshop_of(points.trial(4)), study.stem)]
+    thick = varied(load_workshop(), {"body.plate_mm": 4.0})
+    for workshop, values in ((load_workshop(), {}), (thick, {"body.plate_mm": 4.0})):
+        monkeypatch.setattr(points, "trials", [replace(trial, workshop=values) for trial in points.trials])
+        points.require_built(4)
+        assert asked.pop() == (points.trial(4).design, workshop, study.stem)
