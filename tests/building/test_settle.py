@@ -130,6 +130,24 @@ def test_the_hub_keeps_a_wall_and_a_gap_off_the_spacer_on_the_cams_axle() -> Non
                 _require_hub_room(tried)
 
 
+def test_the_hub_keeps_the_thinnest_wall_off_the_rollers_screw() -> None:
+    """From the hub's middle to the roller's, less half of the screw's hole and what can be printed between the two."""
+    settled = settle(load_design("kenan-2.0"), load_workshop(), Growth())
+    fits = settled.holes.fits.model_copy(update={"wall_min_mm": 0.9, "wall_mm": 1.7, "press_mm": 0.08})
+    holes = replace(settled.holes, fits=fits)
+    free = 2.0 * (14.0 - holes.m3_clearance_mm / 2.0 - 0.9 - 0.08)
+    cam = SimpleNamespace(cam_axis_mm=np.array([0.0, 90.0]), lever_length_mm=14.0)
+    assert holes.bearing is not None
+    for outer, fits_in in ((free - 0.01, True), (free + 0.01, False)):
+        bearing = holes.bearing.model_copy(update={"outer_mm": outer})
+        tried = replace(settled, drive=SimpleNamespace(cam=cam), holes=replace(holes, bearing=bearing))
+        if fits_in:
+            _require_hub_room(tried)
+        else:
+            with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit"):
+                _require_hub_room(tried)
+
+
 def test_the_leg_falls_by_springs_with_the_preload_of_the_workshop(monkeypatch: pytest.MonkeyPatch) -> None:
     seen, workshop = [], load_workshop()
     monkeypatch.setattr(settling, "fall_s", lambda *given: seen.append(given) or fall_s(*given))

@@ -27,6 +27,9 @@ def test_constraints_are_among_all_checks_and_leave_the_gates_to_the_jump(kenan:
     assert all(finding in everything for finding in constraints)
     assert {"loop", "below_ground", "tips", "too_weak"}.isdisjoint(finding.name for finding in constraints)
     assert {"loop", "below_ground", "tips", "too_weak"} < {finding.name for finding in everything}
+    # all that can fail where a design's blows are hard or its parts heavy
+    heavy = {"leg_strength", "stop_leg", "release_kick", "gearbox_torque", "electronics_hold", "ground_clearance"}
+    assert heavy | {"axle_retention", "sideways_tipping", "bed_fit"} < {finding.name for finding in constraints}
 
 
 def test_a_check_of_the_registry_is_run_by_all_that_is_cheap(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -97,6 +97,7 @@ def test_gaps_of_up_to_3_mm_are_measured_on_all_sides_of_the_foot(
     (finding,) = foot_findings(kenan)
     assert finding.value == (pytest.approx(2.9, abs=1e-4) if abs(gap_mm) < 3.0 else None)
     assert ("cube" in finding.message) == (abs(gap_mm) < 3.0)
+    assert finding.limit == 0.5
 
 
 @pytest.mark.parametrize("name", ["front_eye_pin", "toe_right_pad"])

@@ -40,6 +40,8 @@ def test_a_summary_counts_what_was_searched_apart_from_what_lies_around_the_best
     *searched, last = trials(17)
     searched.append(replace(last, evaluation=lost, score=None))
     around = [replace(trial, score=99.0) for trial in trials(3, "robust", 1)]
+    rejected = next(trial.evaluation for trial in searched if trial.evaluation.reasons)
+    around[-1] = replace(around[-1], evaluation=rejected, score=None)
     with StudyStore.write(None, IDENTITY) as store:
         store.append([*searched, *around])
         store.remember("stages", [{"method": "ga", "evaluations": 14}, {"method": "bo", "evaluations": 7}])

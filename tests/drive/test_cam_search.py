@@ -131,6 +131,15 @@ def shapes_and_cam() -> tuple[_Shapes, np.ndarray]:
     return _Shapes(law, LIMITS), np.array([cam.lever_length_mm, gap, cam.geometry.lead_rad])
 
 
+@pytest.mark.parametrize(("gap_mm", "core_mm", "least_mm"), [(9.0, 5.0, 9.0), (5.0, 9.0, 9.0)])
+def test_shapes_keep_off_the_axle_and_around_the_core(gap_mm: float, core_mm: float, least_mm: float) -> None:
+    """From the lever's circle to the cam's axis; the lever reaches around hub, roller and the clearance."""
+    limits = replace(LIMITS, gap_min_mm=gap_mm, core_radius_mm=core_mm, hub_radius_mm=6.0, clearance_mm=0.7)
+    shapes = _Shapes(CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad), limits)
+    assert np.exp(shapes.lower[:2]) == pytest.approx([6.0 + limits.roller_radius_mm + 0.7, least_mm])
+    assert np.exp(shapes.upper) == pytest.approx([limits.lever_max_mm, limits.gap_max_mm, limits.lead_max_rad])
+
+
 def test_the_outer_radius_counts_most_then_lever_and_distance_of_the_axis():
     """A millimetre more of lever or gap is a part of a millimetre of radius, and never makes a cam smaller."""
     search, shape = shapes_and_cam()

@@ -173,3 +173,19 @@ def test_the_larger_of_a_cams_impact_and_of_what_it_meets_later_is_the_kick(
     release = _Release(arc(0.1), parts(play_rad=0.1, backlash_rad=0.05))
     release.run()
     assert (release.blow_nm, release.kick_nm) == (1.0, kick_nm)
+
+
+def test_an_impact_is_that_of_the_cams_speed_against_a_motor_that_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Masses from cam to rotor, speeds of cam and motor, then backlash, stiffness and rebound of what is between."""
+    seen = []
+    monkeypatch.setattr(rolling, "largest_torques_nm", lambda *given: seen.append(given) or (0.0, 0.0))
+    given = parts(
+        play_rad=0.1, backlash_rad=0.05, cam_rad_s=2.0, cam_kg_m2=1e-6, gear_kg_m2=3e-6, rotor_kg_m2=7e-6,
+        train_nm_per_rad=11.0, rebound=0.3,
+    )  # fmt: skip
+    release = _Release(arc(0.2), given)
+    release.run()
+    ((masses, speed, *others),) = seen
+    assert masses == (1e-6, 3e-6, 7e-6)
+    assert speed > 2.0  # the corner drives the cam on
+    assert others == [2.0, 0.05, 11.0, 0.3]

@@ -66,6 +66,14 @@ def test_screws_have_lengths_that_are_sold(robot: Robot) -> None:
             assert float(length) in load_catalogue().screws[size].lengths_mm
 
 
+def test_a_toes_screw_goes_through_the_toe_and_4_mm_into_the_stub() -> None:
+    robot = built(LONG_TOES)
+    articles = {item.article for item in robot.hardware if re.fullmatch(r"toe_\w+_screw_\d", item.name)}
+    sold = load_catalogue().screws["M3"].lengths_mm
+    least = min(length for length in sold if length >= robot.layout.sections.toe_width_mm + 4.0)
+    assert articles == {f"screw M3 x {least:g} ISO 7380-1"}
+
+
 def test_the_two_springs_mirror_each_other(robot: Robot) -> None:
     left, right = (next(item for item in robot.hardware if item.name == f"spring_{side}") for side in ("left", "right"))
     assert left.article.replace("right hand", "left hand") == right.article

@@ -147,6 +147,19 @@ def test_the_published_robot_has_no_engine_to_choose(engine):
     assert robot_model("published", engine="pybullet") == robot_model("published")
 
 
+def test_a_refusal_says_by_how_much_its_limit_was_missed(monkeypatch):
+    """For the processes that learn where there is room, whether the robot was built or only laid out."""
+
+    def refused(*_):
+        raise CannotBuildError("no room", "room_tray", -2.5)
+
+    for name in ("jumpcad.building.layout_of", "jumpcad.evaluation.evaluate_made"):
+        monkeypatch.setattr(name, refused)
+    model, variant = robot_model(), Variant(load_design("kenan-2.0"))
+    for found in (model.laid_out(variant), model(variant.design)):
+        assert (found.verdict, found.margins["room_tray"]) == ("cannot_build", -2.5)
+
+
 def test_a_variant_is_laid_out_in_its_own_workshop(monkeypatch):
     """What has no room there is a verdict, as are values that do not go together."""
     asked = []
