@@ -3,6 +3,7 @@
 import contextlib
 import functools
 import io
+import logging
 import re
 from collections.abc import Iterator
 from unittest.mock import patch
@@ -18,6 +19,7 @@ def own_server(port: int) -> "viser.ViserServer":
 
     Browsers let any page connect to a web socket of this computer and say which page it was (RFC 6455, 10.2).
     """
+    logging.getLogger("websockets").setLevel(logging.CRITICAL)  # a connection that is no web socket is no bug
     with contextlib.redirect_stdout(io.StringIO()), _origins_checked():  # its banner has the address too
         return viser.ViserServer(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
 

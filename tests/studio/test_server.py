@@ -1,6 +1,7 @@
 """Only the studio's own page may connect: a page from elsewhere in the same browser may not change files here."""
 
 import http.client
+import socket
 from collections.abc import Iterator
 
 import pytest
@@ -46,3 +47,14 @@ def test_the_own_page_connects(server: "viser.ViserServer") -> None:
 )  # fmt: skip
 def test_other_pages_are_refused(server: "viser.ViserServer", origin: str) -> None:
     assert handshake(server, origin) == 403
+
+
+def test_what_is_no_request_for_a_web_socket_prints_nothing(
+    server: "viser.ViserServer", caplog: pytest.LogCaptureFixture
+) -> None:
+    """As `curl -I` sends it; the server closes the connection and goes on."""
+    with socket.create_connection(("127.0.0.1", server.get_port()), timeout=10.0) as connection:
+        connection.sendall(b"HEAD / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+        assert connection.recv(1) == b""
+    assert handshake(server, None) == 101
+    assert caplog.records == []
