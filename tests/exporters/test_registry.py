@@ -20,6 +20,12 @@ def test_a_bundle_has_what_the_exporters_write(small_robot: Robot, monkeypatch: 
         assert bool(paths) != exporter.optional
 
 
+def test_a_bundle_has_no_step_files_and_no_ros_package_unless_they_are_asked_for() -> None:
+    usual = [exporter.name for exporter in chosen()]
+    assert usual == ["stl", "3mf", "urdf", "mjcf", "sdf", "glb", "dxf"]
+    assert {exporter.name for exporter in chosen(["ros2"])} == {*usual, "ros2"}
+
+
 def test_an_optional_exporter_is_asked_for_and_says_what_it_lacks(monkeypatch: pytest.MonkeyPatch) -> None:
     def lacking() -> None:
         raise JumpcadError("needs a library")

@@ -126,3 +126,21 @@ def test_the_foots_lugs_are_in_its_sweep(name: str) -> None:
     for wind in windings(robot):
         for eye in in_body(robot, FOOT, wind, eyes):
             assert room.contains(shapely.Point(*eye).buffer(robot.layout.sections.foot_depth_mm))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_foots_toes_and_rails_are_in_its_sweep_and_no_more(name: str) -> None:
+    """From the ankle both get lower; they stand on the sole, half as much above and below their middle lines."""
+    robot = built(name)
+    sections, design = robot.layout.sections, robot.design
+    foot, loaded = swept(robot)["foot"], robot.spring.wind_rad
+    toe = -design.l5_mm * np.cos(np.radians(design.ground_link_angle_deg)) - 2.5  # the tip is round, 5 mm wide
+    for reach, root, tip in (
+        (toe, sections.toe_root_mm, sections.toe_tip_height_mm),
+        (design.l4_mm, sections.rail_root_mm, sections.rail_tip_mm),
+    ):
+        for share, height in ((0.0, root), (1.0, tip)):
+            place = in_body(robot, FOOT, loaded, np.array([[share * reach, height / 2.0 - sections.foot_depth_mm]]))[0]
+            found = np.hypot(*(foot.points_mm - place).T).argmin()
+            assert foot.points_mm[found] == pytest.approx(place, abs=0.3)
+            assert foot.radius_mm[found] == pytest.approx(height / 2.0)

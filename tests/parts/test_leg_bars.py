@@ -156,6 +156,23 @@ def test_whichever_stress_of_a_bar_is_nearest_to_its_limit_counts(worst: str, mo
     assert found.value == pytest.approx(90.0 * share)
 
 
+def test_what_loads_a_bar_is_what_is_left_of_the_torque_at_its_mouth(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The leg is a cantilever with a force at the ankle; a toe's blow bends it aside and twists it, by its slope."""
+    case = LoadCase(robot("carbon-tube-6x4"))
+    place, design, seen = leg_bar_place(case.layout, case.holes), case.robot.design, {}
+    assert place is not None
+    for name in ("bar_bending_mpa", "bar_sideways_mpa", "bar_shear_mpa"):
+        monkeypatch.setattr(leg_bar, name, lambda *given, name=name: seen.update({name: given}) or 1.0)
+    list(leg_bar_findings(case))
+    left, blow = 1.0 - place.mouth_mm / design.l2_mm, case.toe_blow_n * case.layout.toe_half_width_mm
+    bar, slope, moment = BARS["carbon-tube-6x4"], math.radians(design.rest_angle_deg), left * case.torque_nmm
+    axial = np.abs(case.forces.leg_axial_n).max()
+    across = case.torque_nmm / design.l2_mm + 1.5 * moment / (place.mouth_mm - place.floor_mm)
+    assert seen["bar_bending_mpa"] == (bar, pytest.approx(moment), pytest.approx(axial))
+    assert seen["bar_sideways_mpa"] == (bar, pytest.approx(blow * math.sin(slope)))
+    assert seen["bar_shear_mpa"] == (bar, pytest.approx(across), pytest.approx(blow * math.cos(slope)))
+
+
 def test_a_bar_that_is_too_weak_is_found() -> None:
     """Half of best-printable's torque is more than a tube of 4 x 3 mm bears in shear at its socket."""
     (found,) = [
