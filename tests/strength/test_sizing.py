@@ -12,8 +12,8 @@ from jumpcad.dimensions import STOP_SEAT_MM
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.loads import push_off, toe_load_n
-from jumpcad.strength.sizing import POWERS, TYPICAL_BODY, Growth, leg_flex_share, sections
-from jumpcad.strength.stress import Beam
+from jumpcad.strength.sizing import POWERS, TYPICAL_BODY, Growth, Sections, leg_flex_share, sections
+from jumpcad.strength.stress import SOLID, Beam
 from jumpcad.workshop import Workshop, load_workshop
 from jumpcad.workshop.workshop import Role
 
@@ -44,6 +44,19 @@ def test_no_section_exceeds_the_design_stress_even_as_a_solid_bar(name: str) -> 
         height = sizes.leg_root_mm + along * (sizes.leg_tip_mm - sizes.leg_root_mm)
         assert 6.0 * torque * (1.0 - along) / (sizes.thickness_mm * height**2) < 15.0
     assert 6.0 * torque / (sizes.thickness_mm * sizes.lever_root_mm**2) < 15.0
+
+
+def test_every_beam_has_its_own_width_and_its_own_heights_from_root_to_tip() -> None:
+    """Lugs and rails are as thick as each other, a toe gets narrower to 5 mm; what stands on the sole prints upright."""
+    own = Sections(*np.arange(21.0, 37.0).tolist())
+    widths = {"leg": (21, 21), "front": (21, 21), "toe": (31, 5), "rail": (27, 27)}
+    heights = {"leg": (22, 23), "front": (24, 24), "toe": (32, 33), "rail": (29, 30)}
+    for name, ends in widths.items():
+        beam = getattr(own, name)(SOLID)
+        width, height = (np.atleast_1d(size) for size in (beam.width_mm, beam.height_mm))
+        assert (width[0], width[-1]) == ends
+        assert (height[0], height[-1]) == heights[name]
+        assert beam.upright == (name in ("toe", "rail"))
 
 
 @pytest.mark.parametrize("name", ["carbon-tube-4x2", "carbon-tube-6x4", "carbon-strip-3x6"])
