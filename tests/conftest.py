@@ -31,7 +31,7 @@ from jumpcad.parts.part import Drawing, Shape
 from jumpcad.robot import Robot
 from jumpcad.solids import finish
 from jumpcad.solids.stack import Stack
-from jumpcad.strength.sizing import Growth
+from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop
 
 KEPT = 600

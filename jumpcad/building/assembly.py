@@ -31,7 +31,7 @@ from jumpcad.parts.purchased import BoughtPart
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import pin_head_mm
-from jumpcad.strength.sizing import Growth, grown_mm
+from jumpcad.strength.growth import Growth, grown_mm
 from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop

@@ -11,7 +11,7 @@ from jumpcad.files.names import composed
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import Robot, require_name
-from jumpcad.strength.sizing import Growth
+from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 GROWTH_ROUNDS = 10

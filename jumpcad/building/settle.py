@@ -32,7 +32,8 @@ from jumpcad.strength.bearings import (
     loaded_forces_n,
     roller_bearing,
 )
-from jumpcad.strength.sizing import RESERVE, TYPICAL_BODY, Growth, Sections, sections
+from jumpcad.strength.growth import Growth
+from jumpcad.strength.sizing import RESERVE, TYPICAL_BODY, Sections, sections
 from jumpcad.workshop import Workshop
 
 

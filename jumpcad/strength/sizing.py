@@ -6,17 +6,17 @@ with the formulas of the strength checks of the finished robot. A section that f
 """
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_MM
 from jumpcad.drive.stock_spring import springs_on_leg
-from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
+from jumpcad.strength.growth import Growth, grown_mm, in_hundredths
 from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, rail_twist_nmm, toe_load_n, toe_moment_nmm
 from jumpcad.strength.stop import BLOW_FACTOR, PEAK_SHARE
 from jumpcad.strength.stress import (
@@ -70,17 +70,6 @@ STOP_MIN_MM = 6.0
 """Least depth of the rest stop's bar in the direction of the impact; judgement."""
 DOG_FACETS_MM = 0.05
 """Thickness that a jaw loses because its two circles are drawn as polygons."""
-GROWTH_STEP, GROWTH_LEAP, GROWTH_MORE = 1.1, 1.5, 1.002
-"""Largest factor by which a section grows where it is not known what growing helps, and where it is, and factor beyond
-what it lacks; judgement: few rounds, little mass more than needed, and designs that differ a little stay robots that
-differ a little."""
-POWERS = {"release_kick": 0.65, "stop_leg": 1.45, "stop_strength": 1.75}
-"""Powers of what grows by which the uses of limits fall, by the findings' names: in 15 robots 0.64 to 0.82, and in 7
-1.47 to 1.61 and 1.79 to 1.91 (measured); nearly the least, so that one round is mostly enough."""
-LEAST_POWER = 0.5
-"""Least power of a section by which a use is taken to fall; judgement: stresses fall with the first to the third power,
-the release's kick with 0.6 to 0.8 of the lever's (measured). What falls less is held by another size too, which a
-leap would pass."""
 RAISED_ROUNDS, STIFF_MORE, STRONG_MORE = 12, 1.01, 1.001
 """Most steps in which the leg's height is raised until it flexes little enough and holds, and factors beyond what each
 lacks; judgement."""
@@ -138,66 +127,6 @@ class Sections:
         )
 
 
-@dataclass(frozen=True)
-class Growth:
-    """Factors on the sizes that `sections` gives, for those that fail a strength check of the built robot."""
-
-    leg: float = 1.0
-    lever: float = 1.0
-    front: float = 1.0
-    thickness: float = 1.0
-    lug: float = 1.0
-    toe: float = 1.0
-    rail: float = 1.0
-    plate: float = 1.0
-    dog: float = 1.0
-    stop: float = 1.0
-
-    def more(self, weak: Iterable[Finding]) -> "Growth":
-        """Return the factors with those of weak sections larger by at most a step.
-
-        By what a finding lacks: stresses fall at least as fast as their section grows. By a whole step where that is
-        not known.
-        """
-        return self._grown((finding, min(GROWTH_STEP, GROWTH_MORE * (finding.use or math.inf))) for finding in weak)
-
-    def leap(self, weak: Iterable[Finding], before: Mapping[tuple[str, str], tuple[float, float]]) -> "Growth":
-        """Return the factors with those of weak sections as large as they are expected to need to be.
-
-        `before` are the `uses` of an earlier growth: what has fallen by some power of its section since then is taken
-        to go on so (secant method), if it is one that a section can have. Else by the usual power (`POWERS`); by at
-        most a step where there is none.
-        """
-        return self._grown((finding, self._leap(finding, before)) for finding in weak)
-
-    def uses(self, weak: Iterable[Finding]) -> dict[tuple[str, str], tuple[float, float]]:
-        """Return the factor of what grows and the use of the limit for findings, by their name and what grows."""
-        return {(one.name, one.grows): (getattr(self, one.grows), one.use) for one in weak if one.use is not None}
-
-    def _leap(self, finding: Finding, before: Mapping[tuple[str, str], tuple[float, float]]) -> float:
-        use, power = finding.use or math.inf, POWERS.get(finding.name)
-        if (finding.name, finding.grows) in before:
-            power = self._power(finding, *before[finding.name, finding.grows])
-        if power is None or use == math.inf:
-            return min(GROWTH_STEP, GROWTH_MORE * use)
-        return math.exp(min(math.log(GROWTH_LEAP), math.log(GROWTH_MORE) + math.log(use) / power))
-
-    def _power(self, finding: Finding, factor: float, use: float) -> float | None:
-        """Return the power by which a use has fallen since an earlier factor; None if it is not that of a section."""
-        grown, now = getattr(self, finding.grows) / factor, finding.use or math.inf
-        if grown <= 1.0 or not 1.0 < use / now < math.inf:
-            return None
-        power = math.log(use / now) / math.log(grown)
-        return power if power >= LEAST_POWER else None
-
-    def _grown(self, factors: Iterable[tuple[Finding, float]]) -> "Growth":
-        """Return the factors times the largest of some for what grows with each finding."""
-        steps: dict[str, float] = {}
-        for finding, factor in factors:
-            steps[finding.grows] = max(factor, steps.get(finding.grows, 1.0))
-        return replace(self, **{what: step * getattr(self, what) for what, step in steps.items()})
-
-
 def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
     """Size the links of a mechanism in a workshop, with a hub of at least a given width."""
     design = linkage.design
@@ -224,7 +153,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
 
     stiff = root if workshop.leg_bar is not None else _raised_mm(root, thickness, shell, flexes, 3.0, STIFF_MORE)
     strong = _raised_mm(root, thickness, shell, bears, 2.0, STRONG_MORE)
-    leg_root = max(_in_hundredths(growth.leg * max(stiff, strong)), around)
+    leg_root = max(in_hundredths(growth.leg * max(stiff, strong)), around)
     leg_tip = max(_leg_tip_mm(leg_root), around)
     eye = max(eye, around / 2.0)
     depth = max(eye, leg_tip / 2.0) + ABOVE_GROUND_MM
@@ -234,14 +163,14 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
     twist = VON_MISES * rail_twist_nmm(design, toes, rail_middle_mm(thickness, lug))
     rail = max(rail, twisted_height_mm(twist, lug, material.strength_in_plane_mpa / TWIST_FACTOR))
-    toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
-    rail_root = _in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
+    toe_root = in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
+    rail_root = in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
     return Sections(
         thickness_mm=thickness,
         leg_root_mm=leg_root,
         leg_tip_mm=leg_tip,
         front_mm=max(grown_mm(HEIGHT_MIN_MM, growth.front), around),
-        lever_root_mm=_in_hundredths(growth.lever * max(root, LEVER_MORE * bending)),
+        lever_root_mm=in_hundredths(growth.lever * max(root, LEVER_MORE * bending)),
         eye_radius_mm=eye,
         lug_thickness_mm=lug,
         foot_depth_mm=depth,
@@ -250,8 +179,8 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         toe_width_mm=TOE_WIDTH_MM,
         toe_root_mm=toe_root,
         toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
-        dog_mm=_in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
-        stop_mm=_in_hundredths(growth.stop * _stop_mm(workshop, springs.energy_j, thickness, shell)),
+        dog_mm=in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
+        stop_mm=in_hundredths(growth.stop * _stop_mm(workshop, springs.energy_j, thickness, shell)),
         pad_mm=pad,
     )
 
@@ -262,7 +191,7 @@ def _socket_mm(workshop: Workshop) -> tuple[float, float]:
     if bar is None:
         return 0.0, 0.0
     gap = 2.0 * fits.lying_mm
-    return _in_hundredths(bar.height_mm + gap + 2.0 * fits.wall_mm), bar.width_mm + gap + 2.0 * fits.wall_min_mm
+    return in_hundredths(bar.height_mm + gap + 2.0 * fits.wall_mm), bar.width_mm + gap + 2.0 * fits.wall_min_mm
 
 
 def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float, springs: Spring | None = None) -> float:
@@ -319,16 +248,6 @@ def _least_dog_mm(workshop: Workshop) -> float:
     """Return the diameter at which the jaws are as thick as the thinnest column that can be printed."""
     jaw = workshop.fits.pin_min_mm + DOG_FACETS_MM
     return dog_inside_mm(workshop.fits, workshop.bought.axle_mm) + 2.0 * jaw
-
-
-def grown_mm(size_mm: float, factor: float) -> float:
-    """Return a size as it is, or grown and rounded up to 0.01 mm."""
-    return size_mm if factor == 1.0 else _in_hundredths(factor * size_mm)
-
-
-def _in_hundredths(height_mm: float) -> float:
-    """Return a height rounded up to 0.01 mm: the last digits of the loads differ between processors."""
-    return math.ceil(height_mm * 100.0 - 1e-6) / 100.0
 
 
 def _leg_tip_mm(root_mm: float) -> float:

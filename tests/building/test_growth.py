@@ -14,7 +14,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, at_least, errors
 from jumpcad.robot import Robot
-from jumpcad.strength.sizing import Growth
+from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 LIMP_LEVER = [100.0, 0.9301, 0.5, 1.0781, 0.8, 62.7789, 27.6332, 15.5445]

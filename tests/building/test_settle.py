@@ -22,7 +22,8 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
-from jumpcad.strength.sizing import Growth, sections
+from jumpcad.strength.growth import Growth
+from jumpcad.strength.sizing import sections
 from jumpcad.workshop import Workshop, load_workshop
 
 

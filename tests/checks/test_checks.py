@@ -12,7 +12,7 @@ from jumpcad.design import load_design
 from jumpcad.findings import at_most, limit
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
-from jumpcad.strength.sizing import Growth
+from jumpcad.strength.growth import Growth
 
 
 def test_nothing_is_wrong_with_kenan() -> None:

@@ -21,7 +21,7 @@ from jumpcad.parts.purchased import BoughtPart
 from jumpcad.parts.shopping import _d_shaft, _standoffs
 from jumpcad.parts.toes import toes
 from jumpcad.robot import Robot
-from jumpcad.strength.sizing import Growth
+from jumpcad.strength.growth import Growth
 from jumpcad.workshop import load_workshop
 
 
