@@ -21,7 +21,7 @@ leap would pass."""
 
 @dataclass(frozen=True)
 class Growth:
-    """Factors on the sizes that `sections` gives, for those that fail a strength check of the built robot."""
+    """Factors on the sizes that `sizing.sections` gives, for those that fail a strength check of the built robot."""
 
     leg: float = 1.0
     lever: float = 1.0
