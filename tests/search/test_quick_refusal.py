@@ -1,6 +1,7 @@
 """Robots refused by an estimate of their masses: never one that would have passed, and nothing of them is built."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -129,6 +130,21 @@ def test_a_robot_that_just_takes_off_is_not_refused(barely_jumping, monkeypatch)
     monkeypatch.setattr(quick, "NEAR", Bounds(1.0, 1e3))
     (standing,) = quick_refusal(robot.design, robot.workshop, settings)
     assert standing.name == "no_takeoff"
+
+
+def test_stronger_springs_press_harder_on_their_pins(monkeypatch):
+    """A push-off is tried with springs and friction of pins stronger alike, the strongest first."""
+    tried, robot = [], built("kenan-2.0")
+    own = quick.PlanarWorld(with_spring_factor(robot, Settings().spring_efficiency), Settings()).model
+
+    def flown(world):
+        tried.append((world.model.stiffness_nm_per_rad, world.model.pins_nm))
+        return SimpleNamespace(flown=len(tried) == 3)
+
+    monkeypatch.setattr(quick.PlanarWorld, "push_off", flown)
+    assert quick._by_push_off(robot, Settings()) == ()
+    assert own.pins_nm > 0.0
+    assert np.array(tried) == pytest.approx(np.outer([1.06, 1.04, 1.02], [own.stiffness_nm_per_rad, own.pins_nm]))
 
 
 def test_an_estimate_that_is_near_its_take_off_refuses_nothing(monkeypatch):
