@@ -84,14 +84,16 @@ def assembly_steps(robot: Robot) -> list[Step]:
 def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Array:
     """Return the direction (3,) in the world in which a part moves to its place on the standing robot.
 
-    `T_world_body` (4, 4) is the pose of the part's body. Toes come from outside onto the foot's stubs, their screws
-    with their heads last.
+    `T_world_body` (4, 4) is the pose of the part's body. What comes from above comes square to its tray, which may be
+    inclined; toes come from outside onto the foot's stubs, their screws with their heads last.
 
     Raises
     ------
     ValueError
         If `move.along` is no known direction.
     """
+    if move.along == "from above":
+        return -T_world_body[:3, 2]
     if move.along in SIDES:
         return SIDES[move.along]
     if move.along == "sideways":

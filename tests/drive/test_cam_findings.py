@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import pytest
 from support.limits import default_limits
@@ -25,6 +26,19 @@ def test_what_is_found_differs_from_the_limit_by_the_margin(checked: Limit, time
     found, limit = map(float, re.findall(r"-?\d+(?:\.\d+)?", words)[-2:])
     more = found - limit if "at least" in words else limit - found
     assert more == pytest.approx(shown(checked, room), abs=0.51 if checked.unit == "rad" else 0.051)
+
+
+def test_the_limit_that_is_said_is_the_cams_own() -> None:
+    own = replace(
+        CAM, pressure_angle_rad=math.radians(41.0), undercut_margin_mm=0.7, pressure_mpa=81.0, roller_load_n=333.0,
+        core_radius_mm=7.3, clearance_mm=0.9, overshoot_rad=math.radians(6.2),
+    )  # fmt: skip
+    said = {
+        "cam_pressure_angle": " 41.00°", "cam_undercut": " 0.7 mm", "cam_contact": " 81.0 MPa",
+        "cam_roller_load": " 333.0 N", "cam_core": " 7.30 mm", "cam_hub": " 0.9 mm", "cam_next_lift": " 0.9 mm",
+        "cam_overshoot": " 6.2°",
+    }  # fmt: skip
+    assert [name for name, limit in said.items() if limit not in _found(name, 0.1, own)] == []
 
 
 @pytest.mark.parametrize("checked", LIMITS, ids=lambda one: one.name)

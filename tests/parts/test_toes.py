@@ -15,7 +15,7 @@ from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.toes import _bar, _behind_mm, joint_height_mm, lying_hole, toes, toes_apart
+from jumpcad.parts.toes import _bar, _behind_mm, _finger, joint_height_mm, lying_hole, toes, toes_apart
 from jumpcad.solids.outline import hole
 from jumpcad.workshop import load_workshop
 
@@ -29,6 +29,20 @@ def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
         np.testing.assert_allclose(tip[:2], reach, atol=1e-9)
         beside = layout.sections.thickness_mm / 2.0 + 0.5 + layout.sections.toe_width_mm / 2.0  # leg, gap, half a toe
         assert toe.root_mm.tolist() == pytest.approx([0.0, sign * beside])
+
+
+def test_a_toe_tapers_from_its_root_to_its_tip_all_round() -> None:
+    """7 mm wide at its root and 5 at its tip; as high as the sections say."""
+    layout = built("kenan-2.0").layout
+    sections = replace(layout.sections, toe_width_mm=7.5, toe_root_mm=4.1, toe_tip_height_mm=2.3, stop_mm=9.0)
+    start = np.array([3.0, 1.0])
+    finger = _finger(replace(layout, sections=sections), start, 60.0)
+    low, high = finger.bounds_mm
+    assert (low[2], high[2]) == pytest.approx((0.0, 4.1))
+    assert high[0] == pytest.approx(60.0 + 2.5, abs=0.01)
+    assert (low[1], high[1]) == pytest.approx((1.0 - 3.75, 1.0 + 3.75), abs=0.02)
+    reach = [finger.solid().slice(z).bounds()[2] for z in (3.2, 2.29)]  # half as high between both, and below the tip
+    assert reach == pytest.approx([31.5, 62.5], abs=4.0)
 
 
 @pytest.mark.parametrize("angle_deg", [38.0, 55.0, 65.0, 80.0])

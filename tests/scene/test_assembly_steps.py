@@ -126,6 +126,13 @@ def test_toes_come_along_their_own_width(name: str, way: float) -> None:
         travel(built("kenan-2.0"), thing, Move("toe_left", "from nowhere"), turned)  # type: ignore[arg-type]
 
 
+def test_what_is_laid_on_a_tray_comes_square_to_it() -> None:
+    """Straight down in the world, a battery would hit the stops of a tray that stands inclined with its robot."""
+    turned = pose_about_y(0.4, (0.0, 0.0))
+    found = travel(built("kenan-2.0"), SimpleNamespace(name="battery"), Move("battery", "from above"), turned)  # type: ignore[arg-type]
+    np.testing.assert_allclose(turned[:3, :3].T @ found, [0.0, 0.0, -1.0], atol=1e-12)
+
+
 def test_warnings_come_as_warnings_and_checks_as_checks(robot: Robot) -> None:
     plans, found = {plan.key: plan for plan in ORDER}, Counter[str]()
     for step in assembly_steps(robot):
