@@ -10,6 +10,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.paper import published
+from jumpcad.search import models
 from jumpcad.search.models import RobotModel, _figures, robot_model
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.refusal import room_findings
@@ -145,6 +146,13 @@ def test_the_published_robot_has_no_engine_to_choose(engine):
     with pytest.raises(JumpcadError, match=f"engine {engine}: the published simulation exists in pybullet alone"):
         robot_model("published", engine=engine)
     assert robot_model("published", engine="pybullet") == robot_model("published")
+
+
+def test_masses_and_floors_scatter_by_what_a_simulation_takes_them_to(monkeypatch):
+    """3.1 and 17 %, and not the other way round."""
+    monkeypatch.setattr(models, "PRINTED_MASS_SHARE", 0.031)
+    monkeypatch.setattr(models, "FLOOR_SHARE", 0.17)
+    assert (robot_model().making.mass, robot_model().making.floor) == (0.031, 0.17)
 
 
 def test_a_refusal_says_by_how_much_its_limit_was_missed(monkeypatch):
