@@ -63,6 +63,11 @@ def test_build_says_how_far_it_jumps_and_what_it_weighs(
     assert facts["capsule_jump"]["mass_kg"] == pytest.approx(capsule_robot(load_design("kenan-2.0")).mass_kg)
     assert facts["capsule_jump"]["mass_kg"] != pytest.approx(facts["mass_kg"])
     assert sum(line["quantity"] * line["mass_kg"] for line in facts["masses"]) == pytest.approx(facts["mass_kg"])
+    # the battery gives motor and boards what they take; boards of 25 mA, as long as the motor winds
+    winding = facts["winding"]
+    assert winding["electrical_j"] == pytest.approx(winding["motor_j"] + winding["boards_j"])
+    assert winding["time_s"] == built("kenan-2.0").layout.drive.train.winding_s
+    assert winding["boards_j"] / winding["time_s"] == pytest.approx(0.025 * 3.7, rel=0.2)
     assert facts["winding"]["efficiency"] == pytest.approx(facts["spring_energy_j"] / facts["winding"]["electrical_j"])
     assert facts["violated"] == []
     _print_facts(facts)

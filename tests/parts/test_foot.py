@@ -222,6 +222,21 @@ def test_lugs_stand_on_soles_of_1_mm_behind_and_ahead_of_both_eyes(name: str) ->
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_rails_get_lower_from_the_ankle_to_the_front_eye(name: str) -> None:
+    """Straight, on the sole, between where the lugs' soles end; near a rail's outer side, where no web reaches."""
+    robot = built(name)
+    sections, length = robot.layout.sections, robot.design.l4_mm
+    inner = sections.thickness_mm / 2.0 + 0.5
+    rail = region(cut(placed(robot, "foot"), inner + 0.9 * sections.lug_thickness_mm))
+    for share in (0.4, 0.55, 0.7):
+        upright = shapely.LineString([(share * length, -50.0), (share * length, 50.0)]).intersection(rail)
+        height = (1.0 - share) * sections.rail_root_mm + share * sections.rail_tip_mm
+        assert upright.bounds[1::2] == pytest.approx(
+            (-sections.foot_depth_mm, height - sections.foot_depth_mm), abs=0.03
+        )
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_webs_join_the_left_rail_and_the_right_one(name: str) -> None:
     """From side to side through all that is between the rails, and into them."""
     robot = built(name)

@@ -198,6 +198,7 @@ def test_bars_reach_straight_to_the_side(name: str) -> None:
         for end, away in zip(ends, (0.0, 20.0), strict=True):
             beside = toe.sign * np.array([0.0, toe_tip_mm(robot.design)[1] + away, 0.0])
             np.testing.assert_allclose(end[:3], tip + beside, atol=1e-6)
+        assert bar.bounds_mm[:, 2] == pytest.approx([0.0, layout.sections.toe_tip_height_mm])
     assert _bar(replace(layout, toe_half_width_mm=0.0), toes(layout)[0]) == []
 
 
