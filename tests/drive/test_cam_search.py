@@ -149,6 +149,25 @@ def test_the_outer_radius_counts_most_then_lever_and_distance_of_the_axis():
     assert 0.0 < gap - plain < lever - plain < 0.5
 
 
+@pytest.mark.parametrize("pressure_mpa", [90.0, 10.0])
+def test_a_search_starts_from_the_smallest_that_fits_or_from_what_misses_least(pressure_mpa: float) -> None:
+    """Of each lever's shapes on the grid; a softer material is pressed too hard by all of them."""
+    law = CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad)
+    shapes = _Shapes(law, replace(LIMITS, pressure_mpa=pressure_mpa))
+    grid = np.array(list(itertools.product(*np.linspace(shapes.lower, shapes.upper, 7).T)))
+    size, margins = shapes._size_and_margins(grid, samples=12)
+    fits = (margins >= 0.0).all(axis=0)
+    assert fits.any() == (pressure_mpa == 90.0)
+    first, *_ = shapes._coarse()
+    (at,) = np.flatnonzero((grid == first).all(axis=1))
+    if fits.any():
+        assert fits[at]
+        assert size[at] == size[fits].min()
+    else:
+        missing = np.log1p(np.maximum(-margins, 0.0)).sum(axis=0)
+        assert missing[at] == missing.min()
+
+
 def test_what_coarse_samples_hide_is_held_in_reserve():
     """With it the coarse margins of a shape are at most the true ones, by little; of what misses, by as much again."""
     search, shape = shapes_and_cam()
