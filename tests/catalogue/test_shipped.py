@@ -104,3 +104,11 @@ def test_parts_of_ones_own_stand_after_the_shipped_ones():
     assert ("mine" in with_own.motors, "mine" in with_own.bearings) == (True, False)
     assert len(with_own.motors) == len(CATALOGUE.motors) + 1
     assert with_own.screws is CATALOGUE.screws
+    # every kind that one may have of one's own, by name and in the order in which they are given
+    kinds = ("motors", "bearings", "batteries", "boards", "springs", "pads")
+    parts = {kind: next(iter(getattr(CATALOGUE, kind).values())) for kind in kinds}
+    joined = CATALOGUE.with_own(**{kind: {f"own {kind}": part} for kind, part in parts.items()})
+    for kind, part in parts.items():
+        assert {name: one for name, one in getattr(joined, kind).items() if name.startswith("own")} == {
+            f"own {kind}": part
+        }

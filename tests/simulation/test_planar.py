@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -212,3 +213,21 @@ def test_the_command_line_knows_it(capsys: pytest.CaptureFixture[str]) -> None:
     document = json.loads(capsys.readouterr().out)
     assert code == 0
     assert (document["engine"], document["verdict"]) == ("planar", "jump")
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "belly_gap_m", "loaded"),
+    [
+        (1.0, 1.0, 0.1, True),
+        (0.0, 2.0, 0.1, True),
+        (2.0, 0.0, 0.1, True),
+        (0.0, 0.0, 0.1, False),
+        (0.0, 0.0, 0.0, True),
+    ],
+)
+def test_a_robot_is_carried_by_nose_by_toes_or_by_its_belly(
+    first: float, second: float, belly_gap_m: float, loaded: bool
+) -> None:
+    contact = SimpleNamespace(first_ns=first, second_ns=second)
+    world = SimpleNamespace(moment=SimpleNamespace(contact=contact, belly_gap_m=belly_gap_m))
+    assert PlanarWorld.loaded(world) == loaded  # type: ignore[arg-type]
