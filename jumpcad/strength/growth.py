@@ -15,7 +15,7 @@ POWERS = {"release_kick": 0.65, "stop_leg": 1.45, "stop_strength": 1.75}
 1.47 to 1.61 and 1.79 to 1.91 (measured); nearly the least, so that one round is mostly enough."""
 LEAST_POWER = 0.5
 """Least power of a section by which a use is taken to fall; judgement: stresses fall with the first to the third power,
-the release's kick with 0.6 to 0.8 of the lever's (measured). What falls less is held by another size too, which a
+and nothing that was measured falls less than the release's kick. What falls less is held by another size too, which a
 leap would pass."""
 
 

@@ -17,6 +17,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.dimensions import MOTOR_CAP_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import socket_half_mm, window_mm
 from jumpcad.parts.body_plate import (
+    _apart,
     _covers,
     _drawing,
     _pads,
@@ -429,6 +430,20 @@ def test_a_printable_wall_is_between_all_openings_of_a_plate(workshop: str, side
     least = min(one.distance(other) for one, other in itertools.combinations(openings, 2))
     assert len(openings) > 12
     assert least > shop.fits.wall_min_mm - 0.02
+
+
+def test_pockets_are_set_back_only_where_two_of_them_are_near() -> None:
+    """An L, 0.4 mm beside a square; what stands into it from its border, and what lies far away, joins no two."""
+    corner = (
+        rectangle((20.0, 8.0), (10.0, 4.0)) + rectangle((8.0, 20.0), (4.0, 10.0)) - rectangle((0.5, 4.0), (4.0, 18.0))
+    )
+    pockets = corner + rectangle((6.0, 6.0), (23.4, 4.0)) + rectangle((6.0, 6.0), (40.0, 20.0))
+    apart = _apart(pockets, 0.8)
+    parts = sorted(apart.decompose(), key=lambda one: one.bounds()[0])
+    assert parts[1].bounds()[0] - parts[0].bounds()[2] == pytest.approx(0.8, abs=0.05)
+    elsewhere = rectangle((18.0, 30.0), (9.0, 10.0)) + rectangle((30.0, 30.0), (40.0, 10.0))
+    assert ((pockets - apart) ^ elsewhere).area() == pytest.approx(0.0, abs=1e-6)
+    assert (apart - pockets).area() == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.mark.parametrize("axle_mm", [2.0, 3.0, 4.0])

@@ -38,6 +38,19 @@ def test_shared_volume_agrees_with_booleans_in_space(over):
         assert overlap_volume_mm3(a, poses[0], b, poses[1]) == pytest.approx(expected, rel=1e-3, abs=0.05)
 
 
+def test_what_stands_in_pockets_and_over_chamfers_shares_what_is_left():
+    """A plate of 20 x 20 x 6 mm with pockets of 8 and 4 mm above each other, its lower edge chamfered, and a pin."""
+    plate = Stack.of([(0, 6, rectangle((20, 20)))]).pocketed([(2, 4, disc(8.0)), (4, 6, disc(4.0))]).chamfered(1.0, 0.5)
+    pin, pose = Stack.of([(0, 6, disc(6.0))]), np.eye(4)
+    for pose[0, 3] in (0.0, 6.0, 9.75):  # in the middle, beside the pockets, over the edge
+        found = overlap_volume_mm3(plate, np.eye(4), pin, pose)
+        assert found == pytest.approx((plate.solid() ^ pin.solid().transform(pose[:3])).volume(), rel=1e-3)
+        assert found == pytest.approx(overlap_volume_mm3(pin, pose, plate, np.eye(4)), abs=1e-6)
+    # below both pockets the whole pin, around the narrower one a ring
+    middle = overlap_volume_mm3(plate, np.eye(4), pin, np.eye(4))
+    assert middle == pytest.approx(math.pi * (9.0 * 2.0 + (9.0 - 4.0) * 2.0), rel=5e-3)
+
+
 def test_shared_volume_needs_parallel_axes():
     stack = Stack.of([(0, 3, disc(9))])
     tilted = trimesh.transformations.rotation_matrix(0.1, (1, 0, 0))
