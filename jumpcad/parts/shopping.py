@@ -13,8 +13,8 @@ from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
 from jumpcad.parts import axles, sensor, toes, wired
-from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.parts.simple import box_outline, placed_screw, round_outline
 from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article

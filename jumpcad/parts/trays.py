@@ -8,9 +8,9 @@ from jumpcad.dimensions import STRAP_SLOT_MM, TAB_MM, TIE_SLOT_MM, TRAY_MM
 from jumpcad.layout.electronics import BALANCE_MM, RIM_HEIGHT_MM, RIM_MM, SEAT_PLAY_MM, STOP_HEIGHT_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.body_plate import tray_slots
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
+from jumpcad.parts.plate_outline import tray_slots
 from jumpcad.solids.outline import Region, rectangle, union
 from jumpcad.solids.stack import Stack
 

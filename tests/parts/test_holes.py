@@ -31,6 +31,7 @@ from support.fits import (
 from jumpcad.building.assembly import drawings
 from jumpcad.parts import body_plate, foot, links, small
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
@@ -194,8 +195,8 @@ def test_screws_have_the_workshops_own_holes(kenan: Robot) -> None:
     expected = [
         (leg, 0.01, [lever], 3.8), (left, lateral.inside[1] + 0.5, layout.standoffs_mm, 3.8),
         (right, lateral.inside[0] - 0.5, layout.standoffs_mm, 3.8),
-        (right, lateral.motor[1] - 2.0, body_plate.ear_places(layout), 1.8),
-        (small.motor_cap(layout, holes), lateral.motor_cap[0] + 0.2, body_plate.ear_places(layout), 2.7),
+        (right, lateral.motor[1] - 2.0, ear_places(layout), 1.8),
+        (small.motor_cap(layout, holes), lateral.motor_cap[0] + 0.2, ear_places(layout), 2.7),
     ]  # fmt: skip
     for drawing, y, places, diameter in expected:
         for place in places:

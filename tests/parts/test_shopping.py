@@ -16,7 +16,7 @@ from jumpcad.building.assembly import assembled
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
-from jumpcad.parts.body_plate import ear_places
+from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.parts.shopping import _d_shaft, _standoffs
 from jumpcad.parts.toes import toes

@@ -8,7 +8,7 @@ from support.built import built, cut, hole_centres, inscribed_diameter, part, pl
 from support.fits import RUNNING, TOLERANCE_MM
 
 from jumpcad.errors import JumpcadError
-from jumpcad.parts.body_plate import ear_places
+from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.small import require_axle
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
