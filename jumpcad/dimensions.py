@@ -48,8 +48,11 @@ MOTOR_CLAMP_MM = 0.2
 play. Judgement: one printed layer; closing the gap bends the catalogue's caps by 1 %."""
 MOTOR_RIM_MM = 1.0
 """Width of the socket's floor at either side, under the motor's rear end; judgement: its terminals stay free."""
+CAP_HEAD_MM = 4.0
+"""Counterbore in the motor's cap for an M2 head of 3.8 mm (ISO 14580)."""
 CAP_EAR_MM = 5.6
-"""How far the ears for the motor cap's screws reach beyond the socket: an M2 head of 3.8 mm (ISO 14580) and a wall."""
+"""How far the ears for the motor cap's screws reach beyond the socket at least: the counterbore between two walls of
+0.8 mm, two lines of a 0.4 mm nozzle."""
 TOE_TIP_WIDTH_MM = 5.0
 """Width of a toe's tip; judgement: wider than high, so that a landing does not turn it over."""
 PAD_WALL_MM = 3.0

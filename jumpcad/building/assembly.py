@@ -11,6 +11,7 @@ from jumpcad.building.settle import settle
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
 from jumpcad.drive import Drive
+from jumpcad.drive.socket import cap_ear_mm
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.errors import JumpcadError
@@ -146,6 +147,7 @@ def _laid_out(
         plate_mm=grown_mm(workshop.body.plate_mm, growth.plate),
         roller_width_mm=settled.roller.width_mm,
         axle_mm=chosen.axle_mm,
+        cap_ear_mm=cap_ear_mm(settled.holes.fits.wall_min_mm),
         stop_rad=math.radians(workshop.body.stop_deg),
         stop_pad=workshop.stop_pad,
         leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, chosen)),

@@ -1,13 +1,18 @@
 """Room that a motor needs in the body: its socket, and the distance from its front to its pinion (mm)."""
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import CAP_EAR_MM, MOTOR_CAP_MM, MOTOR_RIM_MM, SOCKET_PLAY_MM, SOCKET_WALL_MM
+from jumpcad.dimensions import CAP_EAR_MM, CAP_HEAD_MM, MOTOR_CAP_MM, MOTOR_RIM_MM, SOCKET_PLAY_MM, SOCKET_WALL_MM
 
 
-def socket_half_mm(motor: Motor) -> tuple[float, float]:
+def cap_ear_mm(wall_min_mm: float) -> float:
+    """Return how far the ears for the cap's screws reach beyond the socket, with walls that a printer can print."""
+    return max(CAP_EAR_MM, CAP_HEAD_MM + 2.0 * wall_min_mm)
+
+
+def socket_half_mm(motor: Motor, ear_mm: float = CAP_EAR_MM) -> tuple[float, float]:
     """Return the half sizes of a motor's socket: along its width, and along its height with the cap's ears."""
     wall = SOCKET_PLAY_MM + SOCKET_WALL_MM
-    return motor.width_mm / 2.0 + wall, motor.height_mm / 2.0 + wall + CAP_EAR_MM
+    return motor.width_mm / 2.0 + wall, motor.height_mm / 2.0 + wall + ear_mm
 
 
 def front_length_mm(motor: Motor) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from jumpcad.catalogue import Motor
 from jumpcad.dimensions import (
+    CAP_EAR_MM,
     CLEAR_MM,
     GAP_MM,
     SPACER_RADIUS_MM,
@@ -138,11 +139,11 @@ def require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y:
 
 
 def train_places(
-    obstacles: list[Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array
+    obstacles: list[Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array, ear_mm: float = CAP_EAR_MM
 ) -> tuple[Array | None, Array, float]:
     """Return the idler's place (two stages), the motor's, and the motor's direction."""
     stages, motor = drive.train.stages, drive.train.motor
-    half = socket_half_mm(motor)
+    half = socket_half_mm(motor, ear_mm)
     body_y = (lateral.inside[0], lateral.gears[-1][0] - GAP_MM)
     tip, remedy = stages[0].pinion.tip_radius_mm, _smaller(motor)
     meshes_with = "cam gear" if len(stages) == 1 else "idler wheel"
@@ -213,12 +214,12 @@ def idler_obstacles(place: Array, drive: Drive, lateral: Lateral) -> list[Obstac
 
 
 def train_obstacles(
-    motor: Array, angle_rad: float, idler: Array | None, drive: Drive, lateral: Lateral
+    motor: Array, angle_rad: float, idler: Array | None, drive: Drive, lateral: Lateral, ear_mm: float = CAP_EAR_MM
 ) -> list[Obstacle]:
     """Return motor, its pinion, and the idler where there is one."""
     pinion = drive.train.stages[0].pinion
     obstacles = [
-        box_obstacle("motor", motor, socket_half_mm(drive.train.motor), angle_rad, lateral.inside),
+        box_obstacle("motor", motor, socket_half_mm(drive.train.motor, ear_mm), angle_rad, lateral.inside),
         disc("pinion", motor, pinion.tip_radius_mm + CLEAR_MM, lateral.gears[-1]),
     ]
     return obstacles if idler is None else [*obstacles, *idler_obstacles(idler, drive, lateral)]

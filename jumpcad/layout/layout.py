@@ -61,7 +61,8 @@ class Layout:
     and drive. `toes_apart` says whether the foot is too large for the bed with its toes, so that they are
     separate parts. `toe_half_width_mm` is how far from the middle the toes touch the ground: at their tips, or at the
     ends of bars across them. `leg_bar` is what main leg and front link are made of between printed ends, if anything.
-    `spring_boss_mm` is the height of the boss for the springs' pin inside the right plate; 0 without.
+    `cap_ear_mm` is how far the ears for the motor cap's screws reach beyond the socket,
+    `spring_boss_mm` the height of the boss for the springs' pin inside the right plate; 0 without.
     """
 
     linkage: Linkage
@@ -80,6 +81,7 @@ class Layout:
     idler_mm: Array | None
     motor_mm: Array
     motor_angle_rad: float
+    cap_ear_mm: float
     spring_pin_mm: Array
     spring_boss_mm: float
     leg_pin_mm: float
@@ -150,6 +152,7 @@ def make_layout(
     plate_mm: float,
     roller_width_mm: float,
     axle_mm: float,
+    cap_ear_mm: float,
     stop_rad: float,
     stop_pad: Pad,
     leg_pin_hole_mm: float,
@@ -202,8 +205,8 @@ def make_layout(
     through = pin_hole(linkage, around_leg, stop, lateral, pin_radius, leg_pin_hole_mm, axle_mm)
     obstacles += spring_obstacles(hub, spring_pin, drive.spring, inside)
     obstacles.append(through.obstacle((lateral.leg[1], lateral.left_plate[1])))
-    idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis)
-    obstacles += train_obstacles(motor, angle, idler, drive, lateral)
+    idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis, cap_ear_mm)
+    obstacles += train_obstacles(motor, angle, idler, drive, lateral, cap_ear_mm)
     seats = {"leg": hub, "front": front, "cam": cam_axis, "spring": spring_pin}
     seats |= {} if idler is None else {"idler": idler}
     felt = None
@@ -234,6 +237,7 @@ def make_layout(
         idler_mm=idler,
         motor_mm=motor,
         motor_angle_rad=angle,
+        cap_ear_mm=cap_ear_mm,
         spring_pin_mm=spring_pin,
         spring_boss_mm=boss,
         leg_pin_mm=pin_radius,

@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.dimensions import BUSHING_PLAY_MM, SPACER_RADIUS_MM
+from jumpcad.dimensions import BUSHING_PLAY_MM, CAP_HEAD_MM, SPACER_RADIUS_MM
 from jumpcad.errors import JumpcadError
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
@@ -16,8 +16,6 @@ from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z
 from jumpcad.workshop import Workshop
 
-CAP_HEAD_MM = 4.0
-"""Counterbore for an M2 head of 3.8 mm (ISO 14580)."""
 CAP_HEAD_DEPTH_MM = 1.6
 
 
@@ -26,15 +24,18 @@ def motor_cap(layout: Layout, holes: HoleSizes) -> Drawing:
     y0, y1 = layout.lateral.motor_cap
     motor = layout.drive.train.motor
     pose = lying_on_right(y0, *layout.motor_mm) @ pose_about_z(-layout.motor_angle_rad)
-    stack = _cap(motor.width_mm, motor.height_mm, holes.running(motor.boss_mm), y1 - y0, holes.fits.m2_clearance_mm)
+    boss_mm, screw_mm = holes.running(motor.boss_mm), holes.fits.m2_clearance_mm
+    stack = _cap(motor.width_mm, motor.height_mm, layout.cap_ear_mm, boss_mm, y1 - y0, screw_mm)
     return Drawing("motor_cap", "body", stack, (Placement(BODY, pose),))
 
 
 @lru_cache(maxsize=32)
-def _cap(width_mm: float, height_mm: float, boss_mm: float, thickness_mm: float, screw_mm: float) -> Stack:
+def _cap(
+    width_mm: float, height_mm: float, ear_mm: float, boss_mm: float, thickness_mm: float, screw_mm: float
+) -> Stack:
     """Return the cap of a motor about its axis, ears along y, with a hole for its boss and seats for screws' heads."""
-    ears = [(0.0, sign * ear_reach_mm(height_mm)) for sign in (-1.0, 1.0)]
-    outline = socket_about_axis(width_mm, height_mm) - hole(boss_mm)
+    ears = [(0.0, sign * ear_reach_mm(height_mm, ear_mm)) for sign in (-1.0, 1.0)]
+    outline = socket_about_axis(width_mm, height_mm, ear_mm) - hole(boss_mm)
     seat = thickness_mm - CAP_HEAD_DEPTH_MM
     screws, heads = (union(hole(diameter, ear) for ear in ears) for diameter in (screw_mm, CAP_HEAD_MM))
     return Stack.of([(0.0, seat, outline - screws), (seat, thickness_mm, outline - heads)])

@@ -3,7 +3,7 @@
 import pytest
 from support.built import built
 
-from jumpcad.drive.socket import front_length_mm, socket_half_mm, window_mm
+from jumpcad.drive.socket import cap_ear_mm, front_length_mm, socket_half_mm, window_mm
 
 
 def test_the_socket_has_walls_around_the_motor_and_ears_across() -> None:
@@ -11,6 +11,11 @@ def test_the_socket_has_walls_around_the_motor_and_ears_across() -> None:
     motor = built("kenan-2.0").layout.drive.train.motor
     assert (motor.width_mm, motor.height_mm) == (10.0, 12.0)
     assert socket_half_mm(motor) == pytest.approx((5.0 + 1.9, 6.0 + 1.9 + 5.6))
+
+
+@pytest.mark.parametrize(("wall", "ear"), [(0.5, 5.6), (0.8, 5.6), (1.2, 6.4)])
+def test_ears_have_printable_walls_on_both_sides_of_a_counterbore_of_4_mm(wall: float, ear: float) -> None:
+    assert cap_ear_mm(wall) == pytest.approx(ear)
 
 
 def test_a_boss_that_is_longer_than_the_cap_reaches_further() -> None:

@@ -179,8 +179,8 @@ def test_room_is_kept_around_all_that_turns() -> None:
     drive, lateral, place = layout.drive, layout.lateral, np.array([7.0, 9.0])
     first, last = drive.train.stages
     kept = {one.name: one for one in (*idler_obstacles(place, drive, lateral), *cam_obstacles(place, drive, lateral))}
-    kept |= {one.name: one for one in train_obstacles(place, 0.3, None, drive, lateral)}
-    half = np.array(socket_half_mm(drive.train.motor))
+    kept |= {one.name: one for one in train_obstacles(place, 0.3, None, drive, lateral, 6.4)}
+    half = np.array(socket_half_mm(drive.train.motor)) + np.array([0.0, 6.4 - 5.6])  # ears of 6.4 mm
     along, across = np.array([math.cos(0.3), math.sin(0.3)]), np.array([-math.sin(0.3), math.cos(0.3)])
     from_middle, point = kept["motor"].points_mm - place, kept["motor"].radius_mm
     reach = np.abs([from_middle @ along, from_middle @ across]).max(axis=1) + point

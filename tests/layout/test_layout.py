@@ -68,6 +68,7 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "linkage": layout.linkage, "sections": layout.sections, "drive": layout.drive,
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
         "plate_mm": round(float(np.ptp(layout.lateral.left_plate)), 6), "roller_width_mm": 4.0, "axle_mm": 3.0,
+        "cap_ear_mm": layout.cap_ear_mm,
         "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
         "reserve_mm": load_workshop("default").safety.room_reserve_mm,
         "toe_half_width_mm": layout.toe_half_width_mm, "switch": layout.fittings.switch,
