@@ -52,7 +52,7 @@ def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     side = union([rail, *lugs]) ^ rectangle((4.0 * l4, 4.0 * depth), (0.0, depth))
     webs = [
         rectangle((end - start, web_height), ((start + end) / 2.0, web_height / 2.0 - depth))
-        for start, end, web_height in _webs(layout, height)
+        for start, end, web_height in _webs(layout, height, holes.fits.hole_min_mm)
     ]
     face = layout.ankle_face_mm
     reach = face + 2.0 * sections.toe_width_mm
@@ -88,10 +88,11 @@ def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float], to
     return fit_to_bed(bounds, lambda: outline, bed_mm).margin_mm >= 0.0
 
 
-def _webs(layout: Layout, height_mm: float) -> list[tuple[float, float, float]]:
+def _webs(layout: Layout, height_mm: float, opening_min_mm: float) -> list[tuple[float, float, float]]:
     """Return the webs between the rails (start x, end x, height): in front of the ankle, and further on if free.
 
-    The front link folds down between the rails when the springs are loaded; both webs stay below it.
+    The front link folds down between the rails when the springs are loaded; both webs stay below it. In a short foot
+    they join where the opening between them would be narrower than a printable hole.
     """
     sections, l4 = layout.sections, layout.design.l4_mm
     linkage = layout.linkage
@@ -107,7 +108,8 @@ def _webs(layout: Layout, height_mm: float) -> list[tuple[float, float, float]]:
     rail_there = sections.rail_root_mm + LOW_WEB_AT * (sections.rail_tip_mm - sections.rail_root_mm)
     low = min(rail_there - WEB_BELOW_RAIL_MM, below_link(middle + LOW_WEB_MM))
     if low >= LOW_WEB_MIN_MM:
-        webs.append((middle, middle + LOW_WEB_MM, low))
+        ahead = start + WEB_MM
+        webs.append((ahead if 0.0 < middle - ahead < opening_min_mm else middle, middle + LOW_WEB_MM, low))
     return webs
 
 

@@ -24,6 +24,7 @@ SIDES = {
     "from above": np.array([0.0, 0.0, -1.0]),
     "from the front": np.array([-1.0, 0.0, 0.0]),
     "from behind": np.array([1.0, 0.0, 0.0]),
+    "from the front and below": np.array([-1.0, 0.0, 1.0]) / np.sqrt(2.0),
 }
 """Directions of travel, unit vectors in the world (x forwards, y to the left, z up)."""
 REST = "Everything else"

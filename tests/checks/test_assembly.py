@@ -39,6 +39,8 @@ from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
 STEEP_TOES = Design.from_vector([135.2, 0.88, 0.71, 1.25, 0.22, 59.6, 28.0, 66.4])
+SHORT_BODY = Design.from_vector([79.2, 0.8807, 0.4388, 1.2223, 0.7436, 55.55, 28.06, 15.0])
+"""Straight ahead of the springs' pin in its leg, on its stop, is the front axle's spacer."""
 FOUND = {
     "kenan-2.0": lambda: checked("kenan-2.0"),
     LONG_TOES: lambda: checked(LONG_TOES),
@@ -46,6 +48,7 @@ FOUND = {
         _bought("best-bo", kit="strong-2s", retention="nuts", motors=("n20-50",))
     ),
     "toes, steep, whose screws are beside the ankle's pin": lambda: assembly_findings(build(STEEP_TOES)),
+    "a short body, whose front axle is ahead of the springs' pin": lambda: assembly_findings(build(SHORT_BODY)),
     "clips": lambda: assembly_findings(_bought("best-printable", axle="silver-steel", retention="clips")),
 }
 

@@ -12,7 +12,8 @@ from support.built import LONG_TOES, body_in_plane, built, cut, hole_centres, pl
 from support.fits import with_fits_apart
 from support.robots import FOLDED
 
-from jumpcad.building import build
+from jumpcad.building import build, layout_of
+from jumpcad.design import Design
 from jumpcad.mechanism.model import FOOT, FRONT_LINK
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts import foot as foot_part
@@ -173,7 +174,7 @@ def test_webs_are_as_high_as_rails_and_folded_link_let_them(name: str, higher_mm
     expected = [(start, start + 10.0, max(2.0, min(sections.rail_root_mm, free(start + 10.0))))]
     if (low := min(rail, free(middle + 6.0))) >= 2.0:
         expected.append((middle, middle + 6.0, low))
-    found = foot_part._webs(layout, sections.rail_root_mm)
+    found = foot_part._webs(layout, sections.rail_root_mm, 2.0)
     assert len(found) == len(expected)
     for one, other in zip(found, expected, strict=True):
         assert one == pytest.approx(other, abs=1e-6)
@@ -183,11 +184,23 @@ def test_a_link_that_folds_low_lowers_the_webs() -> None:
     """A robot whose loaded link lies nearly flat in the foot has a first web of 2 mm, and a second one only if free."""
     robot = build(FOLDED, load_workshop())
     sections, layout = robot.layout.sections, robot.layout
-    (start, end, height), *others = foot_part._webs(layout, sections.rail_root_mm)
+    (start, end, height), *others = foot_part._webs(layout, sections.rail_root_mm, 2.0)
     assert (start, end) == pytest.approx((sections.foot_depth_mm, sections.foot_depth_mm + 10.0))
     assert 2.0 <= height < sections.rail_root_mm
     for _, _, low in others:
         assert 2.0 <= low < sections.rail_root_mm
+
+
+def test_the_webs_of_a_short_foot_join_unless_a_printable_opening_is_between_them() -> None:
+    """Of 32.24 mm, 5.2 mm deep: the first ends at 15.2, the second begins at 16.12 mm."""
+    short = Design.from_vector([80.9, 0.9038, 0.3985, 1.1426, 0.704, 61.75, 26.825, 13.1])
+    (layout, _), length = layout_of(short, load_workshop()), short.l4_mm
+    root, ends = layout.sections.rail_root_mm, layout.sections.foot_depth_mm + 10.0
+    assert 0.5 < length / 2.0 - ends < 1.2
+    for opening, start in ((2.0, ends), (0.5, length / 2.0)):
+        first, second = foot_part._webs(layout, root, opening)
+        assert first[1] == pytest.approx(ends)
+        assert second[:2] == pytest.approx((start, length / 2.0 + 6.0))
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -242,7 +255,7 @@ def test_webs_join_the_left_rail_and_the_right_one(name: str) -> None:
     robot = built(name)
     layout, mesh = robot.layout, placed(robot, "foot")
     inner = layout.sections.thickness_mm / 2.0 + 0.5
-    for start, end, height in foot_part._webs(layout, layout.sections.rail_root_mm):
+    for start, end, height in foot_part._webs(layout, layout.sections.rail_root_mm, 2.0):
         x, z = (start + end) / 2.0, height / 2.0 - layout.sections.foot_depth_mm
         across = np.arange(-inner - 1.0, inner + 1.01, 0.25)
         assert mesh.contains([[x, y, z] for y in across]).all()

@@ -71,11 +71,13 @@ def test_what_comes_from_a_side_moves_away_from_it() -> None:
     """x forwards, y to the left, z up."""
     towards = {"left": (1, 1.0), "right": (1, -1.0), "above": (2, 1.0), "below": (2, -1.0)}
     towards |= {"the front": (0, 1.0), "behind": (0, -1.0)}
-    assert len(SIDES) == 6
     for words, (axis, sign) in towards.items():
         side = next(way for name, way in SIDES.items() if name in (f"from {words}", f"from the {words}"))
         assert side[axis] == -sign
         assert np.abs(side).sum() == 1.0
+    both = SIDES["from the front"] + SIDES["from below"]
+    assert SIDES["from the front and below"] == pytest.approx(both / np.linalg.norm(both))
+    assert len(SIDES) == len(towards) + 1
 
 
 def test_a_nut_comes_from_the_other_side_than_its_screw(robot: Robot) -> None:

@@ -28,7 +28,8 @@ FIRST_JUMP: tuple[Plan, ...] = (
         "arm", "The springs' pin in the leg", ROBOT,
         (
             Move("leg_spring_pin(_clip_2)?", "from the left", through="body_plate_left"),
-            Move("leg_spring_pin_split_pin", "from the front", "bent", past="leg_spring_pin", tool=PLIERS),
+            Move("leg_spring_pin_split_pin", "from the front", "bent", past="leg_spring_pin", tool=PLIERS,
+                 reach="from the front and below"),
             Move("leg_spring_pin_clip_1", "from the front", "snapped", past="leg_spring_pin|spring_right_leg_arm",
                  tool=CLIP),
         ),
@@ -57,7 +58,8 @@ FIRST_JUMP: tuple[Plan, ...] = (
                   "the right one's; {preload_n} N, and {arm_n} N where an arm is {wider}° wider than ordered. "
                   "Both plates hold the springs' other pin.", needs="preload"),
             Words("Turn the pin until its cross hole points forwards, put the split pin through it from the front, "
-                  "bend its ends around the pin and cut off what stands out.", needs="leg_spring_pin_split_pin"),
+                  "bend its ends around the pin, the pliers from the front and below, and cut off what stands "
+                  "out.", needs="leg_spring_pin_split_pin"),
             Words("Press the second clip into the groove at the pin's right end, from the front; hold an arm that "
                   "touches the pliers aside.",
                   needs="leg_spring_pin_clip_.*"),
