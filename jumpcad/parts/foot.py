@@ -31,6 +31,8 @@ LOW_WEB_AT = 0.6
 """Where the height of the rails is taken beside that web, as a share of their length; judgement: near its end."""
 WEB_BELOW_RAIL_MM = 0.2
 """By how much that web is lower than the rails beside it: surfaces that only touch in a line leave slivers."""
+LEG_GAP_MM = 0.5
+"""Gap between the web and the leg with the stop's pad pressed; judgement."""
 LINK_GAP_MM = 1.0
 """Gap below the folded front link; judgement: the usual gap, and the flexing of the link."""
 SOLE_LENGTH, NOSE_AHEAD = 1.6, 0.42
@@ -91,8 +93,9 @@ def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float], to
 def _webs(layout: Layout, height_mm: float, opening_min_mm: float) -> list[tuple[float, float, float]]:
     """Return the webs between the rails (start x, end x, height): in front of the ankle, and further on if free.
 
-    The front link folds down between the rails when the springs are loaded; both webs stay below it. In a short foot
-    they join where the opening between them would be narrower than a printable hole.
+    The front link folds down between the rails when the springs are loaded; both webs stay below it. The first begins
+    where the leg, which leans towards it on its stop, leaves it free. In a short foot they join where the opening
+    between them would be narrower than a printable hole.
     """
     sections, l4 = layout.sections, layout.design.l4_mm
     linkage = layout.linkage
@@ -103,14 +106,28 @@ def _webs(layout: Layout, height_mm: float, opening_min_mm: float) -> list[tuple
         above_eye = (l4 - x_mm) * math.tan(slope) - sections.eye_radius_mm / math.cos(slope) - LINK_GAP_MM
         return sections.foot_depth_mm + above_eye
 
+    def height_at(start_mm: float) -> float:
+        return max(LOW_WEB_MIN_MM, min(height_mm, below_link(start_mm + WEB_MM)))
+
     start, middle = sections.foot_depth_mm, 0.5 * l4
-    webs = [(start, start + WEB_MM, max(LOW_WEB_MIN_MM, min(height_mm, below_link(start + WEB_MM))))]
+    start = max(start, _ahead_of_leg_mm(layout, height_at(start)))
+    webs = [(start, start + WEB_MM, height_at(start))]
     rail_there = sections.rail_root_mm + LOW_WEB_AT * (sections.rail_tip_mm - sections.rail_root_mm)
     low = min(rail_there - WEB_BELOW_RAIL_MM, below_link(middle + LOW_WEB_MM))
     if low >= LOW_WEB_MIN_MM:
         ahead = start + WEB_MM
         webs.append((ahead if 0.0 < middle - ahead < opening_min_mm else middle, middle + LOW_WEB_MM, low))
     return webs
+
+
+def _ahead_of_leg_mm(layout: Layout, height_mm: float) -> float:
+    """Return the x from which a web of some height is clear of the leg on its stop, where it leans farthest ahead."""
+    sections, linkage = layout.sections, layout.linkage
+    pose = linkage.pose([layout.stop.reach_rad])
+    to_hub = math.pi - linkage.rest_rad - layout.stop.reach_rad + float(pose.foot_rad[0])  # up from the foot's x axis
+    half = max(sections.leg_tip_mm / 2.0, sections.eye_radius_mm) + LEG_GAP_MM
+    top = height_mm - sections.foot_depth_mm
+    return (half + top * math.cos(to_hub)) / math.sin(to_hub)
 
 
 def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:

@@ -17,7 +17,7 @@ from jumpcad.scene.assembly_order.plan import ROBOT, Move, Plan, Words
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.transforms import Array, chained
 
-SIDES = {
+SIDES: dict[str, Array] = {
     "from the left": np.array([0.0, -1.0, 0.0]),
     "from the right": np.array([0.0, 1.0, 0.0]),
     "from below": np.array([0.0, 0.0, 1.0]),

@@ -14,7 +14,7 @@ from support.robots import FOLDED
 
 from jumpcad.building import build, layout_of
 from jumpcad.design import Design
-from jumpcad.mechanism.model import FOOT, FRONT_LINK
+from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts import foot as foot_part
 from jumpcad.parts.holes import HoleSizes
@@ -154,8 +154,8 @@ def test_the_ankles_boss_has_two_walls_around_its_pin_and_more_than_its_ends_hav
 def test_webs_are_as_high_as_rails_and_folded_link_let_them(name: str, higher_mm: float) -> None:
     """Seen in the foot by the law of cosines: 1 mm below the loaded link's eyes and no higher than the rails.
 
-    10 mm long at the ankle, 2 mm high at least; 6 mm long from the middle, 0.2 mm lower than the rails at 0.6 of their
-    length, if that leaves 2 mm.
+    10 mm long at the ankle, ahead of the leg, 2 mm high at least; 6 mm long from the middle, 0.2 mm lower than the
+    rails at 0.6 of their length, if that leaves 2 mm.
     """
     robot = built(name)
     rails = {key: higher_mm + getattr(robot.layout.sections, key) for key in ("rail_root_mm", "rail_tip_mm")}
@@ -169,12 +169,12 @@ def test_webs_are_as_high_as_rails_and_folded_link_let_them(name: str, higher_mm
     def free(x_mm: float) -> float:
         return sections.foot_depth_mm + slope * (x_mm - length) - sections.eye_radius_mm * reach - 1.0
 
-    start, middle = sections.foot_depth_mm, length / 2.0
+    found = foot_part._webs(layout, sections.rail_root_mm, 2.0)
+    start, middle = found[0][0] if higher_mm else sections.foot_depth_mm, length / 2.0
     rail = 0.4 * sections.rail_root_mm + 0.6 * sections.rail_tip_mm - 0.2
     expected = [(start, start + 10.0, max(2.0, min(sections.rail_root_mm, free(start + 10.0))))]
     if (low := min(rail, free(middle + 6.0))) >= 2.0:
         expected.append((middle, middle + 6.0, low))
-    found = foot_part._webs(layout, sections.rail_root_mm, 2.0)
     assert len(found) == len(expected)
     for one, other in zip(found, expected, strict=True):
         assert one == pytest.approx(other, abs=1e-6)
@@ -189,6 +189,29 @@ def test_a_link_that_folds_low_lowers_the_webs() -> None:
     assert 2.0 <= height < sections.rail_root_mm
     for _, _, low in others:
         assert 2.0 <= low < sections.rail_root_mm
+
+
+LEANING = {
+    "one web": [75.5741, 0.7108, 0.7295, 1.0613, 0.7519, 84.8226, 24.4946, 35.5644],
+    "high web": [120.8377, 0.9061, 0.4617, 1.3671, 0.7494, 82.61, 22.6694, 15.9373],
+}
+"""Robots whose legs lean far over the foot on their stop."""
+
+
+@pytest.mark.parametrize("numbers", LEANING.values(), ids=LEANING)
+def test_the_web_at_the_ankle_begins_half_a_millimetre_ahead_of_the_leg_on_its_stop(numbers: list[float]) -> None:
+    """Seen in the foot, with the pad pressed: the straight bar as wide as the ankle's eye, on the line to the hub."""
+    robot = build(Design.from_vector(numbers), load_workshop("fine"))
+    layout = robot.layout
+    sections, past = layout.sections, layout.stop.reach_rad
+    foot, leg = (body_in_plane(robot, body, -past) for body in (FOOT, MAIN_LEG))
+    hub, ankle = ((np.linalg.inv(foot) @ leg @ [x, 0.0, 1.0])[:2] for x in (0.0, robot.design.l2_mm))
+    assert ankle == pytest.approx([0.0, 0.0], abs=1e-6)
+    (start, end, height), *_ = foot_part._webs(layout, sections.rail_root_mm, 2.0)
+    web = shapely.box(start, -sections.foot_depth_mm, end, height - sections.foot_depth_mm)
+    bar = shapely.LineString([ankle, hub]).buffer(max(sections.leg_tip_mm / 2.0, sections.eye_radius_mm))
+    assert start > sections.foot_depth_mm
+    assert web.distance(bar) == pytest.approx(0.5, abs=1e-3)
 
 
 def test_the_webs_of_a_short_foot_join_unless_a_printable_opening_is_between_them() -> None:
