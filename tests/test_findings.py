@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
-from jumpcad.findings import Finding, at_least, at_most, limit
+from jumpcad.findings import SHOWN_AS, Finding, at_least, at_most, bare, is_bare, limit
 
 
 @pytest.mark.parametrize(
@@ -62,3 +62,20 @@ def test_plain_data_gives_the_finding_back() -> None:
     data = finding.to_dict()
     assert list(data)[:6] == ["name", "severity", "margin", "unit", "message", "remedy"]
     assert Finding(**data) == finding
+
+
+@pytest.mark.parametrize(
+    ("unit", "read", "shown"),
+    [("rad", "°", 180.0), ("rad/s", "°/s", 180.0), ("J", "mJ", 1000.0 * math.pi), ("N·m", "mN·m", 1000.0 * math.pi)],
+)
+def test_people_read_degrees_and_thousandths(unit: str, read: str, shown: float) -> None:
+    """Of π radians, joules or newton metres."""
+    word, factor = SHOWN_AS[unit]
+    assert (word, factor * math.pi) == (read, pytest.approx(shown))
+
+
+def test_a_finding_is_bare_without_words_and_figures() -> None:
+    kept = bare("walls", "error", -0.1, "mm")
+    assert is_bare(kept)
+    assert not is_bare(limit("walls", -0.1, "mm", "found", "remedy"))
+    assert not is_bare(at_most("stress", 50.0, 40.0, "MPa", "", ""))

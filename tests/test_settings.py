@@ -3,13 +3,14 @@
 from pathlib import Path
 
 import pytest
+from support.built import built
 from support.machines import rubbing
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.settings import coefficients
+from jumpcad.settings import coefficients, takeoff_clearance_m
 from jumpcad.simulation import Settings, load_settings
 
 
@@ -93,3 +94,11 @@ def test_missing_settings(tmp_path: Path) -> None:
         load_settings(tmp_path / "nowhere.toml")
     with pytest.raises(JumpcadError, match=r"screening \(did you mean screening\?\)"):
         load_settings("screning")
+
+
+def test_a_printed_robot_jumps_from_a_millimetre_on_and_a_capsule_one_at_once() -> None:
+    """Unless the settings say how high."""
+    assert takeoff_clearance_m(built("kenan-2.0"), Settings()) == 0.001
+    capsule = capsule_robot(load_design("kenan-2.0"))
+    assert takeoff_clearance_m(capsule, Settings()) == 0.0
+    assert takeoff_clearance_m(capsule, Settings(takeoff_clearance_m=0.002)) == 0.002

@@ -59,3 +59,11 @@ def test_turns_may_be_a_tenth_off_and_wire_is_thinner_than_the_coil_is_wide() ->
 def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
     assert len(documented_ranges(f"{kind}.NAME")) == ranges
     assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []
+
+
+@pytest.mark.parametrize(("name", "width"), [("623", 10.0), ("683", 7.0)])
+def test_the_face_of_an_outer_ring_is_a_quarter_of_what_lies_between_bore_and_rim(name: str, width: float) -> None:
+    """Of a 623, from 8.2 to 10 mm of 3 to 10 (SKF); the others are drawn in proportion."""
+    bearing = load_catalogue().bearings[name]
+    assert bearing.outer_mm == width
+    assert bearing.outer_ring_mm == pytest.approx(width - 1.8 / 7.0 * (width - 3.0))

@@ -52,3 +52,8 @@ def test_derivatives_are_those_of_the_leg_angle():
     assert first == pytest.approx((after - before) / (2 * step), rel=1e-7)
     assert second == pytest.approx((after - 2 * at + before) / step**2, abs=1e-4)
     assert a_law.wind_rad(LIFT_RAD) == pytest.approx(math.radians(52.9))
+
+
+def test_the_springs_torque_at_the_end_of_the_lift_is_their_rate_times_their_angle() -> None:
+    """Hooke's law, from where they are slack."""
+    assert CamLaw(0.9, 1.7, LIFT_RAD, RAMP_RAD, 0.2).spring_torque_nm == pytest.approx(1.87)

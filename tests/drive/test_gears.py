@@ -142,3 +142,10 @@ def test_a_tooth_is_whole_up_to_its_tip_circle(teeth):
     assert len(points) == 4 * teeth
     sides = np.hypot(*np.diff(points[:4], axis=0).T)
     assert sides == pytest.approx(np.full(3, gear.tip_thickness_mm / 3.0), rel=1e-3)
+
+
+def test_a_newton_metre_on_a_pitch_radius_of_10_mm_is_100_newtons() -> None:
+    """Lewis: force by face width, module and form factor."""
+    gear = Gear(20, 1.0, 0.0, 5)
+    stress = gear.lewis_stress_mpa(1.0)
+    assert stress * gear.face_width_mm * gear.module_mm * gear.lewis_factor == pytest.approx(100.0)

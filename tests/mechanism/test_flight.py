@@ -165,3 +165,12 @@ def test_between_the_tables_angles_the_equations_go_on_without_a_step(name: str)
     for low, high in ((before, node), (node, behind)):
         middle, ends = at((low + high) / 2.0), np.array([at(low + step), at(high - step)])
         assert (np.abs(middle - ends.mean(axis=0)) < 0.02 * scale).all()
+
+
+def test_between_two_positions_the_chain_is_what_lies_between_them() -> None:
+    robot = built("kenan-2.0")
+    chain = flight._Chain(robot.bodies, robot.linkage, robot.spring, math.radians(3.0))
+    low, high = chain.leg[4:6]
+    ends = chain.at(float(low)), chain.at(float(high))
+    assert np.abs(ends[1] - ends[0]).max() > 1e-6
+    assert chain.at(float(0.75 * low + 0.25 * high)) == pytest.approx(0.75 * ends[0] + 0.25 * ends[1])

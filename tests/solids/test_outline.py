@@ -168,3 +168,21 @@ def test_gaps_and_walls_of_a_fiftieth_of_a_millimetre_are_slivers(wide_mm, kept)
     clean = outline.without_slivers(walled)
     assert clean.area() == pytest.approx(40.0 + 2.0 * wide_mm * kept, abs=1e-3)
     assert outline.without_slivers(blocks[0]).bounds() == pytest.approx((-10.0, -2.0, 0.0, 2.0), abs=1e-6)
+
+
+def test_a_point_is_in_a_triangle_on_one_side_of_its_slope() -> None:
+    """A right angle of two sides of 4: half way up, the slope is at x = 2."""
+    triangle = outline.polygon([(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)])
+    points = np.array([[1.9, 2.0], [2.1, 2.0], [0.9, 3.0], [1.1, 3.0]])
+    assert outline.contained(triangle, points).tolist() == [True, False, True, False]
+
+
+@pytest.mark.parametrize(("x", "y", "apart"), [(9.0, 0.0, True), (-9.0, 0.0, True), (0.0, 9.0, True), (0.0, -9.0, True),
+                                               (3.0, 1.0, False), (0.0, 3.0, False), (0.0, -3.0, False)])  # fmt: skip
+def test_boxes_are_apart_that_pass_each_other_on_any_side(x: float, y: float, apart: bool) -> None:
+    assert outline.boxes_apart(outline.rectangle((4.0, 4.0)), outline.rectangle((4.0, 4.0), (x, y))) == apart
+
+
+def test_the_middle_of_a_region_is_that_of_its_box() -> None:
+    triangle = outline.polygon([(2.0, 1.0), (8.0, 1.0), (2.0, 7.0)])
+    assert outline.middle_of(triangle) == pytest.approx([5.0, 4.0])

@@ -64,3 +64,16 @@ def test_each_pin_rubs_by_its_force_along_its_own_turn() -> None:
         assert pin_torque_nm(rubbing(robot, pin=0.25, pin_radius_m=radii), 0.25) == pytest.approx(
             expected, rel=1e-3, abs=1e-6
         )
+
+
+def test_a_body_beside_the_plane_of_motion_rubs_alike_and_a_higher_one_does_not() -> None:
+    robot = rubbing(capsule_robot(load_design("best-bo")), pin=0.25)
+
+    def moved(way: int) -> float:
+        body = robot.bodies["body"]
+        place = body.com_m + 0.02 * np.eye(3)[way]
+        return pin_torque_nm(replace(robot, bodies=robot.bodies | {"body": replace(body, com_m=place)}), 0.25)
+
+    still = pin_torque_nm(robot, 0.25)
+    assert moved(1) == still
+    assert abs(moved(2) / still - 1.0) > 0.01
