@@ -73,3 +73,12 @@ def test_teeth_and_cam_hold_the_shaft_in_balance(pairs: int) -> None:
 def _about_y(arm: Array, force: Array) -> float:
     """Moment about +y of a force at an arm, both x-z."""
     return float(arm[1] * force[0] - arm[0] * force[1])
+
+
+def test_the_front_link_bears_on_its_axle_at_thirds_of_its_half_width() -> None:
+    """Pressures that grow evenly from the middle: M = F/2·(S - w/3) between plates at ± S, of 80 N."""
+    layout, none = built("best-bo").layout, np.zeros(2)
+    beam = axle_beams(layout, (none, none), none, np.array([0.0, 80.0]))["front_axle"]
+    left, right = (abs(float(np.mean(plate))) for plate in (layout.lateral.left_plate, layout.lateral.right_plate))
+    by_hand = 80.0 * left * right / (left + right) - 40.0 * layout.sections.thickness_mm / 3.0
+    assert beam.moments_nmm(np.zeros(1)) == pytest.approx([by_hand])

@@ -18,7 +18,7 @@ from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM
-from jumpcad.strength.loads import toe_load_n
+from jumpcad.strength.loads import MovingMass, push_off, toe_load_n
 from jumpcad.workshop import load_workshop
 
 
@@ -51,6 +51,9 @@ def test_the_push_off_is_that_of_the_body_in_the_plane_of_motion(axis: int, matt
     moved = replace(body, com_m=body.com_m + 0.01 * np.eye(3)[axis])
     forces = LoadCase(replace(robot, bodies={**robot.bodies, BODY: moved})).forces.ground_n
     assert np.allclose(forces, LoadCase(robot).forces.ground_n, rtol=1e-3) == (not matters)
+    gyration = 1000.0 * math.sqrt(moved.inertia_kg_m2[1, 1] / moved.mass_kg)
+    mass = MovingMass(moved.mass_kg, [1000.0 * moved.com_m[0], 1000.0 * moved.com_m[2]], gyration)
+    assert np.allclose(forces, push_off(robot.linkage, mass, robot.spring).ground_n)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

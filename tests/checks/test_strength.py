@@ -236,6 +236,8 @@ def test_the_dog_bears_the_cams_torque_and_its_blow(robot: str, axle_mm: float, 
     bore = axle_mm + 2.0 * fits.sliding_mm
     boss = math.sqrt(3.0) * 16.0 * torque * outer / (math.pi * (outer**4 - bore**4))
     assert dog.value == pytest.approx(max(jaws, boss))
+    gears = case.workshop.material("gears")
+    assert dog.limit == pytest.approx(gears.strength_interlayer_mpa / case.workshop.safety.printed_factor)
 
 
 @pytest.mark.parametrize("robot", ["kenan", "strongest"])

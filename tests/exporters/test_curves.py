@@ -52,6 +52,8 @@ def test_a_bar_with_round_ends_is_two_lines_and_two_arcs() -> None:
 def test_points_of_a_circle_are_an_arc_only_in_order(sign: float) -> None:
     turns = sign * np.radians(np.arange(0.0, 60.0, 5.0))
     assert _is_arc(4.0 * np.column_stack([np.cos(turns), np.sin(turns)]))
+    chord = np.append(turns, turns[-1] + sign * math.radians(50.0))
+    assert not _is_arc(4.0 * np.column_stack([np.cos(chord), np.sin(chord)]))  # its last side is none of an arc's
     turns[[4, 5]] = turns[[5, 4]]
     assert not _is_arc(4.0 * np.column_stack([np.cos(turns), np.sin(turns)]))
 
@@ -155,3 +157,12 @@ def test_corners_on_a_circle_at_uneven_steps_are_not_what_a_circle_was_drawn_wit
     turns = np.radians(np.cumsum(steps))
     points = 10.0 * np.column_stack([np.cos(turns), np.sin(turns)])
     assert (curves_of(points)[0].__class__ is Circle) == round_
+
+
+def test_the_flats_of_a_disc_are_lines_between_two_arcs() -> None:
+    """Its flats are chords of the circle, too long to be sides of an arc."""
+    (contour,) = (disc(12.0) ^ rectangle((20.0, 10.0))).to_polygons()
+    curves = curves_of(contour)
+    assert sum(isinstance(curve, Arc) for curve in curves) == 2
+    flats = [size for curve in curves if isinstance(curve, Line) and (size := math.dist(*ends(curve))) > 1.0]
+    assert flats == pytest.approx([2.0 * math.sqrt(6.0**2 - 5.0**2)] * 2, abs=0.1)

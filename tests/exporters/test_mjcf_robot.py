@@ -182,7 +182,9 @@ def test_what_is_seen_hangs_on_its_body_in_its_colour(robot: Robot) -> None:
         name: (f"{name}.stl", "0.001 0.001 0.001") for name in {shape.mesh_name for shape in visuals(robot)}
     }
     paints = {one.get("name"): [float(part) for part in one.get("rgba").split()] for one in root.iter("material")}
+    places = {one.get("name"): [float(part) for part in one.get("pos", "0 0 0").split()] for one in root.iter("geom")}
     for shape in visuals(robot):
+        assert places[shape.name] == pytest.approx(shape.T_body_mesh[:3, 3], abs=1e-6)
         assert paints[expected[shape.name][2]] == pytest.approx([*shape.colour, 1.0])
     (visual,) = (one for one in root.iter("default") if one.get("class") == "visual")
     assert visual.find("geom").attrib == {"type": "mesh", "contype": "0", "conaffinity": "0", "group": "2"}

@@ -106,3 +106,12 @@ def test_a_long_value_is_cut_to_the_length_of_a_line() -> None:
     assert shown("x" * 58) == f"'{'x' * 58}'"
     assert shown("x" * 59) == f"'{'x' * 56}..."
     assert shown(list(range(100))) == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."
+
+
+@pytest.mark.parametrize(("text", "more"), [("bed = 3", False), ("fits = 3", True)])
+def test_a_table_is_told_with_ten_of_its_keys(tmp_path: Path, text: str, more: bool) -> None:
+    file = tmp_path / "w.toml"
+    file.write_text(text + "\n")
+    with pytest.raises(JumpcadError, match="must be a table") as caught:
+        (load_workshop if more else Printer.from_toml)(file)
+    assert (", …" in str(caught.value)) == more

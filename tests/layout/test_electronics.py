@@ -32,6 +32,13 @@ def test_sizes_are_those_of_what_lies_on_the_trays() -> None:
     assert CARRIED.width_mm == battery.width_mm + 2.0 * (3.0 + STRAP_EDGE_MM)
     height = 1.6 + battery.height_mm + 3.8 + 1.6 + 1.0 + max(board.height_mm for board in boards)
     assert CARRIED.height_mm == pytest.approx(height)
+    for high in (0, 1):  # either board may be the higher one, above all that is tied beside it
+        raised = [
+            board.model_copy(update={"height_mm": 30.0 if at == high else 5.0}) for at, board in enumerate(boards)
+        ]
+        assert Electronics(battery, *raised).height_mm == pytest.approx(
+            1.6 + battery.height_mm + 3.8 + 1.6 + 1.0 + 30.0
+        )
     long = CARRIED.battery.model_copy(update={"length_mm": 90.0})
     assert Electronics(long, *boards).length_mm == pytest.approx(90.0 + 2 * (0.5 + 1.2) + lead)
     assert CARRIED.battery_mm == pytest.approx(CARRIED.length_mm / 2 - battery.length_mm / 2 - 1.7 - lead)

@@ -238,6 +238,7 @@ def test_the_reserve_is_kept_in_the_stops_room_and_between_the_legs() -> None:
         (free.stop.room_mm + 0.01, "stop_room", 0.01),
         (apart + 0.02, "legs_apart", 0.02),
     ):
+        layout_module._require_legs_apart(free.linkage, free.sections, GAP_MM + apart - 0.02)
         with pytest.raises(CannotBuildError) as refused:
             planned(reserve)
         assert (refused.value.limit, refused.value.margin) == (limit, pytest.approx(-misses))

@@ -230,3 +230,26 @@ def test_a_model_is_made_of_what_it_says(field):
     """A name is no workshop: `robot_model` takes names."""
     with pytest.raises(JumpcadError, match=field):
         RobotModel("printed", **{field: 5 if field == "engine" else "light"})
+
+
+def test_a_printed_robot_without_a_workshop_is_made_as_exactly_as_a_capsule() -> None:
+    assert RobotModel("printed").making == Making(0.2)
+
+
+def test_every_objective_is_for_printed_robots_and_for_others_what_they_have() -> None:
+    """A capsule robot has a rise and no size, the published one its fitness alone."""
+    for name in ("body_lengths", "range", "rise", "fitness"):
+        robot_model("printed").require_figures(find_objective(name))
+    robot_model("capsule").require_figures(find_objective("rise"))
+    robot_model("published").require_figures(find_objective("fitness"))
+    for name, objective in (("capsule", "body_lengths"), ("published", "rise")):
+        with pytest.raises(JumpcadError):
+            robot_model(name).require_figures(find_objective(objective))
+
+
+def test_the_first_error_of_the_geometry_is_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    design = load_design("kenan-2.0")
+    wrong = [Finding(name, "error", -1.0, "mm", "", "") for name in ("loop", "other")]
+    for count in (1, 2):
+        monkeypatch.setattr(models, "geometry_findings", lambda _, count=count: wrong[:count])
+        assert robot_model("capsule")(design).verdict == "loop"

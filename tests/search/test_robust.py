@@ -197,7 +197,7 @@ def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     assert [candidate.trial.design for candidate in ranked] == [inside, edge]
 
 
-@pytest.mark.parametrize(("scores", "rejected"), [((-1.0, -3.0), -5.0), ((2.0, -3.0), 0.0)])
+@pytest.mark.parametrize(("scores", "rejected"), [((-1.0, -3.0), -5.0), ((2.0, -3.0), 0.0), ((0.6, 0.2), 0.0)])
 def test_a_rejected_neighbour_is_as_far_below_the_worst_as_the_best_is_above_it(scores, rejected):
     """Where all scores are negative; else it counts 0."""
     design = SMALL.to_design([0.5, 0.5, 0.5])
