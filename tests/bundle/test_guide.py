@@ -10,6 +10,7 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
+from jumpcad.bundle import guide
 from jumpcad.bundle.arrival import arrival_lines, grams_at
 from jumpcad.bundle.bom import Bill, BilledPlate, BillLine, bill_of_materials
 from jumpcad.bundle.expected import expected
@@ -21,6 +22,7 @@ from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energ
 from jumpcad.bundle.stuck import stuck_items
 from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.findings import limit
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
@@ -516,3 +518,16 @@ def test_what_arrives_is_measured_against_the_parts_that_are_built_in(name: str,
     rod, drill, play = map(float, bores.groups())
     assert rod == robot.layout.axle_mm == 3.0
     assert rod < drill < rod + play
+
+
+@pytest.mark.parametrize(
+    ("names", "words"),
+    [(("walls",), "the limit walls is violated"), (("walls", "pins"), "the limits walls, pins are violated")],
+)
+def test_a_forbidden_robot_is_told_with_its_limits(
+    names: tuple[str, ...], words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    broken = [limit(name, -1.0, "mm", "found", "remedy") for name in names]
+    monkeypatch.setattr(guide, "quick_findings", lambda _: [*broken, limit("holes", 1.0, "mm", "found", "remedy")])
+    warning, *_ = guide._forbidden(built("kenan-2.0"))
+    assert words in warning

@@ -1,5 +1,6 @@
 """The commands together: exit codes, one line of error, one JSON document, help without delay."""
 
+import inspect
 import json
 import os
 import re
@@ -15,8 +16,10 @@ from support.commands import Run
 from support.places import ROOT
 from typer.main import get_command
 
+from jumpcad.bundle.export import export
 from jumpcad.cli import commands
 from jumpcad.cli.commands import app
+from jumpcad.coupon.export import export_coupon
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
@@ -105,6 +108,18 @@ def test_every_command_has_json_and_help(run: Run) -> None:
         assert ("--json" in out) == (
             "studio" not in out.split("Usage:")[1].split("\n")[0]
         )  # it serves until it is stopped
+
+
+def test_nothing_is_replaced_unless_force_is_asked_for() -> None:
+    """Neither by a command nor by the functions behind them."""
+    commands = [command.callback for command in app.registered_commands if command.callback]
+    forces = [
+        signature.parameters["force"].default
+        for function in (*commands, export, export_coupon)
+        if "force" in (signature := inspect.signature(function)).parameters
+    ]
+    assert len(forces) > 8
+    assert not any(forces)
 
 
 def test_the_docs_name_every_command_and_no_other() -> None:

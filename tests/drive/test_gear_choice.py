@@ -10,7 +10,7 @@ from support.limits import default_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.gear_choice import _printable, by_cost, least_tip_mm
+from jumpcad.drive.gear_choice import _printable, _strong, by_cost, least_tip_mm
 from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.gears import Gear, least_shift
 from jumpcad.drive.motor import winding_s
@@ -214,3 +214,16 @@ def test_pinions_begin_where_their_tips_print_and_their_root_holds_a_shaft(tip_m
         assert sorted(set(rows["pinion"])) == fits
         assert set(rows["least_teeth"]) == {fits[0]}
         assert len(rows) == sum(91 - max(13, teeth) for teeth in fits)
+
+
+def test_a_pair_is_strong_enough_up_to_its_pinions_lewis_stress():
+    """Of any module, with what its wheel bears."""
+    for module in (0.8, 1.0, 1.5):
+        rows = _printable((module,), 0.15, 0.45, 2.9)
+        pair = rows[len(rows) // 2 : len(rows) // 2 + 1]
+        pinion, wheel = int(pair["pinion"][0]), int(pair["wheel"][0])
+        gear = Gear(pinion, module, max(0.0, least_shift(pinion)), LIMITS.face_width_mm, 0.075)
+        stress = gear.lewis_stress_mpa(0.4 * pinion / wheel)
+        for share, strong in ((1.001, True), (0.999, False)):
+            limits = dataclasses.replace(LIMITS, stress_mpa=share * stress)
+            assert bool(_strong(pair, 0.4, limits)[0]) == strong

@@ -54,6 +54,7 @@ def test_two_of_them_are_the_robots_stiffness_and_a_finding_says_both(robot: Rob
     assert finding.severity == "info"
     assert "52.72 N·mm/°" in finding.message
     assert "asks for 9.20" in finding.message
+    assert finding.margin == pytest.approx(52.72 - 9.2)
     assert robot.design == KENAN
     assert "spring_rate" not in {found.name for found in constraint_findings(build(KENAN))}
 

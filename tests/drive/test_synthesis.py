@@ -215,3 +215,13 @@ def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):
     farther = synthesise(design, dataclasses.replace(limits, more_gap_mm=(14.0,)))
     assert tried.cam.geometry.axis_distance_mm == only.cam.geometry.axis_distance_mm
     assert tried.cam.geometry.axis_distance_mm < farther.cam.geometry.axis_distance_mm
+
+
+def test_the_cam_turns_no_farther_while_the_leg_falls_than_its_window_less_its_play():
+    """What is left of the gap in the cam, after the angle by which the cam runs ahead of its gear."""
+    drive, slow = synthesise(load_design("kenan-2.0"), LIMITS), 0.2  # s, in which no cam may turn that far
+    found = synthesis._train_limits(drive.cam, dataclasses.replace(LIMITS, fall_s=slow))
+    _, window = clear_window_rad(drive.cam.geometry)
+    turned = found.cam_speed_max_rad_s * slow
+    assert drive.dog.play_rad > 0.1
+    assert math.radians(2.0) < window - drive.dog.play_rad - turned < math.radians(4.0)  # 3° in reserve

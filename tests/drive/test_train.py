@@ -5,6 +5,7 @@ import itertools
 import math
 
 import pytest
+from support.built import built, geared
 from support.limits import LP6, default_limits
 
 from jumpcad.catalogue import load_catalogue
@@ -154,3 +155,11 @@ def test_a_train_that_misses_a_limit_is_passed_over(monkeypatch):
         monkeypatch.setattr(train_module, "by_cost", lambda *_, bad=bad: iter([bad]))
         with pytest.raises(CannotBuildError, match="no motor turns the cam"):
             synthesise_train(law, MOTORS, LIMITS)
+
+
+def test_the_gear_that_needs_room_beside_the_cam_is_the_cams_own():
+    """Of two pairs it is the last one's wheel."""
+    for robot in (built("kenan-2.0"), geared()):
+        train = robot.layout.drive.train
+        (room,) = (finding for finding in train.findings if finding.name == "cam_gear_room")
+        assert room.value == pytest.approx(train.stages[-1].wheel.tip_radius_mm)

@@ -275,7 +275,11 @@ def test_a_standoffs_screw_has_4_to_6_mm_of_thread_under_any_plate(plate_mm: flo
     layout = built("kenan-2.0").layout
     low, high = layout.lateral.inside
     lateral = replace(layout.lateral, left_plate=(high, high + plate_mm), right_plate=(low - plate_mm, low))
+    known = load_catalogue().standoffs["M3"]
+    hexagon = math.sqrt(3.0) / 2.0 * known.across_flats_mm**2 - math.pi / 4.0 * known.bore_mm**2
     for item in _standoffs(replace(layout, lateral=lateral), load_catalogue()):
+        if "screw" not in item.name:
+            assert item.mass_kg == pytest.approx(known.density_g_cm3 * hexagon * (high - low) / 1e6, rel=0.01)
         bounds = item.look.copy().apply_transform(item.T_body_part).bounds[:, 1]
         if item.name.endswith("left"):
             assert 4.0 - 1e-6 <= high - bounds[0] < 6.0

@@ -433,3 +433,11 @@ def test_the_jaws_slide_between_the_gears_hub_and_its_rim(name: str) -> None:
     boss, begun = (region(cut(placed(robot, "cam"), low - gap)) for gap in (0.27, 0.23))
     assert boss.geom_type == "Polygon"
     assert len(begun.geoms) == 2
+
+
+def test_the_cam_gear_lies_as_it_is_drawn_with_the_springs_at_rest() -> None:
+    """With one pair of gears or two; the others are turned to mesh with it."""
+    for robot in (built("kenan-2.0"), geared()):
+        turns = gear_turns(robot.layout)
+        assert turns["cam_gear"] == 0.0
+        assert ("idler" in turns) == (robot.layout.idler_mm is not None)

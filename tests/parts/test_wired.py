@@ -87,6 +87,13 @@ def test_wire_is_bought_in_tenths_of_a_metre_rounded_up() -> None:
             assert 1e3 * item.mass_kg == pytest.approx(1e3 * metres * wire.mass_g / wire.length_mm), colour
 
 
+def test_a_switch_without_a_place_is_not_bought_with_screws() -> None:
+    layout = built("kenan-2.0").layout
+    for lacking in ({"switch_mm": None}, {"switch": None}):
+        fittings = replace(layout.fittings, **lacking)
+        assert list(_switch(replace(layout, fittings=fittings), load_catalogue())) == []
+
+
 def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
     """15 mm apart to either side of the switch, from the plate's outside inwards."""
     robot = built("kenan-2.0")

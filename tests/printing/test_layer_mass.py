@@ -99,6 +99,13 @@ def test_layers_cover_the_part_from_the_bed_up():
     assert set(sections.which.tolist()) == {0}
 
 
+@pytest.mark.parametrize(("top_mm", "layers"), [(0.88, 4), (0.92, 5), (1.08, 5), (1.12, 6)])
+def test_a_layer_is_printed_where_its_middle_lies_in_the_part(top_mm: float, layers: int) -> None:
+    """Of 0.2 mm, as slicers take it: the fifth from 0.8 to 1.0 mm in a part that is higher than 0.9."""
+    levels, _ = sliced(Stack.of([(0.0, top_mm, rectangle((10.0, 10.0)))]), PROCESS)
+    assert len(levels) == layers + 1
+
+
 def test_equal_shapes_are_weighed_once():
     one, same, other = (Stack.of([(0, 4, disc(diameter))]) for diameter in (12.0, 12.0, 12.1))
     assert mass_properties(one, 1.0, PROCESS, 0.4) is mass_properties(same, 1.0, PROCESS, 0.4)

@@ -10,7 +10,7 @@ import trimesh
 from support.built import built
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.printing.plates import packed
+from jumpcad.printing.plates import _turn, packed
 
 
 @dataclass(frozen=True)
@@ -137,3 +137,12 @@ def test_a_long_part_without_symmetry_is_turned_the_way_that_fits(mirrored):
     low, high = corners(plate.items[0])
     assert np.all(low >= -1e-6)
     assert np.all(high <= np.array([250.0, 210.0, 50.0]) + 1e-6)
+
+
+@pytest.mark.parametrize("angle_deg", [0.0, 30.0, 90.0])
+def test_a_turn_on_the_bed_moves_nothing_and_tilts_nothing(angle_deg: float) -> None:
+    pose = _turn(angle_deg)
+    assert pose[3].tolist() == [0.0, 0.0, 0.0, 1.0]
+    assert pose[:3, 3].tolist() == [0.0, 0.0, 0.0]
+    assert pose[2, :3].tolist() == pose[:3, 2].tolist() == [0.0, 0.0, 1.0]
+    assert pose[:2, 0] == pytest.approx([np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))])

@@ -160,6 +160,11 @@ def test_what_is_read_from_the_study_file_is_told_apart_from_what_is_computed(ev
     again.evaluate(designs(5), "ga", 1)
     assert seen == [(0, 0, False), (0, 1, False), (0, 2, False), (1, 0, True), (1, 1, True)]
     assert again.spent == 5
+    again.store.close()
+    whole, seen = evaluator(tmp_path / "s.db"), []
+    whole._watch = lambda trial, computed: seen.append((trial.step, trial.place, computed))
+    assert whole.finished("ga", 0, 3) is not None
+    assert seen == [(0, 0, False), (0, 1, False), (0, 2, False)]
 
 
 def test_a_place_of_this_run_is_taken_too(evaluator):
