@@ -229,3 +229,10 @@ def test_what_does_not_go_together_is_refused_before_anything_is_evaluated(asked
     assert Request(**usual).method == "ga"
     with pytest.raises(JumpcadError, match=said):
         Request(**usual | asked)
+
+
+@pytest.mark.parametrize(("method", "other"), [("paper", True), ("ga+bo", True), ("bo", False), ("ga", False)])
+def test_more_evaluations_are_another_study_where_stages_share_them(method: str, other: bool) -> None:
+    """A search in one stage goes on in its own file."""
+    names = {Request(SMALL, Hill(), method=method, evaluations=count).default_name() for count in (100, 200)}
+    assert len(names) == 1 + other

@@ -10,12 +10,14 @@ import pytest
 from support.built import LONG_TOES, built
 
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
 from jumpcad.search.quick_mass import axle_measure
 from jumpcad.search.sized_robot import NUMBERS, SizedLinks, near, printed_g_mm, sized_robot, usual_bearing
+from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 
 SHOP = load_workshop(DEFAULT)
@@ -206,3 +208,16 @@ def test_masses_places_and_inertias_are_proportional_to_what_carries_them(preloa
         assert found[kind].keys() == bodies.keys()
         for name, values in bodies.items():
             assert found[kind][name] == pytest.approx(values), (kind, name)
+
+
+@pytest.mark.parametrize("leg_bearing", ["", "683", "any"])
+def test_a_hub_has_no_bearing_or_the_only_one_that_is_allowed_whatever_pushes(leg_bearing: str) -> None:
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update={"leg_bearing": leg_bearing})
+    shop = shop.model_copy(update={"bought": bought})
+    for stiffness in (5.0, 500.0):
+        spring = load_design("best-bo").model_copy(update={"stiffness_nmm_per_deg": stiffness})
+        found = usual_bearing(shop, springs_on_leg(spring))
+        known = [bearing for bearing in hub_bearings(shop) if bearing is not None]
+        assert found is None if not known else found in known[:2]
+        assert leg_bearing != "683" or found == shop.catalogue.bearings["683"]
