@@ -1,6 +1,7 @@
 """The motion in the viewer: the cam winds, runs ahead of its gear by the dog's play at most, and never back."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -136,3 +137,15 @@ def test_a_phase_that_is_shown_longer_is_slower(factor: float, words: str) -> No
     real, shown, said = _times([Moment("drop", lasts * share, {}, 0.0, 0.0) for share in (0.0, 0.25, 1.0)])
     assert words in said["drop"]
     assert shown == pytest.approx([factor * time_s for time_s in real], abs=2e-4 * factor)
+
+
+def test_the_flight_is_shown_to_its_last_moment() -> None:
+    """However many moments were recorded, of which every fourth is shown."""
+    robot = built("kenan-2.0")
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True), "planar")
+    assert jump.trajectory is not None
+    whole = len(jump.trajectory.time_s)
+    for count in range(whole - 4, whole):
+        cut = {name: value[:count] for name, value in vars(jump.trajectory).items() if name != "body_names"}
+        found = motion(robot, replace(jump.trajectory, **cut), jump.takeoff_time_s)
+        assert found["time_s"][-1] == pytest.approx(cut["time_s"][-1], abs=1e-4)

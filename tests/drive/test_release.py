@@ -168,15 +168,23 @@ def test_lever_and_contact_are_springs_in_series() -> None:
     assert 1.0 / parts.held_nm_per_rad == pytest.approx(1.0 / parts.lever_nm_per_rad + 1.0 / parts.contact_nm_per_rad)
 
 
+def axial_kg_m2(robot: Robot, name: str) -> float:
+    """Return a gear's moment of inertia about its own axis, upright as it is printed."""
+    (part,) = (part for part in robot.parts if part.name == name)
+    return float(part.mass.inertia_kg_m2[2, 2])
+
+
 @pytest.mark.parametrize("pairs", [1, 2])
 def test_the_motor_counts_as_seen_from_the_cam(pairs: int) -> None:
-    """The rotor by the square of the ratio, backlash by the ratio; friction in the cam's bore acts at its radius."""
+    """Rotor and pinion by the square of the ratio, backlash by the ratio; friction in the cam's bore at its radius."""
     robot = built("kenan-2.0") if pairs == 1 else geared()
     table, train = robot.workshop.release, robot.layout.drive.train
     assert len(train.stages) == pairs
     bore = robot.layout.axle_mm + 2.0 * robot.workshop.fits.sliding_mm
+    pinion, wheel = (axial_kg_m2(robot, name) for name in ("motor_pinion", "cam_gear"))
     for parts, rotor, play in zip(robot.release.parts, table.rotor_kg_m2, table.backlash_deg, strict=True):
         assert parts.rotor_kg_m2 == pytest.approx(rotor * (train.motor.ratio * train.ratio) ** 2)
+        assert parts.gear_kg_m2 == pytest.approx(wheel + pinion * train.ratio**2, rel=1e-3)
         assert parts.backlash_rad == pytest.approx(math.radians(play) / train.ratio)
         assert parts.friction_mm == pytest.approx(table.friction * bore / 2.0)
 
