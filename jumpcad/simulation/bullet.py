@@ -11,26 +11,16 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from jumpcad.mechanism.mass import principal_axes
-from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Mechanism
-from jumpcad.mechanism.poses import Release, release_pose
-from jumpcad.settings import Coefficients, Settings, coefficients
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.settings import Settings, coefficients
+from jumpcad.simulation.bullet_robot import FOOT_LINK, JOINTS, LEG, BulletRobot
 from jumpcad.simulation.engines import import_pybullet
 from jumpcad.simulation.mechanics import State
 from jumpcad.simulation.run import Run
 from jumpcad.simulation.stop_pad import StopPad
-from jumpcad.strength.pin_friction import pin_torque_nm
-from jumpcad.transforms import quaternion_about_y, rotation_about_y
 
 RESET_EVERY = 500
-UNCLAMPED_RAD_S = 1e6
-"""Instead of Bullet's limit of 100 rad/s to joint velocities, which good designs reach."""
-LINKS = (MAIN_LEG, FOOT, FRONT_LINK)
-"""Bullet's numbers of the links: depth first, so the foot comes before the front link."""
-LEG, FOOT_LINK, FRONT = range(3)
-JOINTS = [LEG, FOOT_LINK, FRONT]
 BODY_ORDER = [0, 1, 3, 2]
 """From Bullet's order (base, leg, foot, front link) to that of `BODY_NAMES`."""
 
@@ -55,7 +45,8 @@ class BulletEngine:
         """Put a robot on the ground, ready for release, and remove it afterwards."""
         with self._lock:
             self._prepare(settings, coefficients(mechanism, settings).ground)
-            world = BulletWorld(self._bullet, self._client, self._ground, mechanism, settings)
+            robot = BulletRobot(self._bullet, self._client, mechanism, settings)
+            world = BulletWorld(robot, self._ground, mechanism, settings)
             try:
                 yield world
             finally:
@@ -92,34 +83,15 @@ class BulletEngine:
 class BulletWorld:
     """One robot on the ground; a `World` for `Run`."""
 
-    def __init__(self, bullet: Any, client: int, ground: int, mechanism: Mechanism, settings: Settings) -> None:
-        self._bullet, self._client, self._ground = bullet, client, ground
-        rubs = coefficients(mechanism, settings)
+    def __init__(self, robot: BulletRobot, ground: int, mechanism: Mechanism, settings: Settings) -> None:
+        self._bullet, self._client, self._ground = robot.bullet, robot.client, ground
+        self.robot_id, self._dry_nm = robot.number, robot.dry_nm
+        self._body_in_principal = robot.axes[BODY_ORDER].transpose(0, 2, 1)
         self._dt_s, self._spring, self._pad = settings.dt_s, mechanism.spring, StopPad(mechanism, settings.dt_s)
-        self._damping_dt = rubs.joint_damping_nms_per_rad * settings.dt_s
-        self._dry_nm = [settings.joint_friction_nm] * len(JOINTS)
-        self._dry_nm[LEG] += pin_torque_nm(mechanism, rubs.pin)
+        self._damping_dt = robot.joint_damping_nms_per_rad * settings.dt_s
         # On the friction of the study (1.5) no foot slides.
         self._slides = mechanism.friction is not None or settings.ground_friction is not None
         self.joint_damping_j = self.slip_j = 0.0
-        bodies = [mechanism.bodies[name] for name in (BODY, *LINKS)]
-        principal = [principal_axes(body.inertia_kg_m2) for body in bodies]
-        self._moments, self._axes = (np.stack(arrays) for arrays in zip(*principal, strict=True))
-        self._body_in_principal = self._axes[BODY_ORDER].transpose(0, 2, 1)
-        release = release_pose(mechanism)
-        self.robot_id = self._create(mechanism, bodies, release)
-        self._set_dynamics(settings, rubs, bodies)
-        for link, joint in enumerate(_joints(mechanism)):
-            bullet.resetJointState(
-                self.robot_id,
-                link,
-                release.joint_rad[joint.name],
-                release.joint_rad_s[joint.name],
-                physicsClientId=client,
-            )
-        if mechanism.roller_off:
-            self._set_off(bodies[0], release)
-        self._close_loop(mechanism)
         self._foot = self._foot_motion()
 
     def advance(self, steps: int) -> float:
@@ -200,110 +172,3 @@ class BulletWorld:
         """Tell whether a body's position or velocity is no longer finite."""
         state = self.state()
         return not all(np.isfinite(values).all() for values in (state.com_m, state.velocity_m_s))
-
-    def _create(self, mechanism: Mechanism, bodies: list[Body], release: Release) -> int:
-        bullet, client = self._bullet, self._client
-        # A link without a visual gets one made from its collision shape, which costs more than the whole robot.
-        box = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=[0.001] * 3, physicsClientId=client)
-        orientations = Rotation.from_matrix(self._axes).as_quat().tolist()
-        positions = [body.com_m.tolist() for body in bodies]
-        shapes = [self._contact_shape(body) for body in bodies]
-        joints = _joints(mechanism)
-        return int(
-            bullet.createMultiBody(
-                bodies[0].mass_kg,
-                shapes[0],
-                box,
-                basePosition=release.body_position_m.tolist(),
-                baseOrientation=_xyzw_about_y(release.body_pitch_rad),
-                baseInertialFramePosition=positions[0],
-                baseInertialFrameOrientation=orientations[0],
-                linkMasses=[body.mass_kg for body in bodies[1:]],
-                linkCollisionShapeIndices=shapes[1:],
-                linkVisualShapeIndices=[box] * len(LINKS),
-                linkPositions=[joint.origin_m.tolist() for joint in joints],
-                linkOrientations=[_xyzw_about_y(joint.rest_angle_rad) for joint in joints],
-                linkInertialFramePositions=positions[1:],
-                linkInertialFrameOrientations=orientations[1:],
-                linkParentIndices=[0, 1, 0],
-                linkJointTypes=[bullet.JOINT_REVOLUTE] * len(LINKS),
-                linkJointAxis=[[0.0, 1.0, 0.0]] * len(LINKS),
-                physicsClientId=client,
-            )
-        )
-
-    def _contact_shape(self, body: Body) -> int:
-        """Return a compound of the body's contact spheres, or none."""
-        if not body.contacts:
-            return -1
-        bullet = self._bullet
-        return int(
-            bullet.createCollisionShapeArray(
-                shapeTypes=[bullet.GEOM_SPHERE] * len(body.contacts),
-                radii=[contact.radius_m for contact in body.contacts],
-                collisionFramePositions=[contact.centre_m.tolist() for contact in body.contacts],
-                physicsClientId=self._client,
-            )
-        )
-
-    def _set_off(self, base: Body, release: Release) -> None:
-        """Let the base move as the roller leaves it; Bullet wants the velocity of its centre of mass."""
-        spin = np.array([0.0, release.body_rad_s, 0.0])
-        velocity = release.body_m_s + np.cross(spin, rotation_about_y(release.body_pitch_rad) @ base.com_m)
-        self._bullet.resetBaseVelocity(self.robot_id, velocity.tolist(), spin.tolist(), physicsClientId=self._client)
-
-    def _set_dynamics(self, settings: Settings, rubs: Coefficients, bodies: list[Body]) -> None:
-        """Set inertia and friction of every link, then what Bullet would apply to the base if set with these."""
-        bullet, mechanism, client = self._bullet, self.robot_id, self._client
-        for link, (body, moments) in enumerate(zip(bodies, self._moments, strict=True), start=-1):
-            bullet.changeDynamics(
-                mechanism,
-                link,
-                localInertiaDiagonal=moments.tolist(),
-                lateralFriction=rubs.of(body.surface),
-                rollingFriction=settings.rolling_friction_m,
-                spinningFriction=settings.spinning_friction_m,
-                restitution=settings.restitution,
-                jointDamping=rubs.joint_damping_nms_per_rad,
-                physicsClientId=client,
-            )
-        bullet.changeDynamics(
-            mechanism, -1, linearDamping=settings.drag_per_s, angularDamping=settings.drag_per_s, physicsClientId=client
-        )
-        bullet.changeDynamics(mechanism, -1, maxJointVelocity=UNCLAMPED_RAD_S, physicsClientId=client)
-        # Bullet gives every joint a motor that holds it.
-        bullet.setJointMotorControlArray(
-            mechanism,
-            JOINTS,
-            bullet.VELOCITY_CONTROL,
-            forces=self._dry_nm,
-            physicsClientId=client,
-        )
-
-    def _close_loop(self, mechanism: Mechanism) -> None:
-        """Connect front link and foot; Bullet needs the points in their principal axes."""
-        front, foot = mechanism.bodies[FRONT_LINK], mechanism.bodies[FOOT]
-        points = {mechanism.loop.body_a: mechanism.loop.point_a_m, mechanism.loop.body_b: mechanism.loop.point_b_m}
-        front_axes, foot_axes = self._axes[1 + FRONT], self._axes[1 + FOOT_LINK]
-        self._bullet.createConstraint(
-            self.robot_id,
-            FRONT,
-            self.robot_id,
-            FOOT_LINK,
-            self._bullet.JOINT_POINT2POINT,
-            [0.0, 0.0, 0.0],
-            (front_axes.T @ (points[FRONT_LINK] - front.com_m)).tolist(),
-            (foot_axes.T @ (points[FOOT] - foot.com_m)).tolist(),
-            physicsClientId=self._client,
-        )
-
-
-def _joints(mechanism: Mechanism) -> list[Joint]:
-    """Return the joints in the order of Bullet's links."""
-    return [next(joint for joint in mechanism.joints if joint.child == name) for name in LINKS]
-
-
-def _xyzw_about_y(angle_rad: float) -> list[float]:
-    """Return the quaternion of a turn about y in Bullet's order: scalar last."""
-    w, *vector = quaternion_about_y(angle_rad)
-    return [*vector, w]

@@ -15,7 +15,8 @@ from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.bullet import LINKS, BulletWorld
+from jumpcad.simulation.bullet import BulletWorld
+from jumpcad.simulation.bullet_robot import LINKS
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics
 from jumpcad.strength.pin_friction import pin_torque_nm

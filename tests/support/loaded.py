@@ -7,18 +7,19 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.settings import Settings, coefficients
-from jumpcad.simulation.bullet import BODY_ORDER, BulletEngine, BulletWorld
+from jumpcad.simulation.bullet import BulletEngine, BulletWorld
+from jumpcad.simulation.bullet_robot import BulletRobot
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.simulation.run import Run
 
 
-class LoadedWorld(BulletWorld):
-    """The evaluator's world with a robot that PyBullet made from a URDF file; inertial frames are PyBullet's own."""
+class LoadedRobot(BulletRobot):
+    """A robot that PyBullet made from a URDF file; inertial frames are PyBullet's own."""
 
     urdf: Path
 
     def _create(self, robot, bodies, release):  # type: ignore[no-untyped-def]
-        bullet, client = self._bullet, self._client
+        bullet, client = self.bullet, self.client
         bullet.setPhysicsEngineParameter(enableFileCaching=0, physicsClientId=client)
         half = release.body_pitch_rad / 2
         body = bullet.loadURDF(
@@ -30,18 +31,18 @@ class LoadedWorld(BulletWorld):
         )
         info = [bullet.getDynamicsInfo(body, link, physicsClientId=client) for link in range(-1, 3)]
         self._moments = np.array([link[2] for link in info])
-        self._axes = Rotation.from_quat([link[4] for link in info]).as_matrix()
-        self._body_in_principal = self._axes[BODY_ORDER].transpose(0, 2, 1)
+        self.axes = Rotation.from_quat([link[4] for link in info]).as_matrix()
         return body
 
 
 def loaded_range_m(urdf: Path) -> float:
     """Return the ballistic range of a robot that PyBullet loads; its masses, for the centre of mass, are read by us."""
     engine, settings, robot = BulletEngine(), Settings(), robot_from_urdf(urdf)
-    world_class = type("World", (LoadedWorld,), {"urdf": urdf})
+    loaded = type("Loaded", (LoadedRobot,), {"urdf": urdf})
     with engine._lock:
         engine._prepare(settings, coefficients(robot, settings).ground)
-        run = Run(world_class(engine._bullet, engine._client, engine._ground, robot, settings), robot, settings)
+        made = loaded(engine._bullet, engine._client, robot, settings)
+        run = Run(BulletWorld(made, engine._ground, robot, settings), robot, settings)
         run.go()
     assert run.takeoff is not None
     return run.takeoff.flight.range_m
