@@ -12,6 +12,7 @@ from jumpcad.checks.printability import (
     _longest_mm,
     _mesh_undersides,
     _tall_regions,
+    _undersides,
     bed_findings,
     printability_findings,
 )
@@ -220,3 +221,16 @@ def test_a_meshs_wall_hangs_over_where_it_leans_more_than_the_printer_can(lean_d
         found = list(_mesh_undersides(mesh, math.radians(most_deg)))
         assert len(found) == (most_deg < lean_deg)
         assert all(span == (False, pytest.approx(min(8.0, lean), abs=1e-6)) for span in found)
+
+
+@pytest.mark.parametrize(("beyond_mm", "bridge", "size_mm"), [(0.0, True, 8.0), (5.0, False, math.hypot(5.0, 4.0))])
+def test_the_roof_of_a_socket_that_is_open_at_one_end_is_a_bridge(
+    beyond_mm: float, bridge: bool, size_mm: float
+) -> None:
+    """Between walls 8 mm apart, as far as they reach; what stands out before them hangs, its middle from both."""
+    walls = rectangle((20.0, 12.0), (10.0, 0.0)) - rectangle((18.0, 8.0), (11.0, 0.0))
+    roof = rectangle((20.0 + beyond_mm, 12.0), (10.0 + beyond_mm / 2.0, 0.0))
+    drawing = Drawing("socket", "links", Stack.of([(0.0, 4.0, walls), (4.0, 5.0, roof)]), ())
+    shop = load_workshop()
+    found = list(_undersides(drawing, shop.fits, shop.process))
+    assert found == [(bridge, pytest.approx(size_mm, abs=0.05))]
