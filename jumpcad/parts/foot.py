@@ -110,7 +110,7 @@ def _webs(layout: Layout, height_mm: float, opening_min_mm: float) -> list[tuple
         return max(LOW_WEB_MIN_MM, min(height_mm, below_link(start_mm + WEB_MM)))
 
     start, middle = sections.foot_depth_mm, 0.5 * l4
-    start = max(start, _ahead_of_leg_mm(layout, height_at(start)))
+    start = _ahead_of_leg_mm(layout, start, height_at(start))
     webs = [(start, start + WEB_MM, height_at(start))]
     rail_there = sections.rail_root_mm + LOW_WEB_AT * (sections.rail_tip_mm - sections.rail_root_mm)
     low = min(rail_there - WEB_BELOW_RAIL_MM, below_link(middle + LOW_WEB_MM))
@@ -120,14 +120,19 @@ def _webs(layout: Layout, height_mm: float, opening_min_mm: float) -> list[tuple
     return webs
 
 
-def _ahead_of_leg_mm(layout: Layout, height_mm: float) -> float:
-    """Return the x from which a web of some height is clear of the leg on its stop, where it leans farthest ahead."""
+def _ahead_of_leg_mm(layout: Layout, start_mm: float, height_mm: float) -> float:
+    """Return where a web of some height begins that is clear of the leg on its stop, where it leans farthest ahead.
+
+    The web's upper edge is what the leg, a bar from the ankle up, comes near; below the ankle there is only its eye.
+    """
     sections, linkage = layout.sections, layout.linkage
     pose = linkage.pose([layout.stop.reach_rad])
     to_hub = math.pi - linkage.rest_rad - layout.stop.reach_rad + float(pose.foot_rad[0])  # up from the foot's x axis
     half = max(sections.leg_tip_mm / 2.0, sections.eye_radius_mm) + LEG_GAP_MM
     top = height_mm - sections.foot_depth_mm
-    return (half + top * math.cos(to_hub)) / math.sin(to_hub)
+    if start_mm * math.cos(to_hub) + top * math.sin(to_hub) <= 0.0:
+        return start_mm
+    return max(start_mm, (half + top * math.cos(to_hub)) / math.sin(to_hub))
 
 
 def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:

@@ -214,6 +214,15 @@ def test_the_web_at_the_ankle_begins_half_a_millimetre_ahead_of_the_leg_on_its_s
     assert web.distance(bar) == pytest.approx(0.5, abs=1e-3)
 
 
+def test_a_leg_that_leans_back_on_its_stop_leaves_the_web_at_the_ankle() -> None:
+    """156° from the foot's nose up to the hub, and a web that stays below the ankle."""
+    back = Design.from_vector([179.694, 1.192, 0.648, 1.02, 0.214, 25.416, 23.003, 14.22])
+    layout, _ = layout_of(back, load_workshop())
+    (start, end, height), *_ = foot_part._webs(layout, layout.sections.rail_root_mm, 2.0)
+    assert height < layout.sections.foot_depth_mm
+    assert (start, end) == (layout.sections.foot_depth_mm, layout.sections.foot_depth_mm + 10.0)
+
+
 def test_the_webs_of_a_short_foot_join_unless_a_printable_opening_is_between_them() -> None:
     """Of 32.24 mm, 5.2 mm deep: the first ends at 15.2, the second begins at 16.12 mm."""
     short = Design.from_vector([80.9, 0.9038, 0.3985, 1.1426, 0.704, 61.75, 26.825, 13.1])
