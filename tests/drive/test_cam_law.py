@@ -52,3 +52,11 @@ def test_derivatives_are_those_of_the_leg_angle():
     assert first == pytest.approx((after - before) / (2 * step), rel=1e-7)
     assert second == pytest.approx((after - 2 * at + before) / step**2, abs=1e-4)
     assert a_law.wind_rad(LIFT_RAD) == pytest.approx(math.radians(52.9))
+
+
+@pytest.mark.parametrize("preload", [0.0, 0.1])
+def test_the_springs_torque_is_the_energy_that_a_little_more_angle_brings(preload: float) -> None:
+    """2 N·m/rad wound by 0.8 rad, and by a tenth more that is there at rest: 1.6 and 1.8 N·m."""
+    laws = [CamLaw(angle, 2.0, LIFT_RAD, RAMP_RAD, preload) for angle in (0.799, 0.8, 0.801)]
+    assert laws[1].spring_torque_nm == pytest.approx(1.6 + 2.0 * preload)
+    assert (laws[2].energy_j - laws[0].energy_j) / 0.002 == pytest.approx(laws[1].spring_torque_nm)
