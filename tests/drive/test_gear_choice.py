@@ -10,7 +10,7 @@ from support.limits import default_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.gear_choice import _printable, by_cost, least_tip_mm
+from jumpcad.drive.gear_choice import _printable, _strong, by_cost, least_tip_mm
 from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.gears import Gear, least_shift
 from jumpcad.drive.motor import winding_s
@@ -214,3 +214,16 @@ def test_pinions_begin_where_their_tips_print_and_their_root_holds_a_shaft(tip_m
         assert sorted(set(rows["pinion"])) == fits
         assert set(rows["least_teeth"]) == {fits[0]}
         assert len(rows) == sum(91 - max(13, teeth) for teeth in fits)
+
+
+@pytest.mark.parametrize("module", [1.0, 1.25, 1.5])
+def test_a_pair_bears_what_its_pinions_teeth_do(module):
+    """Lewis stress of the pinion under the wheel's torque over the ratio, of teeth that are not shifted."""
+    table = _printable((module,), 0.15, 0.45, 2.9)
+    rows = table[table["pinion"] >= 18]
+    for row in rows[:: len(rows) // 5]:
+        pair = gear_pair(int(row["pinion"]), int(row["wheel"]), module, LIMITS.face_width_mm, 0.15)
+        stress = pair.pinion.lewis_stress_mpa(0.2 / pair.ratio)
+        for more, bears in ((1.001, True), (0.999, False)):
+            limits = dataclasses.replace(LIMITS, stress_mpa=more * stress)
+            assert _strong(row, 0.2, limits) == bears

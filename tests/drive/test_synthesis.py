@@ -215,3 +215,19 @@ def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):
     farther = synthesise(design, dataclasses.replace(limits, more_gap_mm=(14.0,)))
     assert tried.cam.geometry.axis_distance_mm == only.cam.geometry.axis_distance_mm
     assert tried.cam.geometry.axis_distance_mm < farther.cam.geometry.axis_distance_mm
+
+
+def test_gears_beside_a_cam_leave_it_room_and_the_leg_time_to_fall():
+    """Meanwhile the motor turns the cam by what play and 3° leave of the window, by 1° where they leave nothing."""
+    cam = synthesise(load_design("kenan-2.0"), LIMITS).cam
+    quick, play_deg = dataclasses.replace(LIMITS.train, cam_speed_max_rad_s=math.inf), math.degrees(cam.roll_over_rad)
+    window_deg = math.degrees(clear_window_rad(cam.geometry)[1])
+    for fixed_deg, left_deg in ((None, window_deg - max(12.0, play_deg + 3.0) - 3.0), (window_deg, 1.0)):
+        play = dataclasses.replace(LIMITS.cam, play_rad=None if fixed_deg is None else math.radians(fixed_deg))
+        found = synthesis._train_limits(cam, dataclasses.replace(LIMITS, train=quick, cam=play, fall_s=0.3))
+        assert math.degrees(found.cam_speed_max_rad_s) * 0.3 == pytest.approx(left_deg)
+        assert left_deg >= 1.0
+    gap, axle = LIMITS.gap_mm, LIMITS.axle_radius_mm
+    assert found.cam_gear_tip_max_mm == pytest.approx(math.hypot(*cam.cam_axis_mm) - axle - gap)
+    assert found.cam_room_mm == pytest.approx(cam.outer_radius_mm + gap)
+    assert found.idler_distance_min_mm == pytest.approx(cam.outer_radius_mm + gap + axle)

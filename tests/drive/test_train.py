@@ -12,7 +12,7 @@ from jumpcad.design import load_design
 from jumpcad.drive import train as train_module
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.drive.train import synthesise_train
+from jumpcad.drive.train import finished_train, synthesise_train
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
@@ -154,3 +154,21 @@ def test_a_train_that_misses_a_limit_is_passed_over(monkeypatch):
         monkeypatch.setattr(train_module, "by_cost", lambda *_, bad=bad: iter([bad]))
         with pytest.raises(CannotBuildError, match="no motor turns the cam"):
             synthesise_train(law, MOTORS, LIMITS)
+
+
+def test_of_two_pairs_the_last_has_the_cam_gear_and_most_of_the_torque():
+    """30:15 and 45:15 are 6:1; the cam's torque with its losses is at the last wheel, a third of it, with more, before.
+
+    Teeth of 1 mm module reach 1 mm beyond the pitch circle.
+    """
+    law, limits = law_of("kenan-2.0"), dataclasses.replace(LIMITS, cam_gear_tip_max_mm=25.0)
+    stages = gear_pair(15, 30, 1.0, 5.0, 0.15), gear_pair(15, 45, 1.0, 5.0, 0.15)
+    train = finished_train(law, MOTORS[0], stages, limits)
+    assert train.ratio == 6.0
+    cam_nm = law.peak_torque_nm / 0.85
+    assert train.wheel_torques_nm == pytest.approx((cam_nm / 3.0 / 0.9, cam_nm))
+    (room,) = (finding for finding in train.findings if finding.name == "cam_gear_room")
+    assert (room.value, room.limit) == (pytest.approx(45.0 / 2.0 + 1.0, abs=0.02), 25.0)
+    by_name = {finding.name: finding.value for finding in train.findings}
+    for number, (pair, torque) in enumerate(zip(stages, train.wheel_torques_nm, strict=True), start=1):
+        assert by_name[f"gear_strength_{number}"] == pair.pinion.lewis_stress_mpa(torque / pair.ratio)
