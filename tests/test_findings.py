@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
-from jumpcad.findings import Finding, at_least, at_most, limit
+from jumpcad.findings import SHOWN_AS, Finding, at_least, at_most, bare, is_bare, limit
 
 
 @pytest.mark.parametrize(
@@ -62,3 +63,19 @@ def test_plain_data_gives_the_finding_back() -> None:
     data = finding.to_dict()
     assert list(data)[:6] == ["name", "severity", "margin", "unit", "message", "remedy"]
     assert Finding(**data) == finding
+
+
+@pytest.mark.parametrize(
+    ("unit", "one", "shown"),
+    [("rad", "°", 57.29578), ("rad/s", "°/s", 57.29578), ("J", "mJ", 1000.0), ("N·m", "mN·m", 1000.0)],
+)
+def test_people_read_degrees_and_thousandths(unit: str, one: str, shown: float) -> None:
+    assert SHOWN_AS[unit] == (one, pytest.approx(shown, rel=1e-6))
+
+
+def test_a_bare_finding_has_neither_words_nor_numbers_but_its_margin() -> None:
+    kept = bare("stress", "warning", -3.0, "MPa")
+    assert is_bare(kept)
+    assert (kept.name, kept.severity, kept.margin, kept.unit) == ("stress", "warning", -3.0, "MPa")
+    for more in ({"message": "found"}, {"remedy": "more"}, {"value": 1.0}, {"limit": 1.0}, {"grows": "leg"}):
+        assert not is_bare(replace(kept, **more))  # type: ignore[arg-type]

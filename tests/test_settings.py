@@ -9,7 +9,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.settings import coefficients
+from jumpcad.settings import coefficients, takeoff_clearance_m
 from jumpcad.simulation import Settings, load_settings
 
 
@@ -64,6 +64,17 @@ def test_a_printed_robot_rubs_as_its_workshop_says_and_a_file_overrides_each() -
     assert asked.contact("foot") == 0.5
     assert (asked.pin, asked.joint_damping_nms_per_rad) == (0.1, 0.002)
     assert coefficients(kenan, load_settings("published-table")).contact("foot") == 1.5 * 0.8
+
+
+def test_a_printed_robot_that_jumps_clears_the_ground_by_a_millimetre() -> None:
+    """Twice the hop of a foot that tips over its nose; of the study's capsules nothing is asked, and a file may say."""
+    capsules = capsule_robot(load_design("kenan-2.0"))
+    printed = rubbing(capsules)
+    assert takeoff_clearance_m(capsules, Settings()) == 0.0
+    assert takeoff_clearance_m(printed, Settings()) == 2.0 * 0.0005
+    for robot in (capsules, printed):
+        for asked in (0.0, 0.003):
+            assert takeoff_clearance_m(robot, Settings(takeoff_clearance_m=asked)) == asked
 
 
 @pytest.mark.parametrize(
