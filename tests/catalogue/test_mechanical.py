@@ -41,6 +41,14 @@ def test_a_bearing_has_room_for_its_balls() -> None:
     assert list(least.model_copy(update={"outer_mm": 2.99}).contradictions())
 
 
+@pytest.mark.parametrize("scale", [0.5, 1.0, 2.0])
+def test_bearings_of_one_shape_have_outer_rings_of_one_shape(scale: float) -> None:
+    """That of a 623, from 8.2 to 10 mm around a bore of 3 mm (SKF), and of bearings of that shape in other sizes."""
+    size = {"bore_mm": 3.0 * scale, "outer_mm": 10.0 * scale}
+    bearing = load_catalogue().bearings["623"].model_copy(update=size)
+    assert bearing.outer_ring_mm == pytest.approx(8.2 * scale)
+
+
 def test_turns_may_be_a_tenth_off_and_wire_is_thinner_than_the_coil_is_wide() -> None:
     """Makers round turns; the least friction of a pad is at most its greatest."""
     spring = next(iter(load_catalogue().springs.values())).model_copy(update={"turns": 4.0, "arm_angle_deg": 180.0})
