@@ -41,6 +41,7 @@ def test_walls_and_floors_are_whole_lines_and_layers() -> None:
     assert pytest.approx(LAYER_MM) == dimensions.MOTOR_CLAMP_MM
     assert pytest.approx(CAP_HEAD_DEPTH_MM + 4 * LAYER_MM) == dimensions.MOTOR_CAP_MM
     assert pytest.approx(2.5 * fits.wall_mm) == dimensions.PAD_WALL_MM
+    assert pytest.approx(5 * LINE_MM) == dimensions.PIN_HOLE_EDGE_MM
     assert pytest.approx(1.5 + fits.sliding_mm + 1.5) == dimensions.SPACER_RADIUS_MM
     assert fits.sliding_mm < dimensions.SOCKET_PLAY_MM
 

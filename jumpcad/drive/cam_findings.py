@@ -6,12 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits
+from jumpcad.drive.cam_limits import FIRST_ROWS, NO_DROP_RAD, ROWS, CamLimits
 from jumpcad.findings import SHOWN_AS, Basis, Finding, limit
 from jumpcad.transforms import Array
-
-NO_DROP_RAD = -1.0
-"""Margin of `cam_drop` where the roller's arc about the hub nowhere passes the corner."""
 
 
 @dataclass(frozen=True)

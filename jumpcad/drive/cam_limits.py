@@ -17,6 +17,8 @@ from jumpcad.transforms import Array
 
 OVERSHOOT_RAD = math.radians(5)
 """How far the leg may swing past rest; judgement."""
+NO_DROP_RAD = -1.0
+"""Margin of `cam_drop` where the roller's arc about the hub nowhere passes the corner."""
 
 
 @dataclass(frozen=True)
@@ -154,7 +156,7 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
         relief - limits.core_radius_mm,
         face - limits.core_radius_mm,
         axis - outer - limits.hub_radius_mm - clearance,
-        np.where(np.abs(cos_free) <= 1, 2 * math.pi - fallen, -1.0),
+        np.where(np.abs(cos_free) <= 1, 2 * math.pi - fallen, NO_DROP_RAD),
         edge_gap.T,
         corner - past,
         past,

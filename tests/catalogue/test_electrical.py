@@ -24,6 +24,14 @@ def test_a_pack_has_the_voltage_of_its_cells(voltage_v: float, cells: int, empty
     assert pack.bears_ma == 300.0  # 1 C
 
 
+def test_a_usb_socket_of_which_nothing_is_said_is_one_of_usb_c_on_a_usual_board() -> None:
+    """Its middle above the underside of a board of 1.2 mm; the socket is 3.2 mm high."""
+    plain = Board(
+        name="own", source="a label", description="board", length_mm=21.0, width_mm=17.8, height_mm=3.5, mass_g=3.0
+    )
+    assert plain.usb_height_mm == pytest.approx(1.2 + 3.2 / 2.0)
+
+
 def test_a_motor_without_a_stated_range_runs_from_a_quarter_of_its_rated_voltage_to_all_of_it() -> None:
     motor = next(iter(load_catalogue().motors.values()))
     for volts in (3.0, 6.0, 12.0):

@@ -41,6 +41,14 @@ def test_a_bearing_has_room_for_its_balls() -> None:
     assert list(least.model_copy(update={"outer_mm": 2.99}).contradictions())
 
 
+@pytest.mark.parametrize("scale", [0.5, 1.0, 2.0])
+def test_bearings_of_one_shape_have_outer_rings_of_one_shape(scale: float) -> None:
+    """That of a 623, from 8.2 to 10 mm around a bore of 3 mm (SKF), and of bearings of that shape in other sizes."""
+    size = {"bore_mm": 3.0 * scale, "outer_mm": 10.0 * scale}
+    bearing = load_catalogue().bearings["623"].model_copy(update=size)
+    assert bearing.outer_ring_mm == pytest.approx(8.2 * scale)
+
+
 def test_turns_may_be_a_tenth_off_and_wire_is_thinner_than_the_coil_is_wide() -> None:
     """Makers round turns; the least friction of a pad is at most its greatest."""
     spring = next(iter(load_catalogue().springs.values())).model_copy(update={"turns": 4.0, "arm_angle_deg": 180.0})
@@ -59,11 +67,3 @@ def test_turns_may_be_a_tenth_off_and_wire_is_thinner_than_the_coil_is_wide() ->
 def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
     assert len(documented_ranges(f"{kind}.NAME")) == ranges
     assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []
-
-
-@pytest.mark.parametrize(("name", "width"), [("623", 10.0), ("683", 7.0)])
-def test_the_face_of_an_outer_ring_is_a_quarter_of_what_lies_between_bore_and_rim(name: str, width: float) -> None:
-    """Of a 623, from 8.2 to 10 mm of 3 to 10 (SKF); the others are drawn in proportion."""
-    bearing = load_catalogue().bearings[name]
-    assert bearing.outer_mm == width
-    assert bearing.outer_ring_mm == pytest.approx(width - 1.8 / 7.0 * (width - 3.0))

@@ -8,13 +8,14 @@ import pytest
 from support.limits import default_limits
 
 from jumpcad.drive.cam import CamGeometry
-from jumpcad.drive.cam_findings import LIMITS
+from jumpcad.drive.cam_findings import LIMITS, cam_findings
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.cam_limits import ROWS, axis_range, measure
+from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, axis_range, measure
 from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.transforms import turned_about_y
 
 CAM_LIMITS = default_limits().cam
+NOTHING = {"pressure_angle": [0.0], "pressure": [0.0], "force": [0.0]}
 
 
 @pytest.fixture(scope="module")
@@ -156,3 +157,20 @@ def test_the_cams_material_is_petg() -> None:
     """Poisson's ratio 0.37 to 0.40; rolling shakes down up to 4·k, k = 45 MPa/√3 (Johnson, Contact Mechanics, 9.2)."""
     assert 0.37 <= CAM_LIMITS.poisson <= 0.40
     assert CAM_LIMITS.pressure_mpa * math.sqrt(1.1 * 1.05) <= 4.0 * 45.0 / math.sqrt(3.0)
+
+
+@pytest.mark.parametrize(("roller_mm", "passes"), [(10.0, True), (15.0, False)])
+def test_a_roller_that_is_larger_than_the_cam_never_falls_past_its_corner(roller_mm: float, passes: bool) -> None:
+    """The face is an arc about the hub, of lever, roller and clearance: no corner of a small cam is so far away.
+
+    The cam's axis is 26 mm from the hub, the arc 35.6 mm with a roller of 30 mm diameter: a corner that is less than
+    9.6 mm from the axis never comes to it.
+    """
+    limits = replace(CAM_LIMITS, roller_radius_mm=roller_mm, clearance_mm=0.6)
+    law = CamLaw(math.radians(45), 1.0, limits.lift_rad, limits.ramp_rad)
+    outer, rows, _ = measure(law, limits, np.array([[20.0, 6.0, 0.3]]), 181)
+    assert (outer[0] > 20.0 + roller_mm + 0.6 - 26.0) == passes
+    margin = np.minimum.reduceat(rows[:, 0], FIRST_ROWS)
+    (checked,) = (one for one in cam_findings(limits, margin, NOTHING) if one.name == "cam_drop")
+    assert ("nowhere passes the corner" in checked.message) != passes
+    assert (checked.severity == "error") or passes

@@ -52,6 +52,7 @@ def test_two_of_them_are_the_robots_stiffness_and_a_finding_says_both(robot: Rob
     assert robot.spring.one_sided
     (finding,) = (found for found in constraint_findings(robot) if found.name == "spring_rate")
     assert finding.severity == "info"
+    assert (finding.value, finding.margin) == pytest.approx((52.72, 52.72 - 9.2))
     assert "52.72 N·mm/°" in finding.message
     assert "asks for 9.20" in finding.message
     assert finding.margin == pytest.approx(52.72 - 9.2)

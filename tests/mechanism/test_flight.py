@@ -116,7 +116,9 @@ def test_the_end_of_the_foot_that_would_need_tension_lifts_off(foot_nm: float, s
 
     chain = Tilting()
     chain.leg = np.array([0.0, 0.01])
-    lifted = flight._push_off(chain, built("kenan-2.0").bodies["foot"].contacts)  # type: ignore[arg-type]
+    ends = built("kenan-2.0").bodies["foot"].contacts
+    between = [replace(one, name="between", centre_m=share * one.centre_m) for one in ends for share in (0.1, 0.6)]
+    lifted = flight._push_off(chain, (*between, *ends, *between))  # type: ignore[arg-type]
     assert lifted.leg_rad >= 0.01
     assert stays in lifted.pivot.name
     assert np.sign(lifted.foot_rad) == turned

@@ -19,6 +19,8 @@ def test_a_weak_section_grows_by_what_it_lacks_at_most_by_a_tenth() -> None:
     assert (grown.leg, grown.toe, grown.rail) == pytest.approx((1.2 * 1.002 * 1.05, 1.1, 1.1))
     assert (grown.lever, grown.front, grown.plate, grown.dog, grown.stop) == (1.0,) * 5
     assert Growth().more([]) == Growth()
+    holds = Finding("f", "info", 30.0, "MPa", "", "", 70.0, 100.0, "leg")
+    assert Growth(leg=1.2).more([holds]) == Growth(leg=1.2)  # it does not shrink
 
 
 def test_a_section_leaps_to_where_the_limit_is_once_it_is_known_what_growing_helps() -> None:

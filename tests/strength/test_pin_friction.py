@@ -49,9 +49,10 @@ def test_each_pin_rubs_by_its_force_along_its_own_turn() -> None:
     """Turns of the pins between neighbouring positions, from poses alone; both links meet in the eye."""
     uneven = Design.from_vector([189.773, 1.18, 0.864, 0.748, 0.4, 60.869, 14.361, 10.146])
     robot = replace(rubbing(capsule_robot(uneven), pin=0.25), foot_depth_m=0.03)
-    body = robot.bodies["body"]
+    body = replace(robot.bodies["body"], com_m=np.array([0.02, 0.005, 0.03]))  # x and height count, not its side
+    robot = replace(robot, bodies={**robot.bodies, "body": body})
     gyration = 1000.0 * (body.inertia_kg_m2[1, 1] / body.mass_kg) ** 0.5
-    mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
+    mass = MovingMass(body.mass_kg, np.array([20.0, 30.0]), gyration)
     loads = push_off(robot.linkage, mass, robot.spring)
     pose = robot.linkage.pose(loads.leg_rad)
     leg, front, foot = robot.linkage.rest_rad + pose.leg_rad, robot.linkage.rest_rad + pose.front_rad, pose.foot_rad

@@ -147,6 +147,7 @@ def test_another_printer_and_one_material_for_all(written):
         ('printer = "mk5"', r"'mk5' is neither a TOML file nor one of the printers .*did you mean mk4\?"),
         ('base = "my.toml"', r"leads back to a file that builds on it"),
         ('[pads.own]\nlike = "rubber-3"', r"pads.own.like = 'rubber-3': is no shipped part of this kind .*rubber-2"),
+        ('[pads.own]\nlike = "x"', rf"is no shipped part of this kind \({', '.join(load_catalogue().pads)}\)$"),
         ("[pads.own]\nlike = 2", r"pads.own.like = 2: is no shipped part of this kind"),
         ('[bought]\nkit = "strong-3s"', r"bought.kit = 'strong-3s': is none of the kits .*did you mean strong-2s\?"),
         ("[bought]\nkit = 2", r"bought.kit = 2: is none of the kits"),
