@@ -155,9 +155,9 @@ def interference_findings(robot: Robot) -> list[Finding]:
     """Return a finding per pair of pieces that collide, or one that says that none do."""
     found = [
         Finding(
-            "interference", "error", -volume, "mm³",
+            "interference", "error", TOLERANCE_MM3 - volume, "mm³",
             f"{a} and {b} share {volume:.2f} mm³ of {TOLERANCE_MM3:g} mm³, {label}",
-            "raise carrying_link_mm or d_coef, or lower compression_ratio", value=volume, limit=0.0,
+            "raise carrying_link_mm or d_coef, or lower compression_ratio", value=volume, limit=TOLERANCE_MM3,
         )
         for a, b, label, volume in overlaps(robot)
     ]  # fmt: skip

@@ -45,7 +45,8 @@ def test_fires_on_a_lever_that_meets_a_misplaced_motor(kenan: Robot) -> None:
         hardware.append(replace(item, T_body_part=pose))
     found = errors(interference_findings(replace(kenan, hardware=tuple(hardware))))
     assert any("motor" in finding.message and "main_leg" in finding.message for finding in found)
-    assert all(finding.margin < 0 for finding in found)
+    assert all(finding.margin == 0.05 - finding.value < 0.0 for finding in found)
+    assert {finding.limit for finding in found} == {0.05}
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

@@ -1,5 +1,7 @@
 """Voltages from the battery to the motor's winding, part by part, by Ohm's law."""
 
+from dataclasses import replace
+
 import pytest
 
 from jumpcad.electronics.chain import Link, chain, supply_pin
@@ -42,6 +44,10 @@ def test_two_cells_pass_a_regulator_and_a_diode_to_the_controller() -> None:
     assert found["driver"].gets_v == pytest.approx((low, 8.4))
     logic = chosen.regulator.output_v - (chosen.diode.drop_v if chosen.diode else 0.0)
     assert found["controller"].gets_v == pytest.approx((logic, logic))
+    alone = replace(chosen, components={name: one for name, one in chosen.components.items() if name != "diode"})
+    motor = load_workshop().catalogue.motors["n20-298"]
+    (plain,) = (one for one in chain(alone, motor, supply_of(alone), PEAK_A, TORQUE_NM) if one.role == "controller")
+    assert plain.gets_v == pytest.approx((chosen.regulator.output_v,) * 2)
 
 
 def test_the_winding_gets_the_mean_of_the_pwm() -> None:
