@@ -32,6 +32,7 @@ from jumpcad.parts.purchased import BoughtPart
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import pin_head_mm
+from jumpcad.strength.bearings import roller_screw_mm
 from jumpcad.strength.growth import Growth, grown_mm
 from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
@@ -146,6 +147,7 @@ def _laid_out(
         ),
         plate_mm=grown_mm(workshop.body.plate_mm, growth.plate),
         roller_width_mm=settled.roller.width_mm,
+        roller_screw_mm=roller_screw_mm(settled.sections.thickness_mm, settled.roller, workshop.catalogue),
         axle_mm=chosen.axle_mm,
         cap_ear_mm=cap_ear_mm(settled.holes.fits.wall_min_mm),
         stop_rad=math.radians(workshop.body.stop_deg),

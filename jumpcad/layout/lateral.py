@@ -23,6 +23,8 @@ Interval = tuple[float, float]
 HEAD_GAP_MM = GAP_MM + 2.0 * BUSHING_PLAY_MM + 0.2
 """From the roller's screw to the cam gear: the play of cam and gear, each half a gap, towards the leg, half of the
 leg's, and what is left then; judgement."""
+SCREW_GAP_MM = GAP_MM + 2.0 * BUSHING_PLAY_MM
+"""From the end of the roller's screw to the right plate: the leg may stand nearer by half of its play; judgement."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,7 @@ class Lateral:
     lug_left: Interval
     lug_right: Interval
     cam: Interval
+    roller_screw: Interval
     gears: tuple[Interval, ...]
     motor: Interval
     motor_cap: Interval
@@ -66,6 +69,7 @@ def lateral_stack(
     motor: Motor,
     plate_mm: float,
     tray_width_mm: float,
+    roller_screw_mm: float,
 ) -> Lateral:
     """Stack everything across the robot.
 
@@ -83,6 +87,8 @@ def lateral_stack(
         Thickness of the body plates.
     tray_width_mm
         Least width that the electronics need between the plates.
+    roller_screw_mm
+        Length of the roller's screw below its head, which lies on the roller; its end moves past the right plate.
     """
     half = leg_mm / 2.0
     cam = (half + ROLLER_WASHER_MM, half + ROLLER_WASHER_MM + roller_width_mm)
@@ -97,13 +103,16 @@ def lateral_stack(
     cap = (front, front + MOTOR_CAP_MM)
     body = (front - motor.body_length_mm, front)
     spring_right = (-spring_left[1], -spring_left[0])
-    right = min(body[0] - TERMINALS_MM, spring_right[0] - GAP_MM, left - tray_width_mm)
+    screw = (cam[1] - roller_screw_mm, cam[1])
+    beside_leg = min(spring_right[0] - GAP_MM, screw[0] - SCREW_GAP_MM)
+    right = min(body[0] - TERMINALS_MM, beside_leg, left - tray_width_mm)
     lug = (half + GAP_MM, half + GAP_MM + lug_mm)
     return Lateral(
         leg=(-half, half),
         lug_left=lug,
         lug_right=(-lug[1], -lug[0]),
         cam=cam,
+        roller_screw=screw,
         gears=tuple(gears),
         motor=body,
         motor_cap=cap,

@@ -151,6 +151,7 @@ def make_layout(
     toes_apart: bool,
     plate_mm: float,
     roller_width_mm: float,
+    roller_screw_mm: float,
     axle_mm: float,
     cap_ear_mm: float,
     stop_rad: float,
@@ -183,6 +184,7 @@ def make_layout(
         drive.train.motor,
         plate_mm,
         electronics.width_mm,
+        roller_screw_mm,
     )
     inside, pin_radius = lateral.inside, drive.spring.pin_radius_mm
     hub, front = linkage.back_pivot_mm, linkage.front_pivot_mm

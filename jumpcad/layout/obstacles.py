@@ -9,8 +9,6 @@ from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array
 
-LEVER_NUT_MM = 4.5
-"""Right of the lever: the lock nut of the roller's screw, 4.0 mm (DIN 985 M3), and the screw's end."""
 LEVER_HEAD_MM = 1.7
 """Left of the roller: the screw's head, 1.65 mm (ISO 7380-1 M3), rounded up."""
 
@@ -19,7 +17,7 @@ def swept_obstacles(
     linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral, reach_rad: float, gap_mm: float = CLEAR_MM
 ) -> list[Obstacle]:
     """Return the room that the links sweep, with a clearance."""
-    lever_y = (-sections.thickness_mm / 2.0 - LEVER_NUT_MM, lateral.cam[1] + LEVER_HEAD_MM)
+    lever_y = (lateral.roller_screw[0], lateral.roller_screw[1] + LEVER_HEAD_MM)
     cam = drive.cam
     return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, gap_mm, reach_rad)
 

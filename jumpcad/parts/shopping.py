@@ -71,10 +71,7 @@ def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: 
     washer, nut, screw = roller_washer(roller, catalogue), catalogue.nuts["M3 nyloc"], catalogue.screws["M3"]
     slabs = [(0.0, ROLLER_WASHER_MM, round_outline(washer.outer_mm, washer.bore_mm))]
     yield bought("roller_washer", washer.article, MAIN_LEG, washer.mass_g, slabs, (end[0], high, end[1]))
-    head = lateral.cam[1]
-    length = screw.length_for(head - low + nut.height_mm, "choose a narrower bought.leg_bearing or bought.roller")
-    shank = (head - length, head)
-    yield placed_screw("roller_screw", MAIN_LEG, end, shank, 1.0, screw, catalogue)
+    yield placed_screw("roller_screw", MAIN_LEG, end, lateral.roller_screw, 1.0, screw, catalogue)
     slabs = [(-nut.height_mm, 0.0, _hexagon(nut.across_flats_mm, screw.diameter_mm))]
     yield bought("roller_nut", "lock nut M3 DIN 985", MAIN_LEG, nut.mass_g, slabs, (end[0], low, end[1]))
 

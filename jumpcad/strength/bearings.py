@@ -87,6 +87,18 @@ def roller_washer(roller: Bearing, catalogue: Catalogue) -> Washer:
     )
 
 
+def roller_screw_mm(leg_mm: float, roller: Bearing, catalogue: Catalogue) -> float:
+    """Return the length of the screw through roller, washer, a leg of `leg_mm` and the lock nut behind it.
+
+    Raises
+    ------
+    JumpcadError
+        If no screw in stock is so long.
+    """
+    clamped = leg_mm + ROLLER_WASHER_MM + roller.width_mm + catalogue.nuts["M3 nyloc"].height_mm
+    return catalogue.screws["M3"].length_for(clamped, "choose a narrower bought.leg_bearing or bought.roller")
+
+
 def first_guess(bearings: list[Bearing | None], design: Design, workshop: Workshop) -> int:
     """Return the number of the bearing to try first; those before it are hardly ever strong enough."""
     springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))

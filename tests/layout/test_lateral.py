@@ -12,10 +12,16 @@ MOTOR = load_catalogue().motors["n20-298"]
 """An N20: 24 mm over motor and gearbox."""
 
 
-def stack(spring: float = 5.0, gears: tuple[float, ...] = (5.0,), tray: float = 20.0, motor: float = 24.0) -> Lateral:
+def stack(
+    spring: float = 5.0,
+    gears: tuple[float, ...] = (5.0,),
+    tray: float = 20.0,
+    motor: float = 24.0,
+    screw: float = 16.0,
+) -> Lateral:
     """Return the stack of an 8 mm leg with a 623 bearing (4 mm wide) for a roller and plates of 2.4 mm."""
     lying = MOTOR.model_copy(update={"body_length_mm": motor})
-    return lateral_stack(8.0, 4.0, 4.0, spring, gears, lying, 2.4, tray)
+    return lateral_stack(8.0, 4.0, 4.0, spring, gears, lying, 2.4, tray, screw)
 
 
 def apart(one: tuple[float, float], other: tuple[float, float]) -> float:
@@ -76,3 +82,14 @@ def test_the_widest_of_motor_spring_and_tray_places_the_right_plate() -> None:
     assert by_tray.inside[1] - by_tray.inside[0] == pytest.approx(60.0)
     assert by_tray.left_plate == by_motor.left_plate
     assert apart(by_spring.right_plate, by_spring.spring_right) == pytest.approx(GAP_MM)
+
+
+def test_the_right_plate_stays_clear_of_the_rollers_screw() -> None:
+    """Head on the roller at 8.5 mm: 20 mm of screw end at -11.5 mm; the leg moves by 0.3 mm to either side.
+
+    Two gears move a short motor to the left, and the plate would otherwise follow it into the screw's way.
+    """
+    by_screw = stack(gears=(5.0, 5.0), motor=20.0, screw=20.0)
+    assert by_screw.roller_screw == (pytest.approx(-11.5), pytest.approx(8.5))
+    assert by_screw.right_plate[1] <= -11.5 - 0.3 - GAP_MM + 1e-9
+    assert by_screw.motor[0] - by_screw.right_plate[1] > 0.5  # nearer for the motor alone

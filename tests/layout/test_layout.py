@@ -21,7 +21,7 @@ from jumpcad.findings import errors
 from jumpcad.layout import layout as layout_module
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout, moving_obstacles
-from jumpcad.layout.obstacles import LEVER_HEAD_MM, LEVER_NUT_MM, hub_obstacles
+from jumpcad.layout.obstacles import LEVER_HEAD_MM, hub_obstacles
 from jumpcad.layout.room import Obstacle
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
@@ -67,7 +67,8 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
     given = {
         "linkage": layout.linkage, "sections": layout.sections, "drive": layout.drive,
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
-        "plate_mm": round(float(np.ptp(layout.lateral.left_plate)), 6), "roller_width_mm": 4.0, "axle_mm": 3.0,
+        "plate_mm": round(float(np.ptp(layout.lateral.left_plate)), 6), "roller_width_mm": 4.0,
+        "roller_screw_mm": float(np.ptp(layout.lateral.roller_screw)), "axle_mm": 3.0,
         "cap_ear_mm": layout.cap_ear_mm,
         "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
         "reserve_mm": load_workshop("default").safety.room_reserve_mm,
@@ -257,7 +258,10 @@ def test_a_cam_gear_in_the_legs_axle_is_refused() -> None:
 
 def test_the_lever_has_room_for_the_rollers_screw_on_either_side() -> None:
     """A lock nut of 4.0 mm (DIN 985 M3) behind the lever, a head of 1.65 mm (ISO 7380-1 M3) beside the roller."""
-    assert 4.0 <= LEVER_NUT_MM < 5.0
+    for layout in plans().values():
+        lever = next(one for one in moving_obstacles(layout) if one.name == "lever")
+        assert lever.y_mm[0] == layout.lateral.roller_screw[0] <= layout.lateral.leg[0] - 4.0
+        assert layout.lateral.right_plate[1] <= layout.lateral.roller_screw[0] - 0.5
     assert 1.65 <= LEVER_HEAD_MM < 2.0
 
 
@@ -278,8 +282,8 @@ def test_what_is_around_the_legs_axle_passes_through_the_springs_coils() -> None
 
 
 def test_what_moves_occupies_its_share_across_the_robot() -> None:
-    """The lever from the end of its screw and nut, 4.5 mm behind the leg, to the screw's head beside the roller."""
-    for name in ("kenan-2.0", "geared"):
+    """The lever from its screw's end, 16 or 20 mm behind the roller's face, to the screw's head beside the roller."""
+    for name, screw_mm in (("kenan-2.0", 16.0), ("geared", 20.0)):
         layout = plans()[name]
         lateral, half = layout.lateral, layout.sections.thickness_mm / 2.0
         found = {one.name: one for one in moving_obstacles(layout)}
@@ -287,7 +291,7 @@ def test_what_moves_occupies_its_share_across_the_robot() -> None:
         always = {"main leg", "lever", "front link", "foot", "cam", "cam's dog", "cam gear", "pinion"}
         assert found.keys() == always | idler.keys()
         assert {one: found[one].y_mm for one in idler} == idler
-        assert found["lever"].y_mm == pytest.approx((-half - 4.5, lateral.cam[1] + 1.7))
+        assert found["lever"].y_mm == pytest.approx((lateral.cam[1] - screw_mm, lateral.cam[1] + 1.7))
         assert found["main leg"].y_mm == found["front link"].y_mm == (-half, half)
         assert found["cam"].y_mm == lateral.cam
         assert found["cam gear"].y_mm == lateral.gears[0]
