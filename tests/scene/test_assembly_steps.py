@@ -9,7 +9,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.built import built
+from support.built import placed as placed_mesh
 
+from jumpcad.building import build
+from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import ORDER
@@ -17,6 +20,7 @@ from jumpcad.scene.assembly_order.plan import Move, Words
 from jumpcad.scene.assembly_steps import REST, SIDES, Step, _texts, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import pose_about_y, pose_about_z
+from jumpcad.workshop import load_workshop
 
 
 @pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
@@ -168,6 +172,26 @@ def test_the_springs_pin_leans_on_a_boss_or_on_a_strip_of_tape(boss_mm: float) -
     words = " ".join(text for step in steps for text in step.text)
     found = [text in words for text in ("its boss on the plate holds it", "adhesive tape from it to the plate")]
     assert found == [boss_mm > 0.0, boss_mm == 0.0]
+
+
+@pytest.mark.parametrize(
+    "changed", [{}, {"retention": "clips", "axle": "silver-steel"}, {"retention": "nuts"}], ids=str
+)
+def test_what_stands_in_open_bores_is_kept_from_falling_through(changed: dict[str, str]) -> None:
+    """Tape closes the lower plate's bores where its mesh is open outside; it comes off before screws or clips go on."""
+    shop = load_workshop("default")
+    bought = shop.bought.model_copy(update=changed)
+    robot = (
+        build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought})) if changed else built("kenan-2.0")
+    )
+    outside = robot.layout.lateral.right_plate[0] + 0.3
+    spot = [[robot.layout.hub_mm[0], outside, robot.layout.hub_mm[1]]]
+    is_open = not placed_mesh(robot, "body_plate_right").contains(spot)[0]
+    (legs,), (close,) = ([step for step in assembly_steps(robot) if step.key == key] for key in ("legs", "close"))
+    (stands,) = (number for number, text in enumerate(legs.text) if text.startswith("Stand the axles"))
+    closed = ["stick adhesive tape over those of the right plate, outside" in text for text in legs.text[:stands]]
+    opened = [text.startswith("Pull the tape off the right plate's bores") for text in close.text]
+    assert sum(closed) == sum(opened) == is_open == bool(changed)
 
 
 @pytest.mark.parametrize("preload_rad", [0.0, 0.1])

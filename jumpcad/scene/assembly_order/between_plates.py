@@ -61,15 +61,15 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
             Move("idler_spacer_right"),
         ),
         (
+            Words("The axles and the springs' pin are screws that come from the left at the end. Until then rods of "
+                  "their diameter, {axle_length} mm long, are in their places.", needs=".*_axle_nut"),
+            Words("The plates' bores are open: stick adhesive tape over those of the right plate, outside, before you "
+                  "lay it down. What stands in them would fall through.", needs=".*_axle_(nut|clip_1)"),
             Words("Stand the axles and the springs' pin in their bores. They lean until the left plate is on: the tube "
-                  "that comes first on each holds it upright, so push that down to the plate.", lacks=".*_axle_nut"),
+                  "that comes first on each holds it upright, so push that down to the plate."),
             Words("The springs' pin has no tube: a strip of adhesive tape from it to the plate, on the side away from "
-                  "the leg, holds it upright. It comes off in step {step_close}, with tweezers.",
-                  lacks=".*_axle_nut|spring_boss"),
-            Words("The springs' pin has no tube: its boss on the plate holds it.", needs="spring_boss",
-                  lacks=".*_axle_nut"),
-            Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
-                  "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
+                  "the leg, holds it upright. It comes off in step {step_close}, with tweezers.", lacks="spring_boss"),
+            Words("The springs' pin has no tube: its boss on the plate holds it.", needs="spring_boss"),
             Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
                   "up; the RIGHT-HAND spring; the bushing of {bushing_left} mm. Lengths that differ by 0.3 mm or "
                   "less may be exchanged. If a bushing has a thicker end, that is at the leg. Seen on the standing "
@@ -160,12 +160,13 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
                   "lie in the groove and leave at its ends. Hold the robot level: it stands on the wood alone."),
             Words("Left plate and its screws for good, {torque_plastic} N·m. The closed bores of both plates hold the "
                   "axles.", lacks=".*_axle_(nut|clip_1)"),
-            Words("Left plate and its screws for good, {torque_plastic} N·m. Put the axles' screws in from the left, "
+            Words("Left plate and its screws for good, {torque_plastic} N·m.", needs=".*_axle_(nut|clip_1)"),
+            Words("Pull the strip of tape off the springs' pin.", lacks="spring_boss"),
+            Words("Pull the tape off the right plate's bores. Put the axles' screws in from the left, "
                   "each pushing its rod out, and turn the lock nuts on until the plates just bear no load.",
                   needs=".*_axle_nut"),
-            Words("Left plate and its screws for good, {torque_plastic} N·m. Press a clip into the groove at either "
-                  "end of every axle.", needs=".*_axle_clip_1"),
-            Words("Pull the strip of tape off the springs' pin.", lacks=".*_axle_nut|spring_boss"),
+            Words("Pull the tape off the right plate's bores, push the axles to the right until their grooves stand "
+                  "out on both sides, and press a clip into every groove.", needs=".*_axle_clip_1"),
         ),
         (
             Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),
