@@ -2,10 +2,16 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
 from jumpcad.robot import Robot
+from jumpcad.strength.axles import SCREW_THREAD_MM
+
+NUT_THREAD_MM = 18.0
+"""Thread of M3 from the end, without its run-out (ISO 4762): it must begin before the lock nut."""
 
 
 def bearings_order(robot: Robot) -> Iterator[str]:
@@ -27,10 +33,27 @@ def screw_axles_order(robot: Robot) -> Iterator[str]:
             "- screws M3 as axles: ISO 4762 lists M3 up to 30 mm; longer ones of the same dimensions are sold as "
             "ISO 4762 or DIN 912, strength class 12.9. Their smooth shank is what turns: not threaded up to the head"
         )
+        yield from _smooth_under_the_leg(robot)
         low, high = robot.layout.lateral.outside
         yield (
             f"- {len(robot.layout.axles) + 1} rods of {robot.layout.axle_mm:g} mm, {high - low:.0f} mm long, any "
             "material, straight and deburred: they try the fits, and stand in for the axles until the screws come"
+        )
+
+
+def _smooth_under_the_leg(robot: Robot) -> Iterator[str]:
+    """Yield longer screws to be cut, where leg and front link would turn on the thread of those in the bill."""
+    lateral, stock = robot.layout.lateral, robot.workshop.catalogue.screws["M3 long"]
+    low, high = lateral.outside
+    (axle,) = (item for item in robot.hardware if item.name == "leg_axle")
+    length = float(np.ptp(axle.shape.bounds_mm[:, 2])) - stock.cylinder_head_height_mm
+    turns = high - lateral.leg[0]
+    enough = (one for one in stock.lengths_mm if turns <= one - SCREW_THREAD_MM and one - NUT_THREAD_MM <= high - low)
+    if length - SCREW_THREAD_MM < turns and (longer := next(enough, None)):
+        yield (
+            f"- of these, the axles of leg and front link: buy M3 x {longer:g} and cut them to {length:g} mm with the "
+            f"cut-off disc, a nut on them that mends the thread as it is turned off. Leg and link turn as far as "
+            f"{turns:.1f} mm from the head, where M3 x {length:g} has thread"
         )
 
 

@@ -6,7 +6,10 @@ from dataclasses import replace
 import pytest
 from support.built import built
 
+from jumpcad.building import build
 from jumpcad.bundle.ordering import order_lines
+from jumpcad.design import load_design
+from jumpcad.workshop import load_workshop
 
 
 def test_the_motor_is_compared_with_its_data_sheet() -> None:
@@ -40,3 +43,22 @@ def test_bearings_and_tape_have_their_data_sheets_sizes() -> None:
     hardware = tuple(replace(one, article=one.article.replace("ball bearing", "bushing")) for one in unknown.hardware)
     unknown = replace(unknown, hardware=hardware)
     assert "metal shields" not in "\n".join(order_lines(unknown))
+
+
+@pytest.mark.parametrize(("motor", "longer"), [("", 0.0), ("n20-75", 50.0)])
+def test_leg_and_front_link_turn_on_the_smooth_part_of_their_screws(motor: str, longer: float) -> None:
+    """ISO 4762 M3 x 45: 18 mm of thread and 2.5 mm of run-out leave 24.5 mm; of 50 mm cut to 45 mm they leave 29.5 mm.
+
+    Two pairs of gears need more room between the head and the leg.
+    """
+    shop = load_workshop("default")
+    changed = {"retention": "nuts"} | ({"motors": (motor,)} if motor else {})
+    shop = shop.model_copy(update={"bought": shop.bought.model_copy(update=changed)})
+    robot = build(load_design("kenan-1.0"), shop)
+    left, leg = robot.layout.lateral.left_plate[1], robot.layout.lateral.leg[0]
+    assert (left - leg > 45.0 - 20.5) == (longer > 0.0)
+    cut = re.findall(r"buy M3 x (\d+) and cut them to 45 mm", "\n".join(order_lines(robot)))
+    assert [float(one) for one in cut] == ([longer] if longer else [])
+    if longer:
+        assert longer - 20.5 >= left - leg
+        assert longer - 18.0 <= left - robot.layout.lateral.right_plate[0]  # the nut is on thread
