@@ -27,7 +27,7 @@ from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import window_mm
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
-from jumpcad.electronics.supply import supply_of
+from jumpcad.electronics.supply import boards_beside_a, supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
@@ -68,22 +68,23 @@ def _drive(robot: Robot) -> dict[str, str]:
     supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
     duty = supply.duty(train.motor, workshop.safety.motor_torque_max_nm)
-    free_a, peak_a = (
-        duty * motor_a + supply.boards_w / supply.nominal_v  # PWM takes that share of the motor's current
-        for motor_a in (train.motor.no_load_current_a, train.peak_current_a)
-    )
+    # PWM takes that share of the motor's current
+    free_a, peak_a = (duty * motor_a for motor_a in (train.motor.no_load_current_a, train.peak_current_a))
+    boards_a = supply.boards_w / supply.nominal_v
+    read_a = boards_a if chosen.controller.button else boards_beside_a(chosen)
     both = {1: "counter-clockwise", -1: "clockwise"}
     return {
         "free_rpm": f"{free.no_load_rpm:.0f}",
-        "boards_ma": f"{1000.0 * supply.boards_w / supply.nominal_v:.0f}",
-        "free_ma": f"{1000.0 * free_a:.0f}",
-        "boards_a": f"{supply.boards_w / supply.nominal_v:.2f}",
-        "free_a": f"{free_a:.2f}",
+        "boards_ma": f"{1000.0 * read_a:.0f}",
+        "free_ma": f"{1000.0 * (free_a + read_a):.0f}",
+        "boards_a": f"{read_a:.2f}",
+        "free_a": f"{free_a + read_a:.2f}",
+        "boards_read": "the boards included" if chosen.controller.button else "the controller left to the computer",
         "dry_s": f"{2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0):.1f}",
         "wind_s": f"{train.winding_s:.1f}",
         "wind_ma": f"{1000.0 * train.electrical_j / supply.nominal_v / train.winding_s:.0f}",
         "wind_j": f"{train.electrical_j:.2f}",
-        "peak_ma": f"{1000.0 * peak_a:.0f}",
+        "peak_ma": f"{1000.0 * (peak_a + boards_a):.0f}",
         "wind_max": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
         "release_ms": f"{values['RELEASE_MAX_MS']}",
         "after_ms": f"{AFTER_RELEASE_MS}",

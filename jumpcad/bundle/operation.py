@@ -63,7 +63,7 @@ def fed_by_usb(chosen: Chosen) -> bool:
 def usb_out(chosen: Chosen) -> str:
     """Return the beginning of a measurement of the battery's current: what else feeds the boards is taken away."""
     if not chosen.controller.button:
-        return "USB cable in, whose computer feeds the board, so that only the motor's part is read"
+        return "USB cable in, whose computer feeds the controller, so that it is not read"
     if fed_by_usb(chosen):
         return "USB cable out, since its charger would be read too, and commands by the board's button"
     return "USB cable out, since it would feed the board, and commands by the board's button"

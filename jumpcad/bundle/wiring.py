@@ -93,7 +93,8 @@ def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
     if chosen.regulator is None:
         yield f"- {charging(chosen)}"
     else:
-        yield f"- {charging(chosen)} The controller's battery pads stay empty"
+        pads = chosen.controller.with_function("battery")
+        yield f"- {charging(chosen)}" + (" The controller's battery pads stay empty" if pads else "")
     if chosen.diode is not None:
         yield "- diode: K is the end with the ring, at the controller"
     if "sensor" in chosen.components:

@@ -64,14 +64,18 @@ def _ohm(motor: Motor) -> float:
     return motor.voltage_v / motor.stall_current_a
 
 
+def boards_beside_a(chosen: Chosen) -> float:
+    """Return what driver and regulator draw from the battery while something else feeds the controller."""
+    return chosen.driver.quiescent_a + (chosen.regulator.quiescent_a if chosen.regulator else 0.0)
+
+
 def supply_of(chosen: Chosen) -> Supply:
     """Return what a workshop's parts supply a motor with."""
     battery, regulator = chosen.battery, chosen.regulator
     empty, full = battery.range_v
     behind_v = battery.voltage_v if regulator is None else (regulator.output_v or battery.voltage_v)
     share = 1.0 if regulator is None else regulator.efficiency
-    at_battery_a = chosen.driver.quiescent_a + (regulator.quiescent_a if regulator else 0.0)
-    boards_w = chosen.controller.quiescent_a * behind_v / share + at_battery_a * battery.voltage_v
+    boards_w = chosen.controller.quiescent_a * behind_v / share + boards_beside_a(chosen) * battery.voltage_v
     return Supply(
         empty_v=empty,
         nominal_v=battery.voltage_v,

@@ -67,6 +67,11 @@ def assembly_steps(robot: Robot) -> list[Step]:
     layout = robot.layout
     names = [thing.name for thing in left] + ["preload"] * (layout.stop_preload_rad > 0.0)
     names += ["spring_boss"] * (layout.spring_boss_mm > 0.0)
+    button = bool(layout.electronics.controller.button)
+    names += ["board_button"] * button
+    # without a button USB stays in: where it feeds the driver too, nothing is to be read at the switch
+    readable = button or layout.electronics.regulator is not None
+    names += ["read_current"] * (readable and "switch" in names)
     names += [f"printed_{one.name}" for one in printed_pads(robot.hardware, robot.workshop)]
     built: dict[str, list[Visual]] = {}
     steps = []

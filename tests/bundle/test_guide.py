@@ -133,6 +133,31 @@ def test_under_pwm_the_battery_gives_the_motors_current_for_a_share_of_the_time(
     assert float(words["peak_ma"]) == pytest.approx(1000.0 * 6.0 / 8.4 * train.peak_current_a + boards, abs=0.51)
 
 
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_the_guide_of_a_board_without_a_button_names_none_and_reads_no_current_of_usb(kit: str, tmp_path: Path) -> None:
+    """Commands come over USB, which feeds the controller; on one cell its charger feeds the driver as well.
+
+    HPCB 12 V: 80 mA without load, 0.75 A and 0.307 N·m stalled, and PWM for 0.196 N·m at 8.4 V.
+    """
+    pins = (
+        'GND = ["ground"], 3V3 = ["out"], D1 = ["gpio3", "adc"], D3 = ["gpio5", "pwm"], D4 = ["gpio6"], D5 = ["gpio7"]'
+    )
+    pads = "" if kit == "light-1s" else f"pins = {{ {pins} }}\n"
+    board = f'[boards.typed]\nlike = "xiao-esp32c3"\nbutton = ""\n{pads}source = "a board of my own"\n'
+    (tmp_path / "own.toml").write_text(f'[bought]\nkit = "{kit}"\ncontroller = "typed"\n{board}')
+    robot = build(load_design("kenan-2.0"), load_workshop(tmp_path / "own.toml"))
+    guide, words = write_guide(robot), expected(robot, [])
+    assert "the board's button" not in guide
+    assert "battery pads stay empty" not in guide
+    assert ("on its 10 A range" in guide) == ("From the battery come about" in guide) == (kit == "strong-2s")
+    assert f"The shaft alone turns with about {words['free_rpm']} rpm." in guide
+    if kit == "strong-2s":
+        beside = 1.7 + 1.0  # driver and regulator
+        duty = 16.0 * (0.08 + 0.67 / 0.3066 * 0.196) / 8.4
+        assert float(words["boards_ma"]) == pytest.approx(beside, abs=0.51)
+        assert float(words["free_ma"]) == pytest.approx(beside + 80.0 * duty, abs=0.51)
+
+
 @pytest.mark.parametrize("angle_deg", [1.0, 10.0, 20.0])
 def test_the_scale_reads_the_upright_part_of_the_force_square_to_the_arm(angle_deg: float) -> None:
     """The arm, a tangent of the coil's circle, has turned; the edge touches it at the lever's distance to the side.

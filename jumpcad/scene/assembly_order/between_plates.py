@@ -41,7 +41,7 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
         checks=(
             Words("A thin wooden stick from above, between the plates, reaches the board's button, beside the switch's "
                   "leads; slanting from the left where the switch is above it. Later it is beside loaded springs: "
-                  "try it now.", needs="switch"),
+                  "try it now.", needs="board_button"),
         ),
     ),
     Plan(

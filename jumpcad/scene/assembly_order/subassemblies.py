@@ -235,7 +235,7 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
             Words("Current. {usb_out}. Switch off; multimeter on its 10 A range, its leads on the switch's two "
                   "terminals by two crocodile clips that do not touch: the current now passes it, and off is to take "
                   "a clip away. Wind, and stop with the sensor. Then take the clips off, switch off, USB cable out, "
-                  "and unplug the battery.", needs="switch"),
+                  "and unplug the battery.", needs="read_current"),
         ),
         (
             Words("Something becomes hot or smells: {off_then}, unplug the battery, look for the short. Do not leave "
@@ -246,9 +246,10 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
             Words("`state` prints the battery's voltage, to {state_off} V of the multimeter's at the plug. Calibrate "
                   "it (firmware/README.md).", needs="wiring_resistor_upper"),
             Words("The shaft alone turns with about {free_rpm} rpm. From the battery come about {boards_ma} mA while "
-                  "the motor stands and {free_ma} mA while it turns, the boards included; the 10 A range shows "
+                  "the motor stands and {free_ma} mA while it turns, {boards_read}; the 10 A range shows "
                   "{boards_a} and {free_a} A, its last digit uncertain. A third more or less is the "
-                  "scatter of motors and boards (judgement)."),
+                  "scatter of motors and boards (judgement).", needs="read_current"),
+            Words("The shaft alone turns with about {free_rpm} rpm.", lacks="read_current"),
         ),
     ),
 )  # fmt: skip
