@@ -69,7 +69,7 @@ WORDS = {
     "pin": "supply pin",
     "gets_v": "voltage that it gets, least and largest",
     "bears_v": "voltage that it bears",
-    "pwm_cap": "largest duty of the motor",
+    "pwm_cap": "largest share of PWM of the motor",
     "energy_j.motor": "of one winding, into the motor",
     "energy_j.boards": "of one winding, into the boards",
     "jumps_per_charge": "with a full battery",

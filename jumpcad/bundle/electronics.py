@@ -33,7 +33,7 @@ def electronics_facts(robot: Robot) -> dict[str, Any]:
         "battery_v": [empty, full],
         "boards": [item for item in chained if item["role"] in chosen.boards],
         "motor": next(item for item in chained if item["role"] == "motor"),
-        "pwm_cap": round(supply.duty(train.motor, robot.workshop.safety.motor_torque_max_nm), DIGITS),
+        "pwm_cap": round(supply.pwm(train.motor, robot.workshop.safety.motor_torque_max_nm), DIGITS),
         "energy_j": {"motor": round(train.motor_j, DIGITS), "boards": round(train.boards_j, DIGITS)},
         "jumps_per_charge": jumps_per_charge(robot),
     }

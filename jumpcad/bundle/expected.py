@@ -68,7 +68,7 @@ def _drive(robot: Robot) -> dict[str, str]:
     supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
     duty = supply.duty(train.motor, workshop.safety.motor_torque_max_nm)
-    # PWM takes that share of the motor's current
+    # the battery gives that share of the motor's current: in PWM's pauses some of it flows back
     free_a, peak_a = (duty * motor_a for motor_a in (train.motor.no_load_current_a, train.peak_current_a))
     boards_a = supply.boards_w / supply.nominal_v
     read_a = boards_a if chosen.controller.button else boards_beside_a(chosen)

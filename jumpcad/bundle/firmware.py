@@ -71,7 +71,7 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "PIN_BATTERY": pins.get("battery"),
         "PIN_BUTTON": gpio(controller, controller.button) if controller.button else None,
         "PWM_HZ": PWM_HZ,
-        "PWM_CAP": math.floor(1000.0 * supply.duty(train.motor, torque_max)) / 1000.0,
+        "PWM_CAP": math.floor(1000.0 * supply.pwm(train.motor, torque_max)) / 1000.0,
         "BATTERY_DIVIDER": round(wiring.divider, 4),
         "BATTERY_MIN_V": start_v(chosen.battery),
         "BATTERY_EMPTY_V": supply.empty_v,

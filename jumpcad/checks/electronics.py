@@ -12,12 +12,11 @@ from jumpcad.robot import Robot
 
 ROUND_OFF_V = 1e-9
 SHEETS = "ratings: makers' data sheets, templates/hardware/electronics.toml"
-STALL = "I = D·U_full/(R_motor + R_battery + R_driver) of the blocked motor, D largest share of PWM"
+STALL = "I = D·U_full/(R_motor + R_battery + R_driver) of the blocked motor, D mean share of U under PWM"
 BASIS = {
     "supply_voltage_motor": Basis(
-        "D·U_empty ≥ U_min and D·U_full ≤ U_max (V); battery without load, D largest share of PWM, U_min and U_max of "
-        "the "
-        "motor",
+        "D·U_empty ≥ U_min and D·U_full ≤ U_max (V); battery without load, D mean share of U under PWM, U_min and "
+        "U_max of the motor",
         "makers' data sheets: templates/hardware/motors.toml",
     ),
     "supply_voltage_*": Basis(

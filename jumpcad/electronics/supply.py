@@ -35,13 +35,22 @@ class Supply:
     usable_j: float
 
     def duty(self, motor: Motor, torque_max_nm: float) -> float:
-        """Return the largest share of PWM at which a full battery overloads neither gearbox nor winding: at most 1.
+        """Return the largest mean share of a full battery's voltage that overloads neither gearbox nor winding.
 
-        The series resistance, which is not known well, is neglected: this is on the safe side.
+        At most 1. The series resistance, which is not known well, is neglected: this is on the safe side.
         """
         rise = (motor.stall_current_a - motor.no_load_current_a) / motor.stall_torque_nm
         stall_v = _ohm(motor) * (motor.no_load_current_a + rise * torque_max_nm)
         return min(1.0, stall_v / self.full_v, motor.range_v[1] / self.full_v)
+
+    def pwm(self, motor: Motor, torque_max_nm: float) -> float:
+        """Return the share of PWM that gives the motor `duty` of the battery's voltage.
+
+        The driver's other input is at ground: in the pauses both its outputs are off, and the current flows on against
+        the battery through the diodes ("fast decay", TI DRV8833, table of PWM control). The mean is 2·share - 1 while
+        current flows all the time, as it does at 20 kHz where the winding's L/R is 0.1 ms or more: judgement.
+        """
+        return (1.0 + self.duty(motor, torque_max_nm)) / 2.0
 
     def driven(self, motor: Motor, volts: float, torque_max_nm: float) -> Motor:
         """Return the motor as it behaves with the battery at some volts, under PWM: speed, stall and voltage."""

@@ -53,7 +53,7 @@ def test_the_manifest_says_what_each_part_gets_and_bears(robot: Robot) -> None:
     )
     train, safety = robot.layout.drive.train, robot.workshop.safety
     assert 0.0 < facts["pwm_cap"] <= 1.0
-    assert facts["pwm_cap"] == pytest.approx(
+    assert 2.0 * facts["pwm_cap"] - 1.0 == pytest.approx(
         supply_of(chosen_parts(robot.workshop)).duty(train.motor, safety.motor_torque_max_nm), abs=1e-3
     )
     boards_w = supply_of(chosen_parts(robot.workshop)).boards_w
@@ -177,7 +177,7 @@ def test_a_turn_against_the_largest_torque_on_an_empty_battery_ends_in_time(robo
     per_nm = (motor.stall_current_a - motor.no_load_current_a) / motor.stall_torque_nm
     current = motor.no_load_current_a + per_nm * train.motor_torque_nm
     empty = 6.6 if robot.workshop.bought.regulator else 3.3
-    speed = (found["PWM_CAP"] * empty - current * (winding + supply.ohm)) / k
+    speed = ((2.0 * found["PWM_CAP"] - 1.0) * empty - current * (winding + supply.ohm)) / k
     seconds = 2.0 * math.pi * train.ratio / speed
     assert 1.49 * seconds <= found["WIND_MAX_MS"] / 1000.0 <= 1.52 * seconds + 0.1
 
@@ -206,7 +206,7 @@ def test_a_quick_turn_on_a_full_battery_is_not_taken_for_a_broken_lead(robot: Ro
     full = 8.4 if robot.workshop.bought.regulator else 4.2
     supply, winding = supply_of(chosen_parts(robot.workshop)), motor.voltage_v / motor.stall_current_a
     lost, rated = (motor.no_load_current_a * ohm for ohm in (winding + supply.ohm, winding))
-    rpm = motor.no_load_rpm * (found["PWM_CAP"] * full - lost) / (motor.voltage_v - rated)
+    rpm = motor.no_load_rpm * ((2.0 * found["PWM_CAP"] - 1.0) * full - lost) / (motor.voltage_v - rated)
     quickest_ms = 60_000.0 * robot.layout.drive.train.ratio / rpm
     assert 0.25 * quickest_ms < found["WIND_MIN_MS"] <= 0.5 * quickest_ms * 1.01
 
