@@ -17,6 +17,13 @@ from jumpcad.workshop.workshop import OWN_PARTS, Workshop
 DEFAULT = "default"
 MOST_BASES = 20
 """Files of a workshop that may build on each other."""
+TELLS = {
+    "motors": ("article", ("ratio", "voltage_v", "width_mm", "height_mm", "body_length_mm", "shaft_mm",
+                           "shaft_flat_mm", "shaft_length_mm")),
+    "batteries": ("description", ("voltage_v", "capacity_mah", "length_mm", "width_mm", "height_mm")),
+    "boards": ("description", ("length_mm", "width_mm", "height_mm")),
+}  # fmt: skip
+"""What is ordered for a part, and figures that it stands for: with others it is not that article."""
 
 
 @typed
@@ -137,9 +144,21 @@ def _completed(kind: str, tables: dict[str, Any], source: str, text: str) -> dic
                 where = place(source, text, key)
                 raise JumpcadError(f"{where}: {key} = {shown(like)}: is no shipped part of this kind ({known}){hint}")
             figures = shipped[like].model_dump(exclude={"source"})
-            table = figures | {key: value for key, value in table.items() if key != "like"}
+            own = {key: value for key, value in table.items() if key != "like"}
+            table = figures | _renamed(kind, name, figures, own) | own
         completed[name] = table
     return completed
+
+
+def _renamed(kind: str, name: str, figures: dict[str, Any], own: dict[str, Any]) -> dict[str, str]:
+    """Return what is ordered for an own part in place of the shipped one's article, where its figures are others."""
+    key, tells = TELLS.get(kind, ("", ()))
+    if all(own.get(one, figures[one]) == figures[one] for one in tells):
+        return {}
+    if kind == "motors":
+        return {key: ""}
+    sizes = [shown(own.get(one, figures[one])).removesuffix(".0") for one in ("length_mm", "width_mm", "height_mm")]
+    return {key: f"{name}, at most {' x '.join(sizes)} mm"}
 
 
 def _merged(base: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
