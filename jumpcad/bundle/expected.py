@@ -177,6 +177,8 @@ def _sizes(robot: Robot) -> dict[str, str]:
         "bushing_left": f"{heights['spring_bushing_left']:.1f}",
         "bushing_right": f"{heights['spring_bushing_right']:.1f}",
         "cam_tube": f"{heights['cam_spacer_right']:.1f}",
+        "cam_left_tube": f"{heights['cam_spacer_left']:.1f}",
+        "idler_tube": f"{heights['idler_spacer_right']:.1f}",
         "ankle_pin": articles["ankle_pin"],
         "front_pin": articles["front_eye_pin"],
         "leg_pin": articles["leg_spring_pin"],

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.built import built
+from support.built import built, geared
 
 from jumpcad.building import build
 from jumpcad.bundle import guide
@@ -131,6 +131,16 @@ def test_under_pwm_the_battery_gives_the_motors_current_for_a_share_of_the_time(
     assert float(words["boards_ma"]) == pytest.approx(boards, abs=0.51)
     assert float(words["free_ma"]) == pytest.approx(1000.0 * 6.0 / 8.4 * motor.no_load_current_a + boards, abs=0.51)
     assert float(words["peak_ma"]) == pytest.approx(1000.0 * 6.0 / 8.4 * train.peak_current_a + boards, abs=0.51)
+
+
+def test_tubes_of_two_pairs_of_gears_are_told_apart_by_their_lengths() -> None:
+    """As long as their meshes."""
+    robot, guide = geared(), write_guide(geared())
+    lengths = {part.name: float(np.ptp(part.mesh.vertices[:, 2])) for part in robot.parts}
+    assert f"Cam axle: its tube ({lengths['cam_spacer_right']:.1f} mm)." in guide
+    assert f"Idler axle: its tube ({lengths['idler_spacer_right']:.1f} mm)." in guide
+    assert f"Over the gear goes the short tube ({lengths['cam_spacer_left']:.1f} mm)." in guide
+    assert "Idler axle" not in write_guide(built("kenan-2.0"))
 
 
 @pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])

@@ -77,6 +77,7 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
                   "spring lies below the springs' pin, and the inner arms beside the leg, above the hole for its pin. "
                   "Left-hand: held upright, the wire in front rises to the left."),
             Words("Front axle: tube, front link, tube ({front_tubes}). Cam axle: its tube ({cam_tube} mm)."),
+            Words("Idler axle: its tube ({idler_tube} mm).", needs="idler_spacer_right"),
         ),
         (
             Words("Wear glasses whenever you handle springs. They are slack in this step. Nothing may have to be "
@@ -113,7 +114,8 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
             Words("The gear's face with the pockets goes towards the cam, the face with the sensor's ring groove to "
                   "the left, up. It fits the jaws in one position only: where its pockets do not take both jaws, turn "
                   "it by half a turn."),
-            Words("Then the idler, its small wheel down.", needs="idler"),
+            Words("Over the gear goes the short tube ({cam_left_tube} mm). Then the idler, its small wheel down, "
+                  "between the gear's teeth.", needs="idler"),
         ),
         checks=(
             Words("The cam turns in its gear freely from jaw to jaw, by {dog_play}°: this play is needed, do not glue "
