@@ -81,7 +81,8 @@ def _part(
         if end.part == CONTROLLER:
             pin = pins[end.pin]
             outwards = -1.0 if pin[0] < middle else 1.0
-            out = pin[0] + outwards * (TRACK_MM * (row + 1.5))
+            beside = 0.0 if outwards == side else TRACK_MM / 2.0  # apart from the other leg, which is on this side too
+            out = pin[0] + outwards * (TRACK_MM * (row + 1.5) + beside)
             turns = [(out, y)] if outwards == side else [(out, y + 3.4), (body[0] + 3.0 * side, y + 3.4),
                                                          (body[0] + 3.0 * side, y)]  # fmt: skip
             points = [pin, (out, pin[1]), *turns, body]
