@@ -102,7 +102,7 @@ def test_every_parameter_is_explained_with_its_ranges() -> None:
 
 
 def test_the_steps_that_end_a_search_are_told() -> None:
-    words = "no one two three four five six seven eight nine ten eleven twelve".split()
+    words = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
     ended = re.search(r"too little: (\w+) in a row on the printed robot, elsewhere (\w+) ", CHAPTERS["searching"])
     assert ended is not None
     assert [words.index(word) for word in ended.groups()] == [bayesian.IDLE, bayesian.PATIENCE]
