@@ -19,7 +19,7 @@ from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM, RoundBar, axl
 from jumpcad.strength.bearings import loaded_forces_n
 from jumpcad.strength.loads import (
     MovingMass,
-    PushOff,
+    PushOffForces,
     landing_force_n,
     push_off,
     reflected_share,
@@ -81,7 +81,7 @@ class LoadCase:
         return dict.fromkeys(self.beams, axle) | {"foot_pin": pin, "leg_pin": pin}
 
     @cached_property
-    def forces(self) -> PushOff:
+    def forces(self) -> PushOffForces:
         body = self.robot.bodies[BODY]
         gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
         mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
