@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, cast
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files.complaints import LONGEST, described
+from jumpcad.files.complaints import LONGEST, described, did_you_mean, shown
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -65,6 +65,7 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
     """
     signature = inspect.signature(function)
     title = function.__qualname__.removesuffix(".__init__")
+    takes_any = any(one.kind is inspect.Parameter.VAR_KEYWORD for one in signature.parameters.values())
 
     @functools.cache
     def kinds() -> dict[str, tuple[Kind, ...]]:
@@ -72,6 +73,10 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
 
     @functools.wraps(function)
     def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+        unknown = [] if takes_any else [name for name in kwargs if name not in signature.parameters]
+        if unknown:
+            hint = did_you_mean(unknown[0], signature.parameters)
+            raise JumpcadError(f"{title}() takes no {shown(unknown[0])}{hint}, only {_listed(signature)}")
         try:
             given = signature.bind(*args, **kwargs).arguments
         except TypeError as error:
@@ -150,6 +155,12 @@ def _words(kind: Kind) -> str:
     name = kind.of.__name__
     words = WORDS.get(name, f"{'an' if name[0] in 'AEIOUaeiou' else 'a'} {name}")
     return f"{words} of {' or '.join(one.of.__name__ for one in kind.items)}" if kind.items else words
+
+
+def _listed(signature: inspect.Signature) -> str:
+    """Return the names of a function's parameters in words: design, workshop and name."""
+    *others, last = [name for name in signature.parameters if name != "self"] or ["no arguments"]
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def _shape(signature: inspect.Signature) -> str:

@@ -88,8 +88,10 @@ def test_what_makes_an_object_is_called_by_its_class() -> None:
 def test_missing_and_unknown_arguments_are_named() -> None:
     with pytest.raises(JumpcadError, match=r"build\(design, workshop=None, name='robot'\): missing .*'design'"):
         jumpcad.build()
-    with pytest.raises(JumpcadError, match="unexpected keyword argument 'colour'"):
+    with pytest.raises(JumpcadError, match=r"simulate\(\) takes no 'colour', only robot, settings and engine$"):
         jumpcad.simulate(CAPSULE, colour="red")
+    with pytest.raises(JumpcadError, match=r"^optimize\(\) takes no 'bound' \(did you mean bounds\?\), only method, "):
+        jumpcad.optimize(bound={"c_coef": (1.0, 1.1)})
 
 
 def test_values_without_names_are_refused() -> None:

@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -40,6 +41,22 @@ def apply(diff: str, root: Path) -> None:
 def test_every_kind_of_addition_is_shown() -> None:
     kinds = {"a printed part", "an exporter", "a check that makes a section grow", "a search method", "an engine"}
     assert set(EXAMPLES) == {f"Add {kind}" for kind in (*kinds, "a bought part")}
+
+
+def test_every_package_has_its_place_below_those_that_use_it() -> None:
+    """In the table, and in the order that `lint-imports` keeps."""
+    (section,) = (text for text in SECTIONS if text.startswith("Where things are\n"))
+    rows = [re.findall(r"`(\w+)`", row.split("|")[1]) for row in section.splitlines() if row.startswith("| `")]
+    places = {name: place for place, row in enumerate(rows) for name in row}
+    packages = {
+        path.stem for path in (ROOT / "jumpcad").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()
+    }
+    assert set(places) == packages - {"__init__", "__main__"}
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"][
+        "contracts"
+    ]
+    layers = [places[name] for layer in contracts[0]["layers"] for name in layer.split(" | ")]
+    assert layers == sorted(layers, reverse=True)
 
 
 @pytest.fixture(scope="module")

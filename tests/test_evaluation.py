@@ -19,7 +19,7 @@ from jumpcad import evaluation
 from jumpcad.building import build
 from jumpcad.bundle.export import export
 from jumpcad.checks import constraint_findings
-from jumpcad.checks.interference import components
+from jumpcad.checks.interference import pieces_of
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
@@ -82,7 +82,7 @@ def test_its_body_length_is_that_of_the_standing_robot() -> None:
         found = evaluate(load_design(name))
         robot, bodies = found.robot, body_poses(found.robot)
         boxes = []
-        for piece in components(robot):  # another program's boxes of the solids, placed one by one
+        for piece in pieces_of(robot):  # another program's boxes of the solids, placed one by one
             pose = bodies[piece.body] @ in_metres(piece.T_body_part)
             boxes.append(piece.solid.scale([0.001] * 3).transform(pose[:3]).bounding_box())
         corners = np.array(boxes)

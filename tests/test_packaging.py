@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -72,6 +73,15 @@ def test_wheel_works_in_a_fresh_environment(installed: Path, tmp_path: Path) -> 
     run(installed / "jumpcad", "new", "frog.toml", "--from", "best-bo", folder=tmp_path)
     jump = json.loads(run(installed / "jumpcad", "simulate", "frog.toml", "--capsule", "--json", folder=tmp_path))
     assert jump["verdict"] == "jump"
+
+
+@pytest.mark.skipif(shutil.which("ruff") is None, reason="needs ruff")
+def test_a_bundle_is_committed_as_it_was_written() -> None:
+    """`pre-commit` names the files that it checks; those of a bundle keep their bytes."""
+    program = str(ROOT / "exports" / "kenan-2.0" / "firmware" / "robot.py")
+    for command in (["ruff", "check"], ["ruff", "format", "--check"]):
+        done = subprocess.run([*command, program], capture_output=True, text=True, cwd=ROOT, check=False)
+        assert done.returncode == 0, done.stdout
 
 
 def test_help_imports_only_what_parses_and_prints() -> None:

@@ -34,7 +34,7 @@ BADGE_MM, BADGES_APART_MM = 1.7, 3.9
 
 
 @dataclass(frozen=True)
-class View:
+class Projection:
     """A projection: two rows (2, 3) that map points of the body frame (mm) onto the drawing, and its offset (2,)."""
 
     rows: Array
@@ -80,7 +80,7 @@ def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float
     region = sheet(part, y[1] - y[0])[0].simplify(FINE_MM)
     low_x, low_z, high_x, high_z = region.bounds()
     scale = width / (high_x - low_x)
-    view = View(scale * np.array([[sign, 0.0, 0.0], [0.0, 0.0, -1.0]]),
+    view = Projection(scale * np.array([[sign, 0.0, 0.0], [0.0, 0.0, -1.0]]),
                 np.array([left - scale * low_x, MARGIN_MM + TITLE_MM + scale * high_z]))  # fmt: skip
     outline = [[(sign * x, 0.0, z) for x, z in contour] for contour in region.to_polygons()]
     drawn = [
@@ -136,7 +136,7 @@ def _trays(layout: Layout, leads: list[Lead], top: float) -> tuple[list[str], fl
     scale = min((WIDTH_MM - 2.0 * MARGIN_MM) / (front - back), 3.6)
     left = (WIDTH_MM - scale * (front - back)) / 2.0
     upper = top + TITLE_MM
-    view = View(scale * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]),
+    view = Projection(scale * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]),
                 np.array([left - scale * back, upper + scale * (high + across)]))  # fmt: skip
     frame = view.on([back, high + across, 0.0], [front, low - across, 0.0])
     drawn = [_text((left, top + 3.0), "trays and plates from above: leads below the upper tray are dashed", size=3.6)]
@@ -176,7 +176,7 @@ def _ys_between(points_mm: Array, back: float, front: float) -> Iterator[float]:
                 yield float(at[1])
 
 
-def _lines(view: View, lead: Lead, axis: int, open_mm: Interval) -> Iterator[str]:
+def _lines(view: Projection, lead: Lead, axis: int, open_mm: Interval) -> Iterator[str]:
     """Yield a lead's line in pieces, dashed outside the interval of an axis that is open to view; dots are its ends."""
     points, stroke = view.on(*lead.points_mm), STROKES[lead.colour]
     seen = (lead.points_mm[:, axis] > open_mm[0]) & (lead.points_mm[:, axis] < open_mm[1])
@@ -193,7 +193,7 @@ def _lines(view: View, lead: Lead, axis: int, open_mm: Interval) -> Iterator[str
         yield f'<circle cx="{_n(x)}" cy="{_n(y)}" r="0.7" fill="{stroke}"/>'
 
 
-def _badges(view: View, leads: list[Lead], frame: Array | None) -> Iterator[str]:
+def _badges(view: Projection, leads: list[Lead], frame: Array | None) -> Iterator[str]:
     """Yield every lead's number in a circle on its line, apart from the others; in the frame (2, 2) if there is one."""
     taken: list[Array] = []
     for lead in leads:
@@ -212,7 +212,7 @@ def _badges(view: View, leads: list[Lead], frame: Array | None) -> Iterator[str]
         yield _text((at[0], at[1] + 0.8), str(lead.number), "middle", size=2.3)
 
 
-def _box(view: View, box: tuple[Array, Array], words: str, fill: str | None = None) -> Iterator[str]:
+def _box(view: Projection, box: tuple[Array, Array], words: str, fill: str | None = None) -> Iterator[str]:
     """Yield a box by its least and largest corner; without a fill dashed."""
     low, high = (np.array(end) for end in zip(*(sorted(pair) for pair in view.on(*box).T), strict=True))
     look = f'fill="{fill}"' if fill else 'fill="none" stroke-dasharray="1 0.8"'

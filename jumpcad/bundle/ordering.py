@@ -34,8 +34,8 @@ STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
 STRAP_OVERLAP_MM = 20.0
 """Of a strap, hook on loop; judgement."""
-STEEL_G_CM3 = 7.0
-"""Rods that are heavier are of steel."""
+STEEL_FROM_G_CM3 = 7.0
+"""Rods that are as dense or denser are of steel; aluminium has 2.8."""
 THREAD_MM = 6.0
 """Of a screw inside its standoff."""
 OTHER = (
@@ -151,7 +151,7 @@ def _rods(robot: Robot) -> Iterator[str]:
 
 def _stock(rod: Rod, metres: str) -> str:
     """Return what rods are cut from, and how."""
-    steel = rod.density_g_cm3 > STEEL_G_CM3
+    steel = rod.density_g_cm3 >= STEEL_FROM_G_CM3
     if rod.bore_share > 0.0:
         sold = f"a tube of {metres} m, its outside no thicker than said: measure it, many tubes are"
     else:

@@ -25,8 +25,8 @@ WEIGHED_SHARE = 0.01
 FLOOR_TEST_SHARE = 0.1
 """Relative scatter of single pulls or slopes on one floor; judgement."""
 KEPT_WITHOUT_BACKDRIVE = 0.4
-"""Share of the springs' energy that is left by a release without a dog whose cam cannot be driven back: 0.23 to 0.60
-(bench review)."""
+"""Share of the springs' energy that is left by a release without a dog whose cam cannot be driven back; judgement:
+0.23 to 0.60 were computed for the first printed robots."""
 
 
 def release_share(back_efficiency: Array) -> Array:

@@ -19,11 +19,19 @@ def _not_blank(text: str) -> str:
     return text
 
 
+def _ascending(volts: tuple[float, float]) -> tuple[float, float]:
+    if volts[0] >= volts[1]:
+        raise PydanticCustomError("value_error", "must be [lowest, highest] in volts")
+    return volts
+
+
 # Lower limits keep quotients finite: they are below the figures of any article.
 Length = Annotated[float, Field(ge=0.01, le=500)]
 Side = Annotated[float, Field(ge=0.5, le=500)]
 Mass = Annotated[float, Field(ge=1e-3, le=5000)]
 Positive = Annotated[float, Field(ge=1e-4, le=1e5)]
+Volts = Annotated[tuple[Positive, Positive], Field(strict=False), AfterValidator(_ascending)]
+"""The lowest and the highest permitted voltage."""
 Source = Annotated[Text, AfterValidator(_not_blank)]
 Confidence = Literal["stated", "derived", "memory"]
 """Read in the source; computed from what a source states; or known without a source at hand: to be confirmed."""

@@ -11,7 +11,8 @@ from pydantic import PositiveFloat
 from jumpcad.catalogue.articles import AnyArticle
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.bars import LegBar
-from jumpcad.catalogue.electrical import Battery, Board, Component, Kit, Motor
+from jumpcad.catalogue.boards import Board
+from jumpcad.catalogue.electrical import Battery, Component, Kit, Motor
 from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jumpcad.checks.interference import Component, may_share, shared_volume_mm3
+from jumpcad.checks.interference import Piece, may_share, shared_volume_mm3
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
@@ -108,16 +108,16 @@ class Way:
 
     step: Step
     placed: Placed
-    movers: list[Component]
+    movers: list[Piece]
     paths_mm: list[Array]
-    there: list[Component]
+    there: list[Piece]
 
 
 def assembly_ways(robot: Robot) -> list[Way]:
     """Return every move of every step."""
     poses = body_poses(robot)
     pieces = {thing.name: _piece(thing, poses[thing.body]) for thing in visuals(robot)}
-    built: dict[str, list[Component]] = {}
+    built: dict[str, list[Piece]] = {}
     ways = []
     for step in assembly_steps(robot):
         there = built.setdefault(step.onto, [])
@@ -140,22 +140,22 @@ def assembly_ways(robot: Robot) -> list[Way]:
     return ways
 
 
-def _snapped(way: Way, mover: Component, side: Array) -> Array:
+def _snapped(way: Way, mover: Piece, side: Array) -> Array:
     """Return the path (3,) of a clip by its own size, from the first free one of four sides around its axle."""
     around = [side] if way.placed.move.along != "sideways" else [SIDES[name] for name in AROUND]
     paths: list[Array] = [_depth(mover, one) * one for one in around]
     return next((path for path in paths if _in_the_way(way, mover, path) is None), paths[0])
 
 
-def _piece(thing: Visual, T_world_body: Array) -> Component:
+def _piece(thing: Visual, T_world_body: Array) -> Piece:
     """Return a part at its place in the world (mm)."""
     source = thing.source.drawing if isinstance(thing.source, Part) else thing.source
     pose = chained(T_world_body, thing.T_body_mesh)
     pose[:3, 3] *= 1000.0
-    return Component(thing.name, thing.body, source.shape, pose, source)
+    return Piece(thing.name, thing.body, source.shape, pose, source)
 
 
-def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
+def _in_the_way(way: Way, mover: Piece, path_mm: Array) -> Blocked | None:
     """Return the largest obstacle of a part on its path."""
     length = float(np.linalg.norm(path_mm))
     if length == 0.0:
@@ -175,7 +175,7 @@ def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
     return max(blocked, key=_share, default=None)
 
 
-def _tool_blocked(way: Way, tool: Tool, fastener: Component, path_mm: Array) -> Blocked | None:
+def _tool_blocked(way: Way, tool: Tool, fastener: Piece, path_mm: Array) -> Blocked | None:
     """Return the largest obstacle of a fastener's tool."""
     shaft = _tool(tool, fastener, _side(way.placed, path_mm))
     blocked = []
@@ -192,7 +192,7 @@ def _share(blocked: Blocked) -> float:
     return blocked.share_mm2
 
 
-def _covered(mover: Component, room: Component | None, other: Component, path_mm: Array) -> float:
+def _covered(mover: Piece, room: Piece | None, other: Piece, path_mm: Array) -> float:
     """Return the volume that a part shares with another on its path (mm³); an upper estimate where it is sampled.
 
     `room` is what the part sweeps, if that is known.
@@ -210,32 +210,32 @@ def _covered(mover: Component, room: Component | None, other: Component, path_mm
     return worst * length
 
 
-def _swept(thing: Component, path_mm: Array) -> Component | None:
+def _swept(thing: Piece, path_mm: Array) -> Piece | None:
     if not isinstance(thing.shape, Stack):
         return None
     own = np.einsum("ji,j->i", thing.T_body_part[:3, :3], path_mm)
     shape = swept(thing.shape, own)
-    return None if shape is None else Component(thing.name, thing.body, shape, thing.T_body_part)
+    return None if shape is None else Piece(thing.name, thing.body, shape, thing.T_body_part)
 
 
-def _shared(a: Component, b: Component) -> float:
+def _shared(a: Piece, b: Piece) -> float:
     return shared_volume_mm3(a, a.T_body_part, b, b.T_body_part)
 
 
-def _extent(thing: Component) -> tuple[Array, Array]:
+def _extent(thing: Piece) -> tuple[Array, Array]:
     """Return lower and upper corner (3,) of a thing's box in the world."""
     corners = np.einsum("ij,nj->ni", thing.T_body_part, thing.corners)[:, :3]
     return corners.min(axis=0), corners.max(axis=0)
 
 
-def _depth(thing: Component, along: Array) -> float:
+def _depth(thing: Piece, along: Array) -> float:
     """Return how far a thing's box reaches in a direction (3,)."""
     return float(
         (np.stack(_extent(thing)) * along).max(axis=0).sum() - (np.stack(_extent(thing)) * along).min(axis=0).sum()
     )
 
 
-def _reach(mover: Component, there: list[Component], along: Array) -> float:
+def _reach(mover: Piece, there: list[Piece], along: Array) -> float:
     """Return how far back a part must be to be clear of all present parts."""
     if not there:
         return 0.0
@@ -251,7 +251,7 @@ def _side(placed: Placed, path_mm: Array) -> Array:
     return -path_mm / np.linalg.norm(path_mm)
 
 
-def _tool(tool: Tool, fastener: Component, side: Array) -> Component:
+def _tool(tool: Tool, fastener: Piece, side: Array) -> Piece:
     """Return the room of a tool on a fastener, from its face towards a side."""
     low, high = fastener.shape.bounds_mm
     middle = fastener.T_body_part @ np.array([*(low + high) / 2.0, 1.0])
@@ -263,7 +263,7 @@ def _tool(tool: Tool, fastener: Component, side: Array) -> Component:
     x /= np.linalg.norm(x)
     pose[:3, :3] = np.column_stack([x, np.cross(side, x), side])
     pose[:3, 3] = start
-    return Component(tool.name, fastener.body, Stack.of([(0.0, tool.length_mm, disc(tool.diameter_mm))]), pose)
+    return Piece(tool.name, fastener.body, Stack.of([(0.0, tool.length_mm, disc(tool.diameter_mm))]), pose)
 
 
 def _passes(placed: Placed, name: str) -> bool:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jumpcad.checks.interference import Moment, box_of, components, pose_of
+from jumpcad.checks.interference import Position, box_of, pieces_of, pose_of
 from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, STOP_PAD_MM
 from jumpcad.findings import Basis, Finding, at_least, limit
 from jumpcad.layout.stop import TAB_MM
@@ -58,10 +58,10 @@ def foot_findings(robot: Robot) -> list[Finding]:
     """Return `foot_clearance`: the gap between the foot and what the body carries, springs loaded (exact)."""
     layout = robot.layout
     linkage = robot.linkage
-    loaded = Moment("springs loaded", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
+    loaded = Position("springs loaded", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
 
     body, foot = (
-        [(piece, pose_of(piece, layout, linkage, loaded)) for piece in components(robot) if piece.body == name]
+        [(piece, pose_of(piece, layout, linkage, loaded)) for piece in pieces_of(robot) if piece.body == name]
         for name in (BODY, FOOT)
     )
     gaps = (

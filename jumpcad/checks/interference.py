@@ -56,7 +56,7 @@ BASIS = {
 
 
 @dataclass(frozen=True)
-class Component:
+class Piece:
     """One printed or bought piece at its place in its body's frame; pieces of one `source` share its solid."""
 
     name: str
@@ -78,7 +78,7 @@ class Component:
 
 
 @dataclass(frozen=True)
-class Moment:
+class Position:
     """One position of the mechanism: its name, leg angle and cam angle (rad).
 
     `ahead_rad` is how far the cam has run ahead of its gear, which stands at `cam_rad`.
@@ -90,17 +90,17 @@ class Moment:
     ahead_rad: float = 0.0
 
 
-def components(robot: Robot) -> list[Component]:
+def pieces_of(robot: Robot) -> list[Piece]:
     """Return every piece of a robot, each copy separately."""
     printed = [
-        Component(part.name, placement.body, part.drawing.shape, placement.T_body_part, part.drawing)
+        Piece(part.name, placement.body, part.drawing.shape, placement.T_body_part, part.drawing)
         for part in robot.parts
         for placement in part.placements
     ]
-    return printed + [Component(item.name, item.body, item.shape, item.T_body_part, item) for item in robot.hardware]
+    return printed + [Piece(item.name, item.body, item.shape, item.T_body_part, item) for item in robot.hardware]
 
 
-def moments(robot: Robot) -> list[Moment]:
+def positions(robot: Robot) -> list[Position]:
     """Return the positions that are checked: the cam's lift, the roller's drop, rest, and past it.
 
     While the roller drops, the corner that it leaves has pushed the cam ahead of its gear by the dog's play.
@@ -108,45 +108,45 @@ def moments(robot: Robot) -> list[Moment]:
     cam, loaded = robot.layout.drive.cam, robot.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [
-        Moment(f"loaded by {math.degrees(wind):.1f}°", -float(wind), float(turn))
+        Position(f"loaded by {math.degrees(wind):.1f}°", -float(wind), float(turn))
         for turn, wind in zip(lift, cam.wind_rad(lift), strict=True)
     ]
     play = robot.layout.drive.dog.play_rad
     drop = [
-        Moment(f"dropping, at {math.degrees(wind):.1f}°", -float(wind), cam.law.lift_rad, play)
+        Position(f"dropping, at {math.degrees(wind):.1f}°", -float(wind), cam.law.lift_rad, play)
         for wind in np.linspace(loaded, 0.0, DROP_POSITIONS)
     ]
-    at_rest = Moment("at rest", 0.0, cam.free_rad)
+    at_rest = Position("at rest", 0.0, cam.free_rad)
     stop = robot.layout.stop
     past = [
-        Moment(f"{math.degrees(leg):.1f}° past rest", float(leg), cam.free_rad, share * play)
+        Position(f"{math.degrees(leg):.1f}° past rest", float(leg), cam.free_rad, share * play)
         for leg in np.linspace(0.0, stop.angle_rad + robot.stop_blow.give_rad, PAST_POSITIONS)[1:]
         for share in AHEAD_SHARES
     ]
-    at_stop = Moment("at the stop", stop.angle_rad, cam.free_rad)
+    at_stop = Position("at the stop", stop.angle_rad, cam.free_rad)
     return [*winding, *drop, at_rest, *past, at_stop]
 
 
 def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
     """Yield pairs of pieces that share more than the tolerance: names, position, volume (mm³); each pair's worst."""
-    layout, pieces = robot.layout, components(robot)
+    layout, pieces = robot.layout, pieces_of(robot)
     worst: dict[tuple[int, int], tuple[float, str]] = {}
     settled: set[tuple[int, int, float]] = set()
-    for moment in moments(robot):
-        frames = _frames(robot.linkage, moment.leg_rad)
-        poses = [_pose_within(piece, layout, moment, frames[piece.body]) for piece in pieces]
+    for position in positions(robot):
+        frames = _frames(robot.linkage, position.leg_rad)
+        poses = [_pose_within(piece, layout, position, frames[piece.body]) for piece in pieces]
         boxes = [box_of(piece, pose) for piece, pose in zip(pieces, poses, strict=True)]
         for i, j in _near(boxes):
             a, b = pieces[i], pieces[j]
             still = a.body == b.body and a.name not in TURNING and b.name not in TURNING
             together = still or {a.name, b.name} == COUPLED
-            case = (i, j, 0.0 if still else moment.ahead_rad)
+            case = (i, j, 0.0 if still else position.ahead_rad)
             if (together and case in settled) or may_share(a.name, b.name):
                 continue
             settled.add(case)
             volume = shared_volume_mm3(a, poses[i], b, poses[j])
             if volume > max(TOLERANCE_MM3, worst.get((i, j), (0.0, ""))[0]):
-                worst[i, j] = (float(volume), moment.label)
+                worst[i, j] = (float(volume), position.label)
     for (i, j), (volume, label) in sorted(worst.items(), key=lambda item: -item[1][0]):
         yield pieces[i].name, pieces[j].name, label, volume
 
@@ -175,7 +175,7 @@ def interference_findings(robot: Robot) -> list[Finding]:
     ]
 
 
-def shared_volume_mm3(a: Component, T_a: Array, b: Component, T_b: Array) -> float:
+def shared_volume_mm3(a: Piece, T_a: Array, b: Piece, T_b: Array) -> float:
     """Return the volume that two placed pieces share (mm³)."""
     parallel = abs(abs(T_a[:3, 2] @ T_b[:3, 2]) - 1.0) < 1e-9
     if isinstance(a.shape, Stack) and isinstance(b.shape, Stack) and parallel:
@@ -183,9 +183,9 @@ def shared_volume_mm3(a: Component, T_a: Array, b: Component, T_b: Array) -> flo
     return float((a.solid.transform(T_a[:3]) ^ b.solid.transform(T_b[:3])).volume())
 
 
-def pose_of(piece: Component, layout: Layout, linkage: Linkage, moment: Moment) -> Array:
+def pose_of(piece: Piece, layout: Layout, linkage: Linkage, position: Position) -> Array:
     """Return the pose (4, 4) of a piece in the body's frame (mm)."""
-    return _pose_within(piece, layout, moment, _frames(linkage, moment.leg_rad)[piece.body])
+    return _pose_within(piece, layout, position, _frames(linkage, position.leg_rad)[piece.body])
 
 
 def _frames(linkage: Linkage, leg_rad: float) -> dict[str, Array]:
@@ -199,13 +199,13 @@ def _frames(linkage: Linkage, leg_rad: float) -> dict[str, Array]:
     }
 
 
-def _pose_within(piece: Component, layout: Layout, moment: Moment, T_frame_body: Array) -> Array:
+def _pose_within(piece: Piece, layout: Layout, position: Position, T_frame_body: Array) -> Array:
     """Return the pose (4, 4) of a piece in a frame in which its body has a pose (mm)."""
     T_frame_piece: Array = T_frame_body @ piece.T_body_part
     if piece.name not in TURNING:
         return T_frame_piece
-    ahead = moment.ahead_rad if piece.name == "cam" else 0.0
-    centre, turn = _train_turn(piece.name, layout, moment.cam_rad + ahead)
+    ahead = position.ahead_rad if piece.name == "cam" else 0.0
+    centre, turn = _train_turn(piece.name, layout, position.cam_rad + ahead)
     return pose_about_y(turn, centre) @ pose_about_y(0.0, -centre) @ T_frame_piece
 
 
@@ -220,7 +220,7 @@ def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float
     return layout.motor_mm, idler if len(stages) == 1 else -idler * stages[0].ratio
 
 
-def box_of(piece: Component, pose: Array) -> Array:
+def box_of(piece: Piece, pose: Array) -> Array:
     """Return lower and upper corner (2, 3) of a placed piece's bounding box."""
     corners = (piece.corners @ pose.T)[:, :3]
     return np.stack([corners.min(axis=0), corners.max(axis=0)])

@@ -19,7 +19,7 @@ from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM, RoundBar, axl
 from jumpcad.strength.bearings import loaded_forces_n
 from jumpcad.strength.loads import (
     MovingMass,
-    PushOff,
+    PushOffForces,
     landing_force_n,
     push_off,
     reflected_share,
@@ -60,18 +60,22 @@ class LoadCase:
 
     @cached_property
     def torque_nmm(self) -> float:
+        """Torque of both loaded springs on the main leg (N·mm)."""
         return 1000.0 * self.robot.spring.peak_torque_nm
 
     @cached_property
     def shell(self) -> Shell:
+        """What of a printed section is solid."""
         return Shell.of(self.workshop.process)
 
     @cached_property
     def holes(self) -> HoleSizes:
+        """Sizes of holes as drawn."""
         return HoleSizes.of(self.workshop, self.layout.hub_bearing)
 
     @cached_property
     def allowable_mpa(self) -> float:
+        """What the links may bear along their layers (MPa)."""
         return self.workshop.material("links").strength_in_plane_mpa / self.workshop.safety.printed_factor
 
     @cached_property
@@ -81,7 +85,8 @@ class LoadCase:
         return dict.fromkeys(self.beams, axle) | {"foot_pin": pin, "leg_pin": pin}
 
     @cached_property
-    def forces(self) -> PushOff:
+    def forces(self) -> PushOffForces:
+        """Forces of the push-off, with the body's mass and inertia."""
         body = self.robot.bodies[BODY]
         gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
         mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
@@ -89,18 +94,22 @@ class LoadCase:
 
     @cached_property
     def toes_n(self) -> float:
+        """Largest load of both toes' tips together in the push-off (N)."""
         return float(toe_load_n(self.forces, self.layout.design, self.layout.sections.ground_mm).max())
 
     @cached_property
     def ankle_n(self) -> float:
+        """Largest force in the ankle in the push-off (N)."""
         return float(np.linalg.norm(self.forces.ankle_n, axis=1).max())
 
     @cached_property
     def front_n(self) -> float:
+        """Largest force along the front link in the push-off (N)."""
         return float(np.abs(self.forces.front_n).max())
 
     @cached_property
     def landing_n(self) -> float:
+        """Mean force of a landing from as high as the springs' energy could lift the robot (N)."""
         mass = self.robot.mass_kg
         rise_m = self.robot.spring.energy_j / (mass * GRAVITY_M_S2)
         return landing_force_n(self.robot.design, mass, self.workshop.safety.landing_stop_mm, rise_m)
@@ -170,7 +179,9 @@ class LoadCase:
         return (on_leg, on_pin), on_lever
 
 
-def stress_finding(name: str, what: str, stress: float, allowable: float, remedy: str, grows: str = "") -> Finding:
-    """Return the finding of a stress against its limit (MPa); `grows` is the section that grows where it fails."""
-    message = f"{what}: {stress:.1f} of {allowable:.1f} MPa"
-    return at_most(name, stress, allowable, "MPa", message, remedy, grows=grows)
+def stress_finding(
+    name: str, what: str, stress_mpa: float, allowable_mpa: float, remedy: str, grows: str = ""
+) -> Finding:
+    """Return the finding of a stress against its limit; `grows` is the section that grows where it fails."""
+    message = f"{what}: {stress_mpa:.1f} of {allowable_mpa:.1f} MPa"
+    return at_most(name, stress_mpa, allowable_mpa, "MPa", message, remedy, grows=grows)

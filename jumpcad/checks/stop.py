@@ -25,7 +25,7 @@ PAD_STRAIN = 0.5
 SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
 
 BLOW = "F = 0.82·ω·√(k·I) the pad's peak force, ω and I rate and inertia of the leg at the stop, k the pad's stiffness"
-TWICE = "0.82 and twice the peak: judgement of the bench review; impact: jumpcad/mechanism/flight.py"
+TWICE = "0.82 and twice the peak: judgement; impact: jumpcad/mechanism/flight.py"
 BASIS = {
     "stop_strength": Basis(
         "M·h/(2·I) ≤ strength_in_plane_mpa (MPa); M = 2·F·(l - w/2)/4 of a beam between the plates, w the leg's "

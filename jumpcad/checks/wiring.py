@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from jumpcad.catalogue.electrical import GPIO
+from jumpcad.catalogue.boards import GPIO
 from jumpcad.electronics.chain import supply_pin
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.nets import AVOIDED, SIGNALS, Wiring, logic_range

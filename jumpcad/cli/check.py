@@ -148,7 +148,9 @@ def _print_table(findings: "list[Finding]", every: bool) -> None:
     else:
         _print_lines(screen, shown)
     counts = {severity: sum(finding.severity == severity for finding in findings) for severity in SEVERITIES}
-    screen.print(f"{counts['error']} errors, {counts['warning']} warnings, {counts['info']} limits hold")
+    violated = ", ".join(f"{counts[word]} {word}{'s' * (counts[word] != 1)}" for word in ("error", "warning"))
+    held = counts["info"]
+    screen.print(f"{violated}, {held} limit{' holds' if held == 1 else 's hold'}")
     if left := len(findings) - len(shown):
         screen.print(f"{left} of them hold with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
 

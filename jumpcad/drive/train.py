@@ -151,7 +151,7 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     )
 
 
-def _motor_findings(motor: Motor, cam_speed: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
+def _motor_findings(motor: Motor, cam_speed_rad_s: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
     allowed, (unit, factor) = allowed_nm(motor, limits), SHOWN_AS["rad/s"]
     return [
         at_most(
@@ -160,8 +160,8 @@ def _motor_findings(motor: Motor, cam_speed: float, torque_nm: float, limits: Tr
             "a stronger motor, or a larger ratio",
         ),
         at_most(
-            "cam_speed", cam_speed, limits.cam_speed_max_rad_s, "rad/s",
-            f"the unloaded cam turns at {factor * cam_speed:.0f} {unit}; "
+            "cam_speed", cam_speed_rad_s, limits.cam_speed_max_rad_s, "rad/s",
+            f"the unloaded cam turns at {factor * cam_speed_rad_s:.0f} {unit}; "
             f"{factor * limits.cam_speed_max_rad_s:.0f} {unit} are allowed",
             "a slower motor, or a larger ratio",
         ),

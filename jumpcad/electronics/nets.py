@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from jumpcad.catalogue import Board
-from jumpcad.catalogue.electrical import GPIO
+from jumpcad.catalogue.boards import GPIO
 from jumpcad.electronics.chain import supply_pin
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.errors import CannotBuildError

@@ -22,7 +22,7 @@ from jumpcad.exporters.limits import limits_rad
 from jumpcad.exporters.xml import Value, add, document, written, wxyz
 from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism, Spring
-from jumpcad.mechanism.poses import Release, body_poses, release_pose, standing
+from jumpcad.mechanism.poses import ReleasePose, body_poses, release_pose, standing
 from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import rotation_about_y
@@ -214,7 +214,7 @@ def add_loop(root: ET.Element, equality: ET.Element, mechanism: Mechanism, setti
     add(equality, "connect", name="loop", **sites, **stiff(settings))
 
 
-def add_key(keys: ET.Element, name: str, release: Release, order: list[str], **more: Value) -> None:
+def add_key(keys: ET.Element, name: str, release: ReleasePose, order: list[str], **more: Value) -> None:
     """Append a key frame with the pose and the velocities of a release; `order` names the joints in MuJoCo's order."""
     attitude = wxyz(rotation_about_y(release.body_pitch_rad))
     angles = [release.joint_rad[name] for name in order]

@@ -57,6 +57,10 @@ class Linkage:
         self.back_pivot_mm = np.array([-self.l1 / 2, 0.0])
         self.front_pivot_mm = np.array([self.l1 / 2, 0.0])
 
+    def __repr__(self) -> str:
+        lengths = ", ".join(f"{length:.5g}" for length in (self.l1, self.l2, self.l3, self.l4))
+        return f"<Linkage l1…l4 = {lengths} mm>"
+
     @property
     def travel_rad(self) -> tuple[float, float]:
         """Leg angles with the springs loaded and at rest (rad)."""

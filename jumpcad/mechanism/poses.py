@@ -11,7 +11,7 @@ from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
 
 
 @dataclass(frozen=True)
-class Release:
+class ReleasePose:
     """The robot at release: loop exactly closed, foot flat and still on the ground, ankle above the world's origin.
 
     `joint_rad` holds the coordinate of every joint by name; the frame of `body` lies at `body_position_m` (3,), turned
@@ -27,7 +27,7 @@ class Release:
     body_rad_s: float = 0.0
 
 
-def release_pose(mechanism: Mechanism) -> Release:
+def release_pose(mechanism: Mechanism) -> ReleasePose:
     """Return pose and rates where the jump begins: where the roller has left the cam, or at rest with loaded springs.
 
     Raises
@@ -39,12 +39,12 @@ def release_pose(mechanism: Mechanism) -> Release:
     return standing(mechanism, 1.0) if off is None else _moving(mechanism, off.leg_rad, off.leg_rad_s)
 
 
-def standing(mechanism: Mechanism, loaded: float) -> Release:
+def standing(mechanism: Mechanism, loaded: float) -> ReleasePose:
     """Return the pose, foot flat on the ground, with the springs loaded by a share (0 at rest … 1)."""
     return _at(mechanism, -loaded * mechanism.spring.wind_rad)
 
 
-def _moving(mechanism: Mechanism, leg_rad: float, leg_rad_s: float) -> Release:
+def _moving(mechanism: Mechanism, leg_rad: float, leg_rad_s: float) -> ReleasePose:
     """Return pose and rates of a robot whose leg joint turns while its foot stands still.
 
     In the world the ankle is fixed, so the body moves against the ankle's motion in the body's frame, and turns against
@@ -56,17 +56,17 @@ def _moving(mechanism: Mechanism, leg_rad: float, leg_rad_s: float) -> Release:
     across = -(ankle_mm / 1000.0 + 1j * foot * ankle_m) * cmath.exp(-1j * pose.body_pitch_rad) * leg_rad_s
     rates = {"leg": leg_rad_s, "front": front * leg_rad_s, "ankle": (foot - 1.0) * leg_rad_s}
     velocity = np.array([across.real, 0.0, across.imag])
-    return Release(pose.joint_rad, pose.body_position_m, pose.body_pitch_rad, rates, velocity, -foot * leg_rad_s)
+    return ReleasePose(pose.joint_rad, pose.body_position_m, pose.body_pitch_rad, rates, velocity, -foot * leg_rad_s)
 
 
-def _at(mechanism: Mechanism, leg_rad: float) -> Release:
+def _at(mechanism: Mechanism, leg_rad: float) -> ReleasePose:
     pose = mechanism.linkage.pose([leg_rad])
     pitch = -float(pose.foot_rad[0])
     cos, sin = math.cos(pitch), math.sin(pitch)
     x, z = pose.ankle_mm[0] / 1000.0
     position = np.array([-cos * x - sin * z, 0.0, mechanism.foot_depth_m + sin * x - cos * z])
     joints = {"leg": pose.leg_rad, "front": pose.front_rad, "ankle": pose.ankle_rad}
-    return Release({name: float(angle[0]) for name, angle in joints.items()}, position, pitch)
+    return ReleasePose({name: float(angle[0]) for name, angle in joints.items()}, position, pitch)
 
 
 def body_poses(mechanism: Mechanism, loaded: float = 0.0) -> dict[str, Array]:

@@ -108,7 +108,7 @@ def upright(z_mm: float, x_mm: float = 0.0, y_mm: float = 0.0) -> Array:
     return pose
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Part:
     """A printed part: a drawing with its material, and the mass of one copy in its printing frame (kg, m).
 
@@ -149,3 +149,7 @@ class Part:
     def mass_kg(self) -> float:
         """Mass of one copy (kg)."""
         return self.mass.mass_kg
+
+    def __repr__(self) -> str:
+        times = f"{self.quantity} x " if self.quantity > 1 else ""
+        return f"<Part {self.name!r}: {times}{1000.0 * self.mass_kg:.2f} g of {self.material[:40]}, {self.mass_source}>"

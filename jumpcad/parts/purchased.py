@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import trimesh
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class BoughtPart:
     """One bought part on the robot.
 
@@ -38,6 +38,9 @@ class BoughtPart:
     mass: MassProperties
     units: int = 1
     wire: Wire | None = None
+
+    def __repr__(self) -> str:
+        return f"<BoughtPart {self.name!r}: {self.article[:80]}, {1000.0 * self.mass_kg:.2f} g>"
 
     @property
     def mass_kg(self) -> float:

@@ -11,6 +11,7 @@ from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order.plan import LEFT, LOWER, UPPER
 from jumpcad.scene.assembly_steps import Placed, Step, assembly_steps, travel
 from jumpcad.scene.camera import View
+from jumpcad.scene.step_insets import BEHIND, INSETS, Inset
 from jumpcad.scene.visuals import Visual
 from jumpcad.solids.tube import Wire
 from jumpcad.transforms import Array, chained, pose_at
@@ -53,43 +54,6 @@ class StepView:
     frame_m: Array
     view: View
     turns_m: tuple[Array, ...] = ()
-
-
-@dataclass(frozen=True)
-class Inset:
-    """A detail of a step: patterns of the parts that are shown and of those that are framed, the direction of view.
-
-    `room` is the size of the frame over that of the framed parts.
-    """
-
-    step: str
-    name: str
-    title: str
-    shown: str
-    framed: str
-    view: View
-    room: float = 1.0
-
-
-BEHIND = {"arm": r"leg_spring_pin_(split_pin|clip_1)"}
-"""What a plate hides in a step's picture, by the step's key: a detail shows it."""
-
-INSETS = (
-    Inset("leg", "hub", "Hub and roller", "main_leg|hub_bearing_.*|roller.*", "hub_bearing_.*|roller.*",
-          View(-40.0, 25.0)),
-    Inset("foot", "pads", "Pads from below", "foot|toe_.*|nose_pad_.*", "nose_pad_.*", View(35.0, -30.0), room=2.6),
-    Inset("arm", "springs", "Springs, seen from the left: arms and pins",
-          "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_(left|right).*|leg_spring_pin", View(75.0, 12.0)),
-    Inset("arm", "retention", "The pin's right end and what keeps it, seen from the right",
-          "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_right.*|" + BEHIND["arm"], View(-128.0, 20.0)),
-    Inset("cam", "gear", "Cam gear from the right: the face with the pockets, towards the cam", "cam_gear", "cam_gear",
-          View(-60.0, 15.0)),
-    Inset("boards", "small", "Resistors and diode between the boards",
-          "electronics_tray_upper|tape_(controller|driver)|wiring_(res|dio).*", "wiring_(res|dio).*", View(62.0, 50.0),
-          room=2.4),
-    Inset("cam", "dog", "Dog: jaws of the cam, pockets of the gear", "cam|cam_gear|cam_axle", "cam|cam_gear",
-          View(24.0, 20.0)),
-)  # fmt: skip
 
 
 TURNS = {"power": ("motor_shaft", 0), "trial": ("cam_gear", 1)}

@@ -21,6 +21,8 @@ from jumpcad.workshop import Workshop, varied, workshop_value
 from jumpcad.workshop.varied import Value
 
 Kind = Literal["fix", "bound", "choose"]
+ACTIVE = 1e-3
+"""Largest distance from a bound that is active, over its range; judgement."""
 DECIMALS = 10
 """Of the values that a search tries: what is written is then what a person would write."""
 FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
@@ -118,6 +120,24 @@ def physical_limits(name: str) -> tuple[float, float]:
     if name not in PARAMETERS:
         return -math.inf, math.inf
     return limits_of(name)
+
+
+def active_sides(parameter: SearchParameter, number: float, share: float) -> list[tuple[str, float, float]]:
+    """Return on which sides a number lies on a bound: side, bound, and the value a `share` of the range beyond it.
+
+    Nothing lies beyond what a design or workshop can be: a bound that is such a limit is left out.
+    """
+    lowest, highest = physical_limits(parameter.name)
+    reach = share * parameter.width
+    sides = (
+        ("lower", parameter.lower, max(lowest, parameter.lower - reach)),
+        ("upper", parameter.upper, min(highest, parameter.upper + reach)),
+    )
+    return [
+        (side, bound, beyond)
+        for side, bound, beyond in sides
+        if abs(number - bound) <= ACTIVE * parameter.width and beyond != bound
+    ]
 
 
 def read_change(kind: Kind, text: str) -> Change:

@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 
+from jumpcad.catalogue.electrical import STEEL_G_CM3
 from jumpcad.design import Design
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.electronics.chosen import chosen_parts
@@ -63,7 +64,6 @@ MASS = {
 BODY_X, BODY_Z_MM, LEG_SHARE, FOOT_X = (-4.3, 70.4, -0.0872), 16.8, 0.249, (8.12, 0.221, 0.275)
 """Centres of mass: of the body, as `body_x_features`; of the main leg, over its length; of the foot, of ankle, nose and
 toes."""
-STEEL_G_MM3 = 7.85e-3
 
 
 def known(design: Design, workshop: Workshop) -> bool:
@@ -124,7 +124,7 @@ def known_masses(design: Design, workshop: Workshop) -> dict[str, float]:
     body += sum(part.mass_g for role, part in carried.components.items() if role != "wire")
     if spring is not None:
         coil = math.pi * (spring.inside_diameter_mm + spring.wire_mm) * spring.turns
-        body += 2.0 * STEEL_G_MM3 * math.pi / 4.0 * spring.wire_mm**2 * coil
+        body += 2.0 * STEEL_G_CM3 / 1000.0 * math.pi / 4.0 * spring.wire_mm**2 * coil
     per_mm = 0.0 if bar is None else 1e-3 * bar.density_g_cm3 * bar.area_mm2
     return {BODY: body, MAIN_LEG: per_mm * design.l2_mm, FRONT_LINK: per_mm * design.l3_mm, FOOT: 0.0}
 

@@ -20,16 +20,16 @@ from jumpcad.simulation.planar import LACKING, PlanarRun, PlanarWorld
 from jumpcad.workshop import Workshop
 
 
-class Bounds(NamedTuple):
+class EstimateErrors(NamedTuple):
     """Largest errors: by which share less energy may be needed, and how far ahead the centre of mass may be."""
 
     lighter: float
     ahead_mm: float
 
 
-KNOWN = Bounds(0.18, 16.0)
+KNOWN = EstimateErrors(0.18, 16.0)
 """Of `quick_robot`: at most 13 % and 12.1 mm in 2,301 robots."""
-NEAR = Bounds(0.09, 6.0)
+NEAR = EstimateErrors(0.09, 6.0)
 """Of `sized_robot`: at most 7 % and 4.6 mm in 8,900 robots, 6 % and 2.8 mm in the 2,601 that it was not fitted to."""
 STRENGTHS = (1.06, 1.04, 1.02)
 """Springs with which `sized_robot` stays on the ground too, over its own: several, for a robot that hops with some may
@@ -50,13 +50,13 @@ def quick_refusal(design: Design, workshop: Workshop, settings: Settings) -> tup
     return _by_statics(robot, settings, NEAR) or _by_push_off(robot, settings)
 
 
-def _by_statics(robot: Mechanism, settings: Settings, bounds: Bounds) -> tuple[Finding, ...]:
+def _by_statics(robot: Mechanism, settings: Settings, bounds: EstimateErrors) -> tuple[Finding, ...]:
     """Return the findings of the statics that are certain."""
     findings = statics_findings(with_spring_factor(robot, settings.spring_efficiency), settings.gravity_m_s2)
     return tuple(_estimated(one, bounds) for one in findings if is_certain(one, bounds))
 
 
-def is_certain(finding: Finding, bounds: Bounds) -> bool:
+def is_certain(finding: Finding, bounds: EstimateErrors) -> bool:
     """Tell whether a limit of the statics is violated whatever the error of the estimate.
 
     The centre of mass is never too far ahead: the body hangs behind the ankle.
@@ -68,7 +68,7 @@ def is_certain(finding: Finding, bounds: Bounds) -> bool:
     return finding.value < (1.0 - bounds.lighter) * finding.limit
 
 
-def _estimated(finding: Finding, bounds: Bounds) -> Finding:
+def _estimated(finding: Finding, bounds: EstimateErrors) -> Finding:
     lighter = f"{100.0 * bounds.lighter:g} % of what is needed"
     error = f"{bounds.ahead_mm:g} mm" if finding.name == "tips" else lighter
     return replace(finding, message=f"{finding.message}; by an estimate of the masses, at most {error} too strict")

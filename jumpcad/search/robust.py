@@ -17,7 +17,7 @@ import numpy as np
 from jumpcad.design import PARAMETERS
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.margin import propose_robust
-from jumpcad.search.parameter import physical_limits
+from jumpcad.search.parameter import active_sides
 from jumpcad.search.space import Space
 from jumpcad.search.tolerances import PERCENT, SAMPLES, Making, tenth
 from jumpcad.search.trial import Trial, feasible_trials
@@ -30,10 +30,13 @@ MOST_CANDIDATES = 16
 JOINING = 3
 """Designs at a distance from the constraint that may join; each costs its own evaluation and two neighbours."""
 LEAST_TO_JOIN = 16
+"""Evaluations of a pick from which on designs may join; judgement."""
 ROUNDS = 8
 """Numbers of steps in the study file that one pick takes."""
 APART = 0.02
+"""Least difference between two candidates in some parameter, over its range; judgement."""
 WIDENING = 0.05
+"""How far beyond an active bound a design is evaluated, over the bound's range; judgement."""
 NOT_EXAMINED = "not examined: the robust pick has no evaluations left"
 
 
@@ -255,14 +258,8 @@ def active_bounds(
         if parameter.names or (parameter.choices and parameter in evaluator.space.of_workshop):
             continue  # choices of a workshop end where it ends
         value = parameter.number(trial.variant.value(parameter.name))
-        lowest, highest = physical_limits(parameter.name)
-        reach = WIDENING * parameter.width
-        for side, bound, beyond in (
-            ("lower", parameter.lower, max(lowest, parameter.lower - reach)),
-            ("upper", parameter.upper, min(highest, parameter.upper + reach)),
-        ):
-            if abs(value - bound) <= 1e-3 * parameter.width and beyond != bound:
-                found.append(ActiveBound(parameter.name, side, bound, beyond, None))
+        for side, bound, beyond in active_sides(parameter, value, WIDENING):
+            found.append(ActiveBound(parameter.name, side, bound, beyond, None))
     variants = [trial.variant.changed({bound.name: bound.beyond}) for bound in found]
     trials = evaluator.evaluate(variants, "bounds", step, limit=evaluations)
     return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True)]

@@ -275,7 +275,10 @@ class StudyStore:
         if application != APPLICATION_ID:
             raise JumpcadError(f"{self.path}: is not a study file")
         if version not in FORMATS:
-            raise JumpcadError(f"{self.path}: is a study of format {version}; this version of jumpcad reads {FORMAT}")
+            raise JumpcadError(
+                f"{self.path}: is a study of format {version}; "
+                f"this version of jumpcad reads {FORMATS[0]} to {FORMATS[-1]}"
+            )
         if tables(self._connection) != own_tables(version):
             raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":

@@ -21,7 +21,7 @@ ALL_EQUAL = 10.0 * float(np.finfo(float).eps)
 _FIT_STEPS = 30
 
 
-class Axes:
+class ProcessAxes:
     """Axes of the process for axes of the unit cube: an axis of names becomes one per name, with 0 or 1/√2 (one-hot).
 
     The distance between two different names is then 1 (Hamming distance), with one length scale for all of them.
@@ -91,7 +91,7 @@ class Surrogate:
         units: tuple[float, float] | None = None,
     ) -> None:
         self.categories = tuple(categories) or (0,) * x.shape[1]
-        self._axes = Axes(self.categories)
+        self._axes = ProcessAxes(self.categories)
         seen = self._axes.expand(x)
         spread = float(np.std(y))
         self._centre, self._spread = units or (float(np.mean(y)), spread if spread > ALL_EQUAL else 1.0)
@@ -164,7 +164,7 @@ def _matern(distance: Array) -> Array:
     return correlation
 
 
-def _likeliest(x: Array, y: Array, start: Array | None, axes: Axes) -> Array:
+def _likeliest(x: Array, y: Array, start: Array | None, axes: ProcessAxes) -> Array:
     """Return the logarithms of the hyperparameters (k + 2,) with the largest likelihood near a start.
 
     Few steps are made; the next fit starts where this one ends.
@@ -192,7 +192,7 @@ def _kernel(dimension: int, theta: Array | None) -> Any:
     return kernel if theta is None else kernel.clone_with_theta(theta)
 
 
-def _improve(objective: Callable[..., Any], start: Array, bounds: Array, axes: Axes) -> tuple[Array, float]:
+def _improve(objective: Callable[..., Any], start: Array, bounds: Array, axes: ProcessAxes) -> tuple[Array, float]:
     """Maximise the likelihood with few steps; the next fit starts where this one ends."""
 
     def of_axes(theta: Array) -> tuple[float, Array]:

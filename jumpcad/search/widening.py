@@ -6,14 +6,12 @@ from typing import Any
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.parameter import SearchParameter, physical_limits
+from jumpcad.search.parameter import SearchParameter, active_sides
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, best_trial
 
 SHARE = 0.25
 """Distance by which an active bound is moved at a time, over its range."""
-ACTIVE = 1e-3
-"""Largest distance from an active bound, over its range."""
 
 
 @dataclass(frozen=True)
@@ -76,14 +74,8 @@ def _moved(space: Space, best: Trial, allowed: Callable[[str, float], bool]) -> 
         if parameter.choices:
             continue
         value = parameter.number(best.variant.value(parameter.name))
-        lowest, highest = physical_limits(parameter.name)
-        reach = SHARE * parameter.width
-        for side, bound, beyond in (
-            ("lower", parameter.lower, max(lowest, parameter.lower - reach)),
-            ("upper", parameter.upper, min(highest, parameter.upper + reach)),
-        ):
-            active = abs(value - bound) <= ACTIVE * parameter.width
-            if active and beyond != bound and allowed(parameter.name, beyond):
+        for side, bound, beyond in active_sides(parameter, value, SHARE):
+            if allowed(parameter.name, beyond):
                 found.append(Widened(parameter.name, side, bound, beyond))
     return found
 

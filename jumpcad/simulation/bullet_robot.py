@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Mechanism
-from jumpcad.mechanism.poses import Release, release_pose
+from jumpcad.mechanism.poses import ReleasePose, release_pose
 from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import quaternion_about_y, rotation_about_y
@@ -64,7 +64,7 @@ class BulletRobot:
             self._set_off(bodies[0], release)
         self._close_loop(mechanism)
 
-    def _create(self, mechanism: Mechanism, bodies: list[Body], release: Release) -> int:
+    def _create(self, mechanism: Mechanism, bodies: list[Body], release: ReleasePose) -> int:
         bullet, client = self.bullet, self.client
         # A link without a visual gets one made from its collision shape, which costs more than the whole robot.
         box = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=[0.001] * 3, physicsClientId=client)
@@ -109,7 +109,7 @@ class BulletRobot:
             )
         )
 
-    def _set_off(self, base: Body, release: Release) -> None:
+    def _set_off(self, base: Body, release: ReleasePose) -> None:
         """Let the base move as the roller leaves it; Bullet wants the velocity of its centre of mass."""
         spin = np.array([0.0, release.body_rad_s, 0.0])
         velocity = release.body_m_s + np.cross(spin, rotation_about_y(release.body_pitch_rad) @ base.com_m)

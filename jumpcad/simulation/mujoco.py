@@ -9,7 +9,7 @@ import numpy as np
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.mjcf import SUBSTEPS, write_mjcf
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
-from jumpcad.mechanism.poses import Release, release_pose
+from jumpcad.mechanism.poses import ReleasePose, release_pose
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.engines import import_mujoco
 from jumpcad.simulation.mechanics import State
@@ -124,7 +124,7 @@ class MujocoWorld:
             speeds = data.efc_vel[first:].reshape(-1, self._rows)
             self.slip_j -= self._dt_s * float((forces[:, 1:] * speeds[:, 1:]).sum())
 
-    def _place(self, release: Release) -> None:
+    def _place(self, release: ReleasePose) -> None:
         """Put the body's frame and every joint where they are at release, moving as they do there."""
         self.data.joint("free").qpos = [*release.body_position_m, *quaternion_about_y(release.body_pitch_rad)]
         self.data.joint("free").qvel = [*release.body_m_s, 0.0, release.body_rad_s, 0.0]

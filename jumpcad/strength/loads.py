@@ -30,7 +30,7 @@ class MovingMass:
 
 
 @dataclass(frozen=True)
-class PushOff:
+class PushOffForces:
     """Forces at n leg angles from release to rest; zero from take-off on. Vectors (n, 2) are x-z on a flat foot.
 
     Attributes
@@ -58,7 +58,7 @@ class PushOff:
     residual_n: Array
 
 
-def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) -> PushOff:
+def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) -> PushOffForces:
     """Return the forces of a push-off from a flat foot that does not slip.
 
     With compression δ, mass m, centre of mass c(q), turn t(q), radius of gyration k and J = |c'|² + k² t'², energy
@@ -112,7 +112,7 @@ def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) 
     residual = np.linalg.norm((unknown @ forces)[..., 0] - known, axis=1)
     ankle = axial[:, None] * along + shear[:, None] * across
     stands = np.cumprod(ground[:, 1] > 0.0).astype(float)
-    return PushOff(
+    return PushOffForces(
         leg_rad=leg,
         ground_n=ground * stands[:, None],
         ankle_n=ankle * stands[:, None],
@@ -123,7 +123,7 @@ def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) 
     )
 
 
-def toe_load_n(forces: PushOff, design: Design, foot_depth_mm: float) -> Array:
+def toe_load_n(forces: PushOffForces, design: Design, foot_depth_mm: float) -> Array:
     """Return the load of both toe tips together (n,), with the foot resting on nose and tips alone."""
     along, up = forces.ground_n.T
     back, _ = toe_reach_mm(design)

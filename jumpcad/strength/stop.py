@@ -7,10 +7,11 @@ from jumpcad.mechanism.flight import Blow
 from jumpcad.mechanism.model import Stop
 
 BLOW_FACTOR = 2.0
-"""Safety factor on the peak force, against the material's strength; the peak is computed without friction (bench review
-of the printed robot: plates for twice the peak)."""
+"""Safety factor on the peak force, against the material's strength; judgement: the force is computed without
+friction."""
 PEAK_SHARE = 0.82
-"""Peak force of a pad without rebound over that of a lossless spring (bench review of the printed robot)."""
+"""Peak force of a pad without rebound over that of a lossless spring; judgement, from computed blows of three
+templates."""
 
 
 @dataclass(frozen=True)

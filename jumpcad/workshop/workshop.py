@@ -49,7 +49,7 @@ from jumpcad.workshop.tables import (
 Role = Literal["links", "body", "gears"]
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
 STOP_PAD_MIN_MM = 1.5
-"""Least thickness of the rest stop's pad (bench review of the printed robot)."""
+"""Least thickness of the rest stop's pad; judgement: it gives way by 0.3 to 0.8 mm on the templates."""
 OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs", "pads")
 """Tables of the user's own parts."""
 

@@ -26,7 +26,7 @@ from jumpcad.checks.assembly import (
     paths,
     tools,
 )
-from jumpcad.checks.interference import Component, may_share
+from jumpcad.checks.interference import Piece, may_share
 from jumpcad.checks.printability import printability_findings
 from jumpcad.design import Design, load_design
 from jumpcad.findings import errors
@@ -134,15 +134,15 @@ def test_the_left_plate_meets_nothing_on_its_way_down() -> None:
             assert (plate.translate([0.0, float(away), 0.0]) ^ other).volume() < 0.05, (name, away)
 
 
-def block(name: str, size: tuple[float, float, float], low: tuple[float, float, float]) -> Component:
+def block(name: str, size: tuple[float, float, float], low: tuple[float, float, float]) -> Piece:
     """A box with its lowest corner at a place."""
     stack = Stack.of([(0.0, size[2], rectangle(size[:2], (size[0] / 2.0, size[1] / 2.0)))])
     pose = np.eye(4)
     pose[:3, 3] = low
-    return Component(name, BODY, stack, pose)
+    return Piece(name, BODY, stack, pose)
 
 
-def way_past(*there: Component) -> Way:
+def way_past(*there: Piece) -> Way:
     return Way(None, SimpleNamespace(move=SimpleNamespace(past="")), [], [], list(there))
 
 

@@ -10,7 +10,7 @@ from support.built import body_in_plane, built, geared
 
 from jumpcad.checks import ground
 from jumpcad.checks.ground import _body_discs, foot_findings, ground_findings
-from jumpcad.checks.interference import Component, Moment, components, pose_of
+from jumpcad.checks.interference import Piece, Position, pieces_of, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
@@ -25,10 +25,10 @@ def lowest_above_ground_mm(robot: Robot, leg_rad: float, without: tuple[str, ...
     linkage = Linkage(robot.design)
     pose = linkage.pose([leg_rad])
     lowest = np.inf
-    for piece in components(robot):
+    for piece in pieces_of(robot):
         if piece.body in without:
             continue
-        placed: Manifold = piece.solid.transform(pose_of(piece, robot.layout, linkage, Moment("", leg_rad, 0.0))[:3])
+        placed: Manifold = piece.solid.transform(pose_of(piece, robot.layout, linkage, Position("", leg_rad, 0.0))[:3])
         corners = np.asarray(placed.to_mesh64().vert_properties)[:, [0, 2]]
         tilt = float(pose.foot_rad[0])  # of the foot below the body's x axis
         height = (corners - pose.ankle_mm[0]) @ np.array([np.sin(tilt), np.cos(tilt)])
@@ -91,8 +91,8 @@ def test_gaps_of_up_to_3_mm_are_measured_on_all_sides_of_the_foot(
     """A cube of 10 mm of the body beside one of the foot."""
     cube, far, shift = Stack.of([(0.0, 10.0, rectangle((10.0, 10.0)))]), np.eye(4), abs(gap_mm) + 10.0
     far[axis, 3] = np.copysign(shift, gap_mm)
-    cubes = [Component("sole", FOOT, cube, np.eye(4)), Component("cube", BODY, cube, far)]
-    monkeypatch.setattr(ground, "components", lambda _: cubes)
+    cubes = [Piece("sole", FOOT, cube, np.eye(4)), Piece("cube", BODY, cube, far)]
+    monkeypatch.setattr(ground, "pieces_of", lambda _: cubes)
     monkeypatch.setattr(ground, "pose_of", lambda piece, *_: piece.T_body_part)
     (finding,) = foot_findings(kenan)
     assert finding.value == (pytest.approx(2.9, abs=1e-4) if abs(gap_mm) < 3.0 else None)

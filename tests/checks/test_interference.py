@@ -10,14 +10,14 @@ from support.built import body_in_plane, checked, in_body
 
 from jumpcad.checks import interference
 from jumpcad.checks.interference import (
-    Component,
-    Moment,
+    Piece,
+    Position,
     _near,
-    components,
     interference_findings,
-    moments,
     overlaps,
+    pieces_of,
     pose_of,
+    positions,
     shared_volume_mm3,
 )
 from jumpcad.findings import errors
@@ -52,9 +52,9 @@ def test_fires_on_a_lever_that_meets_a_misplaced_motor(kenan: Robot) -> None:
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_fires_on_a_plates_pin_in_the_way_of_the_legs_arm(kenan: Robot, side: str) -> None:
     """The pin that holds the springs' other arms stands in the middle of a leg's arm as it is at rest."""
-    arm = next(one for one in components(kenan) if one.name == f"spring_{side}_leg_arm")
+    arm = next(one for one in pieces_of(kenan) if one.name == f"spring_{side}_leg_arm")
     pin = next(item for item in kenan.hardware if item.name == "spring_pin")
-    middle = pose_of(arm, kenan.layout, kenan.linkage, Moment("at rest", 0.0, 0.0)) @ arm.corners.mean(axis=0)
+    middle = pose_of(arm, kenan.layout, kenan.linkage, Position("at rest", 0.0, 0.0)) @ arm.corners.mean(axis=0)
     pose = pin.T_body_part.copy()
     pose[[0, 2], 3] += middle[[0, 2]] - kenan.layout.spring_pin_mm
     hardware = tuple(replace(item, T_body_part=pose) if item is pin else item for item in kenan.hardware)
@@ -76,7 +76,7 @@ def test_what_meets_in_one_position_only_is_found_there_with_all_that_it_shares(
     kenan: Robot, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
     """A disc on the leg's ankle, or 12 mm beside the cam's axis, comes nearer to a post of its size and covers it."""
-    cam_axis, at = kenan.layout.cam_axis_mm, moments(kenan)[7]
+    cam_axis, at = kenan.layout.cam_axis_mm, positions(kenan)[7]
     if name == "eye":
         body, start = MAIN_LEG, np.array([kenan.design.l2_mm, 0.0])
         met = in_body(kenan, MAIN_LEG, -at.leg_rad, start)
@@ -84,9 +84,9 @@ def test_what_meets_in_one_position_only_is_found_there_with_all_that_it_shares(
         body, start = BODY, cam_axis + np.array([12.0, 0.0])
         met = cam_axis + 12.0 * np.array([np.cos(at.cam_rad), -np.sin(at.cam_rad)])  # about +y, which carries z to x
     slab = Stack.of([(0.0, 4.0, disc(8.0))])
-    mover = Component(name, body, slab, lying_on_left(2.0, *start))
-    post = Component("post", BODY, slab, lying_on_left(2.0, *met))
-    monkeypatch.setattr(interference, "components", lambda _: [mover, post])
+    mover = Piece(name, body, slab, lying_on_left(2.0, *start))
+    post = Piece("post", BODY, slab, lying_on_left(2.0, *met))
+    monkeypatch.setattr(interference, "pieces_of", lambda _: [mover, post])
     ((*pair, label, volume),) = overlaps(kenan)
     assert pair == [name, "post"]
     assert label.endswith(f" {-np.degrees(at.leg_rad):.1f}°")
@@ -99,18 +99,18 @@ def test_what_turns_as_one_is_looked_at_anew_only_where_the_cam_has_run_ahead(
     """Large discs, so that all boxes always meet: cam and gear differ by none, half and all of the dog's play."""
     slab, seen = Stack.of([(0.0, 4.0, disc(300.0))]), Counter[tuple[str, str]]()
     names = ("cam", "cam_gear", "motor_pinion", "post", "plate")
-    discs = [Component(name, BODY, slab, lying_on_left(2.0, 0.0, 0.0)) for name in names]
-    monkeypatch.setattr(interference, "components", lambda _: discs)
+    discs = [Piece(name, BODY, slab, lying_on_left(2.0, 0.0, 0.0)) for name in names]
+    monkeypatch.setattr(interference, "pieces_of", lambda _: discs)
     monkeypatch.setattr(interference, "shared_volume_mm3", lambda a, _, b, __: seen.update([(a.name, b.name)]) or 0.0)
     assert list(overlaps(kenan)) == []
     once = {("post", "plate"): 1, ("cam", "cam_gear"): 3}
-    assert seen == {pair: once.get(pair, len(moments(kenan))) for pair in itertools.combinations(names, 2)}
+    assert seen == {pair: once.get(pair, len(positions(kenan))) for pair in itertools.combinations(names, 2)}
 
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_volume_of_two_boxes(turned: bool) -> None:
     box = Stack.of([(0.0, 4.0, rectangle((10.0, 6.0)))])
-    piece = Component("box", BODY, box, np.eye(4))
+    piece = Piece("box", BODY, box, np.eye(4))
     pose = np.eye(4)
     pose[:3, 3] = 8.0, 1.0, 1.5
     if turned:  # about x by a quarter turn: y becomes z, z becomes -y
@@ -130,8 +130,8 @@ def in_plane(pose: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("body", BODY_NAMES)
 @pytest.mark.parametrize("wind_deg", [0.0, 20.0])
 def test_a_piece_moves_with_its_body(kenan: Robot, body: str, wind_deg: float) -> None:
-    box = Component("box", body, Stack.of([(0.0, 4.0, rectangle((10.0, 6.0)))]), np.eye(4))
-    pose = pose_of(box, kenan.layout, kenan.linkage, Moment("", -np.radians(wind_deg), 0.0))
+    box = Piece("box", body, Stack.of([(0.0, 4.0, rectangle((10.0, 6.0)))]), np.eye(4))
+    pose = pose_of(box, kenan.layout, kenan.linkage, Position("", -np.radians(wind_deg), 0.0))
     np.testing.assert_allclose(in_plane(pose), body_in_plane(kenan, body, np.radians(wind_deg)), atol=1e-6)
 
 
@@ -148,27 +148,27 @@ def test_teeth_that_mesh_go_the_same_way_equally_far(kenan: Robot, pairs: int) -
         train = replace(layout.drive.train, stages=tuple(stages))
         layout = replace(layout, drive=replace(layout.drive, train=train), idler_mm=axes["idler"])
 
-    def turn(name: str, moment: Moment) -> float:
-        pose = pose_of(Component(name, BODY, stage, np.eye(4)), layout, kenan.linkage, moment)
+    def turn(name: str, position: Position) -> float:
+        pose = pose_of(Piece(name, BODY, stage, np.eye(4)), layout, kenan.linkage, position)
         centre = np.array([*axes[name], 1.0])
         plane = in_plane(pose)
         np.testing.assert_allclose(plane @ centre, centre, atol=1e-9)  # it turns about its own axis
         return float(np.arctan2(plane[0, 1], plane[0, 0]))  # about +y, which carries z to x
 
-    moment = Moment("", 0.0, 0.01, 0.2)
-    turns = [turn(name, moment) for name in axes]
+    position = Position("", 0.0, 0.01, 0.2)
+    turns = [turn(name, position) for name in axes]
     axes |= {"cam": layout.cam_axis_mm, "motor_shaft": layout.motor_mm}
     assert turns[0] == pytest.approx(0.01)
     for (driven, driver), pair in zip(itertools.pairwise(turns), reversed(stages), strict=True):
         assert driver * pair.pinion.teeth == pytest.approx(-driven * pair.wheel.teeth)
-    assert turn("motor_shaft", moment) == turns[-1]
-    assert turn("cam", moment) == pytest.approx(0.21)
+    assert turn("motor_shaft", position) == turns[-1]
+    assert turn("cam", position) == pytest.approx(0.21)
 
 
 def test_the_positions_are_those_of_a_jump(kenan: Robot) -> None:
     """Wound from rest with the roller on the cam, fallen with the cam at its end, and past rest into the pad."""
     cam, stop, wound = kenan.layout.drive.cam, kenan.layout.stop, kenan.design.compression_rad
-    found = moments(kenan)
+    found = positions(kenan)
     rising = [one for one in found if one.cam_rad < cam.law.lift_rad]
     assert [len(rising), rising[0].leg_rad] == [12, 0.0]
     assert all(-one.leg_rad == pytest.approx(float(cam.wind_rad(one.cam_rad))) for one in rising)

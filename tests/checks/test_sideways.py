@@ -10,7 +10,7 @@ import shapely.affinity
 
 from jumpcad.building import build
 from jumpcad.checks import sideways
-from jumpcad.checks.interference import Moment, components, pose_of
+from jumpcad.checks.interference import Position, pieces_of, pose_of
 from jumpcad.checks.sideways import Roll, play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
@@ -86,9 +86,9 @@ def test_rolling_by_the_stance_brings_the_centre_of_mass_over_the_edge(
     tilt, ankle = float(pose.foot_rad[0]), pose.ankle_mm[0]
     poses = {
         piece.body: pose_of(
-            replace(piece, T_body_part=np.eye(4)), strongest.layout, strongest.linkage, Moment("", leg, 0)
+            replace(piece, T_body_part=np.eye(4)), strongest.layout, strongest.linkage, Position("", leg, 0)
         )
-        for piece in components(strongest)
+        for piece in pieces_of(strongest)
         if piece.name not in ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
     }
     moment = sum(

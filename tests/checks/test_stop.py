@@ -41,7 +41,7 @@ def solid_kenan() -> Robot:
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_the_peak_is_that_of_a_pad_without_rebound(name: str) -> None:
-    """Bench review: T = 0.82·v·sqrt(k·r²·I); a spring without loss gives v·sqrt(I/(k·r²))."""
+    """T = 0.82·v·sqrt(k·r²·I); a spring without loss gives v·sqrt(I/(k·r²))."""
     robot = built(name)
     blow, stop = robot.stop_blow, robot.layout.stop
     pad, width = stop.pad, robot.layout.sections.thickness_mm

@@ -1,4 +1,4 @@
-"""The motor at a battery's voltage against Kirchhoff's law, and the figures that the bench review derived."""
+"""The motor at a battery's voltage against Kirchhoff's law, and figures that were derived by hand."""
 
 import math
 

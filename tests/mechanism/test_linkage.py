@@ -27,6 +27,10 @@ LINKAGES = [Linkage(load_design(name)) for name in ("kenan-1.0", "best-ga", "bes
 )
 
 
+def test_a_linkage_shows_its_lengths() -> None:
+    assert repr(Linkage(load_design("kenan-2.0"))) == "<Linkage l1…l4 = 83.3, 100, 100, 83.3 mm>"
+
+
 def travel(linkage: Linkage, points: int = 25) -> Array:
     return np.linspace(*linkage.travel_rad, points)
 

@@ -9,7 +9,7 @@ import pytest
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, FOOT, Mechanism, RollerOff
-from jumpcad.mechanism.poses import Release, body_poses, release_pose, standing
+from jumpcad.mechanism.poses import ReleasePose, body_poses, release_pose, standing
 
 NAMES = ["kenan-2.0", "best-ga", "best-bo", "best-printable"]
 
@@ -53,7 +53,7 @@ def test_rates_at_release_are_those_of_the_poses(mechanism: Mechanism) -> None:
     """Where the roller leaves: rates of joints and body against poses a little before and after."""
     step, rate = 1e-6, 5.0
 
-    def off(leg_rad: float) -> Release:
+    def off(leg_rad: float) -> ReleasePose:
         return release_pose(replace(mechanism, roller_off=RollerOff(leg_rad, rate, 1.0)))
 
     leg_rad = -0.9 * mechanism.spring.wind_rad

@@ -8,7 +8,7 @@ import pytest
 from manifold3d import Manifold, OpType
 
 from jumpcad.building import build
-from jumpcad.checks.interference import components, interference_findings
+from jumpcad.checks.interference import interference_findings, pieces_of
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.parts.axles import Place, _clevis, _clip, require_retention
@@ -40,7 +40,7 @@ def test_nothing_meets(robot: Robot) -> None:
 
 
 def test_what_is_pushed_along_y_is_stopped(robot: Robot) -> None:
-    pieces = components(robot)
+    pieces = pieces_of(robot)
     placed = {(piece.name, piece.body, id(piece)): piece.solid.transform(piece.T_body_part[:3]) for piece in pieces}
     names = [p.name for p in pieces if p.name.endswith(("_axle", "_eye_pin", "ankle_pin", "spring_pin"))]
     assert len(names) == 7

@@ -79,3 +79,12 @@ def test_a_part_is_a_copys_mass_and_as_many_as_its_places() -> None:
     assert [place.body for place in part.placements] == [BODY, FOOT]
     assert part.mesh.volume == pytest.approx(84.0)
     assert part.look.volume == pytest.approx(84.0, rel=0.01)
+    assert repr(part) == "<Part 'wedge': 2 x 2.00 g of PETG, weighed>"
+
+
+def test_what_a_robot_is_made_of_is_read_line_by_line() -> None:
+    """In a console, a part takes one line of a terminal 160 letters wide."""
+    robot = built("kenan-2.0")
+    for piece in (*robot.parts, *robot.hardware, robot.linkage):
+        assert 20 < len(repr(piece)) <= 160
+        assert getattr(piece, "name", "Linkage") in repr(piece)

@@ -32,6 +32,10 @@ def test_copies_are_one_shape_and_other_sizes_are_others():
         assert other.shape.volume_mm3 > one.shape.volume_mm3
 
 
+def test_a_bought_part_says_what_to_order():
+    assert repr(rod()) == "<BoughtPart 'pin': rod, 2.20 g>"
+
+
 def test_a_turn_is_counter_clockwise_in_x_z():
     offset = bought("arm", "arm", "body", 1.0, [(0.0, 2.0, ring(4.0, 2.0, (10.0, 0.0)))], turn_rad=math.pi / 2)
     assert offset.mass.com_m == pytest.approx([0.0, 0.001, 0.010], abs=1e-12)

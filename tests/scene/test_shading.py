@@ -49,3 +49,13 @@ def test_a_nut_has_edges_and_a_rod_has_none(sides: int, faceted: bool) -> None:
     directions = np.unique(np.round(np.arctan2(around[:, 1], around[:, 0]), 3))
     assert (len(around) > 2 * sides) == faceted
     assert len(directions) >= sides
+
+
+def test_equal_meshes_are_shaded_once_and_others_anew() -> None:
+    """What was shaded is known by its corners, not by which object they are in; a changed mesh is another one."""
+    mesh = trimesh.creation.box((1.0, 2.0, 3.25))
+    first = with_normals(mesh)
+    assert with_normals(mesh.copy()) is first
+    mesh.apply_translation((0.0, 0.0, 1.0))
+    moved, _, _ = with_normals(mesh)
+    np.testing.assert_allclose(moved, first[0] + [0.0, 0.0, 1.0])

@@ -9,6 +9,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import (
     Change,
     SearchParameter,
+    active_sides,
     changed_parameters,
     narrowed,
     physical_limits,
@@ -134,3 +135,24 @@ def test_names_are_chosen_and_have_no_bounds() -> None:
         changed_parameters([Change("bound", "bought.battery", names)], load_workshop())
     named = changed_parameters([Change("choose", "bought.battery", names)], load_workshop())["bought.battery"]
     assert [named.value(number) for number in (0.0, 1.0)] == list(names)
+
+
+def test_a_bound_is_active_within_a_thousandth_of_the_range_and_no_design_lies_beyond_its_limits() -> None:
+    ratio = SearchParameter("c_coef", 0.8, 1.2)
+    assert active_sides(ratio, 0.8003, 0.25) == [("lower", 0.8, pytest.approx(0.7))]
+    assert active_sides(ratio, 1.1997, 0.25) == [("upper", 1.2, pytest.approx(1.3))]
+    assert active_sides(ratio, 0.8005, 0.25) == active_sides(ratio, 1.0, 0.25) == []
+    angle = SearchParameter("rest_angle_deg", 20.0, 90.0)  # a design has 90° at most
+    assert active_sides(angle, 90.0, 0.25) == []
+    assert active_sides(SearchParameter("rest_angle_deg", 20.0, 85.0), 85.0, 0.25) == [("upper", 85.0, 90.0)]
+    plate = SearchParameter("body.plate_mm", 1.6, 2.4)
+    assert active_sides(plate, 2.4, 0.5) == [("upper", 2.4, pytest.approx(2.8))]
+
+
+@pytest.mark.parametrize("percent", [0.0, -1.0, 100.5, math.nan])
+def test_a_range_is_narrowed_to_a_share_of_itself(percent: float) -> None:
+    ratio = SearchParameter("c_coef", 0.8, 1.2)
+    assert narrowed(ratio, 1.0, 25.0).width == pytest.approx(0.2)  # a quarter on either side
+    assert narrowed(ratio, 1.0, 100.0).width == pytest.approx(0.8)
+    with pytest.raises(JumpcadError, match="is outside 0…100 %: a share of each parameter's range"):
+        narrowed(ratio, 1.0, percent)

@@ -18,7 +18,7 @@ from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search import quick_refusal as quick
 from jumpcad.search.models import robot_model
 from jumpcad.search.quick_mass import known, quick_robot
-from jumpcad.search.quick_refusal import Bounds, quick_refusal
+from jumpcad.search.quick_refusal import EstimateErrors, quick_refusal
 from jumpcad.search.sized_robot import sized_robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
@@ -74,7 +74,7 @@ def test_a_robot_that_stands_is_not_refused(standing):
 
 @pytest.mark.parametrize("kind", ["KNOWN", "NEAR"])
 def test_robots_near_their_limit_would_notice_an_error_that_is_too_small(standing, monkeypatch, kind):
-    monkeypatch.setattr(quick, kind, Bounds(0.0, getattr(quick, kind).ahead_mm))
+    monkeypatch.setattr(quick, kind, EstimateErrors(0.0, getattr(quick, kind).ahead_mm))
     assert wrongly_refused(standing)
 
 
@@ -127,7 +127,7 @@ def test_a_robot_that_just_takes_off_is_not_refused(barely_jumping, monkeypatch)
     robot, settings = barely_jumping
     assert quick_refusal(robot.design, robot.workshop, settings) == ()
     monkeypatch.setattr(quick, "sized_robot", lambda *one: with_spring_factor(sized_robot(*one), 0.85))
-    monkeypatch.setattr(quick, "NEAR", Bounds(1.0, 1e3))
+    monkeypatch.setattr(quick, "NEAR", EstimateErrors(1.0, 1e3))
     (standing,) = quick_refusal(robot.design, robot.workshop, settings)
     assert standing.name == "no_takeoff"
 
@@ -251,7 +251,7 @@ def test_a_design_far_beyond_the_default_bounds_is_built():
 )  # fmt: skip
 def test_what_an_estimate_refuses_is_beyond_its_error_and_says_by_how_much(name, value, limit, certain, said):
     """Less energy may be needed by a share, the centre of mass may be farther ahead: no other error refuses wrongly."""
-    bounds = Bounds(0.18, 16.0)
+    bounds = EstimateErrors(0.18, 16.0)
     found = Finding(name, "error", value - limit, "mm", "it does", "change it", value, limit)
     assert quick.is_certain(found, bounds) == certain
     told = quick._estimated(found, bounds)

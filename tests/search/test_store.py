@@ -296,7 +296,7 @@ def test_a_study_in_a_folder_that_may_not_be_written_to(tmp_path):
 def test_only_formats_that_there_were_are_read(tmp_path, number):
     path = edited(tmp_path / "s.db", f"PRAGMA user_version = {number}")
     for open_it in (StudyStore.read, lambda file: StudyStore.write(file, IDENTITY)):
-        with pytest.raises(JumpcadError, match=f"format {number}; this version of jumpcad reads {max(FORMATS)}"):
+        with pytest.raises(JumpcadError, match=f"format {number}; this version of jumpcad reads 1 to {max(FORMATS)}"):
             open_it(path)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sklearn.gaussian_process import GaussianProcessRegressor
 
-from jumpcad.search.surrogate import JITTER, Axes, Surrogate, _kernel
+from jumpcad.search.surrogate import JITTER, ProcessAxes, Surrogate, _kernel
 
 
 @pytest.fixture
@@ -55,7 +55,7 @@ def test_the_slope_is_the_difference_of_the_mean(data):
 
 def test_an_axis_of_names_becomes_one_for_each_name():
     """A number, three names, a number: two different names are 1 apart, and have one length scale."""
-    axes = Axes((0, 3, 0))
+    axes = ProcessAxes((0, 3, 0))
     points = np.array([[0.25, 0.0, 0.75], [0.25, 0.5, 0.75], [0.5, 1.0, 1.0]])
     root = np.sqrt(0.5)
     assert axes.expand(points) == pytest.approx(np.array([
@@ -65,7 +65,7 @@ def test_an_axis_of_names_becomes_one_for_each_name():
     assert axes.unfold(theta).tolist() == [9.0, 1.0, 2.0, 2.0, 2.0, 3.0, 8.0]
     assert axes.folded(axes.unfold(theta)).tolist() == theta.tolist()
     assert axes.fold(np.array([9.0, 1.0, 2.0, 4.0, 8.0, 3.0, 7.0])).tolist() == [9.0, 1.0, 14.0, 3.0, 7.0]
-    plain = Axes((0, 0))
+    plain = ProcessAxes((0, 0))
     assert plain.expand(points[:, :2]).tolist() == points[:, :2].tolist()
 
 

@@ -1,0 +1,30 @@
+"""Details of steps: of a step that there is, with parts that are on the robot then, and what is framed in view."""
+
+import re
+
+import pytest
+from support.built import built
+
+from jumpcad.scene.assembly_order import ORDER
+from jumpcad.scene.assembly_steps import assembly_steps
+from jumpcad.scene.step_insets import BEHIND, INSETS, Inset
+
+
+@pytest.mark.parametrize("inset", INSETS, ids=lambda inset: inset.name)
+def test_a_detail_shows_what_it_frames_of_parts_that_are_there(inset: Inset) -> None:
+    there: set[str] = set()
+    for step in assembly_steps(built("kenan-2.0")):
+        there |= {thing.name for thing in step.added}
+        if step.key == inset.step:
+            break
+    framed = {name for name in there if re.fullmatch(inset.framed, name)}
+    assert framed
+    assert all(re.fullmatch(inset.shown, name) for name in framed)
+    assert inset.room >= 1.0
+
+
+def test_details_belong_to_steps_and_what_a_plate_hides_has_one() -> None:
+    assert {inset.step for inset in INSETS} <= {plan.key for plan in ORDER}
+    assert len({inset.name for inset in INSETS}) == len(INSETS)
+    for step, hidden in BEHIND.items():
+        assert any(inset.step == step and hidden in inset.framed for inset in INSETS)
