@@ -21,6 +21,9 @@ ANY = "any"
 """Instead of a bearing's name in a workshop: the lightest of the catalogue that carries its load."""
 LONGEST_ARM_MM = 10.0
 """Springs' torque over a bearing's load; judgement: about the longest of many designs, so that few hubs carry less."""
+LARGEST_ROLLER_MM = 13.0
+"""Rollers of 16 mm and more overlapped the flank of their cam by 0.1 to 17 mm³, 4° to 5° past rest, which the limits of
+the cam's search do not see; those of 13 mm did not (measured on two templates)."""
 RING_PLAY_MM = 0.2
 """How much narrower than a roller's outer ring begins is what the screw clamps; judgement: makers differ by as much."""
 SHOULDER_MM = 0.8
@@ -55,13 +58,19 @@ def roller_bearing(workshop: Workshop) -> Bearing:
     Raises
     ------
     JumpcadError
-        If its bore is not that of the screw that holds it, or there is no washer beside which its outer ring is free.
+        If its bore is not that of the screw that holds it, if there is no washer beside which its outer ring is free,
+        or if it is larger than `LARGEST_ROLLER_MM`.
     """
     roller, screw = workshop.catalogue.bearings[workshop.bought.roller], workshop.catalogue.screws["M3"]
     if roller.bore_mm != screw.diameter_mm:
         raise JumpcadError(
             f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not fit the {screw.name} '
             f"screw that holds it: choose a bearing with a bore of {screw.diameter_mm:g} mm"
+        )
+    if roller.outer_mm > LARGEST_ROLLER_MM:
+        raise JumpcadError(
+            f'bought.roller = "{roller.name}": with {roller.outer_mm:g} mm diameter it would meet its cam where '
+            f"the leg swings past rest: choose a bearing of {LARGEST_ROLLER_MM:g} mm diameter or less"
         )
     roller_washer(roller, workshop.catalogue)
     return roller

@@ -1,6 +1,8 @@
 """Hub bearings against the equilibrium of the leg on two supports."""
 
 import math
+from contextlib import nullcontext
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -59,6 +61,20 @@ def test_a_roller_whose_outer_ring_the_screws_head_would_clamp_is_refused() -> N
     small = shop.model_copy(update={"bought": shop.bought.model_copy(update={"roller": "MR63"})})
     with pytest.raises(JumpcadError, match=r'^bought\.roller = "MR63": .* head of 5\.7 mm .* choose a bearing of 7 mm'):
         roller_bearing(small)
+
+
+@pytest.mark.parametrize(("outer_mm", "fits"), [(13.0, True), (16.0, False)])
+def test_a_roller_that_would_meet_its_cam_past_rest_is_refused(outer_mm: float, fits: bool, tmp_path: Path) -> None:
+    """Solids of built robots: a roller of 16 mm and its cam share 0.14 mm³ and more, one of 13 mm none."""
+    file = tmp_path / "shop.toml"
+    file.write_text(
+        f'[bought]\nroller = "own"\n[bearings.own]\nlike = "623"\nouter_mm = {outer_mm}\nsource = "by hand"\n',
+        encoding="utf-8",
+    )
+    shop = load_workshop(file)
+    refused = pytest.raises(JumpcadError, match=r'bought\.roller = "own": with 16 mm .* 13 mm diameter or less')
+    with nullcontext() if fits else refused:
+        assert roller_bearing(shop).outer_mm == outer_mm
 
 
 def test_a_narrow_leg_grows_to_the_width_that_two_bearings_need() -> None:
