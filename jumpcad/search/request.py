@@ -135,6 +135,12 @@ class Request:
             ending = ", ".join(name for name in NAMES if METHODS[_methods(name)[-1]].ends)
             percent = shown(self.until_percent)
             raise JumpcadError(f"until_percent = {percent}: does not apply to {self.method}, only to {ending}")
+        for stage in plan_stages(self):
+            if stage.evaluations < (least := METHODS[stage.method].least):
+                raise JumpcadError(
+                    f"evaluations = {self.evaluations} leave {stage.evaluations} for {stage.method}, whose parts take "
+                    f"{least} at least: ask for more"
+                )
         if self.batch > 1 and not any(METHODS[name].learns for name in stages):
             learning = ", ".join(name for name in NAMES if any(METHODS[one].learns for one in _methods(name)))
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
@@ -236,8 +242,7 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     """
     if request.widen:
         wider = [Stage(WIDER, int(WIDENING_SHARE * request.searched / WIDENINGS), widen=True)] * WIDENINGS
-        narrow = replace(request, widen=False)
-        return [*_plan(narrow, request.searched - sum(stage.evaluations for stage in wider), prior), *wider]
+        return [*_plan(request, request.searched - sum(stage.evaluations for stage in wider), prior), *wider]
     return _plan(request, request.searched, prior)
 
 
