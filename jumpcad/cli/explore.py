@@ -84,7 +84,6 @@ def explore(
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart
     from jumpcad.search.evaluator import Evaluator
-    from jumpcad.search.objective import find_objective
     from jumpcad.search.space import Space
     from jumpcad.search.store import StudyStore
 
@@ -99,7 +98,8 @@ def explore(
     require_plots(plots, force)
     robot = options.robot_model()
     space = Space.parse(options.fix or (), options.bound or (), options.choose or (), workshop=robot.workshop)
-    objective, centre = find_objective(options.objective or robot.default_objective), load_design(around or AROUND)
+    robot, objective = robot.aiming_at(options.objective)
+    centre = load_design(around or AROUND)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),
         "around": centre.model_dump(), "seed": options.seed, "versions": robot.versions(),

@@ -51,7 +51,7 @@ FromOption = Annotated[
 UntilOption = Annotated[
     float,
     typer.Option(
-        help="End when the last steps of BO gain and promise less than this share of the best score; 0: never.",
+        help="End when the last steps of BO gain less than this share of the best score; 0: never.",
         metavar="PERCENT",
     ),
 ]
@@ -198,7 +198,7 @@ def _print_result(
     if result.converged:
         print(
             f"ended before {request.searched}: in its last steps less than {request.until_percent:g} % of the best "
-            "score was gained or promised; --until 0 goes on"
+            "score was gained; --until 0 goes on"
         )
     if len(result.trials) >= request.space.size:
         print("these are all designs of the space")

@@ -84,10 +84,10 @@ def _watch(file: Path) -> None:
         running = is_written(file)  # before reading, so that the last trials are read too
         with StudyStore.read(file) as store:
             counts, best = store.progress()
-            planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
+            planned, model = sum(stage["evaluations"] for stage in store.recall("stages", [])), store.identity["model"]
         searched = sum(count for phase, count in counts.items() if phase in SEARCH_PHASES)
         around = sum(counts.values()) - searched
-        line = f"{searched} of {planned} designs, best {'none' if best is None else f'{best:.4f}'}"
+        line = f"{_done(searched, planned, model)}, best {'none' if best is None else f'{best:.4f}'}"
         line += f", {around} around the best" if around else ""
         if line != printed:
             print(line, flush=True)
@@ -123,9 +123,8 @@ def _print_one(summary: dict[str, Any]) -> None:
     identity = summary["identity"]
     about = f"{identity['method']} on the {identity['model']['name']} robot, {identity['objective']}"
     print(f"{escaped(summary['study'])}: {about}")
-    whole = f" of {summary['planned']}" if summary["planned"] else ""
-    around = f", and {summary['other_evaluations']} around the best" if whole else ""
-    print(f"{summary['evaluations']}{whole} designs{around}")
+    around = f", and {summary['other_evaluations']} around the best" if summary["planned"] else ""
+    print(f"{_done(summary['evaluations'], summary['planned'], identity['model'])}{around}")
     for name, count in summary["refused"].items():
         print(f"  rejected {count:6d}  {name}")
     for note in summary["notes"]:
@@ -137,6 +136,13 @@ def _print_one(summary: dict[str, Any]) -> None:
             for key, value in trial.get("workshop", {}).items()
         )
         print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}  (trial {trial['trial']})")
+
+
+def _done(designs: int, planned: int, model: dict[str, Any]) -> str:
+    """Return how far a search is; where a design takes neighbours too, evaluations are planned, not designs."""
+    if planned and model.get("neighbours_of"):
+        return f"{designs} designs, of {planned} evaluations with their neighbours"
+    return f"{designs} of {planned} designs" if planned else f"{designs} designs"
 
 
 def _print_comparison(summaries: list[dict[str, Any]]) -> None:

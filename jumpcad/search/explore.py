@@ -89,7 +89,7 @@ class FeasibilityMap:
 def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     """Vary each free parameter alone, over `points` values of its range (or over its choices).
 
-    The others have the values of `around` and of the model's workshop.
+    The others have the values of `around` and of the model's workshop, or those that the space fixes.
 
     Raises
     ------
@@ -184,7 +184,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
 
 @typed
 def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: str, points: int) -> FeasibilityMap:
-    """Evaluate a grid over two free parameters; the others have the values of `around`.
+    """Evaluate a grid over two free parameters; the others are as in a `sweep`.
 
     Raises
     ------
@@ -210,14 +210,15 @@ def _grid(parameter: SearchParameter, points: int) -> Array:
 
 
 def _start(evaluator: Evaluator, around: Design) -> Variant:
-    """Return a design in the model's workshop, with the values that the space varies."""
+    """Return a design in the model's workshop, with the values that the space varies or fixes."""
     held: dict[str, Value] = {}
     for parameter in evaluator.space.of_workshop:
         workshop = getattr(evaluator.model, "workshop", None) or load_workshop()
         held[parameter.name] = workshop_value(workshop, parameter.name)
         if not parameter.free:
             held[parameter.name] = parameter.value(parameter.lower)
-    return Variant(around, held)
+    fixed = {parameter.name: parameter.lower for parameter in evaluator.space.parameters if not parameter.free}
+    return Variant(around, held).changed({name: value for name, value in fixed.items() if name not in held})
 
 
 def _with(start: Variant, values: dict[SearchParameter, float]) -> Variant:

@@ -3,7 +3,7 @@
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -16,7 +16,7 @@ from jumpcad.files import Record, did_you_mean
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.neighbours import neighbours, with_neighbours
-from jumpcad.search.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
+from jumpcad.search.objective import CANNOT_BUILD, QUANTILE, Evaluation, Objective, find_objective
 from jumpcad.search.refusal import refusal_findings, room_findings
 from jumpcad.search.stand_in import figures_of, laid_out
 from jumpcad.search.tolerances import PREFIX, Making, as_made
@@ -141,6 +141,25 @@ class RobotModel:
     def default_objective(self) -> str:
         """What is searched for unless the user says something else: only a printed robot has a size."""
         return "body_lengths" if self.name == "printed" else "fitness"
+
+    def aiming_at(
+        self, objective: str | Callable[..., Any] | None, default: str = ""
+    ) -> "tuple[RobotModel, Objective]":
+        """Return the model that gives an objective's figures, and the objective; see `find_objective`.
+
+        Without one it is the default, the model's own if none is given; `p10` alone is that of the default.
+
+        Raises
+        ------
+        JumpcadError
+            If there is no such objective, or a jump of this robot lacks a figure that it needs.
+        """
+        default = default or self.default_objective
+        if objective == QUANTILE:
+            objective = f"{QUANTILE}-{default}"
+        aim = find_objective(default if objective is None else objective)
+        self.require_figures(aim)
+        return replace(self, neighbours_of=aim.neighbours_of) if aim.neighbours_of else self, aim
 
     def require_figures(self, objective: Objective) -> None:
         """Require that a jump of this robot has the figures of a named objective; a printed robot has them all.

@@ -83,8 +83,8 @@ def optimize(
     preset, batch, prior
         Settings of the genetic algorithm, Bayesian proposals evaluated together, an earlier study to learn from.
     until_percent, hours
-        End earlier: when Bayesian proposals gain and promise less than this share of the best score, or after this time
-        (h); see `Request`. 0 for neither: all evaluations are spent.
+        End earlier: when the last Bayesian steps gain less than this share of the best score, or after this time (h);
+        see `Request`. 0 for neither: all evaluations are spent.
     widen
         Move bounds on which the best design lies, as far as a design or workshop can be, and go on; `Result.widened`
         has what each bound costs.

@@ -27,6 +27,8 @@ DECIMALS = 10
 """Of the values that a search tries: what is written is then what a person would write."""
 FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
 """Form of a change on the command line after `NAME=`, and the separator of its values."""
+WORKSHOP = "; a value of the workshop is TABLE.NAME, as in body.plate_mm"
+"""What else may be changed."""
 
 
 @dataclass(frozen=True)
@@ -157,13 +159,15 @@ def read_change(kind: Kind, text: str) -> Change:
         raise JumpcadError(f"{text!r} is not of the form NAME=LO:HI")
     if "." in name and kind != "bound":  # of the workshop: what is a number, the workshop decides
         return Change(kind, name, tuple(item.strip() for item in items))
-    return Change(kind, name, tuple(_number(item, text) for item in items))
+    return Change(kind, name, tuple(_number(item, text, name) for item in items))
 
 
-def _number(text: str, whole: str) -> float:
+def _number(text: str, whole: str, name: str) -> float:
     try:
         return float(text)
     except ValueError:
+        if "." not in name:  # a name of nothing takes no number either
+            known_name(name, WORKSHOP)
         raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
 
 
@@ -183,7 +187,7 @@ def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = No
         if name in PARAMETERS:
             changed[name] = _parameter(change, [_possible(name, value) for value in change.values])
         elif "." not in str(name):
-            known_name(name)
+            known_name(name, WORKSHOP)
         elif workshop is None:
             raise JumpcadError(f"{shown(name)}: this robot is made in no workshop; search it on the printed robot")
         else:
@@ -200,6 +204,9 @@ def _of_workshop(change: Change, workshop: Workshop) -> SearchParameter:
     values = [_tried(workshop, name, value) for value in change.values]
     texts = [value for value in values if isinstance(value, str)]
     if not texts:
+        broken = [value for value in values if isinstance(held, int) and float(value) % 1.0]
+        if broken and change.kind != "bound":
+            raise JumpcadError(f"{name} = {broken[0]:g} is not a whole number, and it takes nothing else")
         parameter = _parameter(change, [float(value) for value in values])
         if isinstance(held, int) and parameter.free and not parameter.choices:
             whole = [float(number) for number in range(math.ceil(parameter.lower), math.floor(parameter.upper) + 1)]
@@ -275,10 +282,10 @@ def _possible(name: str, value: Any) -> float:
     return float(value)
 
 
-def known_name(name: str) -> str:
-    """Return the name of a parameter; raises `JumpcadError` for any other."""
+def known_name(name: str, others: str = "") -> str:
+    """Return the name of a parameter; raises `JumpcadError` for any other, and says what `others` there are."""
     if name not in PARAMETERS:
-        hint = did_you_mean(str(name), PARAMETERS) or f"; the parameters are {', '.join(PARAMETERS)}"
+        hint = did_you_mean(str(name), PARAMETERS) or f"; the parameters are {', '.join(PARAMETERS)}{others}"
         raise JumpcadError(f"{shown(name)} is not a parameter of a design{hint}")
     return name
 

@@ -31,6 +31,8 @@ BEST: dict[str, Any] = {"marker": "*", "ms": 10, "mfc": RED, "mec": "white", "me
 CENTRE: dict[str, Any] = {
     "marker": "o", "ms": 9, "mfc": "none", "mec": "black", "mew": 1.2, "ls": "", "label": "centre design",
 }  # fmt: skip
+MARGIN = 0.03
+"""Of a parameter's range, shown beyond its ends."""
 DECADES = 6.0
 """The acquisition is drawn down to this many decades below its maximum."""
 
@@ -70,6 +72,9 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
         )  # fmt: skip
         if best := best_trial(feasible):
             axes.plot(at(best), best.score or 0.0, **BEST)
+        low, high = axes.get_xlim() if feasible else (parameter.lower, parameter.upper)
+        reach = MARGIN * parameter.width
+        axes.set_xlim(min(low, parameter.lower - reach), max(high, parameter.upper + reach))
         labels(axes, parameter.name, _named(objective))
     bar = figure.colorbar(dots, ax=all_axes, shrink=0.6)
     bar.set_ticks([0, max(len(feasible) - 1, 0)], labels=["first", "last"])
@@ -82,6 +87,7 @@ def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
     feasible = feasible_trials(trials)[:MOST_DRAWN][::-1]
     ranks = np.linspace(0.0, 1.0, len(feasible))
+    ranks[-1:] = 1.0  # also of one alone
     for rank, trial in zip(ranks, feasible, strict=True):
         colour = (BLUE if rank < 0.95 else RED, 0.05 + 0.9 * rank**4)
         axes.plot(range(space.dimension), space.to_unit(trial.variant), "-", lw=0.8, color=colour)
@@ -90,6 +96,8 @@ def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     colours = {"best twentieth": RED, "the others, the better the darker": BLUE}
     handles = [Line2D([], [], color=colour, label=label) for label, colour in colours.items()]
     figure.legend(handles=handles, loc="outside upper right", ncols=2)
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, -MARGIN), max(high, 1.0 + MARGIN))
     labels(axes, "", "place in its range")
     return figure
 

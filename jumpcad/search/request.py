@@ -15,7 +15,7 @@ from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES,
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import QUANTILE, Model, Objective, find_objective
+from jumpcad.search.objective import Model, Objective, find_objective
 from jumpcad.search.robust import pick_share
 from jumpcad.search.space import Space
 from jumpcad.search.tolerances import LENGTHS_ALONE, Making
@@ -98,12 +98,7 @@ class Request:
         The default method is `bo`, the objective the model's (`range` of a front), the tolerances those of the
         workshop. An own objective is a function, or `FILE.py:FUNCTION`.
         """
-        default = "range" if method in FRONTS else model.default_objective
-        if objective == QUANTILE:
-            objective = f"{QUANTILE}-{default}"
-        aim = find_objective(default if objective is None else objective)
-        if aim.neighbours_of:
-            model = replace(model, neighbours_of=aim.neighbours_of)
+        model, aim = model.aiming_at(objective, "range" if method in FRONTS else "")
         own = aim if aim.code else None
         if model.name == "printed" and (others.get("screen") or method not in ("ga", "nsga2")):
             model = replace(model, stand_in=True)
@@ -140,6 +135,12 @@ class Request:
             ending = ", ".join(name for name in NAMES if METHODS[_methods(name)[-1]].ends)
             percent = shown(self.until_percent)
             raise JumpcadError(f"until_percent = {percent}: does not apply to {self.method}, only to {ending}")
+        for stage in plan_stages(self):
+            if stage.evaluations < (least := METHODS[stage.method].least):
+                raise JumpcadError(
+                    f"evaluations = {self.evaluations} leave {stage.evaluations} for {stage.method}, whose parts take "
+                    f"{least} at least: ask for more"
+                )
         if self.batch > 1 and not any(METHODS[name].learns for name in stages):
             learning = ", ".join(name for name in NAMES if any(METHODS[one].learns for one in _methods(name)))
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
@@ -241,8 +242,7 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     """
     if request.widen:
         wider = [Stage(WIDER, int(WIDENING_SHARE * request.searched / WIDENINGS), widen=True)] * WIDENINGS
-        narrow = replace(request, widen=False)
-        return [*_plan(narrow, request.searched - sum(stage.evaluations for stage in wider), prior), *wider]
+        return [*_plan(request, request.searched - sum(stage.evaluations for stage in wider), prior), *wider]
     return _plan(request, request.searched, prior)
 
 

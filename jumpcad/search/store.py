@@ -66,12 +66,19 @@ class StudyStore:
         path = None if path is None else Path(path)
         made = path is not None and not os.path.lexists(path)
         claim = None if path is None else lock(path)
+        connection = None
         try:
             with plain_errors(path):
-                store = cls(path, connect(":memory:" if path is None else os.path.abspath(path)), claim, made)
+                connection = connect(":memory:" if path is None else os.path.abspath(path))
+                store = cls(path, connection, claim, made)
                 store._prepare(identity)
             return store
         except BaseException:
+            useless = made and (connection is None or _holds_nothing(connection))  # there was no space
+            if connection is not None:
+                connection.close()
+            if useless and path is not None:
+                _remove(path)
             if claim is not None:
                 os.close(claim)
             raise
@@ -120,8 +127,7 @@ class StudyStore:
             self.path.unlink(missing_ok=True)
         self.close()
         if useless and self.path is not None:
-            for suffix in ("-wal", "-shm"):
-                self.path.with_name(f"{self.path.name}{suffix}").unlink(missing_ok=True)
+            _remove(self.path)
 
     @property
     def identity(self) -> dict[str, Any]:
@@ -283,6 +289,19 @@ class StudyStore:
             raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
+
+
+def _holds_nothing(connection: sqlite3.Connection) -> bool:
+    """Tell whether a file has no tables, as far as it can be read."""
+    with suppress(sqlite3.Error):
+        return not connection.execute("SELECT EXISTS (SELECT 1 FROM sqlite_master)").fetchone()[0]
+    return False
+
+
+def _remove(path: Path) -> None:
+    """Remove a study file and what SQLite keeps beside it."""
+    for suffix in ("", "-wal", "-shm"):
+        path.with_name(f"{path.name}{suffix}").unlink(missing_ok=True)
 
 
 def difference(there: Any, here: Any, name: str = "") -> str:

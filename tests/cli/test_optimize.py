@@ -120,7 +120,7 @@ def test_says_that_all_designs_of_a_small_space_were_tried(folder):
 def test_says_that_it_ended_early_and_how_it_goes_on(folder):
     asked = ("optimize", *QUICK, *NARROW, "--evaluations", 60, "--study", "s.db", "-o", "best.toml")
     said = run(*asked, "--until", 20)
-    assert "ended before 45: in its last steps less than 20 % of the best score was gained or promised" in said
+    assert "ended before 45: in its last steps less than 20 % of the best score was gained; --until 0 goes on" in said
     longer = run(*asked, "--until", 0, "--force")
     assert "45 designs evaluated" in longer
     assert "ended before" not in longer
@@ -232,8 +232,7 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
     assert told[:4] == [
         "7 designs evaluated, and 3 for the robust pick; rejected: loop 2, tips 1",
-        "ended before 180: in its last steps less than 0.05 % of the best score was gained or promised; --until 0 "
-        "goes on",
+        "ended before 180: in its last steps less than 0.05 % of the best score was gained; --until 0 goes on",
         "note: a note",
         "range against spring energy; hypervolume 0.2500",
     ]

@@ -88,6 +88,14 @@ def test_a_study_is_told_with_every_count_in_its_place(capsys: pytest.CaptureFix
     ]
 
 
+def test_designs_with_their_neighbours_are_not_counted_against_evaluations(capsys: pytest.CaptureFixture[str]) -> None:
+    """Of a search for `p10`, where each design that jumps takes eleven evaluations."""
+    identity = {"method": "bo", "model": {"name": "capsule", "neighbours_of": "range"}, "objective": "p10-range"}
+    study._print_one(summary(identity=identity, other_evaluations=0))
+    told = capsys.readouterr().out.splitlines()[1]
+    assert told == "31 designs, of 40 evaluations with their neighbours, and 0 around the best"
+
+
 def test_an_exploration_has_no_number_of_designs_to_come(capsys: pytest.CaptureFixture[str]) -> None:
     study._print_one(summary(planned=0, other_evaluations=0))
     assert capsys.readouterr().out.splitlines()[1] == "31 designs"

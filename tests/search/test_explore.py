@@ -153,6 +153,20 @@ def test_a_place_in_a_workshop_has_its_values_and_those_that_are_fixed(evaluator
     assert _grid(plates, 4).tolist() == pytest.approx([1.2, 1.6, 2.0, 2.4])
 
 
+def test_what_is_fixed_has_its_value_in_every_view(evaluator):
+    """Also where the design that is looked at has another."""
+    fixed = Space.parse(fix=[*FIXED, "stiffness_nmm_per_deg=20"])
+    one = evaluator(space=fixed)
+    assert CENTRE.stiffness_nmm_per_deg != 20.0
+    over = feasibility_map(one, CENTRE, "rest_angle_deg", "compression_ratio", 2)
+    seen = [
+        *(trial for view in sweep(one, CENTRE, 3) for trial in view.trials),
+        *(t for line in over.trials for t in line),
+    ]
+    assert {trial.design.stiffness_nmm_per_deg for trial in seen} == {20.0}
+    assert all(fixed.contains(trial.design) for trial in seen)
+
+
 def test_a_map_varies_the_first_along_its_lines_and_the_second_from_line_to_line(evaluator):
     found = feasibility_map(evaluator(), CENTRE, "rest_angle_deg", "stiffness_nmm_per_deg", 3)
     assert (found.x_name, found.y_name) == ("rest_angle_deg", "stiffness_nmm_per_deg")

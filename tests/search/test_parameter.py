@@ -64,6 +64,23 @@ def test_bounds_of_a_workshops_value_are_numbers_and_its_choices_are_left_to_the
         read_change("bound", "body.plate_mm=thin:2.4")
 
 
+def test_whole_numbers_are_not_fixed_or_chosen_between_two() -> None:
+    """A print has two perimeters or three; a robot with 2.6 would be another than its file says."""
+    shop = load_workshop()
+    for change in (read_change("fix", "process.perimeters=2.6"), read_change("choose", "process.perimeters=2,2.6")):
+        with pytest.raises(JumpcadError, match=r"process\.perimeters = 2\.6 is not a whole number"):
+            changed_parameters([change], shop)
+    found = changed_parameters([read_change("choose", "process.perimeters=2,4")], shop)["process.perimeters"]
+    assert found.choices == (2.0, 4.0)
+
+
+def test_a_name_of_nothing_is_told_before_its_values() -> None:
+    with pytest.raises(JumpcadError, match=r"'materials' is not a parameter .* a value of the workshop is TABLE\.NAME"):
+        read_change("choose", "materials=PLA,PETG")
+    with pytest.raises(JumpcadError, match=r"'plate_mm' is not a parameter .* a value of the workshop is TABLE\.NAME"):
+        changed_parameters([read_change("fix", "plate_mm=2")], load_workshop())
+
+
 @pytest.mark.parametrize("bounds", ["1.0:1.0", "1.1:0.9"])
 def test_a_range_without_width_is_empty(bounds: str) -> None:
     with pytest.raises(JumpcadError, match="is an empty range: the first must be less than the second"):

@@ -127,6 +127,20 @@ def test_the_best_line_is_the_darkest_and_lies_above_the_others():
     assert (shades[0], shades[-1]) == pytest.approx((0.05, 0.95))
 
 
+def test_one_design_alone_is_seen_between_the_ends_of_every_range():
+    """It is the best; a range that was searched is shown from end to end, so that an edge is seen as one."""
+    alone = [trial((0.4, 0.5, 0.5), 1.0)]
+    (axes,) = plots.parallel(SMALL, alone).axes
+    assert to_rgba(axes.lines[0].get_color())[3] > 0.9
+    assert axes.get_ylim()[0] < 0.0 < 1.0 < axes.get_ylim()[1]
+    for trials in (alone, [trial((0.4, 0.5, 0.5), None, "loop")]):
+        figure = plots.slices(SMALL, trials, find_objective("fitness"))
+        for axes, parameter in zip(figure.axes, SMALL.free, strict=False):
+            low, high = axes.get_xlim()
+            assert low < parameter.lower < parameter.upper < high
+            assert high - low < 1.1 * parameter.width
+
+
 def test_a_map_has_its_ring_where_the_centre_is_and_a_colour_for_each_first_reason():
     x, y = np.array([0.2, 0.4, 0.6]), np.array([20.0, 60.0])
     rows = [

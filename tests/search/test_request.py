@@ -3,6 +3,7 @@
 import hashlib
 import inspect
 import json
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,10 +14,12 @@ from support.studies import trials
 import jumpcad
 from jumpcad.cli import optimize
 from jumpcad.errors import JumpcadError
-from jumpcad.search.methods import FRONTS
+from jumpcad.search.methods import FRONTS, STEPS
 from jumpcad.search.models import robot_model
+from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request, plan_stages
 from jumpcad.search.space import Space
+from jumpcad.search.study import run_study
 from jumpcad.search.tolerances import Making
 from jumpcad.search.versions import versions
 
@@ -83,9 +86,25 @@ def test_numbers_of_a_request_have_ends_that_are_told(name, least, most, step):
 @pytest.mark.parametrize("given", [{"until_percent": 1.0}, {"batch": 3}])
 def test_what_applies_to_bayesian_optimisation_alone_applies_to_every_search_that_goes_on_with_it(given):
     """A widened search ends by it, whatever it began with."""
-    assert Request(SMALL, Hill(), method="ga", widen=True, **given).widen
+    widened = Request(SMALL, Hill(), method="ga", widen=True, **given)
+    assert [stage.method for stage in plan_stages(widened)] == ["ga", "bo", "bo", "bo"]
     with pytest.raises(JumpcadError, match=r"does not apply to ga, only to ga\+bo, bo"):
         Request(SMALL, Hill(), method="ga", **given)
+
+
+def test_the_studys_stages_have_an_evaluation_each():
+    """Seven: random designs, three runs of the genetic algorithm, and the three searches near its best."""
+    shared = "leave {} for paper, whose parts take 7 at least: ask for more"
+    for evaluations in (1, 6):
+        with pytest.raises(JumpcadError, match=shared.format(evaluations)):
+            Request(SMALL, Hill(), method="paper", evaluations=evaluations)
+    with pytest.raises(JumpcadError, match=shared.format(4)):
+        Request(SMALL, Hill(), method="paper", evaluations=7, widen=True)
+    with local_pool(0) as pool:
+        trials = run_study(Request(Space.default(), Hill(), method="paper", evaluations=7), None, pool).trials
+    assert Counter((trial.phase, trial.step // STEPS) for trial in trials) == {
+        ("sample", 0): 1, **{("ga", run): 1 for run in range(3)}, **{("bo", mode): 1 for mode in range(3)},
+    }  # fmt: skip
 
 
 def test_what_is_not_said_is_the_same_in_python_and_on_the_command_line():

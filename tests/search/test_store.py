@@ -16,6 +16,7 @@ from support.places import TESTS
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search.database import connect
 from jumpcad.search.rows import APPLICATION_ID, COLUMNS, FORMATS, own_tables, to_row
 from jumpcad.search.space import Space
 from jumpcad.search.store import MOST_NOTES, StudyStore, difference
@@ -410,3 +411,19 @@ def test_an_apostrophe_is_no_end_of_an_identity(tmp_path):
     for _ in range(2):
         with StudyStore.write(tmp_path / "s.db", identity) as store:
             assert store.identity == identity
+
+
+def test_a_study_for_which_there_is_no_space_leaves_no_file(tmp_path, monkeypatch):
+    def full(target):
+        connection = connect(target)
+        connection.execute("PRAGMA max_page_count = 1")
+        return connection
+
+    monkeypatch.setattr("jumpcad.search.store.connect", full)
+    with pytest.raises(JumpcadError, match="disk is full"):
+        StudyStore.write(tmp_path / "s.db", {})
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "mine.db").touch()  # which was there before, stays
+    with pytest.raises(JumpcadError, match="disk is full"):
+        StudyStore.write(tmp_path / "mine.db", {})
+    assert (tmp_path / "mine.db").is_file()

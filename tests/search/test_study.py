@@ -11,7 +11,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from support.hills import SMALL, Hill
+from support.hills import FIXED, SMALL, Hill
 from support.places import TESTS
 
 from jumpcad.design import load_design
@@ -285,6 +285,16 @@ class Marked(Hill):
 
 class Marking(Marked):
     marks = True
+
+
+def test_a_prior_study_from_which_nothing_can_be_learned_is_said_to_be_one(tmp_path):
+    """Its designs have a compression of 0.1 to 0.8, one each, the search's all 0.15."""
+    trials = run(replace(REQUEST, method="ga", evaluations=12), tmp_path / "old.db").trials
+    assert all(trial.design.compression_ratio != 0.15 for trial in trials)
+    apart = Space.parse(fix=[*FIXED, "compression_ratio=0.15"])
+    result = run(replace(REQUEST, space=apart, method="ga", evaluations=4, prior=tmp_path / "old.db"))
+    said = f"{tmp_path / 'old.db'}: none of its designs lies in this space, so nothing is learned from it"
+    assert result.notes == [said]
 
 
 def test_a_prior_study_may_lack_the_figures_of_stand_ins(tmp_path):

@@ -71,6 +71,8 @@ class Method:
         Whether it ends where its proposals promise less than a task's `least_gain`.
     shares
         Whether its parts have shares of the evaluations: a search with more of them is another one.
+    least
+        Fewest evaluations that it takes: each of its parts has one.
     """
 
     name: str
@@ -80,6 +82,7 @@ class Method:
     learns: bool = False
     ends: bool = False
     shares: bool = False
+    least: int = 0
 
     def run(self, evaluator: "Evaluator", task: Task) -> bool:
         """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
@@ -93,7 +96,7 @@ METHODS = {
         Method("ga", "genetic.run_genetic", "genetic algorithm"),
         Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True, ends=True),
         Method("pareto", "pareto.run_pareto", "front of range against spring energy", front=True, learns=True),
-        Method("paper", "paper.run_paper", "the published study's stages", shares=True),
+        Method("paper", "paper.run_paper", "the published study's stages", shares=True, least=7),
         Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
     )
 }
