@@ -57,6 +57,14 @@ UntilOption = Annotated[
 ]
 HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
 WidenFlag = Annotated[bool, typer.Option("--widen", help="Move bounds on which the best design lies, and go on.")]
+AgainstOption = Annotated[
+    str | None,
+    typer.Option(
+        help="For pareto and nsga2: electrical-energy, spring-energy, mass, winding-time, or another objective.",
+        metavar="NAME",
+        show_default="electrical-energy; spring-energy of robots that are not printed",
+    ),
+]
 ScreenFlag = Annotated[
     bool, typer.Option("--screen", help="For ga: leave out candidates that a quick guess finds too bad.")
 ]
@@ -86,6 +94,7 @@ def optimize(
     hours: HoursOption = 0.0,
     widen: WidenFlag = False,
     screen: ScreenFlag = False,
+    against: AgainstOption = None,
     output: OutputOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -111,7 +120,7 @@ def optimize(
     request = Request.make(
         space, robot, method, options.objective,
         evaluations=evaluations, seed=options.seed, preset=preset, batch=batch, prior=from_study,
-        until_percent=until, hours=hours, widen=widen, screen=screen,
+        until_percent=until, hours=hours, widen=widen, screen=screen, against=against,
     )  # fmt: skip
     path = options.study or Path(request.default_name())
     require_study(path)
@@ -186,7 +195,6 @@ def _plot(path: Path, folder: Path | None) -> list[str]:
 def _print_result(
     result: "Result", design_file: Path, violated: "Sequence[Finding]" = (), workshop: str | None = None
 ) -> None:
-    from jumpcad.search.fronts import energy_j
     from jumpcad.search.result import workshop_file
 
     request = result.request
@@ -208,9 +216,10 @@ def _print_result(
         print("no design jumps: widen the bounds, raise --evaluations, or see the reasons above")
         return
     if request.is_front:
-        print(f"\n{request.objective} against spring energy; hypervolume {result.hypervolume:.4f}")
+        cost = request.cost
+        print(f"\n{request.objective} against {cost.figure.meaning}; hypervolume {result.hypervolume:.4f}")
         for trial in result.front:
-            print(f"  {energy_j(trial.design):8.4f} J  {trial.score:10.4f}")
+            print(f"  {cost.shown(cost.of(trial)):8.4f} {cost.figure.unit}  {trial.score:10.4f}")
     print(f"\nbest {request.objective} {result.best.score:.4f}")
     if result.candidates:
         print(f"score that nine of ten neighbours reach, parameters ±1 %, or {request.making.words}:")

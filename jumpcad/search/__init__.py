@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from jumpcad.search.explore import sample as sample
     from jumpcad.search.explore import sweep as sweep
     from jumpcad.search.figures import save_figure as save_figure
+    from jumpcad.search.fronts import COSTS as COSTS
+    from jumpcad.search.fronts import Cost as Cost
     from jumpcad.search.fronts import energy_j as energy_j
     from jumpcad.search.fronts import front as front
     from jumpcad.search.fronts import hypervolume as hypervolume
@@ -47,6 +49,8 @@ if TYPE_CHECKING:
 _HOMES = {
     "ActiveBound": "robust",
     "Candidate": "robust",
+    "COSTS": "fronts",
+    "Cost": "fronts",
     "Evaluation": "objective",
     "Evaluator": "evaluator",
     "METHODS": "methods",

@@ -24,8 +24,8 @@ MEANINGS = {
     "range say that the bound matters. The star is the best design.",
     "parallel": "One line per design that jumps: where the best ones run together, a parameter is decided; where they "
     "spread, it matters little.",
-    "pareto": "No design of the front is beaten by one with less energy in its springs: choose the energy that you "
-    "can wind, and read the score.",
+    "pareto": "No design of the front is beaten by one that is better in both figures: choose what you can spend of "
+    "one, and read the other.",
     "acquisition-first": "What the method knew at its first proposal, and where it expected to gain.",
     "acquisition": "What the method knew at its last proposal: it looks where score and doubt are high.",
     "sweeps": "One parameter varied at a time around the centre design, whose value is the dashed line; crosses are "

@@ -1,13 +1,17 @@
-"""Fronts of score against spring energy: the trials on a front, and a measure of the whole front."""
+"""Fronts of score against a cost: the costs by name, the trials on a front, and a measure of the whole front."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from jumpcad.arguments import typed
 from jumpcad.design import Design
-from jumpcad.errors import CannotBuildError
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.search.objective import OBJECTIVES, Objective
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
@@ -37,12 +41,99 @@ def energies_j(values: Array) -> Array:
     return energies
 
 
+@dataclass(frozen=True)
+class Cost:
+    """What a front weighs the score against.
+
+    Parameters
+    ----------
+    figure
+        Its name, meaning, unit, and the figure of a jump.
+    reference, worst
+        Of the hypervolume's reference point, and what a rejected design counts as; both as `of` gives them.
+    less_is_better
+        False where a front seeks more of both.
+    of_design
+        Where it is a closed form of the design.
+    """
+
+    figure: Objective
+    reference: float
+    worst: float
+    less_is_better: bool = True
+    of_design: Callable[[Design], float] | None = None
+
+    @property
+    def name(self) -> str:
+        """What it is called in a request."""
+        return self.figure.name
+
+    def of(self, trial: Trial) -> float:
+        """Return what is to be small: the figure, or its negative; infinite where a trial has none."""
+        if self.of_design is not None:
+            return self.of_design(trial.design)
+        try:
+            figure = float(self.figure.figure(trial.evaluation.metrics))
+        except (KeyError, ZeroDivisionError):
+            return math.inf
+        return figure if self.less_is_better else -figure
+
+    def shown(self, cost: float) -> float:
+        """Return the figure of a cost, as people read it."""
+        return cost if self.less_is_better else -cost
+
+    def describe(self) -> dict[str, str]:
+        """Return what a study remembers of it: nothing of energy in the springs, which every front once had."""
+        return {} if self is SPRING_ENERGY else {"against": self.name}
+
+
+SPRING_ENERGY = Cost(
+    Objective("spring-energy", "energy in the springs", "J", lambda m: m["spring_energy_j"]),
+    REFERENCE_ENERGY_J, 10.0, of_design=energy_j,
+)  # fmt: skip
+ELECTRICAL_ENERGY = Cost(
+    Objective("electrical-energy", "electrical energy of a winding", "J", lambda m: m["electrical_energy_j"]),
+    20.0, 200.0,
+)  # fmt: skip
+COSTS: Mapping[str, Cost] = {
+    cost.name: cost
+    for cost in (
+        ELECTRICAL_ENERGY,
+        SPRING_ENERGY,
+        Cost(Objective("mass", "mass", "kg", lambda m: m["mass_kg"]), 0.3, 3.0),
+        Cost(Objective("winding-time", "time of a winding", "s", lambda m: m["winding_time_s"]), 30.0, 300.0),
+    )
+}
+"""By name; the reference points are beyond what robots within the default bounds have."""
+
+
+def find_cost(name: str) -> Cost:
+    """Return a cost by its name, or for the name of an objective the cost of having less of it.
+
+    Raises
+    ------
+    JumpcadError
+        If there is none of that name.
+    """
+    if name in COSTS:
+        return COSTS[name]
+    if name in OBJECTIVES:
+        return Cost(OBJECTIVES[name], 0.0, 10.0, less_is_better=False)
+    known = [*COSTS, *OBJECTIVES]
+    raise JumpcadError(f"against = {name!r} is none of {', '.join(known)}{did_you_mean(name, known)}")
+
+
+def described_cost(identity: Mapping[str, Any]) -> Cost:
+    """Return the cost of a study by what it remembers."""
+    return find_cost(identity.get("against", SPRING_ENERGY.name))
+
+
 @typed
-def front(trials: Sequence[Trial]) -> list[Trial]:
-    """Return the trials whose positive score no other trial reaches with less energy, sorted by energy."""
+def front(trials: Sequence[Trial], cost: Cost = SPRING_ENERGY) -> list[Trial]:
+    """Return the trials whose positive score no other trial reaches at less cost, sorted by cost."""
     scored = [trial for trial in trials if trial.score is not None]
     best, chosen = 0.0, []
-    for trial in sorted(scored, key=lambda trial: (energy_j(trial.design), -(trial.score or 0.0))):
+    for trial in sorted(scored, key=lambda trial: (cost.of(trial), -(trial.score or 0.0))):
         if trial.score is not None and trial.score > best:
             best = trial.score
             chosen.append(trial)
@@ -50,8 +141,12 @@ def front(trials: Sequence[Trial]) -> list[Trial]:
 
 
 @typed
-def hypervolume(trials: Sequence[Trial], reference_energy_j: float = REFERENCE_ENERGY_J) -> float:
-    """Return the area that a front dominates, from score 0 and the reference energy (score units times J)."""
-    chosen = [trial for trial in front(trials) if energy_j(trial.design) < reference_energy_j]
-    ends = [energy_j(trial.design) for trial in chosen[1:]] + [reference_energy_j]
-    return sum((trial.score or 0.0) * (end - energy_j(trial.design)) for trial, end in zip(chosen, ends, strict=False))
+def hypervolume(trials: Sequence[Trial], reference: float | None = None, cost: Cost = SPRING_ENERGY) -> float:
+    """Return the area that a front dominates, from score 0 and a reference cost (score units times those of the cost).
+
+    Without a reference it is the cost's own, as `Cost.of` gives costs.
+    """
+    last = cost.reference if reference is None else reference
+    chosen = [trial for trial in front(trials, cost) if cost.of(trial) < last]
+    ends = [cost.of(trial) for trial in chosen[1:]] + [last]
+    return sum((trial.score or 0.0) * (end - cost.of(trial)) for trial, end in zip(chosen, ends, strict=False))

@@ -46,6 +46,7 @@ def optimize(
     hours: float | int = 0.0,
     widen: bool = False,
     screen: bool = False,
+    against: str | None = None,
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -91,6 +92,10 @@ def optimize(
     screen
         For `ga` on the printed robot: leave out candidates that, by a quick guess, fail or are worse than the best
         known by more than the guess's own error. They count as evaluations.
+    against
+        What `pareto` and `nsga2` weigh the objective against: one of `jumpcad.search.COSTS`, of which less is better
+        (`electrical-energy`, `spring-energy`, `mass`, `winding-time`), or another objective, of which more is. If None,
+        electrical energy of the printed robot, energy in the springs of the others.
 
     Returns
     -------
@@ -108,7 +113,7 @@ def optimize(
     request = Request.make(
         space, robot, method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
-        until_percent=until_percent, hours=hours, widen=widen, screen=screen,
+        until_percent=until_percent, hours=hours, widen=widen, screen=screen, against=against,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, None if study is None else Path(study), pool)

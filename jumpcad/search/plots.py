@@ -15,7 +15,7 @@ from jumpcad.arguments import typed
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
-from jumpcad.search.fronts import energy_j, front
+from jumpcad.search.fronts import SPRING_ENERGY, Cost, front
 from jumpcad.search.objective import Objective
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.posterior import SearchPosterior, unwarped, warped
@@ -103,17 +103,18 @@ def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
 
 
 @typed
-def pareto(trials: Sequence[Trial], objective: Objective) -> Figure:
-    """Draw the score against the energy of the springs, and the front."""
+def pareto(trials: Sequence[Trial], objective: Objective, cost: Cost = SPRING_ENERGY) -> Figure:
+    """Draw the score against a cost, and the front."""
     figure, (axes,) = panels(1, 6.4, 3.6)
     feasible = [trial for trial in trials if trial.score is not None]
-    axes.plot(
-        [energy_j(trial.design) for trial in feasible], _scores(feasible), ".", ms=4, color=GREY, label="other designs"
-    )
-    best = front(trials)
-    energies, scores = [energy_j(trial.design) for trial in best], _scores(best)
-    axes.plot(energies, scores, ".-", color=BLUE, drawstyle="steps-post", label="front")
-    labels(axes, "energy of the springs (J)", f"{objective.meaning} ({objective.unit})")
+
+    def costs(drawn: Sequence[Trial]) -> list[float]:
+        return [cost.shown(cost.of(trial)) for trial in drawn]
+
+    axes.plot(costs(feasible), _scores(feasible), ".", ms=4, color=GREY, label="other designs")
+    best = front(trials, cost)
+    axes.plot(costs(best), _scores(best), ".-", color=BLUE, drawstyle="steps-post", label="front")
+    labels(axes, f"{cost.figure.meaning} ({cost.figure.unit})", f"{objective.meaning} ({objective.unit})")
     axes.legend()
     return figure
 

@@ -10,6 +10,8 @@ from typing import Any
 
 from jumpcad.design import Design
 from jumpcad.search.evaluator import Evaluator, ignore
+from jumpcad.search.fronts import described_cost, front
+from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import Evaluation, Objective, described_objective
 from jumpcad.search.robust import MOST_PICK, ROUNDS, ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.space import Space
@@ -93,7 +95,8 @@ def known(store: StudyStore) -> Known:
     if share and best is not None:
         identity = store.identity
         making = Making(**identity.get("making") or {"length_mm": identity.get("tolerance_mm", 0.0)})
-        candidates = rank_candidates(replay, trials, identity["seed"], making, share)
+        among = front(trials, described_cost(identity)) if identity["method"] in FRONTS else None
+        candidates = rank_candidates(replay, trials, identity["seed"], making, share, among)
     winner = candidates[0].trial if candidates else best
     bounds = [] if winner is None else active_bounds(replay, winner, 0)
     return Known(replay.space, replay.objective, trials, winner, candidates, bounds, trial_numbers(held))

@@ -11,6 +11,7 @@ from jumpcad.arguments import require_fields
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
+from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
@@ -66,6 +67,9 @@ class Request:
         `WIDENING_SHARE` of the evaluations.
     screen
         Whether a quick guess leaves out candidates of the genetic algorithm; see `Screen`. They count as evaluations.
+    against
+        What a front weighs the objective against: a name of `jumpcad.search.COSTS`, of which less is better, or of
+        another objective.
     """
 
     space: Space
@@ -83,6 +87,7 @@ class Request:
     hours: float = 0.0
     widen: bool = False
     screen: bool = False
+    against: str = SPRING_ENERGY.name
 
     @classmethod
     def make(
@@ -91,18 +96,24 @@ class Request:
         model: RobotModel,
         method: str | None = None,
         objective: str | Callable[..., Any] | None = None,
+        against: str | None = None,
         **others: Any,
     ) -> Self:
         """Return a request with defaults that follow from method and model.
 
         The default method is `bo`, the objective the model's (`range` of a front), the tolerances those of the
-        workshop. An own objective is a function, or `FILE.py:FUNCTION`.
+        workshop. A front is against electrical energy if the robot is printed, else against that in the springs. An own
+        objective is a function, or `FILE.py:FUNCTION`.
         """
+        if against is not None and method not in FRONTS:
+            raise JumpcadError(f"against: does not apply to {method or DEFAULT}, only to {', '.join(FRONTS)}")
+        printed_front = model.name == "printed" and method in FRONTS
+        against = against or (ELECTRICAL_ENERGY if printed_front else SPRING_ENERGY).name
         model, aim = model.aiming_at(objective, "range" if method in FRONTS else "")
         own = aim if aim.code else None
         if model.name == "printed" and (others.get("screen") or method not in ("ga", "nsga2")):
             model = replace(model, stand_in=True)
-        return cls(space, model, aim.name, method or DEFAULT, making=model.making, own=own, **others)
+        return cls(space, model, aim.name, method or DEFAULT, making=model.making, own=own, against=against, **others)
 
     def __post_init__(self) -> None:
         require_fields(self)
@@ -124,11 +135,19 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
         if isinstance(self.model, RobotModel):
             self.model.require_figures(self.aim)
+            if self.is_front and self.cost.of_design is None:
+                self.model.require_figures(self.cost.figure)
+        if self.is_front and self.against == self.objective:
+            raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
         if self.screen:
             self._require_screen()
         if self.widen and self.is_front:
             raise JumpcadError(f"widen: does not apply to {self.method}, which has no best design")
-        if self.is_front and any(one.name == "bought.spring" for one in self.space.of_workshop):
+        if (
+            self.is_front
+            and self.cost is SPRING_ENERGY
+            and any(one.name == "bought.spring" for one in self.space.of_workshop)
+        ):
             raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
         stages = [*_methods(self.method), *([WIDER] if self.widen else [])]
         if self.until_percent not in (0.0, UNTIL_PERCENT) and not METHODS[stages[-1]].ends:
@@ -160,15 +179,16 @@ class Request:
     @property
     def title(self) -> str:
         """Method, robot and objective in words."""
-        return f"{self.method} on the {self.model.describe()['name']} robot, {self.objective}"
+        against = f" against {self.against}" if self.is_front else ""
+        return f"{self.method} on the {self.model.describe()['name']} robot, {self.objective}{against}"
 
     @property
     def pick(self) -> int:
         """How many of the evaluations examine the neighbours and the bounds of the best designs.
 
-        None for a front, nor where the objective looks at neighbours itself.
+        None where the objective looks at neighbours itself. Of a front, all that are left examine neighbours.
         """
-        return 0 if self.is_front or self.aim.neighbours_of else pick_share(self.evaluations)
+        return 0 if self.aim.neighbours_of else pick_share(self.evaluations)
 
     @property
     def searched(self) -> int:
@@ -186,6 +206,11 @@ class Request:
         return self.own or find_objective(self.objective)
 
     @property
+    def cost(self) -> Cost:
+        """What a front weighs the objective against."""
+        return find_cost(self.against)
+
+    @property
     def is_front(self) -> bool:
         """Whether a front is searched, not one best design."""
         return self.method in FRONTS
@@ -196,6 +221,7 @@ class Request:
         return {
             "model": self.model.describe(),
             **self.aim.describe(),
+            **(self.cost.describe() if self.is_front else {}),
             "method": self.method,
             "space": self.space.describe(),
             "seed": self.seed,

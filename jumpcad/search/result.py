@@ -9,7 +9,7 @@ from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_atomically
-from jumpcad.search.fronts import energy_j, front, hypervolume
+from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import RobotModel
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
@@ -39,7 +39,7 @@ class Result:
     best
         The trial with the highest score; None where no design jumps.
     candidates
-        The best designs with the scores of their neighbours, most robust first; none for a front.
+        The best designs, or those of the front, with the scores of their neighbours, most robust first.
     bounds
         Bounds of the search on which the winner lies.
     notes
@@ -96,13 +96,13 @@ class Result:
 
     @property
     def front(self) -> list[Trial]:
-        """The trials that no other one beats with less spring energy, sorted by energy."""
-        return front(self.trials)
+        """The trials that no other one beats at less cost (see `Request.against`), sorted by cost."""
+        return front(self.trials, self.request.cost)
 
     @property
     def hypervolume(self) -> float:
-        """The area that the front dominates (score units times J)."""
-        return hypervolume(self.trials)
+        """The area that the front dominates (units of the score times those of the cost)."""
+        return hypervolume(self.trials, cost=self.request.cost)
 
     @property
     def rejected(self) -> dict[str, int]:
@@ -164,7 +164,8 @@ class Result:
             "notes": self.notes,
         }
         if self.request.is_front:
-            data |= {"front": [trial.to_dict() for trial in self.front], "hypervolume": self.hypervolume}
+            data |= {"against": self.request.against, "front": [trial.to_dict() for trial in self.front]}
+            data["hypervolume"] = self.hypervolume
         return data
 
     def __repr__(self) -> str:
@@ -182,7 +183,8 @@ class Result:
         if self.request.is_front:
             yield "hypervolume", f"{self.hypervolume:.4g}"
             for trial in self.front:
-                yield f"with {energy_j(trial.design):.4f} J in the springs", f"{trial.score:.4g}"
+                cost = self.request.cost
+                yield f"{cost.figure.meaning} {cost.shown(cost.of(trial)):.4g} {cost.figure.unit}", f"{trial.score:.4g}"
         elif self.winner is not None:
             yield self.request.objective, f"{self.score:.4g} {self.request.aim.unit}"
         if self.candidates:

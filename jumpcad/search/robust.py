@@ -126,7 +126,12 @@ def plan_rounds(evaluations: int) -> list[tuple[int, int]]:
 
 
 def rank_candidates(
-    evaluator: Evaluator, trials: Sequence[Trial], seed: int, making: Making, evaluations: int
+    evaluator: Evaluator,
+    trials: Sequence[Trial],
+    seed: int,
+    making: Making,
+    evaluations: int,
+    among: Sequence[Trial] | None = None,
 ) -> list[Candidate]:
     """Evaluate neighbours of the best of some trials, and return these, those that got farthest and do not fail first.
 
@@ -144,11 +149,14 @@ def rank_candidates(
         Tolerances of making.
     evaluations
         At most so many designs are evaluated.
+    among
+        The trials that may be candidates, such as those of a front, which no design joins; all if None.
     """
     first = ROUNDS * ((MOST_PICK + 1) * len(trials) + evaluations)
-    reserve = JOINING * 3 if evaluations >= LEAST_TO_JOIN else 0
+    reserve = JOINING * 3 if evaluations >= LEAST_TO_JOIN and among is None else 0
     rounds = plan_rounds(evaluations - reserve)
-    field = [_Examined(index, one) for index, one in enumerate(best_apart(evaluator.space, trials, rounds[0][0]))]
+    best = best_apart(evaluator.space, trials if among is None else among, rounds[0][0])
+    field = [_Examined(index, one) for index, one in enumerate(best)]
     left: list[_Examined] = []
     for turn, (count, new) in enumerate(rounds):
         ranked = _ranked(field, left)

@@ -12,6 +12,7 @@ from pathlib import Path
 from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
+from jumpcad.search.fronts import front
 from jumpcad.search.methods import METHODS, STEPS, Task
 from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.pool import Pool
@@ -118,7 +119,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 least_gain = request.until_percent / 100.0 if may_end else 0.0
                 task = Task(
                     stage.evaluations - (len(evaluator.trials) - before), request.seed, stage.initial, request.batch,
-                    request.preset, least_gain, first_step, request.screen,
+                    request.preset, least_gain, first_step, request.screen, request.against,
                 )  # fmt: skip
                 converged = METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
@@ -127,10 +128,13 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             timed = [f"ended after {request.hours:g} h, before {request.searched} designs: the same command goes on"]
         best = best_trial(trials)
         candidates, bounds = [], []
-        if request.pick and best is not None:
+        if request.pick and best is not None and request.is_front:
+            among = front(trials, request.cost)
+            candidates = rank_candidates(evaluator, trials, request.seed, request.making, request.pick, among)
+        elif request.pick and best is not None:
             share = request.pick - min(request.space.dimension, request.pick // 4)
             candidates = rank_candidates(evaluator, trials, request.seed, request.making, share)
-        if candidates:
+        if candidates and not request.is_front:
             left = request.pick - (len(evaluator.trials) - len(trials))
             bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
         notes = [*store.notes(), *timed]

@@ -1,4 +1,4 @@
-"""Score against energy of the springs as SVG inside a page: every point of a shown design is a link to its robot."""
+"""Score against a cost as SVG inside a page: every point of a shown design is a link to its robot."""
 
 import math
 from collections.abc import Sequence
@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from jumpcad.search.fronts import energy_j, front
+from jumpcad.search.fronts import Cost, front
 from jumpcad.search.objective import Objective
 from jumpcad.search.page_axes import Axes, evenly, scale
 from jumpcad.search.page_text import written
@@ -19,7 +19,12 @@ RADIUS, LEAST_RADIUS, TOUCHED = 6.0, 3.5, 13.0
 
 
 def chart(
-    trials: Sequence[Trial], shown: Sequence[Trial], numbers: Sequence[int], objective: Objective, is_front: bool
+    trials: Sequence[Trial],
+    shown: Sequence[Trial],
+    numbers: Sequence[int],
+    objective: Objective,
+    cost: Cost,
+    is_front: bool,
 ) -> str:
     """Return the chart.
 
@@ -33,27 +38,33 @@ def chart(
         Their numbers as trials of the study.
     objective
         The score's objective.
+    cost
+        What the score is drawn against.
     is_front
         Whether to draw the line of the front.
     """
-    feasible = [trial for trial in trials if trial.score is not None and np.isfinite(energy_j(trial.design))]
-    every = [*feasible, *shown]
-    axes = Axes(scale([energy_j(one.design) for one in every]), scale([one.score or 0.0 for one in every]))
+    feasible = [trial for trial in trials if trial.score is not None and np.isfinite(cost.of(trial))]
+
+    def place(trial: Trial) -> tuple[float, float]:
+        return cost.shown(cost.of(trial)), trial.score or 0.0
+
+    x_values, y_values = zip(*map(place, [*feasible, *shown]), strict=True)
+    axes = Axes(scale(list(x_values)), scale(list(y_values)))
     meaning = f"{objective.meaning} ({objective.unit})"
-    others = [_values(feasible[index]) for index in evenly(len(feasible), MOST_DOTS)]
+    others = [place(feasible[index]) for index in evenly(len(feasible), MOST_DOTS)]
     lines = [
         f'<svg class="chart" viewBox="0 0 {axes.width:g} {axes.height:g}" role="group" '
-        f'aria-label="{written(meaning)} over spring energy">',
-        *axes.drawn("energy in the springs (J)", meaning),
+        f'aria-label="{written(meaning)} over {written(cost.figure.meaning)}">',
+        *axes.drawn(f"{cost.figure.meaning} ({cost.figure.unit})", meaning),
         axes.dots(others, "other"),
     ]
     if is_front:
-        lines.append(axes.steps([_values(trial) for trial in front(feasible)], "front"))
-    places = [(axes.x(x), axes.y(y)) for x, y in map(_values, shown)]
+        lines.append(axes.steps([place(trial) for trial in front(feasible, cost)], "front"))
+    places = [(axes.x(x), axes.y(y)) for x, y in map(place, shown)]
     for number, ((x, y), radius, trial, of_study) in enumerate(
         zip(places, _radii(places), shown, numbers, strict=True), start=1
     ):
-        figures = f"{trial.score:.4g} {objective.unit} with {energy_j(trial.design):.3f} J"
+        figures = f"{trial.score:.4g} {objective.unit} with {cost.shown(cost.of(trial)):.3f} {cost.figure.unit}"
         said = written(f"design {number} (trial {of_study}): {figures}")
         at = f'cx="{x:.1f}" cy="{y:.1f}"'
         lines.append(
@@ -63,10 +74,6 @@ def chart(
     for number, (x, y) in enumerate(places, start=1):  # above all points, so that the chosen one is seen among others
         lines.append(f'<circle class="of" data-of="{number}" cx="{x:.1f}" cy="{y:.1f}" r="9" />')
     return "\n".join([*lines, "</svg>"])
-
-
-def _values(trial: Trial) -> tuple[float, float]:
-    return energy_j(trial.design), trial.score or 0.0
 
 
 def _radii(places: Sequence[tuple[float, float]]) -> list[float]:

@@ -13,7 +13,7 @@ import numpy as np
 from jumpcad.arguments import typed
 from jumpcad.files.templates import templates_folder
 from jumpcad.search.figures import MEANINGS, svg_text
-from jumpcad.search.fronts import REFERENCE_ENERGY_J, energy_j, front, hypervolume
+from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
 from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import Objective
 from jumpcad.search.page_text import broken, table, written
@@ -58,7 +58,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
     style = "".join((folder / file).read_text(encoding="ascii") for file in ("style.css", "study.css"))
     program = (folder / "study.js").read_text(encoding="ascii")
     found, title = known(store), written(name)
-    shown = _shown(found, store.identity["method"] in FRONTS)
+    shown = _shown(found, described_cost(store.identity) if store.identity["method"] in FRONTS else None)
     return "\n".join(
         [
             "<!DOCTYPE html>",
@@ -121,7 +121,7 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
     yield "<h2>What was asked</h2>"
     yield (
         f"<p>The highest {written(identity['objective'])} ({written(objective.meaning)}, {written(objective.unit)})"
-        f"{' against the energy of the springs' if identity['method'] in FRONTS else ''}, "
+        f"{f' against {described_cost(identity).figure.meaning}' if identity['method'] in FRONTS else ''}, "
         f"searched by {written(', then '.join(stages) or identity['method'])}.</p>"
     )
     rows = []
@@ -131,7 +131,7 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
         meaning, name = written(meaning_of(parameter.name)), parameter.name
         rows.append([broken(name), meaning, written(searched), with_unit(value, name) if value else ""])
     yield from table(
-        ("parameter", "meaning", "searched", "highest" if identity["method"] in FRONTS else "winner"),
+        ("parameter", "meaning", "searched", "highest" if identity["method"] in FRONTS and not found.candidates else "winner"),
         rows,
         numbers=(3,),
     )
@@ -151,16 +151,17 @@ def _plain(value: Value) -> str:
 
 def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[str]:
     """Yield the best designs: chart, side views, table."""
-    objective, is_front = found.objective, store.identity["method"] in FRONTS
+    objective, is_front, cost = found.objective, store.identity["method"] in FRONTS, described_cost(store.identity)
     if not shown:
         return
     yield f"<h2>{'The front' if is_front else 'The best designs'}</h2>"
     if is_front:
-        area = hypervolume(found.trials)
-        yield f"<p>{MEANINGS['pareto']} {written(_reach(shown, objective))} The area below its line, up to "
-        yield f"{REFERENCE_ENERGY_J:g} J, is {area:.4g} {written(objective.unit)}·J (hypervolume); of two searches, "
-        yield "the better one has more.</p>"
-        if len(shown) < (whole := len(front(found.trials))):
+        area, unit = hypervolume(found.trials, cost=cost), written(cost.figure.unit)
+        end = f"{'up' if cost.less_is_better else 'down'} to {cost.shown(cost.reference):g} {unit}"
+        yield f"<p>{MEANINGS['pareto']} {written(_reach(shown, objective, cost))} The area below its line, {end}, "
+        yield f"is {area:.4g} {written(objective.unit)}·{unit} (hypervolume); of two searches, the better one has "
+        yield "more.</p>"
+        if len(shown) < (whole := len(front(found.trials, cost))):
             yield f"<p>{len(shown)} of its {whole} designs are shown, evenly chosen along it.</p>"
     else:
         yield "<p>Score against the energy in the springs: the rings are the designs of the table below, the small "
@@ -173,7 +174,7 @@ def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[s
     yield f"The page opens on design {first} (trial {numbers[first - 1]}), {which}; the number of a trial is that of "
     yield "<code>jumpcad study</code> and <code>jumpcad studio</code>.</p>"
     yield '<div class="map">'
-    yield chart(found.trials, shown, numbers, objective, is_front)
+    yield chart(found.trials, shown, numbers, objective, cost, is_front)
     yield f'<div id="robots" data-first="{first}" aria-live="polite">'
     yield '<p id="turn" hidden="hidden"><button type="button" id="before">Previous'
     yield '</button> <button type="button" id="after">Next</button></p>'
@@ -182,9 +183,10 @@ def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[s
     yield from _designs(found, shown, numbers)
 
 
-def _shown(found: Known, is_front: bool) -> list[Trial]:
-    if is_front:
-        best = front(found.trials)
+def _shown(found: Known, of_front: Cost | None) -> list[Trial]:
+    """Return the designs that are shown: those of a front against a cost, or the best ones."""
+    if of_front is not None:
+        best = front(found.trials, of_front)
         places = np.linspace(0, len(best) - 1, min(len(best), MOST_SHOWN))
         return [best[round(place)] for place in places.tolist()]
     return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
@@ -192,7 +194,7 @@ def _shown(found: Known, is_front: bool) -> list[Trial]:
 
 def _are_candidates(found: Known, shown: Sequence[Trial]) -> bool:
     """Return whether the shown designs are those whose neighbours were examined."""
-    return bool(found.candidates) and shown[0] is found.candidates[0].trial
+    return [one.trial for one in found.candidates] == list(shown)
 
 
 def _first(shown: Sequence[Trial], is_front: bool) -> int:
@@ -200,12 +202,16 @@ def _first(shown: Sequence[Trial], is_front: bool) -> int:
     return len(shown) if is_front else 1
 
 
-def _reach(shown: Sequence[Trial], objective: Objective) -> str:
+def _reach(shown: Sequence[Trial], objective: Objective, cost: Cost) -> str:
     """Return from where to where a front goes, in words."""
     low, high = shown[0], shown[-1]
     half = next(trial for trial in shown if (trial.score or 0.0) >= 0.5 * (high.score or 0.0))
-    ends = [f"{one.score:.3g} {objective.unit} with {energy_j(one.design):.3g} J" for one in (low, high)]
-    return f"Here it goes from {ends[0]} to {ends[1]}; half of the highest score takes {energy_j(half.design):.3g} J."
+
+    def spent(trial: Trial) -> str:
+        return f"{cost.shown(cost.of(trial)):.3g} {cost.figure.unit}"
+
+    ends = [f"{one.score:.3g} {objective.unit} with {spent(one)}" for one in (low, high)]
+    return f"Here it goes from {ends[0]} to {ends[1]}; half of the highest score comes with {spent(half)}."
 
 
 def _designs(found: Known, shown: Sequence[Trial], numbers: Sequence[int]) -> Iterator[str]:

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from jumpcad.arguments import typed
 from jumpcad.search import plots
 from jumpcad.search.figures import save_figure
+from jumpcad.search.fronts import described_cost
 from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import described_objective
 from jumpcad.search.posterior import SearchPosterior
@@ -34,7 +35,7 @@ def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[],
     if trials and space.dimension > 1:
         figures["parallel"] = partial(plots.parallel, space, trials)
     if trials and identity["method"] in FRONTS:
-        figures["pareto"] = partial(plots.pareto, trials, objective)
+        figures["pareto"] = partial(plots.pareto, trials, objective, described_cost(identity))
     if space.dimension <= 2:
         for name, number, count in _moments(trials):
             posterior = SearchPosterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=())

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from jumpcad.building import build
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.search.fronts import energy_j, front
+from jumpcad.search.fronts import described_cost, front
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import described_objective
 from jumpcad.search.store import StudyStore
@@ -33,7 +33,7 @@ class Points:
             self.trials, identity = store.trials(), store.identity
         if not self.trials:
             raise JumpcadError(f"{file}: this study has no trial yet")
-        self._unit = described_objective(identity).unit
+        self._unit, self._cost = described_objective(identity).unit, described_cost(identity)
         self._held = identity["model"].get("workshop")
         self._numbers = trial_numbers(self.trials)
 
@@ -62,8 +62,10 @@ class Points:
             for place, trial in enumerate(feasible_trials(proposed)[:BEST], start=1)
         }
         return best | {
-            f"front, {1000.0 * energy_j(trial.design):.1f} mJ: {self._listed(trial)}": self.number(trial)
-            for trial in front(proposed)
+            f"front, {self._cost.shown(self._cost.of(trial)):.4g} {self._cost.figure.unit}: {self._listed(trial)}": (
+                self.number(trial)
+            )
+            for trial in front(proposed, self._cost)
         }
 
     def listed_as(self, number: int, otherwise: str) -> str:

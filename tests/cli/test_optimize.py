@@ -21,6 +21,7 @@ from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search import study
+from jumpcad.search.fronts import find_cost
 from jumpcad.search.models import robot_model
 from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.space import Space
@@ -213,7 +214,7 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     aim = SimpleNamespace(neighbours_of="")
     request = SimpleNamespace(
         aim=aim, searched=180, until_percent=0.05, space=SimpleNamespace(size=1000), is_front=True, objective="range",
-        making=SimpleNamespace(words="lengths ±0.2 mm"),
+        making=SimpleNamespace(words="lengths ±0.2 mm"), cost=find_cost("spring-energy"),
     )  # fmt: skip
     result = SimpleNamespace(
         request=request, evaluations=10, trials=[trial] * 7, rejected={"loop": 2, "tips": 1}, converged=True,
@@ -234,7 +235,7 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
         "7 designs evaluated, and 3 for the robust pick; rejected: loop 2, tips 1",
         "ended before 180: in its last steps less than 0.05 % of the best score was gained; --until 0 goes on",
         "note: a note",
-        "range against spring energy; hypervolume 0.2500",
+        "range against energy in the springs; hypervolume 0.2500",
     ]
     assert told[4] == f"{design.spring_energy_j:.4f} J 1.5000"
     assert told[5] == f"{weaker.design.spring_energy_j:.4f} J 0.7500"

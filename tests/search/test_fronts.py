@@ -7,7 +7,18 @@ import pytest
 from pygad.utils.quality_indicators import hypervolume as reference_hypervolume
 
 from jumpcad.design import Design
-from jumpcad.search.fronts import REFERENCE_ENERGY_J, energies_j, energy_j, front, hypervolume
+from jumpcad.errors import JumpcadError
+from jumpcad.search.fronts import (
+    COSTS,
+    REFERENCE_ENERGY_J,
+    SPRING_ENERGY,
+    described_cost,
+    energies_j,
+    energy_j,
+    find_cost,
+    front,
+    hypervolume,
+)
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -77,3 +88,31 @@ def test_of_two_designs_with_equal_energy_only_the_better_one_is_on_the_front(tr
     worse, better = replace(first, score=1.0), replace(first, design=longer, score=2.0)
     assert energy_j(worse.design) == energy_j(better.design)
     assert front([worse, better]) == front([better, worse]) == [better]
+
+
+@pytest.mark.parametrize(("against", "figure", "sign"), [("mass", "mass_kg", 1.0), ("rise", "com_rise_m", -1.0)])
+def test_a_front_of_two_figures_is_what_nothing_dominates(trials, against, figure, sign):
+    """Of a cost less is better, of another objective more; a trial without the figure is on no front."""
+    generator, cost = np.random.default_rng(1), find_cost(against)
+    weighed = [replace(one, evaluation=Evaluation("jump", {figure: float(generator.random())})) for one in trials]
+    points = [(one.score, sign * one.evaluation.metrics[figure]) for one in weighed if one.score is not None]
+    brute = {
+        (score, spent)
+        for score, spent in points
+        if not any((s >= score and e <= spent) and (s, e) != (score, spent) for s, e in points)
+    }
+    assert {(one.score, cost.of(one)) for one in front(weighed, cost)} == brute
+    assert all(cost.shown(cost.of(one)) == one.evaluation.metrics[figure] for one in weighed)
+    theirs = reference_hypervolume(np.array([[s, -e] for s, e in points]), [0.0, -1.0])
+    assert hypervolume(weighed, 1.0, cost) == pytest.approx(theirs, rel=1e-12)
+    assert cost.of(trials[0]) == np.inf
+
+
+def test_costs_are_found_by_name_and_by_what_a_study_remembers():
+    """Studies of before remember none: theirs was energy in the springs."""
+    assert described_cost({}) is SPRING_ENERGY is find_cost("spring-energy")
+    assert SPRING_ENERGY.describe() == {}
+    for name in (*COSTS, "rise", "range"):
+        assert described_cost(find_cost(name).describe()).name == name
+    with pytest.raises(JumpcadError, match=r"^against = 'mas' is none of electrical-energy, .*did you mean mass"):
+        find_cost("mas")

@@ -22,6 +22,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.study import run_study
 from jumpcad.search.tolerances import Making
 from jumpcad.search.versions import versions
+from jumpcad.workshop import load_workshop
 
 
 @pytest.mark.parametrize(
@@ -202,7 +203,8 @@ def test_a_request_is_told_by_method_robot_and_objective():
     assert repr(plain) == "<Request ga on the hill robot, range: 40 evaluations, 3 parameters free>"
     assert (plain.pick, plain.searched, plain.is_front, plain.guessed) == (10, 30, False, False)
     front = Request(SMALL, Hill(), "range", "nsga2", 40)
-    assert (front.pick, front.searched, front.is_front) == (0, 40, True)
+    assert (front.pick, front.searched, front.is_front) == (10, 30, True)
+    assert front.title == "nsga2 on the hill robot, range against spring-energy"
     quantile = Request(SMALL, Hill(), "p10-range", "ga", 40)
     assert (quantile.pick, quantile.searched, quantile.aim.neighbours_of) == (0, 40, "range")
 
@@ -255,3 +257,25 @@ def test_more_evaluations_are_another_study_where_stages_share_them(method: str,
     """A search in one stage goes on in its own file."""
     names = {Request(SMALL, Hill(), method=method, evaluations=count).default_name() for count in (100, 200)}
     assert len(names) == 1 + other
+
+
+def test_what_a_front_is_against_follows_from_the_robot_and_is_refused_elsewhere():
+    """The winding takes electricity where there is a motor: in printed robots."""
+    printed, capsule = robot_model(), robot_model("capsule")
+    assert Request.make(Space.default(), printed, "pareto").against == "electrical-energy"
+    assert Request.make(Space.default(), capsule, "pareto").against == "spring-energy"
+    light = Request.make(Space.default(), capsule, "nsga2", against="mass")
+    assert light.identity([])["against"] == "mass"
+    assert "against" not in Request.make(Space.default(), capsule, "nsga2").identity([])
+    for method, model, against, said in (
+        ("bo", printed, "mass", "against: does not apply to bo, only to pareto, nsga2"),
+        ("pareto", capsule, "electrical-energy", "needs electrical_energy_j, which this model does not give"),
+        ("pareto", capsule, "range", "against = 'range' is the objective itself"),
+        ("pareto", capsule, "weight", "against = 'weight' is none of electrical-energy"),
+    ):
+        with pytest.raises(JumpcadError, match=said):
+            Request.make(Space.default(), model, method, against=against)
+    spring = Space.make(choices={"bought.spring": ["", "9271K619"]}, workshop=load_workshop())
+    assert Request.make(spring, printed, "pareto").cost.name == "electrical-energy"
+    with pytest.raises(JumpcadError, match=r"bought\.spring: a front against spring energy"):
+        Request.make(spring, printed, "pareto", against="spring-energy")

@@ -30,7 +30,11 @@ def test_a_front_has_its_trials_and_its_own_objective():
     assert found.request.objective == "range"
     assert energies == sorted(energies)
     assert found.hypervolume > 0.0
-    assert found.candidates == []
+    assert len(found.trials) == 30
+    assert found.evaluations == 40
+    assert {one.trial.key for one in found.candidates} <= {trial.key for trial in found.front}
+    assert found.winner is found.candidates[0].trial
+    assert found.bounds == []
 
 
 def test_where_nothing_jumps_the_trials_are_kept_and_the_design_is_asked_for_in_vain(tmp_path):
@@ -124,8 +128,8 @@ def test_of_a_front_the_trials_come_with_their_hypervolume() -> None:
     assert data["hypervolume"] == pytest.approx(4.0 * (high - low) + 5.0 * (1.5 - high))
     lines = dict(result._lines())
     assert lines["hypervolume"] == f"{data['hypervolume']:.4g}"
-    assert lines[f"with {low:.4f} J in the springs"] == "4"
-    assert lines[f"with {high:.4f} J in the springs"] == "5"
+    assert lines[f"energy in the springs {low:.4g} J"] == "4"
+    assert lines[f"energy in the springs {high:.4g} J"] == "5"
 
 
 def test_a_notebook_shows_what_was_evaluated_won_and_rejected() -> None:

@@ -5,6 +5,7 @@ import re
 import pytest
 
 from jumpcad.design import load_design
+from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.page_axes import Axes, scale
 from jumpcad.search.study_chart import _radii, chart
@@ -30,7 +31,7 @@ def test_points_are_as_large_as_their_neighbours_leave_them() -> None:
 def test_every_shown_design_is_a_link_at_its_energy_and_score(is_front: bool) -> None:
     trials = [trial(1.0, 0.3), trial(None, 0.4), trial(0.5, 0.5), trial(4.0, 0.6)]
     shown, numbers = [trials[0], trials[3]], [7, 12]
-    page = chart(trials, shown, numbers, find_objective("range"), is_front)
+    page = chart(trials, shown, numbers, find_objective("range"), SPRING_ENERGY, is_front)
     energies = [one.design.spring_energy_j for one in (trials[0], trials[2], trials[3])]
     axes = Axes(scale([*energies, energies[0], energies[2]]), scale([1.0, 0.5, 4.0, 1.0, 4.0]))
     places = [(axes.x(energy), axes.y(score)) for energy, score in zip(energies, (1.0, 0.5, 4.0), strict=True)]

@@ -16,7 +16,7 @@ from support.studies import IDENTITY
 from jumpcad.design import load_design
 from jumpcad.search import study_lessons, study_page
 from jumpcad.search.explore import Importance
-from jumpcad.search.fronts import front, hypervolume
+from jumpcad.search.fronts import SPRING_ENERGY, front, hypervolume
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.replay import Known, known
@@ -125,7 +125,7 @@ def test_says_what_was_asked_and_found(studies):
 
 def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(studies):
     with StudyStore.read(studies / "nsga2.db") as store:
-        best = front(store.trials())
+        best = front([trial for trial in store.trials() if trial.phase == "nsga2"])
     root = parsed(known_page_of(studies / "nsga2.db"))
     sections = [one for one in root.iter("section") if one.get("class") == "design"]
     points = list(next(root.iter("svg")).iter("a"))
@@ -347,7 +347,7 @@ def test_each_parameter_stands_with_what_was_searched_and_won():
         front = words(study_page._asked(made_up("nsga2")[0], found))
     said = words(lines)
     assert "The highest range (range of the jump, m), searched by ga, 3 designs, then bo, 4 designs." in said
-    assert "against the energy of the springs" in front
+    assert "against energy in the springs" in front
     assert front.count("highest") == 2
     rows = [re.findall(r"<td[^>]*>(.*?)</td>", line) for line in lines]
     rows = {words([row[0]]).replace("_ ", "_"): row[2:] for row in rows if row}
@@ -361,8 +361,8 @@ def test_a_front_is_told_from_end_to_end_and_where_half_of_it_is_reached():
     scored = zip((1.0, 1.9, 2.1, 4.0), (0.2, 0.3, 0.4, 0.5), strict=True)
     shown = [shown_trial(score, n, compression_ratio=ratio) for n, (score, ratio) in enumerate(scored)]
     low, half, high = (f"{shown[n].design.spring_energy_j:.3g} J" for n in (0, 2, 3))
-    assert study_page._reach(shown, find_objective("range")) == (
-        f"Here it goes from 1 m with {low} to 4 m with {high}; half of the highest score takes {half}."
+    assert study_page._reach(shown, find_objective("range"), SPRING_ENERGY) == (
+        f"Here it goes from 1 m with {low} to 4 m with {high}; half of the highest score comes with {half}."
     )
     assert [study_page._first(shown, front) for front in (True, False)] == [4, 1]
 
@@ -370,12 +370,12 @@ def test_a_front_is_told_from_end_to_end_and_where_half_of_it_is_reached():
 def test_designs_that_are_shown_are_the_front_the_candidates_or_the_best():
     """Of a long front a hundred, evenly chosen, with both ends."""
     _, found = made_up()
-    assert study_page._shown(found, False) == [TRIALS[1], TRIALS[3], TRIALS[0]]
-    assert study_page._shown(found, True) == [TRIALS[0], TRIALS[3], TRIALS[1]]
+    assert study_page._shown(found, None) == [TRIALS[1], TRIALS[3], TRIALS[0]]
+    assert study_page._shown(found, SPRING_ENERGY) == [TRIALS[0], TRIALS[3], TRIALS[1]]
     candidate = Candidate(TRIALS[3], 1.0, 2.0, {}, 4)
-    assert study_page._shown(replace(found, candidates=[candidate]), False) == [TRIALS[3]]
+    assert study_page._shown(replace(found, candidates=[candidate]), None) == [TRIALS[3]]
     many = [shown_trial(1.0 + n, n, compression_ratio=0.2 + 0.001 * n) for n in range(199)]
-    places = [trial.place for trial in study_page._shown(replace(found, trials=many), True)]
+    places = [trial.place for trial in study_page._shown(replace(found, trials=many), SPRING_ENERGY)]
     assert places == list(range(0, 199, 2))
 
 
@@ -419,8 +419,8 @@ def test_the_area_of_a_long_front_is_that_of_all_its_designs():
     numbers = {trial.position: n for n, trial in enumerate(many, start=1)}
     whole = replace(found, trials=many, numbers=numbers)
     with store:
-        said = words(study_page._best(store, whole, study_page._shown(whole, True)))
-    assert f"{hypervolume(many):.4g}" != f"{hypervolume(study_page._shown(whole, True)):.4g}"
+        said = words(study_page._best(store, whole, study_page._shown(whole, SPRING_ENERGY)))
+    assert f"{hypervolume(many):.4g}" != f"{hypervolume(study_page._shown(whole, SPRING_ENERGY)):.4g}"
     assert f"The area below its line, up to 1.5 J, is {hypervolume(many):.4g} m·J (hypervolume)" in said
     assert "100 of its 150 designs are shown, evenly chosen along it." in said
     assert "The page opens on design 100 (trial 150), the one with the highest score" in said

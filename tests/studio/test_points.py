@@ -34,7 +34,7 @@ def test_best_and_front_are_listed(study: Path) -> None:
     assert Points(study).best == 1
     for text, number in listed.items():
         design = Points(study).trial(number).design
-        assert text.startswith((f"front, {1000.0 * design.spring_energy_j:.1f} mJ: ", "best "))
+        assert text.startswith((f"front, {design.spring_energy_j:.4g} J: ", "best "))
 
 
 def test_the_workshop_is_that_of_the_study_with_the_trials_values(tmp_path: Path) -> None:

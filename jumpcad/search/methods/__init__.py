@@ -38,6 +38,8 @@ class Task:
         Number of its first step in the study file: a method may run several times in a study.
     screen
         Whether a quick guess leaves out candidates of the genetic algorithm.
+    against
+        What a front weighs the score against: a name of `fronts.find_cost`.
     """
 
     evaluations: int
@@ -48,6 +50,7 @@ class Task:
     least_gain: float = 0.0
     first_step: int = 0
     screen: bool = False
+    against: str = "spring-energy"
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,7 @@ class Method:
     meaning
         Description in the help.
     front
-        Whether it searches a front of score against spring energy, not one best design.
+        Whether it searches a front of score against a cost, not one best design.
     learns
         Whether it fits a surrogate: it then starts with evenly spread designs, and each proposal carries the
         hyperparameters (`theta`) with which the next step starts.
@@ -95,7 +98,13 @@ METHODS = {
     for method in (
         Method("ga", "genetic.run_genetic", "genetic algorithm"),
         Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True, ends=True),
-        Method("pareto", "pareto.run_pareto", "front of range against spring energy", front=True, learns=True),
+        Method(
+            "pareto",
+            "pareto.run_pareto",
+            "front of two figures, such as range against electrical energy",
+            front=True,
+            learns=True,
+        ),
         Method("paper", "paper.run_paper", "the published study's stages", shares=True, least=7),
         Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
     )

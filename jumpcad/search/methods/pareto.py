@@ -1,7 +1,8 @@
-"""Fronts of score against spring energy.
+"""Fronts of score against a cost.
 
-The energy of the loaded springs is a closed form of the design, so only the score is unknown. For each of a few caps on
-the energy, the expected improvement over the best design below that cap proposes one design per step (ε-constraint).
+For each of a few caps on the cost, the expected improvement over the best design below that cap proposes one design per
+step (ε-constraint). The energy of the loaded springs is a closed form of the design, so that only the score is unknown;
+any other cost is learned by a process of its own, and the improvement counts as often as the cap is probably kept.
 """
 
 import itertools
@@ -10,21 +11,25 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from scipy.special import log_ndtr
 
 from jumpcad.design import PARAMETERS
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.fronts import energies_j, energy_j
+from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, find_cost
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.bayesian import incumbent, run_steps, unproposed
+from jumpcad.search.methods.bayesian import incumbent, learned_trials, run_steps, unproposed
 from jumpcad.search.methods.genetic import Fitness, evolve
 from jumpcad.search.space import Space
+from jumpcad.search.surrogate import Surrogate
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 CAPS = 8
-"""Number of caps on the energy."""
+"""Number of caps on the cost."""
+LEAST_LEARNED = 4
+"""Designs with a known cost before costs are learned; judgement."""
 POPULATION = 40
 """Of NSGA-II."""
 
@@ -42,18 +47,17 @@ def energy_caps_j(space: Space) -> Array:
 
 
 def run_pareto(evaluator: Evaluator, task: Task) -> None:
-    """Search the front by constrained expected improvement; each step has one proposal per cap on the energy."""
-    space = evaluator.space
-    caps = energy_caps_j(space)
+    """Search the front by constrained expected improvement; each step has one proposal per cap on the cost."""
+    space, cost = evaluator.space, find_cost(task.against)
 
     def proposer(
         learner: Learner, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
         proposals: list[Proposal] = []
-        for cap in caps[:count]:
-            best, elite = incumbent(space, [trial for trial in trials if energy_j(trial.design) <= cap])
+        for cap, penalty in _caps(space, cost, trials)[:count]:
+            best, elite = incumbent(space, [trial for trial in trials if cost.of(trial) <= cap])
             ask = partial(
-                propose, space, best=best, elite=elite, generator=generator, penalty=_excess(space, float(cap)),
+                propose, space, best=best, elite=elite, generator=generator, penalty=penalty,
                 admits=unproposed(evaluator, proposals, learner.may_hold),
             )  # fmt: skip
             proposal = learner.propose(ask, best)
@@ -62,6 +66,39 @@ def run_pareto(evaluator: Evaluator, task: Task) -> None:
         return proposals
 
     run_steps(evaluator, "pareto", replace(task, batch=CAPS), proposer)
+
+
+Penalty = Callable[[Array], Array]
+
+
+def _caps(space: Space, cost: Cost, trials: Sequence[Trial]) -> list[tuple[float, Penalty | None]]:
+    """Return the caps on a cost, each with the penalty of the acquisition for what is above it.
+
+    Of a cost that is learned they are equal steps from the least to the largest of the designs that jump so far, but
+    for the last one, above which nothing is.
+    """
+    if cost is SPRING_ENERGY:
+        return [(float(cap), _excess(space, float(cap))) for cap in energy_caps_j(space)]
+    jumped = [cost.of(trial) for trial in trials if trial.score is not None]
+    known = [(trial, cost.of(trial)) for trial in learned_trials(space, trials) if np.isfinite(cost.of(trial))]
+    if not jumped or len(known) < LEAST_LEARNED:
+        return [(np.inf, None)] * CAPS
+    places, costs = (list(column) for column in zip(*known, strict=True))
+    learned = Surrogate(
+        np.array([space.to_unit(trial.variant) for trial in places]), np.array(costs), None, True, space.categories
+    )
+    caps = np.linspace(min(jumped), max(jumped), CAPS)[:-1].tolist()
+    return [*((cap, _above(learned, cap)) for cap in caps), (np.inf, None)]
+
+
+def _above(learned: Surrogate, cap: float) -> Penalty:
+    """Return a penalty of the acquisition: minus the logarithm of the probability that the cost is below a cap."""
+
+    def penalty(points: Array) -> Array:
+        mean, deviation = learned.predict(points)
+        return np.asarray(-log_ndtr((cap - mean) / deviation))
+
+    return penalty
 
 
 def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
@@ -75,11 +112,15 @@ def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
 
 
 class ParetoFitness(Fitness):
-    """Score and negative energy, both to be maximised."""
+    """Score and negative cost, both to be maximised."""
+
+    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, cost: Cost = SPRING_ENERGY) -> None:
+        super().__init__(evaluator, phase, evaluations, rejected=[-1.0, -cost.worst])
+        self.cost = cost
 
     def objectives(self, trial: Trial) -> list[float]:
         """Return both objectives of a feasible trial."""
-        return [trial.score or 0.0, -energy_j(trial.design)]
+        return [trial.score or 0.0, -self.cost.of(trial)]
 
 
 def run_nsga2(evaluator: Evaluator, task: Task) -> None:
@@ -90,6 +131,6 @@ def run_nsga2(evaluator: Evaluator, task: Task) -> None:
         "crossover_type": "sbx", "sbx_crossover_eta": 10,
         "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
     }  # fmt: skip
-    fitness = ParetoFitness(evaluator, "nsga2", task.evaluations, rejected=[-1.0, -10.0])
+    fitness = ParetoFitness(evaluator, "nsga2", task.evaluations, find_cost(task.against))
     population = evaluator.space.spread(POPULATION, np.random.default_rng([task.seed, 0]))
     evolve(fitness, population, operators, task.seed)

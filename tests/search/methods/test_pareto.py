@@ -1,10 +1,12 @@
 """Searches for a front: how much of the true one they find, and resumption."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from support.hills import SMALL, Hill
 
-from jumpcad.search.fronts import hypervolume
+from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
 from jumpcad.search.methods import Task, pareto
 from jumpcad.search.methods.pareto import ParetoFitness, energy_caps_j, run_nsga2, run_pareto
 from jumpcad.search.objective import Evaluation
@@ -89,7 +91,9 @@ def test_of_two_that_score_alike_the_one_with_less_energy_is_as_good_or_better()
     designs = [SMALL.to_design(point) for point in ([0.5, 0.5, 0.2], [0.5, 0.5, 0.8])]
     frugal, strong = sorted(designs, key=lambda design: design.stiffness_nmm_per_deg)
     found = [
-        ParetoFitness.objectives(None, Trial("nsga2", 0, 0, design, Evaluation("jump"), 3.0, "m", 0.0))
+        ParetoFitness.objectives(
+            SimpleNamespace(cost=SPRING_ENERGY), Trial("nsga2", 0, 0, design, Evaluation("jump"), 3.0, "m", 0.0)
+        )
         for design in (frugal, strong)
     ]
     assert frugal.spring_energy_j < strong.spring_energy_j
@@ -105,4 +109,64 @@ def test_a_front_resumes(evaluator, tmp_path):
     first.store.close()
     longer = evaluator(tmp_path / "s.db")
     run_pareto(longer, Task(21, 0, initial=9))
+    assert [trial.key for trial in longer.trials] == [trial.key for trial in whole.trials]
+
+
+class Weighed(Hill):
+    """A hill whose robots weigh the more the stiffer their springs are, and rise the higher the less they are wound."""
+
+    def __call__(self, design):
+        found = super().__call__(design)
+        more = {"mass_kg": 0.05 + 0.002 * design.stiffness_nmm_per_deg, "com_rise_m": 1.0 - design.compression_ratio}
+        return Evaluation(found.verdict, {**found.metrics, **more}, found.findings) if found.metrics else found
+
+
+@pytest.mark.parametrize("against", ["mass", "rise"])
+def test_a_cost_that_is_not_known_before_is_learned(evaluator, against):
+    """Two planes; much less of the true front's area is missed than by random designs."""
+    one, cost = evaluator(model=Weighed()), find_cost(against)
+    run_pareto(one, Task(41, 0, initial=9, against=against))
+    grid = np.array(np.meshgrid(*[np.linspace(0, 1, 21)] * 3)).reshape(3, -1).T
+    true = [trial_of(Weighed(), SMALL.to_design(point), place) for place, point in enumerate(grid)]
+    random = [trial_of(Weighed(), SMALL.to_design(point), 0) for point in SMALL.spread(41, np.random.default_rng(1))]
+    whole, found, drawn = (hypervolume(trials, cost=cost) for trials in (true, one.trials, random))
+    assert whole - found < (0.4 if against == "mass" else 0.6) * (whole - drawn)
+    costs = [cost.of(trial) for trial in front(one.trials, cost)]
+    assert costs == sorted(costs)
+
+
+def trial_of(model, design, place):
+    """Return the trial of a design."""
+    found = model(design)
+    return Trial("pareto", 0, place, design, found, found.metrics.get("fitness"), "m", 0.0)
+
+
+def test_a_cap_is_kept_as_probably_as_the_process_of_the_cost_says(evaluator):
+    """Far below the cap there is no penalty; at a cost of the cap it is ln 2; and the last cap is none."""
+    trials = [trial_of(Weighed(), SMALL.to_design(p), 0) for p in SMALL.spread(40, np.random.default_rng(0))]
+    cost = find_cost("mass")
+    caps = pareto._caps(SMALL, cost, trials)
+    jumped = [cost.of(trial) for trial in trials if trial.score is not None]
+    assert [cap for cap, _ in caps] == pytest.approx([*np.linspace(min(jumped), max(jumped), 8)[:-1], np.inf])
+    assert caps[-1][1] is None
+    cap, penalty = caps[3]
+    stiffness = (cap - 0.05) / 0.002
+    at = SMALL.to_unit(SMALL.to_design([0.4, 0.4, 0.4]))[None].repeat(3, axis=0)
+    stiff = next(i for i, one in enumerate(SMALL.free) if one.name == "stiffness_nmm_per_deg")
+    at[:, stiff] = [0.0, (stiffness - 5.0) / 25.0, 1.0]
+    light, middle, heavy = penalty(at)
+    assert light == pytest.approx(0.0, abs=1e-6)
+    assert middle == pytest.approx(np.log(2.0), rel=0.2)
+    assert heavy > 10.0
+    assert pareto._caps(SMALL, cost, []) == [(np.inf, None)] * 8
+
+
+@pytest.mark.usefixtures("quick_proposals_once")
+def test_a_front_of_a_learned_cost_resumes(evaluator, tmp_path):
+    whole, first = evaluator(model=Weighed()), evaluator(tmp_path / "s.db", model=Weighed())
+    run_pareto(whole, Task(21, 0, initial=9, against="mass"))
+    run_pareto(first, Task(13, 0, initial=9, against="mass"))
+    first.store.close()
+    longer = evaluator(tmp_path / "s.db", model=Weighed())
+    run_pareto(longer, Task(21, 0, initial=9, against="mass"))
     assert [trial.key for trial in longer.trials] == [trial.key for trial in whole.trials]
