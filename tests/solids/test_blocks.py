@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import shapely
+from manifold3d import CrossSection
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
@@ -117,6 +118,15 @@ def test_a_box_around_a_bar_in_two_pieces_is_around_both() -> None:
     for order in (pieces, pieces[::-1]):
         bar = Bar(rectangle((20.0, 4.0), (10.0, 2.0)), order)
         assert bar.bounds_mm.tolist() == [[0.0, -4.0, 0.0], [20.0, 5.0, 4.0]]
+
+
+def test_a_level_finger_is_a_stadium_at_every_height() -> None:
+    """The hull of two discs of 6 mm, 20 mm apart, up to its top."""
+    finger = Finger(np.zeros(2), 6.0, 4.0, np.array([20.0, 0.0]), 6.0, 4.0)
+    for contours in finger.contours_at(np.array([0.0, 2.0, 3.999])):
+        assert CrossSection(contours).area() == pytest.approx(20.0 * 6.0 + np.pi * 9.0, rel=1e-3)
+    assert finger.contours_at(np.array([-0.001, 4.0])) == [[], []]
+    assert finger.solid().volume() == pytest.approx(4.0 * (20.0 * 6.0 + np.pi * 9.0), rel=1e-3)
 
 
 def test_outlines_span_what_is_seen_from_above() -> None:
