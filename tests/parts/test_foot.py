@@ -51,6 +51,11 @@ def test_the_size_that_is_laid_on_the_bed_beforehand_is_the_finished_foots(
     assert foot_part.in_one_piece(robot.design, robot.layout.sections, robot.workshop.printer.bed_mm)
     bounds = placed(robot, "foot").bounds - [0.0, 0.0, -robot.layout.sections.foot_depth_mm]
     np.testing.assert_allclose(laid[0], bounds, atol=0.02)
+    # lugs that reach farther aside than the toes
+    wide = replace(robot.layout.sections, lug_thickness_mm=200.0)
+    foot_part.in_one_piece(robot.design, wide, robot.workshop.printer.bed_mm)
+    aside = wide.thickness_mm / 2.0 + 0.5 + 200.0
+    np.testing.assert_allclose(laid[1][:, 1], [-aside, aside], atol=0.02)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
