@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from support.commands import Run, interruptible
 
-from jumpcad.cli.output import console, escaped, print_json, status
+from jumpcad.cli.output import console, escaped, print_json, shortened, status
 from jumpcad.design import Design, load_design
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -231,3 +231,10 @@ def test_json_has_every_number_and_null_for_what_is_none(capsys: pytest.CaptureF
         "a": 1.5, "b": [0.0, -2], "3": [[1.0, None], [None, -4.5]], "c": 0.1, "d": None, "e": True, "f": "text",
         "g": {"h": [7, None]},
     }  # fmt: skip
+
+
+def test_of_a_line_that_is_too_long_both_ends_are_shown() -> None:
+    """Two thousand characters at most, and what stands for the others."""
+    longest = "".join(chr(0x4E00 + number) for number in range(2000))
+    assert shortened(longest) == longest
+    assert shortened(longest + "x") == f"{longest[:1000]} … {longest[1001:]}x"
