@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+from io import StringIO
 from pathlib import Path
 from threading import Event
 
@@ -109,6 +110,21 @@ def test_what_is_being_done_is_logged_without_a_terminal(
         told.set()
         asked.wait()
     assert capsys.readouterr().err == "jumpcad: slicing foot\\n…\n"
+
+
+def test_on_a_terminal_what_is_being_done_is_on_standard_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether standard output is a terminal too or not: it may be kept in a file."""
+    for out_too in (False, True):
+        out, err = StringIO(), StringIO()
+        monkeypatch.setattr(out, "isatty", lambda shown=out_too: shown)
+        monkeypatch.setattr(err, "isatty", lambda: True)
+        monkeypatch.setenv("TERM", "xterm")
+        monkeypatch.setattr(sys, "stdout", out)
+        monkeypatch.setattr(sys, "stderr", err)
+        with status("slicing …") as tell:
+            tell("slicing foot")
+        assert out.getvalue() == ""
+        assert "slicing" in err.getvalue()
 
 
 PRESSED = """
