@@ -42,6 +42,12 @@ def test_a_program_that_calls_the_command_has_its_own_hooks_afterwards(
     assert seen[0][1] is not before[1]
 
 
+def test_what_nobody_handled_is_printed_unless_it_is_an_interrupt(capsys: pytest.CaptureFixture[str]) -> None:
+    for error, printed in ((ValueError("seven"), "ValueError: seven\n"), (KeyboardInterrupt(), "")):
+        cli._unhandled(type(error), error, None)
+        assert capsys.readouterr().err == printed
+
+
 def test_an_interrupt_that_a_finalizer_ignored_stops_what_ran_then(monkeypatch: pytest.MonkeyPatch) -> None:
     class Interrupted:
         def __del__(self) -> None:
