@@ -287,6 +287,19 @@ def test_rails_get_lower_from_the_ankle_to_the_front_eye(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_rails_and_lugs_are_as_thick_as_their_section(name: str) -> None:
+    """From half a millimetre beside the leg on, on both sides; in the middle of a rail, and at the front eye's lug."""
+    robot = built(name)
+    sections, length = robot.layout.sections, robot.design.l4_mm
+    mesh, low = placed(robot, "foot"), 0.5 - sections.foot_depth_mm
+    inner = sections.thickness_mm / 2.0 + 0.5
+    outer = inner + sections.lug_thickness_mm
+    for x in (0.6 * length, length - 0.5 * sections.foot_depth_mm):
+        for y, filled in ((inner + 0.02, True), (outer - 0.02, True), (outer + 0.02, False)):
+            assert mesh.contains([[x, y, low], [x, -y, low]]).tolist() == [filled, filled], (x, y)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_webs_join_the_left_rail_and_the_right_one(name: str) -> None:
     """From side to side through all that is between the rails, and into them."""
     robot = built(name)
