@@ -1,5 +1,7 @@
 """Sections of blocks in closed form against slices of their solids, which another program cuts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -94,6 +96,13 @@ def test_blocks_of_the_same_numbers_are_equal_and_others_are_not():
     assert hash(blocks()) == hash(blocks())
     assert len({blocks(), blocks(width=8.1), blocks(tip=4.1), blocks(angle=0.8), blocks(removed=2.1),
                 blocks(place=(0.1, 0.0)), blocks(place=(0.0, 0.1))}) == 7  # fmt: skip
+
+
+def test_what_differs_in_any_number_is_another_finger() -> None:
+    places = [{name: getattr(FINGER, name) + step} for name in ("root_mm", "tip_mm") for step in 0.1 * np.eye(2)]
+    sizes = ("root_diameter_mm", "root_height_mm", "tip_diameter_mm", "tip_height_mm")
+    others = [replace(FINGER, **change) for change in (*places, *({name: 4.7} for name in sizes))]
+    assert len({one.key for one in (FINGER, *others)}) == 1 + 8
 
 
 def test_moments_are_those_of_the_sections():
