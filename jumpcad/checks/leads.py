@@ -30,13 +30,12 @@ def lead_findings(robot: Robot) -> Iterator[Finding]:
     layout = robot.layout
     moving = moving_obstacles(layout)
     gaps: dict[str, float] = {}
-    inside, tray = layout.lateral.inside, layout.electronics.middle_mm(layout.tray_mm)
+    tray = layout.electronics.middle_mm(layout.tray_mm)
     for role in ("sensor", "motor"):
         way = way_in(layout, role)
         if len(way) < 2:
             continue
-        last = way[-1]
-        ends = [*way, np.array([tray[0], np.clip(last[1], *inside), tray[1]])]
+        ends = [*way, np.array([tray[0], way[-1][1], tray[1]])]
         for start, end in itertools.pairwise(ends):
             y = (min(start[1], end[1]) - AROUND_MM, max(start[1], end[1]) + AROUND_MM)
             points = bar(start[[0, 2]], end[[0, 2]], APART_MM)

@@ -77,7 +77,7 @@ class Output:
         If it cannot be written, for example to a full disk.
     """
 
-    def __init__(self, stream: TextIO, coloured: bool = False) -> None:
+    def __init__(self, stream: TextIO, coloured: bool) -> None:
         self._stream = stream
         kept = f"({COLOUR}|[\n\t])" if coloured else "([\n\t])"
         self._pattern = re.compile(f"{kept}|{CONTROL_PATTERN}")
@@ -113,7 +113,7 @@ class Output:
 
 
 @contextlib.contextmanager
-def standard_output(coloured: bool = False) -> Iterator[None]:
+def standard_output(coloured: bool) -> Iterator[None]:
     """Redirect standard output to `Output`; characters that the terminal's encoding lacks are escaped.
 
     Raises

@@ -23,7 +23,9 @@ from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
 from jumpcad.strength.growth import Growth
-from jumpcad.strength.sizing import sections
+from jumpcad.strength.loads import MovingMass
+from jumpcad.strength.sizing import RESERVE, sections
+from jumpcad.transforms import turned_about_y
 from jumpcad.workshop import Workshop, load_workshop
 
 
@@ -165,6 +167,26 @@ def test_the_springs_have_the_directions_of_their_pin_that_are_asked_for(monkeyp
     monkeypatch.setattr(settling, "drive_limits", lambda *given: asked.append(given[-1]) or drive_limits(*given))
     settle(load_design("kenan-2.0"), load_workshop(), Growth(), (1.25,))
     assert set(asked) == {(1.25,)}
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "best-printable"])
+def test_the_typical_body_turns_like_two_halves_on_a_rod(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half its mass at each end of a rod whose half length is the radius of gyration, here so long that turns count."""
+    design, past_rad, halves = load_design(name), math.radians(6.0), []
+    monkeypatch.setattr(settling, "TYPICAL_BODY", MovingMass(0.08, np.array([4.0, 11.0]), 2000.0))
+    linkage, springs = Linkage(design), springs_on_leg(design, None, math.radians(4.0))
+    wind = design.compression_rad * np.cos((np.arange(400) + 0.5) * math.pi / 800.0)
+    for end in (-2000.0, 2000.0):
+        for step in (-1e-4, 1e-4):
+            pose = linkage.pose(-wind + step)
+            halves.append(turned_about_y(np.array([4.0 + end, 11.0]) - pose.ankle_mm, -pose.foot_rad) / 1000.0)
+    inertia = 0.04 * sum((((after - before) / 2e-4) ** 2).sum(axis=1) for before, after in (halves[:2], halves[2:]))
+    rise = sum(half[:, 1] - half[0, 1] for half in halves) / 4.0
+    released = springs.energy_j - springs.stiffness_nm_per_rad * wind * (wind / 2.0 + springs.preload_rad)
+    rate = np.sqrt(2.0 * (released - 0.08 * 9.81 * rise) / inertia)
+    steps = np.sqrt(design.compression_rad**2 - wind**2) * math.pi / 800.0
+    expected = RESERVE * (float((steps / rate).sum()) + past_rad / rate[-1])
+    assert fall_s(linkage, springs, past_rad) == pytest.approx(expected, rel=5e-3)
 
 
 def preloaded(workshop: Workshop, degrees: float) -> Any:

@@ -36,6 +36,8 @@ def test_arms_are_tangents_of_the_coil_at_the_ordered_angle(name: str) -> None:
         turns.append(np.sign(np.cross([*far, 0.0], [*wound, 0.0])[2]))
         words = sorted(space.query("TEXT"), key=lambda one: -one.dxf.insert.y)  # from above
         assert words[0].dxf.text.startswith(f"robot: {name}")
+        # beside the arms, wherever these point
+        assert min(one.dxf.insert.x for one in words) > radii[1] + spring.arm_length_mm
         assert any("N·mm/°" in one.dxf.text for one in words)
     assert list(drawings) == ["order/spring-right-hand.dxf", "order/spring-left-hand.dxf"]
     # seen along its axis a right-hand coil goes away clockwise; loading winds it further, as DXF has y up

@@ -87,6 +87,16 @@ def test_units_and_contradictions_in_one_line(tmp_path: Path, text: str, message
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("name", ["foot", "cam"])
+def test_a_part_is_compared_with_the_models(tmp_path: Path, subject: Subject, name: str) -> None:
+    """Not with its own weight, by which the robot of the measurements is built."""
+    (part,) = (one for one in subject.robot.parts if one.name == name)
+    path = tmp_path / "mine.toml"
+    path.write_text(HEAD + f"[mass.parts_g]\n{name} = 99.0\n")
+    with pytest.raises(JumpcadError, match=rf"parts_g.{name} = 99: the model has {1000.0 * part.mass.mass_kg:.3g} g:"):
+        load_subject(path)
+
+
 def test_energy_of_a_flight(tmp_path: Path) -> None:
     """m·g·(h + R²/16h) of 103 g, 150 mm and 350 mm is 0.203 J, as the message above says."""
     assert pytest.approx(0.203, abs=5e-4) == 0.103 * 9.81 * (0.15 + 0.35**2 / (16 * 0.15))

@@ -49,8 +49,8 @@ def test_a_motor_is_refused_by_its_figures_from_just_beyond_what_can_be() -> Non
         ("shaft_length_mm", motor.boss_length_mm, 1.0), ("mass_g", steel, 1.0),
         ("no_load_current_a", motor.stall_current_a, -1.0), ("stall_torque_nm", torque * (1.0 + 1e-9), -1.0),
     ):  # fmt: skip
-        beyond = [place for place, *_ in motor.model_copy(update={key: value}).contradictions()]
-        assert (key,) in beyond, key
+        beyond = {place: told for place, told, _ in motor.model_copy(update={key: value}).contradictions()}
+        assert beyond[key,] == value, key
         inside = motor.model_copy(update={key: value + inwards * 1e-6 * value})
         assert (key,) not in [place for place, *_ in inside.contradictions()], key
 
@@ -60,7 +60,8 @@ def test_a_battery_is_refused_whose_voltage_is_not_between_empty_and_full() -> N
     low, high = battery.range_v
     for volts, refused in ((low, True), (low + 1e-6, False), (high - 1e-6, False), (high, True)):
         own = battery.model_copy(update={"voltage_v": volts, "empty_v": low, "full_v": high})
-        assert [place for place, *_ in own.contradictions()] == ([("voltage_v",)] if refused else [])
+        told = [(place, value) for place, value, _ in own.contradictions()]
+        assert told == ([(("voltage_v",), volts)] if refused else [])
 
 
 @pytest.mark.parametrize(("kind", "ranges"), [("motors", 16), ("batteries", 11), ("boards", 14)])

@@ -195,6 +195,11 @@ def test_the_stops_ears_count_with_their_corners(strongest: Robot, depth_mm: flo
     ear = lowest_mm(strongest, sunk.tab_mm, box(5.0 + 5.0, 4.0 + 5.0))
     bar = lowest_mm(strongest, sunk.middle_mm, box(8.0, depth_mm))
     assert finding.margin + 0.6 == pytest.approx(min(ear, bar), abs=1e-6)
+    middles, _ = _body_discs(replace(strongest, layout=replace(layout, stop=sunk)))
+    for middle, along, behind in ((sunk.tab_mm, 5.0, 4.5), (sunk.middle_mm, 4.0, depth_mm / 2.0)):
+        for a, b in ((-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)):
+            corner = middle + a * along * stop.along + b * behind * stop.behind
+            assert np.linalg.norm(middles - corner, axis=1).min() < 1e-9
 
 
 @pytest.mark.parametrize("what", ["axle", "standoff", "cam", "wheel", "idler"])

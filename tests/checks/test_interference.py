@@ -121,6 +121,17 @@ def test_volume_of_two_boxes(turned: bool) -> None:
         assert shared_volume_mm3(piece, np.eye(4), piece, pose) == pytest.approx(2.0 * 5.0 * 2.5, rel=1e-5)
 
 
+@pytest.mark.parametrize("across", [1.0, -1.0])
+def test_plates_that_lie_on_each_other_share_areas_times_heights(
+    monkeypatch: pytest.MonkeyPatch, across: float
+) -> None:
+    """Discs of 12 mm, 1.5 mm of their heights in each other, one of them upside down or not: no mesh is cut."""
+    monkeypatch.setattr(Component, "solid", property(lambda _: pytest.fail("a mesh")))
+    plate, pose = Component("plate", BODY, Stack.of([(0.0, 4.0, disc(12.0))]), np.eye(4)), np.eye(4)
+    pose[1, 1], pose[2, 2], pose[2, 3] = across, across, 2.5 if across > 0.0 else 6.5
+    assert shared_volume_mm3(plate, np.eye(4), plate, pose) == pytest.approx(1.5 * np.pi * 36.0, rel=5e-3)
+
+
 def in_plane(pose: np.ndarray) -> np.ndarray:
     """The motion (3, 3) of the x-z plane that a pose (4, 4) is; nothing moves along y."""
     np.testing.assert_allclose(pose[1], [0.0, 1.0, 0.0, 0.0], atol=1e-12)

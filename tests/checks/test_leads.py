@@ -65,6 +65,20 @@ def test_what_moves_anywhere_along_a_lead_is_found(monkeypatch: pytest.MonkeyPat
     assert (finding.severity, finding.message.split("'")[0]) == ("error", f"the {part}")
 
 
+@pytest.mark.parametrize("part", ["sensor", "motor"])
+@pytest.mark.parametrize(("beside_mm", "severity"), [(-1.7, "info"), (-1.5, "error"), (1.5, "error"), (1.7, "info")])
+def test_inside_the_plates_a_lead_runs_beside_its_plate(
+    monkeypatch: pytest.MonkeyPatch, part: str, beside_mm: float, severity: str
+) -> None:
+    """A ball half way to the trays is in its way where it is within 1.5 mm to the left or right of it."""
+    layout, way = built("kenan-2.0").layout, way_in(built("kenan-2.0").layout, part)
+    x, z = (way[-1][[0, 2]] + layout.electronics.middle_mm(layout.tray_mm)) / 2.0
+    y = way[-1][1] + beside_mm
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.05, y + 0.05))])
+    (finding,) = lead_findings(built("kenan-2.0"))
+    assert finding.severity == severity
+
+
 def test_an_idler_is_among_what_moves() -> None:
     """The leads of the sensor come in through a hole in front of the idler's axle: they pass through its wheel."""
     robot = geared()

@@ -185,6 +185,12 @@ def test_the_dog_is_as_long_as_the_cam_gear_is_wide_wherever_that_lies(name: str
     assert stress(low + 7.0, high - low) == pytest.approx(stress(low, high - low))
     assert stress(low, 4.0 * (high - low)) > 1.5 * stress(low, high - low)
     assert LoadCase(robot).dog_stress_mpa(2.0) == pytest.approx(2.0 * LoadCase(robot).dog_stress_mpa(1.0))
+    # two jaws of 1 N·m, 0.05 mm long: hardly bent, but sheared by 3·F/(2·A), A from the gear's hub to the outer side
+    dog, fits = robot.layout.drive.dog, robot.workshop.fits
+    inside = robot.layout.axle_mm + 4.0 * fits.sliding_mm + 2.0 * fits.wall_min_mm
+    middle = (dog.outer_mm + inside) / 4.0
+    area = (dog.outer_mm - inside) / 2.0 * middle * dog.jaw_rad
+    assert stress(low, 0.05) == pytest.approx(math.sqrt(3.0) * 1.5 * 1000.0 / (2.0 * middle) / area, rel=1e-3)
 
 
 def _toe_from_body_mm(robot: Robot) -> tuple[float, float]:

@@ -274,6 +274,19 @@ def test_what_is_pulled_along_and_at_its_eyes_by_hand(robot: str, request: pytes
     assert found["foot_lug_strength"].value == pytest.approx(lug)
 
 
+def test_eyes_bear_the_largest_force_at_whichever_pin_it_is(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The lugs are not pulled at landing, which pushes them down."""
+    found = {}
+    for forces in ((60.0, 20.0, 20.0), (20.0, 60.0, 20.0), (20.0, 20.0, 60.0), (20.0, 20.0, 20.0)):
+        for name, force in zip(("ankle_n", "front_n", "landing_n"), forces, strict=True):
+            monkeypatch.setattr(LoadCase, name, force)
+        stresses = {one.name: one.value for one in strength_findings(kenan)}
+        found[forces] = [stresses["eye_strength"], stresses["foot_lug_strength"]]
+    ankle, front, landing, alike = found.values()
+    assert ankle == front == pytest.approx([3.0 * value for value in alike])
+    assert landing == [ankle[0], alike[1]]
+
+
 def test_legs_with_a_bar_are_checked_as_bars(kenan: Robot) -> None:
     """Their printed beam ends in a socket: flex and buckling are those of the bar, each told once."""
     bar = kenan.workshop.catalogue.bars["carbon-tube-4x2"]

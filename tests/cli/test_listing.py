@@ -24,6 +24,8 @@ def test_everything_is_listed_with_its_kind(run: Run) -> None:
     for kind in USED_AS:
         assert f"\n{kind} (" in f"\n{out}"
     assert {"kenan-2.0", "best-bo"} <= set(out.split())
+    blank = [not line.strip() for line in out.splitlines()]
+    assert sum(blank) == len(USED_AS) - 1  # between the kinds
 
 
 @pytest.mark.parametrize("kind", ["printers", "materials", "workshops"])

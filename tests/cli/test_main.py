@@ -7,6 +7,7 @@ import sys
 import pytest
 from support.commands import Run
 
+from jumpcad import cli
 from jumpcad.errors import JumpcadError
 
 
@@ -39,6 +40,30 @@ def test_a_program_that_calls_the_command_has_its_own_hooks_afterwards(
     assert (sys.excepthook, sys.unraisablehook) == before
     assert seen[0][0] is not before[0]
     assert seen[0][1] is not before[1]
+
+
+def test_what_nobody_handled_is_printed_unless_it_is_an_interrupt(capsys: pytest.CaptureFixture[str]) -> None:
+    for error, printed in ((ValueError("seven"), "ValueError: seven\n"), (KeyboardInterrupt(), "")):
+        cli._unhandled(type(error), error, None)
+        assert capsys.readouterr().err == printed
+
+
+def test_an_interrupt_that_a_finalizer_ignored_stops_what_ran_then(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Interrupted:
+        def __del__(self) -> None:
+            raise KeyboardInterrupt
+
+    def work() -> None:
+        for step in range(3):
+            steps.append(step)
+            Interrupted()
+
+    steps: list[int] = []
+    monkeypatch.setattr(sys, "unraisablehook", cli._unraisable)
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert steps == [0]
+    assert sys.gettrace() is None
 
 
 def test_module_runs_as_the_command() -> None:

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+from io import StringIO
 from pathlib import Path
 from threading import Event
 
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 from support.commands import Run, interruptible
 
-from jumpcad.cli.output import console, escaped, print_json, status
+from jumpcad.cli.output import console, escaped, print_json, shortened, status
 from jumpcad.design import Design, load_design
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -109,6 +110,21 @@ def test_what_is_being_done_is_logged_without_a_terminal(
         told.set()
         asked.wait()
     assert capsys.readouterr().err == "jumpcad: slicing foot\\n…\n"
+
+
+def test_on_a_terminal_what_is_being_done_is_on_standard_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether standard output is a terminal too or not: it may be kept in a file."""
+    for out_too in (False, True):
+        out, err = StringIO(), StringIO()
+        monkeypatch.setattr(out, "isatty", lambda shown=out_too: shown)
+        monkeypatch.setattr(err, "isatty", lambda: True)
+        monkeypatch.setenv("TERM", "xterm")
+        monkeypatch.setattr(sys, "stdout", out)
+        monkeypatch.setattr(sys, "stderr", err)
+        with status("slicing …") as tell:
+            tell("slicing foot")
+        assert out.getvalue() == ""
+        assert "slicing" in err.getvalue()
 
 
 PRESSED = """
@@ -231,3 +247,10 @@ def test_json_has_every_number_and_null_for_what_is_none(capsys: pytest.CaptureF
         "a": 1.5, "b": [0.0, -2], "3": [[1.0, None], [None, -4.5]], "c": 0.1, "d": None, "e": True, "f": "text",
         "g": {"h": [7, None]},
     }  # fmt: skip
+
+
+def test_of_a_line_that_is_too_long_both_ends_are_shown() -> None:
+    """Two thousand characters at most, and what stands for the others."""
+    longest = "".join(chr(0x4E00 + number) for number in range(2000))
+    assert shortened(longest) == longest
+    assert shortened(longest + "x") == f"{longest[:1000]} … {longest[1001:]}x"

@@ -106,6 +106,7 @@ def test_relaxed_arms_are_tangents_that_touch_the_sides_of_their_pins(name, plat
     on_leg, leg = springs_on_leg(design, None, math.radians(preload_deg)), -math.radians(design.rest_angle_deg)
     limits = replace(LIMITS, plate_pins_rad=(math.radians(plate_pin_deg),), outer_max_mm=30.0)
     spring = synthesise_spring(on_leg, leg, WIRE, limits)
+    assert (spring.plate_pin_rad, spring.leg_pin_rad) == (math.radians(plate_pin_deg), leg)
     mean, beside = spring.arms.mean_mm, (spring.wire_mm + limits.pin_mm) / 2
     pins = [spring.pin_radius_mm * np.exp(1j * angle) for angle in (math.radians(plate_pin_deg), leg)]
 

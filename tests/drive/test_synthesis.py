@@ -11,6 +11,7 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.drive import DriveLimits, synthesis, synthesise
 from jumpcad.drive.corner import clear_window_rad
+from jumpcad.drive.train_limits import TrainLimits
 from jumpcad.errors import CannotBuildError
 
 LIMITS = default_limits()
@@ -225,3 +226,25 @@ def test_the_cam_turns_no_farther_while_the_leg_falls_than_its_window_less_its_p
     turned = found.cam_speed_max_rad_s * slow
     assert drive.dog.play_rad > 0.1
     assert math.radians(2.0) < window - drive.dog.play_rad - turned < math.radians(4.0)  # 3° in reserve
+
+
+@pytest.mark.parametrize("wanted", [0.0, 500.0])
+def test_gears_keep_the_larger_of_what_is_asked_for_and_what_the_cam_needs(wanted: float) -> None:
+    """Beside the cam: its outside and a gap; for an idler's axle that axle too. The gear keeps them off the hub."""
+    cam, gap, axle = synthesise(load_design("kenan-2.0"), LIMITS).cam, 0.7, 3.1
+
+    def beside_cam(**asked: float) -> TrainLimits:
+        train = dataclasses.replace(LIMITS.train, **asked)
+        return synthesis._train_limits(
+            cam, dataclasses.replace(LIMITS, train=train, gap_mm=gap, axle_radius_mm=axle, fall_s=0.2)
+        )
+
+    around = cam.outer_radius_mm + gap
+    assert beside_cam(cam_room_mm=wanted).cam_room_mm == pytest.approx(max(wanted, around))
+    found = beside_cam(idler_distance_min_mm=wanted, motor_distance_min_mm=900.0)
+    assert found.idler_distance_min_mm == pytest.approx(max(wanted, around + axle))
+    assert found.motor_distance_min_mm == 900.0
+    room = math.hypot(*cam.cam_axis_mm) - axle - gap
+    assert beside_cam(cam_gear_tip_max_mm=wanted).cam_gear_tip_max_mm == pytest.approx(min(wanted, room))
+    speed = beside_cam(cam_speed_max_rad_s=900.0).cam_speed_max_rad_s
+    assert beside_cam(cam_speed_max_rad_s=wanted).cam_speed_max_rad_s == pytest.approx(min(wanted, speed))

@@ -262,6 +262,22 @@ def test_the_motors_pinion_keeps_clear_of_what_stands_in_its_own_plane() -> None
     assert math.dist(idler, usual) >= first.wheel.tip_radius_mm + 2.0 - 1e-5
 
 
+def test_the_motors_pinion_is_kept_clear_by_its_tips_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A post in the gears' plane beside a place on the ring takes it from 0.01 mm within the tips' circle on."""
+    layout, kept = built("kenan-2.0").layout, list[np.ndarray]()
+    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
+    monkeypatch.setattr(drive_places, "best_place", lambda _what, _obstacles, places, *_: kept.append(places) or 0)
+    (stage,) = drive.train.stages
+    turns = 2.0 * math.pi * np.arange(72) / 72.0
+    ring = axis + stage.centre_distance_mm * np.column_stack([np.cos(turns), np.sin(turns)])
+    for number, way in itertools.product((0, 18, 36, 54), ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))):
+        for room in (0.01, -0.01):
+            away = stage.pinion.tip_radius_mm + 1.0 + room
+            post = disc("post", ring[number] + away * np.array(way), 1.0, lateral.gears[-1])
+            train_places([post], drive, lateral, axis)
+            assert bool((np.hypot(*(kept[-1] - ring[number]).T) < 1e-5).any()) == (room > 0.0)
+
+
 @pytest.mark.parametrize("stages", [1, 2])
 def test_the_motor_stands_clear_over_its_whole_length(stages: int) -> None:
     """From the right plate to the gap before the gears: a post at either end of it is in its way, on its own ring.

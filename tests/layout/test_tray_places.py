@@ -37,6 +37,18 @@ def test_a_battery_that_is_too_long_is_refused() -> None:
         tray_place([wall], huge, 80.0, INSIDE)
 
 
+def test_the_trays_middle_is_never_behind_the_legs_axle() -> None:
+    """That is half the body's length behind its middle; where only less than that is free there is no room."""
+    half = CARRIED.length_mm / 2.0
+    for edge, fits in ((-40.0 + half + 2.0, True), (-40.0 + half - 2.0, False)):
+        wall = box_obstacle("wall", (edge + 200.0, 0.0), (200.0, 200.0), 0.0, EVERYWHERE)
+        if fits:
+            assert -40.0 <= tray_place([wall], CARRIED, 80.0, INSIDE)[0] <= edge - half
+        else:
+            with pytest.raises(CannotBuildError, match=r"no room for the battery and electronics: .* beside the wall"):
+                tray_place([wall], CARRIED, 80.0, INSIDE)
+
+
 def test_standoffs_are_above_the_boards_and_apart_from_each_other() -> None:
     """An M3 standoff reaches 3.2 mm from its middle; two keep 8 mm and the usual 0.8 mm between them."""
     tray, cam, front = np.array([40.0, 2.0]), np.array([-20.0, 25.0]), np.array([40.0, 0.0])

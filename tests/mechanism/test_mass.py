@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 
 from jumpcad.mechanism.mass import MassProperties, combined, principal_axes
 
@@ -101,6 +102,18 @@ def test_principal_axes_turn_the_tensor_diagonal() -> None:
         np.testing.assert_allclose(axes @ np.diag(moments) @ axes.T, tensor, atol=1e-12 * moments.max())
         np.testing.assert_allclose(axes.T @ axes, np.eye(3), atol=1e-14)
         assert np.linalg.det(axes) > 0.0
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_tensor_turned_about_one_axis_is_turned_back(axis: int) -> None:
+    """By 20°; of its products of inertia one alone is not zero."""
+    others = [k for k in range(3) if k != axis]
+    cos, sin = np.cos(np.radians(20.0)), np.sin(np.radians(20.0))
+    turn = np.eye(3)
+    turn[np.ix_(others, others)] = [[cos, -sin], [sin, cos]]
+    moments, axes = principal_axes(turn @ np.diag([3.0, 1.0, 2.0]) @ turn.T)
+    np.testing.assert_allclose(moments, [3.0, 1.0, 2.0], rtol=1e-12)
+    np.testing.assert_allclose(axes, turn, atol=1e-12)
 
 
 def test_of_a_nearly_diagonal_tensor_the_axes_hardly_turn() -> None:

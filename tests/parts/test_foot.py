@@ -51,6 +51,11 @@ def test_the_size_that_is_laid_on_the_bed_beforehand_is_the_finished_foots(
     assert foot_part.in_one_piece(robot.design, robot.layout.sections, robot.workshop.printer.bed_mm)
     bounds = placed(robot, "foot").bounds - [0.0, 0.0, -robot.layout.sections.foot_depth_mm]
     np.testing.assert_allclose(laid[0], bounds, atol=0.02)
+    # lugs that reach farther aside than the toes
+    wide = replace(robot.layout.sections, lug_thickness_mm=200.0)
+    foot_part.in_one_piece(robot.design, wide, robot.workshop.printer.bed_mm)
+    aside = wide.thickness_mm / 2.0 + 0.5 + 200.0
+    np.testing.assert_allclose(laid[1][:, 1], [-aside, aside], atol=0.02)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -279,6 +284,19 @@ def test_rails_get_lower_from_the_ankle_to_the_front_eye(name: str) -> None:
         assert upright.bounds[1::2] == pytest.approx(
             (-sections.foot_depth_mm, height - sections.foot_depth_mm), abs=0.03
         )
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_rails_and_lugs_are_as_thick_as_their_section(name: str) -> None:
+    """From half a millimetre beside the leg on, on both sides; in the middle of a rail, and at the front eye's lug."""
+    robot = built(name)
+    sections, length = robot.layout.sections, robot.design.l4_mm
+    mesh, low = placed(robot, "foot"), 0.5 - sections.foot_depth_mm
+    inner = sections.thickness_mm / 2.0 + 0.5
+    outer = inner + sections.lug_thickness_mm
+    for x in (0.6 * length, length - 0.5 * sections.foot_depth_mm):
+        for y, filled in ((inner + 0.02, True), (outer - 0.02, True), (outer + 0.02, False)):
+            assert mesh.contains([[x, y, low], [x, -y, low]]).tolist() == [filled, filled], (x, y)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

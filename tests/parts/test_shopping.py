@@ -372,3 +372,4 @@ def test_screws_weigh_shank_and_head(assembled_robot: Robot) -> None:
         head = screw.button_head_mm**2 * screw.button_head_height_mm
         least, most = (7.85e-6 * math.pi / 4.0 * (shank + share * head) for share in (0.5, 1.0))
         assert least < item.mass_kg < most, item.name
+        assert item.shape.volume_mm3 == pytest.approx(math.pi / 4.0 * (shank + head), rel=0.005), item.name

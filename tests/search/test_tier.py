@@ -1,6 +1,7 @@
 """A tier of the screen: what its errors are, measured on robots whose guesses are known to miss by so much."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,7 +10,7 @@ from support.quick import SPACE
 
 from jumpcad.design import Design
 from jumpcad.findings import Finding
-from jumpcad.search.fitting import MARK
+from jumpcad.search.fitting import LAID, MARK
 from jumpcad.search.guess import Guess
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.tier import BESIDE, CAREFUL, LESS, MORE, PAIRS, TRIED, Expected, Tier, log_ratio
@@ -105,6 +106,23 @@ def test_of_a_few_robots_no_error_is_told(count: int, known: bool) -> None:
     found = tier.guess(trials[0].variant, {})
     if not known:
         assert found == Expected(trials[0].score, 0.0, np.inf, False)
+
+
+def test_fewer_robots_than_figures_tell_what_guesses_miss() -> None:
+    """Eight of which the layout is known too: all score a third more than guessed, and so do others beside them."""
+    trials = [
+        replace(trial, evaluation=replace(trial.evaluation, metrics=FIGURES | dict.fromkeys(LAID, 1.0)))
+        for trial in trials_along_a_line(PAIRS)
+    ]
+    scores = {trial.design: trial.score for trial in trials}
+    known = Known(lambda design: Guess(0.75 * scores[design], {}))  # type: ignore[operator]
+    tier = Tier(SPACE, known, laid=True)  # type: ignore[arg-type]
+    tier.correct(trials)
+    assert tier._process is not None
+    place = tier._place(trials[3].variant, trials[3].evaluation.metrics)
+    assert len(place) == SPACE.dimension + len(LAID) > PAIRS
+    mean, _ = tier._process.predict(place[None])
+    assert mean == pytest.approx(np.log(4.0 / 3.0), abs=1e-6)
 
 
 def test_what_cannot_be_guessed_tells_no_error() -> None:

@@ -387,6 +387,7 @@ def test_a_step_on_the_ground_obeys_the_laws_of_contact(either: Robot, held: boo
             assert hold == 0.0
         modes.add((contact.mode, contact.second >= 0))
     assert {mode for mode, _ in modes} == {kernel.SEPARATE, kernel.STICK, kernel.FORWARD, kernel.BACKWARD}
+    assert len({mode for mode, _ in modes}) == 4
     assert {two for _, two in modes} == {False, True}
 
 

@@ -183,6 +183,15 @@ def test_shares_of_a_resample_are_those_of_its_jumps_alone() -> None:
     assert found[1, 1] > 0.95
 
 
+def test_shares_do_not_depend_on_the_units_of_inputs() -> None:
+    rng = np.random.default_rng(4)
+    inputs = {"a": rng.normal(size=(64, 2)), "b": rng.random((64, 1))}
+    figures = np.column_stack([inputs["a"][:, 0] + 0.3 * rng.normal(size=64), inputs["b"][:, 0] ** 3])
+    scaled = {"a": inputs["a"] * [1e-6, 1e3], "b": 2.0 - 1e-5 * inputs["b"]}
+    shares = (_first_order(given, figures, np.arange(64)) for given in (inputs, scaled))
+    assert next(shares) == pytest.approx(next(shares), abs=1e-6)
+
+
 def test_eight_of_ten_resamples_lie_in_the_interval(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a hundred that count from 0 to 99, those from 9.9 to 89.1; the share itself is that of the whole sample."""
     asked: list[int] = []

@@ -1,8 +1,11 @@
 """Sections of blocks in closed form against slices of their solids, which another program cuts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
+from manifold3d import CrossSection
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
@@ -95,6 +98,13 @@ def test_blocks_of_the_same_numbers_are_equal_and_others_are_not():
                 blocks(place=(0.1, 0.0)), blocks(place=(0.0, 0.1))}) == 7  # fmt: skip
 
 
+def test_what_differs_in_any_number_is_another_finger() -> None:
+    places = [{name: getattr(FINGER, name) + step} for name in ("root_mm", "tip_mm") for step in 0.1 * np.eye(2)]
+    sizes = ("root_diameter_mm", "root_height_mm", "tip_diameter_mm", "tip_height_mm")
+    others = [replace(FINGER, **change) for change in (*places, *({name: 4.7} for name in sizes))]
+    assert len({one.key for one in (FINGER, *others)}) == 1 + 8
+
+
 def test_moments_are_those_of_the_sections():
     blocks = Blocks((FINGER, Bar(disc(9.0, (0.0, 4.5)), ((-3.0, 9.0),))))
     z = (np.arange(2000) + 0.5) * blocks.bounds_mm[1, 2] / 2000.0
@@ -117,6 +127,15 @@ def test_a_box_around_a_bar_in_two_pieces_is_around_both() -> None:
     for order in (pieces, pieces[::-1]):
         bar = Bar(rectangle((20.0, 4.0), (10.0, 2.0)), order)
         assert bar.bounds_mm.tolist() == [[0.0, -4.0, 0.0], [20.0, 5.0, 4.0]]
+
+
+def test_a_level_finger_is_a_stadium_at_every_height() -> None:
+    """The hull of two discs of 6 mm, 20 mm apart, up to its top."""
+    finger = Finger(np.zeros(2), 6.0, 4.0, np.array([20.0, 0.0]), 6.0, 4.0)
+    for contours in finger.contours_at(np.array([0.0, 2.0, 3.999])):
+        assert CrossSection(contours).area() == pytest.approx(20.0 * 6.0 + np.pi * 9.0, rel=1e-3)
+    assert finger.contours_at(np.array([-0.001, 4.0])) == [[], []]
+    assert finger.solid().volume() == pytest.approx(4.0 * (20.0 * 6.0 + np.pi * 9.0), rel=1e-3)
 
 
 def test_outlines_span_what_is_seen_from_above() -> None:

@@ -335,8 +335,11 @@ def test_what_a_person_changes_is_acted_on(study: Path, tmp_path: Path, monkeypa
     """Each slider asks for the new design; workshop, list of points and number open what they say."""
     acts: dict[object, Callable[[], object]] = {}
     monkeypatch.setattr(app, "when_changed", lambda handle, act: acts.update({handle.label: act}))
+    spans, step = list[float](), inputs.slider_step
+    monkeypatch.setattr(app, "slider_step", lambda span: spans.append(span) or step(span))
     server, points = viser.ViserServer(host="127.0.0.1", port=0, verbose=False), Points(study)
     shown = Studio(points.trial(1).design, "four", ["fine", "of the study"], server, tmp_path, points)
+    assert spans == [slider.max - slider.min for slider in shown.sliders.values()]
     assert {key for key, act in acts.items() if act == shown._ask} == set(shown.sliders)
     assert (shown.best.value, shown.trial.value) == (points.listed_as(1, ""), 1)
     assert shown.point.content == points.to_text(1)

@@ -86,6 +86,21 @@ def test_where_a_proposal_promises_nothing_neighbours_near_and_far_are_looked_at
 
 
 @pytest.mark.usefixtures("quick_proposals_once")
+def test_after_four_steps_without_a_gain_neighbours_are_looked_at_whatever_is_promised(evaluator, monkeypatch):
+    """Each step promises more than asked for, and gains less."""
+    asked, propose = [], Learner.propose
+
+    def promising(learner, ask, best):
+        return replace(propose(learner, ask, best), log_improvement=9.0, log_feasible=0.0)
+
+    one = evaluator()
+    monkeypatch.setattr(Learner, "propose", promising)
+    monkeypatch.setattr(Learner, "beside", lambda *_: asked.append(len(one.trials)))
+    run_bayesian(one, Task(12, 0, initial=5, least_gain=50.0))
+    assert asked == [9, 10, 11]
+
+
+@pytest.mark.usefixtures("quick_proposals_once")
 def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
     whole = evaluator()
     run_bayesian(whole, Task(18, 3, initial=6, batch=2))
