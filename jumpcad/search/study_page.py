@@ -130,8 +130,9 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
         searched = with_unit(_range(parameter.describe()), parameter.name)
         meaning, name = written(meaning_of(parameter.name)), parameter.name
         rows.append([broken(name), meaning, written(searched), with_unit(value, name) if value else ""])
+    whose = "highest" if identity["method"] in FRONTS and not found.candidates else "winner"
     yield from table(
-        ("parameter", "meaning", "searched", "highest" if identity["method"] in FRONTS and not found.candidates else "winner"),
+        ("parameter", "meaning", "searched", whose),
         rows,
         numbers=(3,),
     )

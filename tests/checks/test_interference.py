@@ -126,8 +126,8 @@ def test_plates_that_lie_on_each_other_share_areas_times_heights(
     monkeypatch: pytest.MonkeyPatch, across: float
 ) -> None:
     """Discs of 12 mm, 1.5 mm of their heights in each other, one of them upside down or not: no mesh is cut."""
-    monkeypatch.setattr(Component, "solid", property(lambda _: pytest.fail("a mesh")))
-    plate, pose = Component("plate", BODY, Stack.of([(0.0, 4.0, disc(12.0))]), np.eye(4)), np.eye(4)
+    monkeypatch.setattr(Piece, "solid", property(lambda _: pytest.fail("a mesh")))
+    plate, pose = Piece("plate", BODY, Stack.of([(0.0, 4.0, disc(12.0))]), np.eye(4)), np.eye(4)
     pose[1, 1], pose[2, 2], pose[2, 3] = across, across, 2.5 if across > 0.0 else 6.5
     assert shared_volume_mm3(plate, np.eye(4), plate, pose) == pytest.approx(1.5 * np.pi * 36.0, rel=5e-3)
 
