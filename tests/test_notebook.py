@@ -183,8 +183,8 @@ def test_the_result_of_a_search_is_a_table():
     assert {name: int(shown[f"rejected: {name}"]) for name in found.rejected} == found.rejected
     best = jumpcad.optimize("nsga2", 40, model="capsule", workers=0)
     shown = table(best._repr_html_())
-    assert [name for name in shown if name.startswith("with ")] == [
-        f"with {trial.design.spring_energy_j:.4f} J in the springs" for trial in best.front
+    assert [name for name in shown if name.startswith("energy in the springs ")] == [
+        f"energy in the springs {trial.design.spring_energy_j:.4g} J" for trial in best.front
     ]
 
 
