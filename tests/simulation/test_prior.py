@@ -10,7 +10,7 @@ from scipy import stats
 from support.built import built
 
 from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
-from jumpcad.simulation.prior import QUANTILES, Prior
+from jumpcad.simulation.prior import PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, Prior
 from jumpcad.simulation.stop_pad import StopPad
 
 SHARES = (0.1, 0.5, 0.9)
@@ -29,6 +29,13 @@ SHARES = (0.1, 0.5, 0.9)
 def test_quantiles_are_those_of_the_distribution(prior: Prior, known: stats.rv_continuous) -> None:
     assert prior.quantiles(SHARES) == pytest.approx(known.ppf(SHARES))
     assert QUANTILES == SHARES  # what reports call 10, 50 and 90 %
+
+
+def test_springs_lose_a_twentieth_give_or_take_as_much_and_pins_rub_like_dry_plastic() -> None:
+    """N(0.95, 0.05), within one standard deviation 0.90 to 1.00; a median of 0.25, times or by e^0.4."""
+    shares = stats.norm.cdf([-1.0, 0.0, 1.0])
+    assert SPRING_EFFICIENCY.quantiles(tuple(shares)) == pytest.approx((0.90, 0.95, 1.00))
+    assert PIN_FRICTION.quantiles(tuple(shares)) == pytest.approx((0.1676, 0.25, 0.3730), abs=1e-4)
 
 
 def test_a_normal_is_cut_off_and_a_half_normal_stays_finite() -> None:
