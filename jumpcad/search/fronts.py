@@ -80,7 +80,7 @@ class Cost:
 
     def shown(self, cost: float) -> float:
         """Return the figure of a cost, as people read it."""
-        return cost if self.less_is_better else -cost
+        return cost if self.less_is_better else 0.0 - cost
 
     def describe(self) -> dict[str, str]:
         """Return what a study remembers of it: nothing of energy in the springs, which every front once had."""

@@ -57,7 +57,8 @@ class Axes:
             return ""
         (x, y), *others = places
         drawn = f"M{self.x(x):.1f} {self.y(y):.1f}" + "".join(f"H{self.x(u):.1f}V{self.y(v):.1f}" for u, v in others)
-        return f'<path class="{kind}" d="{drawn}H{self.width - self.right:g}" />'
+        end = self.width - self.right if places[-1][0] >= x else self.x(self.across[0])
+        return f'<path class="{kind}" d="{drawn}H{end:g}" />'
 
     def drawn(self, across: str, up: str) -> list[str]:
         """Return grid, ticks and titles."""

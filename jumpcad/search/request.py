@@ -137,7 +137,7 @@ class Request:
             self.model.require_figures(self.aim)
             if self.is_front and self.cost.of_design is None:
                 self.model.require_figures(self.cost.figure)
-        if self.is_front and self.against == self.objective:
+        if self.is_front and self.against == self.objective and not self.own:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
         if self.screen:
             self._require_screen()

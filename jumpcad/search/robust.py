@@ -156,6 +156,8 @@ def rank_candidates(
     reserve = JOINING * 3 if evaluations >= LEAST_TO_JOIN and among is None else 0
     rounds = plan_rounds(evaluations - reserve)
     best = best_apart(evaluator.space, trials if among is None else among, rounds[0][0])
+    if not best:  # no score of a front is above 0
+        return []
     field = [_Examined(index, one) for index, one in enumerate(best)]
     left: list[_Examined] = []
     for turn, (count, new) in enumerate(rounds):

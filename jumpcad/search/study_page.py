@@ -171,7 +171,11 @@ def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[s
     yield "other, each further click shows the next one. The pictures below mark the chosen design too. "
     numbers = [found.numbers[trial.position] for trial in shown]
     first = _first(shown, is_front)
-    which = "the most robust of the best" if _are_candidates(found, shown) else "the one with the highest score"
+    which = (
+        "the most robust of the best"
+        if _are_candidates(found, shown) and not is_front
+        else "the one with the highest score"
+    )
     yield f"The page opens on design {first} (trial {numbers[first - 1]}), {which}; the number of a trial is that of "
     yield "<code>jumpcad study</code> and <code>jumpcad studio</code>.</p>"
     yield '<div class="map">'

@@ -37,6 +37,13 @@ def test_a_front_has_its_trials_and_its_own_objective():
     assert found.bounds == []
 
 
+@pytest.mark.parametrize("method", ["pareto", "nsga2"])
+def test_a_front_without_a_score_above_0_has_a_winner_and_no_candidates(method):
+    found = jumpcad.optimize(method, evaluations=40, objective=lambda figures: -figures["mass_kg"], **QUICK)
+    assert found.front == found.candidates == []
+    assert found.winner is found.best is not None
+
+
 def test_where_nothing_jumps_the_trials_are_kept_and_the_design_is_asked_for_in_vain(tmp_path):
     found = jumpcad.optimize(
         "ga", evaluations=12, fixed={"stiffness_nmm_per_deg": 5, "compression_ratio": 0.1}, **QUICK
