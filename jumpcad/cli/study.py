@@ -122,6 +122,7 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
 def _print_one(summary: dict[str, Any]) -> None:
     identity = summary["identity"]
     about = f"{identity['method']} on the {identity['model']['name']} robot, {identity['objective']}"
+    about += f" against {identity['against']}" if "against" in identity else ""
     print(f"{escaped(summary['study'])}: {about}")
     around = f", and {summary['other_evaluations']} around the best" if summary["planned"] else ""
     print(f"{_done(summary['evaluations'], summary['planned'], identity['model'])}{around}")

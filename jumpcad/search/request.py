@@ -108,7 +108,8 @@ class Request:
         if against is not None and method not in FRONTS:
             raise JumpcadError(f"against: does not apply to {method or DEFAULT}, only to {', '.join(FRONTS)}")
         printed_front = model.name == "printed" and method in FRONTS
-        against = against or (ELECTRICAL_ENERGY if printed_front else SPRING_ENERGY).name
+        if against is None:
+            against = (ELECTRICAL_ENERGY if printed_front else SPRING_ENERGY).name
         model, aim = model.aiming_at(objective, "range" if method in FRONTS else "")
         own = aim if aim.code else None
         if model.name == "printed" and (others.get("screen") or method not in ("ga", "nsga2")):
@@ -136,7 +137,7 @@ class Request:
         if isinstance(self.model, RobotModel):
             self.model.require_figures(self.aim)
             if self.is_front and self.cost.of_design is None:
-                self.model.require_figures(self.cost.figure)
+                self._require_cost(self.model)
         if self.is_front and self.against == self.objective and not self.own:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
         if self.screen:
@@ -163,6 +164,15 @@ class Request:
         if self.batch > 1 and not any(METHODS[name].learns for name in stages):
             learning = ", ".join(name for name in NAMES if any(METHODS[one].learns for one in _methods(name)))
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
+
+    def _require_cost(self, model: RobotModel) -> None:
+        try:
+            model.require_figures(self.cost.figure)
+        except JumpcadError:
+            raise JumpcadError(
+                f"against = {self.against!r}: a jump of the {model.name} robot has no such figure: name another, or "
+                "choose another model"
+            ) from None
 
     def _require_screen(self) -> None:
         if self.method != "ga":

@@ -106,6 +106,7 @@ def test_a_front_of_two_figures_is_what_nothing_dominates(trials, against, figur
     theirs = reference_hypervolume(np.array([[s, -e] for s, e in points]), [0.0, -1.0])
     assert hypervolume(weighed, 1.0, cost) == pytest.approx(theirs, rel=1e-12)
     assert cost.of(trials[0]) == np.inf
+    assert str(cost.shown(0.0)) == "0.0"  # not -0
 
 
 def test_costs_are_found_by_name_and_by_what_a_study_remembers():

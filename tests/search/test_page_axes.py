@@ -69,3 +69,12 @@ def test_a_front_goes_level_to_the_next_design_and_then_up() -> None:
 def test_of_many_things_some_are_chosen_evenly_with_both_ends() -> None:
     assert evenly(9, 3) == [0, 4, 8]
     assert evenly(3, 9) == [0, 1, 2]
+
+
+def test_steps_that_go_to_the_left_end_at_the_begin_of_the_axis():
+    """Of two figures of which more is better: what has the best score has the least of the other, and so has less."""
+    axes = Axes(scale([2.0, 3.0, 4.0]), scale([1.0, 2.0, 3.0]))
+    left = ElementTree.fromstring(axes.steps([(4.0, 1.0), (3.0, 2.0), (2.0, 3.0)], "front")).get("d")
+    right = ElementTree.fromstring(axes.steps([(2.0, 1.0), (3.0, 2.0), (4.0, 3.0)], "front")).get("d")
+    assert float(left.rpartition("H")[2]) == pytest.approx(axes.x(axes.across[0]), abs=0.05)
+    assert float(right.rpartition("H")[2]) == axes.width - axes.right

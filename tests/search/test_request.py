@@ -269,12 +269,23 @@ def test_what_a_front_is_against_follows_from_the_robot_and_is_refused_elsewhere
     assert "against" not in Request.make(Space.default(), capsule, "nsga2").identity([])
     for method, model, against, said in (
         ("bo", printed, "mass", "against: does not apply to bo, only to pareto, nsga2"),
-        ("pareto", capsule, "electrical-energy", "needs electrical_energy_j, which this model does not give"),
+        (
+            "pareto",
+            capsule,
+            "electrical-energy",
+            "against = 'electrical-energy': a jump of the capsule robot has no such figure",
+        ),
+        ("pareto", capsule, "", "against = '' is none of electrical-energy"),
         ("pareto", capsule, "range", "against = 'range' is the objective itself"),
         ("pareto", capsule, "weight", "against = 'weight' is none of electrical-energy"),
     ):
         with pytest.raises(JumpcadError, match=said):
             Request.make(Space.default(), model, method, against=against)
+
+    def range(figures):
+        return figures["fitness"]
+
+    assert Request.make(Space.default(), capsule, "pareto", range, against="range").objective == "range"
     spring = Space.make(choices={"bought.spring": ["", "9271K619"]}, workshop=load_workshop())
     assert Request.make(spring, printed, "pareto").cost.name == "electrical-energy"
     with pytest.raises(JumpcadError, match=r"bought\.spring: a front against spring energy"):

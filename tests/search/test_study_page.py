@@ -412,6 +412,18 @@ def test_the_page_tells_what_happened_and_what_evaluated():
     assert said == "Notes of the run a worker was lost Evaluated with numpy 2.0.1, code 0123456789ab."
 
 
+def test_the_page_of_a_front_opens_on_its_highest_score_also_where_its_candidates_are_its_designs():
+    """Candidates are in the order of the front; the most robust one is the first, the page opens on the last."""
+    store, found = made_up("nsga2")
+    shown = study_page._shown(found, SPRING_ENERGY)
+    candidates = [Candidate(trial, 1.0, 2.0, {}, 4) for trial in shown]
+    with store:
+        said = words(study_page._best(store, replace(found, candidates=candidates), shown))
+    assert f"The page opens on design {len(shown)} (" in said
+    assert "the one with the highest score" in said
+    assert "the most robust of the best" not in said
+
+
 def test_the_area_of_a_long_front_is_that_of_all_its_designs():
     """A hundred of them are shown."""
     store, found = made_up("nsga2")
