@@ -29,24 +29,29 @@ def text(label: str, height_mm: float) -> Region:
     JumpcadError
         If the height is not positive or the label has nothing to draw.
     """
-    font = _font()
     label = engravable(label)
     contours, x = [], 0.0
     for letter in label:
-        advance, polygons = _letter(font, letter)
+        advance, polygons = _letter(letter)
         contours += [polygon + np.array([x, 0.0]) for polygon in polygons]
         x += advance
     if not contours or not height_mm > 0:
         raise JumpcadError(f"text {label!r} of height {height_mm:g} mm cannot be engraved: give letters and a height")
-    capital = max(float(polygon[:, 1].max()) for polygon in _letter(font, "H")[1])
+    capital = max(float(polygon[:, 1].max()) for polygon in _letter("H")[1])
     letters = CrossSection(contours, FillRule.NonZero).scale((height_mm / capital, height_mm / capital))
     return letters.simplify(SAGITTA_MM)
 
 
 def engravable(label: str) -> str:
     """Return the letters of a label that the font has: Latin, Greek, Cyrillic and some others."""
-    known = _font().get_charmap()
+    known = _codes()
     return "".join(letter for letter in label if ord(letter) in known)
+
+
+@lru_cache(maxsize=1)
+def _codes() -> frozenset[int]:
+    """Return the code points of the letters that the font has."""
+    return frozenset(_font().get_charmap())
 
 
 @lru_cache(maxsize=1)
@@ -59,11 +64,13 @@ def _font() -> "FT2Font":
     return font
 
 
-def _letter(font: "FT2Font", letter: str) -> tuple[float, list[Array]]:
+@lru_cache(maxsize=256)
+def _letter(letter: str) -> tuple[float, list[Array]]:
     """Return the advance width of a letter, and its closed contours (n, 2)."""
     from matplotlib.ft2font import LoadFlags
     from matplotlib.path import Path as Curve
 
+    font = _font()
     glyph = font.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
     vertices, codes = font.get_path()
     polygons = [np.asarray(polygon) for polygon in Curve(vertices, codes).to_polygons()] if len(vertices) else []
