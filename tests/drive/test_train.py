@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 import math
+import re
 
 import pytest
 from support.built import built, geared
@@ -128,8 +129,12 @@ def test_a_jump_costs_electricity_of_the_order_that_was_measured():
 
 def test_a_motor_that_turns_the_cam_at_no_ratio_is_refused():
     weak = [load_catalogue().motors["n20-30"]]
-    with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it needs 164 mN·m.*stronger motor"):
+    with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it needs 164 mN·m.*stronger motor") as refused:
         synthesise_train(law_of("best-bo"), weak, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0))
+    words = re.search(r"needs (\d+) mN·m, .* may give (\d+) mN·m, .* pairs make ([\d.]+):1", str(refused.value))
+    assert words is not None
+    needed, given, ratio = map(float, words.groups())
+    assert given * ratio * LIMITS.pair_efficiency == pytest.approx(needed, rel=0.02), "through one pair"
     with pytest.raises(CannotBuildError, match="no motor is allowed"):
         synthesise_train(law_of("best-bo"), [], LIMITS)
 
