@@ -139,7 +139,7 @@ def _winding_finding(design: Design) -> Finding:
 
 def _loop_finding(margin_mm: float, why: str) -> Finding:
     closes = f"closes with {margin_mm:.2f} mm margin, of 0 mm at least"
-    found = closes if margin_mm > 0 else f"is {-margin_mm:.2f} mm short of closing"
+    found = closes if margin_mm > 0 else f"is {abs(margin_mm):.2f} mm short of closing"
     return Finding(
         "loop", "info" if margin_mm > 0 else "error", margin_mm, "mm", f"the loop {found}: {why}",
         "lower compression_ratio, or bring c_coef nearer to 1", margin_mm, 0.0,

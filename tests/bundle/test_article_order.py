@@ -58,6 +58,11 @@ def test_leg_and_front_link_turn_on_the_smooth_part_of_their_screws(motor: str, 
     left, leg = robot.layout.lateral.left_plate[1], robot.layout.lateral.leg[0]
     assert (left - leg > 45.0 - 20.5) == (longer > 0.0)
     cut = re.findall(r"buy M3 x (\d+) and cut them to 45 mm", "\n".join(order_lines(robot)))
+    stand_ins = re.search(r"- (\d+) rods of 3 mm, (\d+) mm long", "\n".join(order_lines(robot)))
+    assert stand_ins is not None
+    screws = [item for item in robot.hardware if item.article.endswith("ISO 4762 - 12.9")]
+    low, high = robot.layout.lateral.outside
+    assert (int(stand_ins[1]), int(stand_ins[2])) == (len(screws), round(high - low)), "one for each screw"
     assert [float(one) for one in cut] == ([longer] if longer else [])
     if longer:
         assert longer - 20.5 >= left - leg

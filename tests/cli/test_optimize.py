@@ -23,6 +23,7 @@ from jumpcad.findings import Finding
 from jumpcad.search import study
 from jumpcad.search.fronts import find_cost
 from jumpcad.search.models import robot_model
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.space import Space
 from jumpcad.search.widening import Widened
@@ -250,6 +251,31 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
         f"at its upper bound: e_coef = 1; 1.1 is {NOT_EXAMINED}",
     ]
     assert told[-1] == "next: jumpcad build won.toml --workshop won-workshop.toml"
+
+
+def test_a_front_that_seeks_more_of_both_shows_the_figures_as_they_are(capsys):
+    """Rises in m, not the negative ones that a search makes small."""
+    design = load_design("kenan-2.0")
+    front = [
+        SimpleNamespace(design=design, score=score, workshop={}, evaluation=Evaluation("jump", {"com_rise_m": rise}))
+        for rise, score in ((0.25, 0.5), (0.125, 0.75))
+    ]
+    request = SimpleNamespace(
+        aim=SimpleNamespace(neighbours_of=""), space=SimpleNamespace(size=1000), is_front=True, objective="range",
+        cost=find_cost("rise"),
+    )  # fmt: skip
+    result = SimpleNamespace(
+        request=request, evaluations=2, trials=front, rejected={}, converged=False, notes=[], best=front[1],
+        winner=front[1], hypervolume=0.125, front=front, candidates=[], score=0.75, design=design, widened=[],
+        bounds=[],
+    )  # fmt: skip
+    optimize._print_result(result, Path("won.toml"))
+    told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
+    assert told[1:4] == [
+        "range against rise of the centre of mass; hypervolume 0.1250",
+        "0.2500 m 0.5000",
+        "0.1250 m 0.7500",
+    ]
 
 
 def test_a_winner_s_limits_are_looked_at_in_its_own_workshop(monkeypatch):

@@ -213,6 +213,9 @@ def test_a_rigid_key_fails_its_checks() -> None:
     failed = {finding.name for finding in release.findings if finding.severity == "error"}
     assert {"release_energy", "release_kick"} <= failed
     assert all("play_deg" in finding.remedy for finding in release.findings)
+    (energy,) = (finding for finding in release.findings if finding.name == "release_energy")
+    enough = round(math.degrees(release.roll_over_rad) + 3.0)  # as by "auto"
+    assert f'release.play_deg = "auto" or more than {enough},' in energy.remedy
 
 
 def test_a_play_beyond_the_window_fails_its_check() -> None:

@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 import math
+import re
 
 import pytest
 from support.built import built, geared
@@ -126,10 +127,24 @@ def test_a_jump_costs_electricity_of_the_order_that_was_measured():
         assert law.energy_j / train.electrical_j < train.efficiency
 
 
+def test_what_a_motor_does_and_may_do_is_told_in_degrees_and_millinewton_metres():
+    train = synthesise_train(law_of("kenan-2.0"), MOTORS, LIMITS)
+    told = {finding.name: finding for finding in train.findings}
+    speed, torque = told["cam_speed"], told["motor_torque"]
+    degrees = [f"{math.degrees(rate):.0f} °/s" for rate in (train.cam_speed_rad_s, LIMITS.cam_speed_max_rad_s)]
+    assert speed.message == f"the unloaded cam turns at {degrees[0]}; {degrees[1]} are allowed"
+    given, allowed = (f"{1000.0 * value:.1f} mN·m" for value in (train.motor_torque_nm, torque.limit))
+    assert torque.message == f"{train.motor.name} gives {given} at most; {allowed} are allowed"
+
+
 def test_a_motor_that_turns_the_cam_at_no_ratio_is_refused():
     weak = [load_catalogue().motors["n20-30"]]
-    with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it needs 164 mN·m.*stronger motor"):
+    with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it needs 164 mN·m.*stronger motor") as refused:
         synthesise_train(law_of("best-bo"), weak, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0))
+    words = re.search(r"needs (\d+) mN·m, .* may give (\d+) mN·m, .* pairs make ([\d.]+):1", str(refused.value))
+    assert words is not None
+    needed, given, ratio = map(float, words.groups())
+    assert given * ratio * LIMITS.pair_efficiency == pytest.approx(needed, rel=0.02), "through one pair"
     with pytest.raises(CannotBuildError, match="no motor is allowed"):
         synthesise_train(law_of("best-bo"), [], LIMITS)
 

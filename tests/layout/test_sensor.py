@@ -123,7 +123,9 @@ def test_the_gear_keeps_1_6_mm_under_the_groove_or_is_refused(robot: Robot) -> N
     assert (needs.layer_mm, thick) == (0.2, 5.0)
     least = middle_mm(needs.travel) - needs.axial_mm - 0.1
     assert placed_with(robot, free_mm=least + 3.2).depth_mm == pytest.approx(3.2)
-    with pytest.raises(CannotBuildError, match=r"no room for the sensor's groove: 3\.6 mm deep") as refused:
+    with pytest.raises(
+        CannotBuildError, match=r"no room for the sensor's groove: 3\.6 mm deep, it leaves 1\.4 of"
+    ) as refused:
         placed_with(robot, free_mm=least + 3.5)
     assert refused.value.margin == pytest.approx(-0.2)
     assert refused.value.limit == "sensor_groove"

@@ -93,7 +93,7 @@ def test_design_without_assembled_pose_is_a_loop_finding(c_coef: float, d_coef: 
     (finding,) = geometry_findings(design)
     assert (finding.name, finding.severity) == ("loop", "error")
     assert finding.margin <= 0
-    assert "short of closing" in finding.message
+    assert f"the loop is {abs(finding.margin):.2f} mm short of closing" in finding.message
 
 
 def test_legs_that_hardly_close_at_rest_fall_short_in_the_travel() -> None:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from jumpcad.printing.project import project_settings, settings_in_words, temperatures_in_words
+from jumpcad.printing.project import pad_settings, project_settings, settings_in_words, temperatures_in_words
 from jumpcad.workshop import load_workshop
 
 
@@ -56,3 +56,18 @@ def test_a_project_has_the_materials_temperatures_of_every_layer(name: str) -> N
     assert not any("temperature" in key for key in project_settings(shop.printer, shop.process, unknown, name))
     assert settings["filament_type"] == name
     assert not {"start_gcode", "end_gcode"} & settings.keys()
+
+
+def test_a_pad_is_printed_as_parts_are_but_solid_and_of_its_own_filament() -> None:
+    """A pad weighs its volume times its density: none of it may be left open."""
+    shop = load_workshop()
+    pad = shop.catalogue.pads["tpu-2"]
+    process = shop.process.model_copy(update={"infill": 0.35, "infill_pattern": "grid"})
+    unknown = shop.material("links").model_copy(update={"nozzle_c": None, "bed_c": None})
+    part = project_settings(shop.printer, process, unknown, "PETG")
+    assert (part["fill_density"], part["fill_pattern"]) == ("35%", "grid")
+    own = {
+        "fill_density": "100%", "fill_pattern": "rectilinear",
+        "filament_density": f"{pad.density_g_cm3:g}", "filament_type": "tpu-2",
+    }  # fmt: skip
+    assert pad_settings(shop.printer, process, pad) == part | own

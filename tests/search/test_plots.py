@@ -13,7 +13,7 @@ from jumpcad.findings import Finding
 from jumpcad.search import plots
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import MEANINGS, PICTURES, panels, save_figure
-from jumpcad.search.fronts import energy_j
+from jumpcad.search.fronts import energy_j, find_cost
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -97,6 +97,21 @@ def test_a_front_is_level_from_each_design_to_the_next_that_takes_more_energy():
     assert list(shown.get_xdata()) == [energy_j(trials[index].design) for index in (1, 2, 0)]
     assert (list(shown.get_ydata()), shown.get_drawstyle()) == ([1.0, 2.0, 3.0], "steps-post")
     assert list(lines["other designs"].get_ydata()) == [3.0, 1.0, 2.0, 0.5]
+
+
+def test_a_front_that_seeks_more_of_both_is_drawn_over_the_figure_itself():
+    """Level from each design to the next that rises less: the best score of all that rise so far."""
+    rises = ((0.5, 1.0), (0.125, 3.0), (0.25, 2.0), (0.2, 0.5))
+    trials = [
+        replace(trial((0.5, 0.5, 0.5), score), evaluation=Evaluation("jump", {"com_rise_m": rise}))
+        for rise, score in rises
+    ]
+    (axes,) = plots.pareto(trials, find_objective("fitness"), find_cost("rise")).axes
+    lines = {line.get_label(): line for line in axes.lines}
+    assert list(lines["front"].get_xdata()) == [0.5, 0.25, 0.125]
+    assert list(lines["front"].get_ydata()) == [1.0, 2.0, 3.0]
+    assert list(lines["other designs"].get_xdata()) == [0.5, 0.125, 0.25, 0.2]
+    assert axes.get_xlabel() == "rise of the centre of mass (m)"
 
 
 def test_each_importance_has_its_own_error():

@@ -114,6 +114,18 @@ def test_of_parts_that_are_bought_the_body_has_all_but_the_wire() -> None:
     assert known_masses(DESIGN, free)[BODY] == pytest.approx(weight - min(motors) + lightest)
 
 
+@pytest.mark.parametrize(("own_g", "lightest_g"), [(8.5, 8.5), (11.5, 10.0)])
+def test_of_motors_that_may_drive_it_the_body_has_the_lightest(own_g: float, lightest_g: float) -> None:
+    """One of the user's own beside an N20 of 10 g: what is refused must be too weak with either."""
+    shop = own("motors", "n20-298", mass_g=own_g)
+    both, alone = (
+        shop.model_copy(update={"bought": shop.bought.model_copy(update={"motors": motors})})
+        for motors in (("own", "n20-298"), ("n20-298",))
+    )
+    assert shop.catalogue.motors["n20-298"].mass_g == 10.0
+    assert known_masses(DESIGN, both)[BODY] - known_masses(DESIGN, alone)[BODY] == pytest.approx(lightest_g - 10.0)
+
+
 def test_springs_of_a_shop_weigh_as_their_wire() -> None:
     """Two helices of steel, 7.85 g/cm³: the wire's section times turns times the mean circle."""
     name = next(iter(SHOP.catalogue.springs))

@@ -139,6 +139,14 @@ def test_of_a_front_the_trials_come_with_their_hypervolume() -> None:
     assert lines[f"energy in the springs {high:.4g} J"] == "5"
 
 
+def test_a_front_that_seeks_more_of_both_is_shown_by_the_figures_themselves() -> None:
+    """Range against fitness, which is half of the score here: of two designs the better one has more of both."""
+    request = Request(SMALL, Hill(), "range", "nsga2", 40, against="fitness")
+    lines = dict(found(request=request, candidates=[])._lines())
+    assert lines["range over the longest link 2.5 body lengths"] == "5"
+    assert not any("-" in name for name in lines)
+
+
 def test_a_notebook_shows_what_was_evaluated_won_and_rejected() -> None:
     lines = list(found()._lines())
     assert lines[:3] == [

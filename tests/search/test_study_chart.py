@@ -5,7 +5,7 @@ import re
 import pytest
 
 from jumpcad.design import load_design
-from jumpcad.search.fronts import SPRING_ENERGY
+from jumpcad.search.fronts import SPRING_ENERGY, find_cost
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.page_axes import Axes, scale
 from jumpcad.search.study_chart import _radii, chart
@@ -46,3 +46,21 @@ def test_every_shown_design_is_a_link_at_its_energy_and_score(is_front: bool) ->
     assert [number for number, *_ in links] == ["1", "2"]
     assert ('class="front"' in page) == is_front
     assert page.count('data-of="') == 2
+
+
+def test_a_chart_of_more_of_both_has_the_figure_itself() -> None:
+    """Rises to the right of 0, and the design that rises most farthest to the right."""
+    rises, scores = (0.5, 0.125, 0.25), (1.0, 3.0, 2.0)
+    trials = [
+        Trial("nsga2", 0, place, DESIGN, Evaluation("jump", {"com_rise_m": rise}), score, "m", 0.0)
+        for place, (rise, score) in enumerate(zip(rises, scores, strict=True))
+    ]
+    page = chart(trials, trials, [1, 2, 3], find_objective("range"), find_cost("rise"), True)
+    links = re.findall(r'<a href="#design-\d".*?aria-label="(.*?)".*?cx="([\d.]+)" cy="[\d.]+"', page)
+    assert [said for said, _ in links] == [
+        "design 1 (trial 1): 1 m with 0.500 m", "design 2 (trial 2): 3 m with 0.125 m",
+        "design 3 (trial 3): 2 m with 0.250 m",
+    ]  # fmt: skip
+    axes = Axes(scale([*rises, *rises]), scale([*scores, *scores]))
+    assert [float(x) for _, x in links] == pytest.approx([axes.x(rise) for rise in rises], abs=0.051)
+    assert axes.x(0.5) > axes.x(0.125)

@@ -16,7 +16,7 @@ from support.studies import IDENTITY
 from jumpcad.design import load_design
 from jumpcad.search import study_lessons, study_page
 from jumpcad.search.explore import Importance
-from jumpcad.search.fronts import SPRING_ENERGY, front, hypervolume
+from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.replay import Known, known
@@ -365,6 +365,16 @@ def test_a_front_is_told_from_end_to_end_and_where_half_of_it_is_reached():
         f"Here it goes from 1 m with {low} to 4 m with {high}; half of the highest score comes with {half}."
     )
     assert [study_page._first(shown, front) for front in (True, False)] == [4, 1]
+
+
+def test_a_front_that_seeks_more_of_both_is_told_by_the_figures_themselves():
+    shown = [
+        replace(shown_trial(score, n), evaluation=Evaluation("jump", {"com_rise_m": rise}))
+        for n, (score, rise) in enumerate(((1.0, 0.5), (2.5, 0.25), (4.0, 0.125)))
+    ]
+    assert study_page._reach(shown, find_objective("range"), find_cost("rise")) == (
+        "Here it goes from 1 m with 0.5 m to 4 m with 0.125 m; half of the highest score comes with 0.25 m."
+    )
 
 
 def test_designs_that_are_shown_are_the_front_the_candidates_or_the_best():

@@ -8,6 +8,7 @@ from support.searches import refusal
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.store import StudyStore
 from jumpcad.search.table import write_table
 from jumpcad.studio.points import Points
@@ -35,6 +36,19 @@ def test_best_and_front_are_listed(study: Path) -> None:
     for text, number in listed.items():
         design = Points(study).trial(number).design
         assert text.startswith((f"front, {design.spring_energy_j:.4g} J: ", "best "))
+
+
+def test_a_front_that_seeks_more_of_both_is_listed_by_the_figures_themselves(tmp_path: Path) -> None:
+    """Three trials that rise less the better their score is."""
+    file = tmp_path / "rise.db"
+    made = [
+        replace(one, evaluation=Evaluation("jump", {"fitness": score, "com_rise_m": 0.5 / score}), score=score)
+        for one, score in zip(trials(3), (1.0, 2.0, 4.0), strict=True)
+    ]
+    with StudyStore.write(file, IDENTITY | {"method": "nsga2", "against": "rise"}) as store:
+        store.append(made)
+    front = [text.partition(":")[0] for text in Points(file).listed if text.startswith("front")]
+    assert front == ["front, 0.5 m", "front, 0.25 m", "front, 0.125 m"]
 
 
 def test_the_workshop_is_that_of_the_study_with_the_trials_values(tmp_path: Path) -> None:
