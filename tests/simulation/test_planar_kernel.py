@@ -1,6 +1,8 @@
 """The planar mechanism against rigid bodies that pins hold together, and against the laws of motion."""
 
+import importlib.util
 import math
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -389,6 +391,31 @@ def test_a_step_on_the_ground_obeys_the_laws_of_contact(either: Robot, held: boo
     assert {mode for mode, _ in modes} == {kernel.SEPARATE, kernel.STICK, kernel.FORWARD, kernel.BACKWARD}
     assert len({mode for mode, _ in modes}) == 4
     assert {two for _, two in modes} == {False, True}
+
+
+def test_no_third_sphere_goes_below_the_ground_that_two_touch(lopsided: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Spheres in a row, the middle one lower, level or higher: two of them carry, whatever pushes there are."""
+    monkeypatch.setitem(sys.modules, "numba", None)  # compiling it for three spheres costs seconds
+    spec = importlib.util.spec_from_file_location("plain_kernel", kernel.__file__)
+    plain = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(plain)
+    model, rng, pairs = model_of(lopsided), np.random.default_rng(11), set()
+    for _ in range(200):
+        low, high = (rng.choice([-1.0, 0.0, 1.0]) * 10.0 ** rng.uniform(-7.0, -3.5) for _ in range(2))
+        spheres = 0.08 + 0j, complex(rng.uniform(-0.03, 0.05), low), complex(-0.07, high)
+        sole = tuple(spheres[index] for index in rng.permutation(3))
+        three = model._replace(sole_m=sole, sole_radius_m=(0.004, 0.004, 0.004))
+        ground = Ground(complex(0.0, 0.004 - min(at.imag for at in sole)), 1.0 + 0j, 1e-4)
+        inertia = plain.inertia_at(three, plain.links_at(three, rng.uniform(-0.7, 0.1)), ground.turn)
+        free = Motion(complex(rng.normal(0.0, 1.0), rng.normal(-1.0, 1.0)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0))
+        after, contact, _ = plain.settle(three, ground, plain.gains_of(inertia), free, NO_CONTACT, False)
+        assert min(contact.first_ns, contact.second_ns) >= -1e-12
+        for at in sole:
+            rate = after.ankle.imag - at.real * after.foot
+            assert rate >= -(ground.ankle_m.imag + at.imag - 0.004) / ground.half_s - 1e-9
+        pairs.add((contact.first, contact.second, contact.mode == plain.STICK))
+    assert {pair for pair in pairs if pair[1] >= 0} >= {(one, two, True) for one, two in ((1, 0), (2, 0), (2, 1))}
+    assert {pair[2] for pair in pairs if pair[1] >= 0} == {False, True}
 
 
 @pytest.mark.parametrize("height_m", [None, 0.5])
