@@ -131,10 +131,12 @@ def test_a_contact_gets_the_current_of_its_pull_up_or_of_the_pins_own() -> None:
     finding = found(chosen)["wiring_contact"]
     assert ohm is not None
     assert finding.value == pytest.approx(3300.0 / ohm)
+    assert finding.message.startswith(f"{ohm / 1000:g} kOhm to 3.3 V gives")
     assert finding.limit == pytest.approx(1000.0 * chosen.components["sensor"].least_a)
     pins = {name: does for name, does in chosen.controller.pins.items() if "out" not in does}
     weak = found(board(chosen, "controller", pins=pins))["wiring_contact"]
     assert weak.value == pytest.approx(3.3 / 45.0)
+    assert weak.message.startswith("the controller's own pull-up gives")
     assert weak.severity == "warning"
     dry = chosen.components["sensor"].model_copy(update={"least_a": None})
     assert "wiring_contact" not in found(replace(chosen, components=chosen.components | {"sensor": dry}))
