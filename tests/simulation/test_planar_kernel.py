@@ -523,6 +523,18 @@ def test_the_energy_at_take_off_is_audited_however_seldom_others_are(kenan: Robo
     assert -0.5 * kenan.spring.energy_j < found.worst_gain_j < 0.0
 
 
+def test_the_energy_is_audited_as_often_as_is_asked_for(kenan: Robot) -> None:
+    """What damping takes grows: the earlier the first audit, the less is missing there, and that is the worst."""
+    world, worst = PlanarWorld(kenan, replace_damping(FINE, 0.001)), []
+    start = kernel.energy(world.model, world.moment)
+    for every in (1, 60):
+        found = kernel.push_off(world.model, world.moment, FINE.dt_s, 0.004, 0.0, 0.1, FINE.max_time_s, every)
+        moment = kernel.advance(world.model, world.moment, FINE.dt_s, every)
+        assert found.worst_gain_j == pytest.approx(kernel.energy(world.model, moment) - start, abs=1e-12)
+        worst.append(found.worst_gain_j)
+    assert worst[1] < worst[0] < 0.0
+
+
 def test_a_robot_whose_leg_stops_before_its_springs_are_at_rest_flies(kenan: Robot) -> None:
     """Against a hard stop 0.1 rad before rest: the leg extends no further, and the springs push on nothing else."""
     world = PlanarWorld(stopped(kenan, -0.1, 1e4), replace_damping(FINE))
