@@ -191,6 +191,15 @@ def test_the_loop_and_the_joints_are_closed_in_pybullet_at_release(lopsided: Rob
     assert np.abs(state.velocity_m_s).max() == 0.0
 
 
+def test_the_loop_stays_closed_in_pybullet_while_the_leg_turns(lopsided: Robot) -> None:
+    """Its two points are those of front link and foot, however the axes of their inertia are turned."""
+    with engine_named("pybullet").world(lopsided, Settings()) as world:
+        world.advance(60)
+        state = world.state()
+    assert state.leg_rad > -lopsided.spring.wind_rad + 0.05
+    assert Mechanics(lopsided, 9.81).loop_gap_m(state) < 2e-4
+
+
 def test_the_foots_motion_is_that_of_the_state(kenan: Robot) -> None:
     """Centre of mass, its velocity, and the spin, of a robot that has just been let go."""
     robot = let_go(kenan)
