@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from support.machines import let_go
 
 from jumpcad.design import load_design
@@ -193,7 +194,11 @@ def test_the_loop_and_the_joints_are_closed_in_pybullet_at_release(lopsided: Rob
 
 def test_the_loop_stays_closed_in_pybullet_while_the_leg_turns(lopsided: Robot) -> None:
     """Its two points are those of front link and foot, however the axes of their inertia are turned."""
-    with engine_named("pybullet").world(lopsided, Settings()) as world:
+    turn = Rotation.from_rotvec([-0.9, 0.2, 0.4]).as_matrix()
+    foot = lopsided.bodies[FOOT]
+    other = replace(foot, inertia_kg_m2=turn @ foot.inertia_kg_m2 @ turn.T)
+    robot = replace(lopsided, bodies={**lopsided.bodies, FOOT: other})
+    with engine_named("pybullet").world(robot, Settings()) as world:
         world.advance(60)
         state = world.state()
     assert state.leg_rad > -lopsided.spring.wind_rad + 0.05
