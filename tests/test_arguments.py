@@ -147,6 +147,17 @@ def test_a_truth_is_no_number_of_anything(truth: bool) -> None:
             counted(**wrong)  # type: ignore[arg-type]
 
 
+def test_each_of_several_is_checked_whatever_holds_them_and_pairs_of_two_kinds_are_not() -> None:
+    @typed
+    def joined(names: list[str], lengths_mm: tuple[float, ...] = (), place: tuple[str, float] = ("", 0.0)) -> int:
+        return len(names) + len(lengths_mm) + len(place)
+
+    assert joined(["leg"], (1.0, 2, 3.5), ("hub", 4.0)) == 6
+    for wrong in ({"names": ["leg", 2]}, {"names": [], "lengths_mm": (1.0, "2")}):
+        with pytest.raises(JumpcadError, match=r"joined\(\) takes .* not one with '?2'?"):
+            joined(**wrong)  # type: ignore[arg-type]
+
+
 def test_a_record_checks_its_fields() -> None:
     @dataclass(frozen=True)
     class Leg:

@@ -47,6 +47,19 @@ def test_the_motor_is_a_line_from_no_load_to_stall_in_series_with_battery_and_dr
     assert figure(words, "wind_s") == pytest.approx(train.winding_s, abs=0.051)
 
 
+@pytest.mark.parametrize(("button", "read"), [("BOOT", "the boards included"), (None, "the controller left to the")])
+def test_a_bench_supply_feeds_the_controller_only_if_its_own_button_starts_it(
+    monkeypatch: pytest.MonkeyPatch, button: str | None, read: str
+) -> None:
+    robot = built("kenan-2.0")
+    chosen = chosen_parts(robot.workshop)
+    controller = chosen.controller.model_copy(update={"button": button})
+    monkeypatch.setattr(module, "chosen_parts", lambda _: replace(chosen, controller=controller))
+    words = expected(robot, [])
+    assert words["boards_read"].startswith(read)
+    assert (figure(words, "boards_ma") > 20.0) == (button is not None)
+
+
 def test_times_and_limits_are_those_of_the_program() -> None:
     robot = built("kenan-2.0")
     words, values = expected(robot, []), numbers(robot)

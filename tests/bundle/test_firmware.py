@@ -126,6 +126,9 @@ def test_the_notes_say_what_the_sensors_contact_does(level: int, does: str) -> N
     """It joins its pin to ground, and a resistor pulls the pin up: an open contact reads 1."""
     robot = built("kenan-2.0")
     values = numbers(robot) | {"READY_LEVEL": level}
+    steps = re.findall(r"^ +(\d+)\. ", _filled("{STUCK}", robot, values), re.M)
+    assert steps == [str(number) for number in range(1, 1 + len(steps))]
+    assert len(steps) > 2
     assert f"The sensor's contact {does} when it is pressed" in _filled("- {SENSOR}", robot, values)
     (own,) = (text for path, text in firmware_files(robot) if path.endswith("README.md"))
     does = "opens" if numbers(robot)["READY_LEVEL"] else "closes"

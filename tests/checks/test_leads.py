@@ -20,6 +20,7 @@ def test_leads_keep_away_from_what_moves(name: str) -> None:
     (finding,) = lead_findings(built(name))
     assert finding.name == "wires_clear"
     assert finding.severity == "info", finding.message
+    assert finding.limit - 0.6 == pytest.approx(1.0, abs=0.15)  # of air beside a lead of 1.2 mm
 
 
 @pytest.mark.parametrize(("beside_mm", "severity"), [(-1.2, "error"), (0.0, "error"), (1.2, "error"), (3.0, "info")])

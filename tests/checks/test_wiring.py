@@ -137,6 +137,7 @@ def test_a_contact_gets_the_current_of_its_pull_up_or_of_the_pins_own() -> None:
     pins = {name: does for name, does in chosen.controller.pins.items() if "out" not in does}
     weak = found(board(chosen, "controller", pins=pins))["wiring_contact"]
     assert weak.value == pytest.approx(3.3 / 45.0)
+    assert weak.message.startswith("the controller's own pull-up gives")
     assert weak.severity == "warning"
     dry = chosen.components["sensor"].model_copy(update={"least_a": None})
     assert "wiring_contact" not in found(replace(chosen, components=chosen.components | {"sensor": dry}))

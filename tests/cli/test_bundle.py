@@ -114,6 +114,15 @@ def test_build_tells_of_warnings_too(monkeypatch: pytest.MonkeyPatch) -> None:
     assert facts["violation"].startswith("2 of its 3 limits are violated")
 
 
+def test_notes_of_a_build_are_sentences(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "quick_findings", lambda _: [at_most("holds", 1.0, 2.0, "mm", "", "")])
+    note = at_most("engraving", 1.0, 2.0, "mm", "the plate has no room for its name", "")
+    monkeypatch.setattr("jumpcad.checks.engraving.engraving_findings", lambda _: [note])
+    bundle, jump = SimpleNamespace(folder="b", files={}, manifest={"masses": []}), SimpleNamespace(to_dict=dict)
+    facts = _facts(built("kenan-2.0"), bundle, jump, jump)  # type: ignore[arg-type]
+    assert facts["notes"] == ["the plate has no room for its name"]
+
+
 def test_simulating_the_bundle_gives_the_range_of_the_build(run: Run, bundle: Path) -> None:
     ranges = []
     for subject in ("kenan-2.0", bundle, bundle / "urdf" / "kenan-2.0.urdf"):

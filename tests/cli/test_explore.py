@@ -13,6 +13,7 @@ from jumpcad.cli import explore
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.explore import Sweep
+from jumpcad.workshop import load_workshop
 
 
 def test_views_of_the_space(folder):
@@ -85,6 +86,18 @@ def test_a_view_is_of_what_is_asked_for(folder, monkeypatch, view, words, maker,
     assert asked == [given]
     around = load_design(explore.AROUND if view == "pca" else "best-ga").model_dump()
     assert [(one["around"], one["seed"]) for one in identities] == [(around, 3 if view == "pca" else 0)]
+
+
+def test_what_is_chosen_of_a_workshop_is_chosen_of_the_one_that_is_named(folder, monkeypatch):
+    asked = []
+
+    def stop(*_, workshop=None):
+        asked.append(workshop)
+        raise JumpcadError("enough")
+
+    monkeypatch.setattr("jumpcad.search.space.Space.parse", stop)
+    assert "enough" in refusal("explore", "sweep", "--workshop", "fine")
+    assert asked == [load_workshop("fine")]
 
 
 def test_views_tell_in_json_what_they_looked_at(folder):

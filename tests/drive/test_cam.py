@@ -135,6 +135,14 @@ def test_the_cam_keeps_clear_of_hub_axle_and_ground_line(compression_deg, stiffn
     assert all(finding.margin > -1e-6 for finding in cam.findings)
 
 
+def test_every_turn_of_the_cam_winds_like_the_first():
+    cam = synthesised(50.0, 3.0)
+    phi = np.linspace(0.05, 2.0 * math.pi - 0.05, 60)
+    for turns in (-1, 1, 2, 3):
+        np.testing.assert_allclose(cam.wind_rad(phi + 2.0 * math.pi * turns), cam.wind_rad(phi), atol=1e-9)
+    assert np.ptp(cam.wind_rad(phi)) > 0.8
+
+
 def test_contact_pressure_is_hertz_for_a_cylinder_on_a_flat():
     # Handbook (Young, Roark's Formulas, 14.1): p = 0.591·sqrt(F·E1·E2/(b·D·(E1+E2))) with nu = 0.3 for both; the
     # general form against a rigid cylinder is sqrt(F·E/(pi·b·R·(1-nu²))). A large lever makes a nearly flat profile.

@@ -73,6 +73,14 @@ def test_the_least_clearance_is_that_of_the_longer_tooth():
     assert cut.tip_clearance_mm == pytest.approx(0.25, abs=1e-9)
 
 
+@pytest.mark.parametrize(("cuts", "clearance"), [((0.1, 0.0), 0.25), ((0.0, 0.1), 0.25), ((0.1, 0.2), 0.35)])
+def test_the_tips_of_each_gear_reach_into_the_roots_of_the_other(cuts, clearance):
+    pair = GearPair(
+        *(Gear(teeth, 1.0, 0.0, 5, tip_cut_mm=cut) for teeth, cut in zip((20, 60), cuts, strict=True)), 40.0
+    )
+    assert pair.tip_clearance_mm == pytest.approx(clearance, abs=1e-9)
+
+
 def test_a_pair_has_what_was_asked_of_it():
     """15 to 45 teeth, module 1.25 mm, 5 mm wide, 0.15 mm of backlash; ISO 21771: a ratio above 1 slows down."""
     pair = gear_pair(15, 45, 1.25, 5.0, 0.15)

@@ -31,8 +31,10 @@ def with_stock(name: str, **table: StockSpring) -> Workshop:
     return workshop.model_copy(update={"bought": bought, "springs": table})
 
 
-def fitted(spring: StockSpring, design: Design = KENAN, limits: object = LIMITS) -> TorsionSpring:
-    on_leg = springs_on_leg(design, spring)
+def fitted(
+    spring: StockSpring, design: Design = KENAN, limits: object = LIMITS, preload_rad: float = 0.0
+) -> TorsionSpring:
+    on_leg = springs_on_leg(design, spring, preload_rad)
     return fitted_spring(spring, on_leg, -math.radians(design.rest_angle_deg), WIRE, limits)  # type: ignore[arg-type]
 
 
@@ -133,6 +135,21 @@ def test_an_own_one_may_be_chosen() -> None:
     assert spring.turns == 4.25
     assert spring.rate_nmm_per_deg == pytest.approx(4.8)
     assert wrong(robot) == []
+
+
+@pytest.mark.parametrize("preload_deg", [0.0, 9.0])
+def test_preloaded_springs_are_told_where_their_pin_would_have_to_be(preload_deg: float) -> None:
+    """A pin at what is named as their range holds them; the preload turns the range by as much."""
+    askew, rooms = STOCK.model_copy(update={"arm_angle_deg": (STOCK.arm_angle_deg + 150.0) % 360.0}), []
+    for preload_rad in (0.0, math.radians(preload_deg)):
+        with pytest.raises(CannotBuildError) as refused:
+            fitted(askew, preload_rad=preload_rad)
+        room = re.search(r"must be between (\d+)° and (\d+)°", str(refused.value))
+        assert room is not None
+        rooms.append([float(one) for one in room.groups()])
+    middle = math.radians(sum(rooms[1]) / 2.0)
+    fitted(askew, limits=replace(LIMITS, plate_pins_rad=(middle,)), preload_rad=math.radians(preload_deg))
+    assert rooms[0][0] - rooms[1][0] == pytest.approx(preload_deg, abs=1.01)
 
 
 @pytest.mark.parametrize("off_deg", [60.0, 150.0, 210.0, 300.0])

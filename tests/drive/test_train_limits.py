@@ -1,6 +1,7 @@
 """Losses of a gear train multiply."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from support.limits import default_limits
@@ -22,6 +23,19 @@ def test_a_motor_asks_for_the_room_of_its_shaft_and_of_its_sockets_flat_side() -
     assert beside.pinion_root_min_mm == pytest.approx(1.5 + 1.5)
     roomy = replace(limits, motor_distance_min_mm=20.0, pinion_root_min_mm=4.0).beside(motor)
     assert (roomy.motor_distance_min_mm, roomy.pinion_root_min_mm) == (20.0, 4.0)
+
+
+def test_a_motor_winds_at_the_nominal_voltage_and_must_manage_with_an_empty_battery() -> None:
+    """Both at the torque at which it would block; a motor on a bench supply is as its data sheet says."""
+    asked = []
+    supply = SimpleNamespace(nominal_v=3.7, empty_v=3.3, driven=lambda *given: asked.append(given))
+    limits = replace(default_limits().train, supply=supply, blocked_nm=0.21)
+    motor = load_catalogue().motors["n20-298"]
+    limits.driven(motor)
+    limits.weakest(motor)
+    assert asked == [(motor, 3.7, 0.21), (motor, 3.3, 0.21)]
+    bench = replace(limits, supply=None)
+    assert bench.driven(motor) is bench.weakest(motor) is motor
 
 
 def test_modules_are_those_of_iso_54() -> None:

@@ -37,6 +37,16 @@ def test_one_cell_feeds_controller_and_driver() -> None:
             assert found[role].bears_v == (0.0, part.rated_v)
 
 
+def test_a_part_whose_voltage_nobody_states_is_not_compared() -> None:
+    _, chosen = links("light-1s")
+    plain = {role: part.model_copy(update={"rated_v": None}) for role, part in chosen.components.items()}
+    unrated = replace(chosen, components=plain)
+    motor = load_workshop().catalogue.motors["n20-298"]
+    found = {one.role for one in chain(unrated, motor, supply_of(unrated), PEAK_A, TORQUE_NM)}
+    assert plain
+    assert found == {"controller", "driver", "motor"}
+
+
 def test_two_cells_pass_a_regulator_and_a_diode_to_the_controller() -> None:
     found, chosen = links("strong-2s")
     low = 6.6 - PEAK_A * chosen.battery.ohm

@@ -72,6 +72,7 @@ def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any
     tendon = model.tendon("wound").id
     assert model.tendon_range[tendon, 0] == pytest.approx(-wind)
     assert model.tendon_limited[tendon] == 1
+    assert at_key(model, "wound").ten_length[tendon] == pytest.approx(-wind)  # it is as long as the joint's angle
     latch = model.equality("latch")
     assert latch.data[:2].tolist() == pytest.approx([-wind, 0.0])
     assert latch.active0[0] == 0

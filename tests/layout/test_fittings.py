@@ -87,6 +87,15 @@ def test_openings_lie_as_near_to_the_boards_as_a_seat_amid_them_lets_them(seat_m
         assert all(room.bounds[1] >= -0.5 for room in rooms[:2])
 
 
+def test_a_wall_is_left_around_a_switch_whatever_it_says_of_its_size(robot: Robot) -> None:
+    switch = robot.layout.fittings.switch
+    assert switch is not None
+    wall = switch_half_mm(switch.model_copy(update={"length_mm": 9.0, "width_mm": None}))[1]
+    assert 0.8 < wall < 2.0
+    assert switch_half_mm(switch.model_copy(update={"length_mm": 9.0, "width_mm": 4.0})) == (4.5 + wall, 2.0 + wall)
+    assert switch_half_mm(switch.model_copy(update={"length_mm": None, "width_mm": 4.0})) == (wall, 2.0 + wall)
+
+
 def test_without_a_socket_or_a_known_switch_there_is_no_opening_for_them() -> None:
     layout = built("kenan-2.0").layout
     board = layout.electronics.controller.model_copy(update={"usb_mm": None})

@@ -174,6 +174,18 @@ def test_the_cam_turns_freely_between_everything_in_its_plane() -> None:
         assert cam.distance(motor(layout)) >= CLEAR_MM, plan_name
 
 
+def test_leg_lugs_and_gears_are_as_thick_across_the_robot_as_their_parts() -> None:
+    for name, plan in plans().items():
+        across, sections = plan.lateral, plan.sections
+        assert np.ptp(across.leg) == pytest.approx(sections.thickness_mm), name
+        for lug in (across.lug_left, across.lug_right):
+            assert np.ptp(lug) == pytest.approx(sections.lug_thickness_mm), name
+        widths = [stage.face_width_mm for stage in reversed(plan.drive.train.stages)]
+        assert [float(np.ptp(gear)) for gear in across.gears] == pytest.approx(widths), name
+        for coil in (across.spring_left, across.spring_right):
+            assert np.ptp(coil) == pytest.approx(plan.drive.spring.body_length_mm), name
+
+
 def test_the_same_plan_twice() -> None:
     for layout in plans().values():
         again = plan_again(layout)

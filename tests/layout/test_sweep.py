@@ -84,6 +84,20 @@ def test_the_gap_is_added_all_around_and_intervals_are_kept() -> None:
     assert bare["foot"].y_mm == EVERYWHERE
 
 
+def test_a_sweep_is_no_wider_than_the_widest_place_of_what_sweeps_it() -> None:
+    """Round the hub the leg's root, at front link and ends of the foot their eyes; sizes that no two parts share."""
+    robot = built("kenan-2.0")
+    sizes = {"leg_root_mm": 9.0, "eye_radius_mm": 4.1, "lever_root_mm": 10.6, "front_mm": 7.0, "dog_mm": 12.4}
+    sections = replace(robot.layout.sections, **sizes)
+    layout = replace(robot.layout, sections=sections)
+    bare = swept(replace(robot, layout=layout))
+    assert {name: bare[name].radius_mm for name in ("main leg", "lever", "front link")} == pytest.approx(
+        {"main leg": 4.5, "lever": 5.3, "front link": 4.1}
+    )
+    thin = replace(layout, sections=replace(sections, leg_root_mm=8.0))
+    assert swept(replace(robot, layout=thin))["main leg"].radius_mm == pytest.approx(4.1)
+
+
 def test_upright_legs_are_nearest_where_the_foot_holds_them() -> None:
     """Parallel legs of 6 mm that stand upright, with eyes of 7 mm radius at both ends: a foot less two eyes."""
     robot = built("kenan-2.0")

@@ -252,6 +252,11 @@ def test_a_foot_fits_the_bed_with_its_nose_tips_and_toes(name: str) -> None:
     assert not foot_part.in_one_piece(*given, (500.0, 500.0, top - 0.1))
     assert foot_part.in_one_piece(*given, (size[0] + 0.05, size[1] + 0.05, 100.0))
     assert not foot_part.in_one_piece(*given, (size[0] - 0.1, min(size[0], size[1]) * 0.5, 100.0))
+    for name in ("foot_depth_mm", "toe_root_mm", "rail_root_mm"):
+        high = replace(given[1], **{name: 60.0})
+        top = 120.0 if name == "foot_depth_mm" else 60.0
+        assert foot_part.in_one_piece(robot.design, high, (500.0, 500.0, top)), name
+        assert not foot_part.in_one_piece(robot.design, high, (500.0, 500.0, top - 0.1)), name
     wide = 1.0 + max(size)
     assert not foot_part.in_one_piece(*given, (wide, wide, 100.0), toe_half_width_mm=wide)
 

@@ -12,6 +12,7 @@ from jumpcad.bundle.lead_lines import leads_of
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
+from jumpcad.parts import lead_ways
 from jumpcad.parts.lead_ways import _beside, battery_way, corners, gap_mm, lead_way, outer_way, plate_of, way_words
 from jumpcad.parts.leads import way_in
 from jumpcad.robot import Robot
@@ -111,6 +112,18 @@ def test_words_say_plate_hole_and_side(robot: Robot) -> None:
     assert "hole" not in words["plug", "switch"]
     assert words["controller", "pull-up resistor"] == "own legs"
     assert battery_way(robot.layout)[:, 0].max() > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
+
+
+@pytest.mark.parametrize(("to_part", "said"), [(1.0, "forwards"), (-1.0, "backwards")])
+def test_outside_a_lead_goes_to_the_front_or_to_the_back(
+    monkeypatch: pytest.MonkeyPatch, to_part: float, said: str
+) -> None:
+    """From a hole 40 mm behind or before the part, at whichever side of the robot."""
+    layout = built("kenan-2.0").layout
+    for y in (-60.0, 60.0):
+        way = np.array([[10.0, y, 20.0], [10.0 - 40.0 * to_part, y, 20.0], [10.0 - 40.0 * to_part, 0.6 * y, 20.0]])
+        monkeypatch.setattr(lead_ways, "outer_way", lambda *_, way=way: way)
+        assert f"outside it {said}" in way_words(layout, "driver", "motor")
 
 
 def test_words_say_the_direction_in_which_the_lead_goes(robot: Robot) -> None:

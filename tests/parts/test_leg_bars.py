@@ -117,6 +117,15 @@ def test_the_socket_is_bent_by_what_is_left_of_the_torque_at_its_floor() -> None
     assert socket.value == pytest.approx(torque * height / 2.0 / second, rel=1e-6)
 
 
+def test_a_socket_is_as_high_as_the_tapering_leg_at_its_mouth() -> None:
+    """From 12 mm at the hub to 8 mm at the ankle, whatever the front link has."""
+    found = robot("carbon-strip-3x6")
+    sections = replace(found.layout.sections, leg_root_mm=12.0, leg_tip_mm=8.0, front_mm=9.5)
+    case = LoadCase(replace(found, layout=replace(found.layout, sections=sections)))
+    place = replace(place_of(case), mouth_mm=0.25 * found.design.l2_mm)
+    assert _socket(case, place).height_mm == pytest.approx(11.0)
+
+
 def test_a_bar_has_the_fit_of_lying_holes_in_its_sockets() -> None:
     """A strip of 3 x 6 mm with 0.15 mm on every side, 3.3 x 6.3 mm, printed and checked; other fits are smaller."""
     found = robot("carbon-strip-3x6")

@@ -15,7 +15,17 @@ from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.toes import _bar, _behind_mm, _finger, joint_height_mm, lying_hole, toes, toes_apart
+from jumpcad.parts.toes import (
+    SCREWS_MM,
+    _bar,
+    _behind_mm,
+    _finger,
+    _holes,
+    joint_height_mm,
+    lying_hole,
+    toes,
+    toes_apart,
+)
 from jumpcad.solids.outline import hole
 from jumpcad.workshop import load_workshop
 
@@ -43,6 +53,15 @@ def test_a_toe_tapers_from_its_root_to_its_tip_all_round() -> None:
     assert (low[1], high[1]) == pytest.approx((1.0 - 3.75, 1.0 + 3.75), abs=0.02)
     reach = [finger.solid().slice(z).bounds()[2] for z in (3.2, 2.29)]  # half as high between both, and below the tip
     assert reach == pytest.approx([31.5, 62.5], abs=4.0)
+
+
+def test_screws_holes_go_through_a_toe_wider_than_the_leg_and_not_far_beyond() -> None:
+    robot = built("kenan-2.0")
+    wide = replace(robot.layout, sections=replace(robot.layout.sections, toe_width_mm=13.0))
+    (x0, y0, _), (x1, y1, _) = _holes(wide, HoleSizes.of(robot.workshop, None), 3.2, 2.0).bounds_mm
+    assert -6.5 < y0 < -4.5  # from the middle, 2 mm to the left, half a toe to either side
+    assert 8.5 < y1 < 10.5
+    assert x1 - x0 == pytest.approx(3.2 + abs(SCREWS_MM[1] - SCREWS_MM[0]), abs=0.1)
 
 
 @pytest.mark.parametrize("angle_deg", [38.0, 55.0, 65.0, 80.0])

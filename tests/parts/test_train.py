@@ -21,7 +21,7 @@ from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing
-from jumpcad.parts.train import _cam_gear, _webbed, gear_turns, gears, ribbed_d_bore
+from jumpcad.parts.train import _cam_gear, _track, _webbed, gear_turns, gears, ribbed_d_bore
 from jumpcad.robot import Robot
 from jumpcad.solids import outline
 from jumpcad.workshop import load_workshop
@@ -299,6 +299,18 @@ def test_web_holes_inside_the_sensors_track_leave_it_a_wall_too() -> None:
     assert len(inside) == len(outside) == 6
     assert max(one.max() for one in inside) == pytest.approx(26.4, abs=0.01)
     assert min(one.min() for one in outside) == pytest.approx(31.6, abs=0.01)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_sensors_land_rises_in_layers_from_the_bottom_of_its_groove_to_the_gears_face(name: str) -> None:
+    layout = built(name).layout
+    sensor, (low, face) = layout.sensor, layout.lateral.gears[0]
+    assert sensor is not None
+    levels = [step[:2] for step in _track(layout, sensor).steps]
+    assert levels[0][0] == pytest.approx(face - low - sensor.depth_mm)
+    assert levels[-1][1] == pytest.approx(face - low)
+    assert [top for _, top in levels[:-1]] == pytest.approx([bottom for bottom, _ in levels[1:]])
+    assert [top - bottom for bottom, top in levels] == pytest.approx([sensor.needs.layer_mm] * len(levels))
 
 
 def test_the_sensors_land_is_one_piece_with_a_gear_whose_web_has_holes() -> None:

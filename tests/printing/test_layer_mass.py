@@ -43,6 +43,24 @@ def test_a_box_weighs_what_its_lines_and_infill_add_up_to():
     assert grams(BOX) == pytest.approx(volume / 1000.0, rel=1e-6)
 
 
+def test_a_thicker_first_layer_is_more_of_the_same_lines():
+    """0.3 mm high, the others 0.2 mm, which lines' distance is reckoned by: a solid layer weighs half as much more."""
+    thicker = Stack.of([(0, 4.1, rectangle((40.0, 30.0)))])
+    first_g = grams(thicker, first_layer_mm=0.3) - grams(BOX)
+    solid_g = grams(BOX, bottom_layers=3) - grams(BOX, bottom_layers=2)  # less one of infill
+    sparse_g = grams(Stack.of([(0, 4.2, rectangle((40.0, 30.0)))])) - grams(BOX)
+    assert first_g == pytest.approx(0.5 * (solid_g + sparse_g), rel=1e-6)
+
+
+def test_blocks_that_share_no_place_have_tops_and_bottoms_of_their_own():
+    """One beside the other and higher: nothing of either is above or below the other."""
+    beside = Stack.of([(0, 4, rectangle((40.0, 30.0))), (4, 8, rectangle((40.0, 30.0), (100.0, 0.0)))])
+    assert grams(beside) == pytest.approx(2.0 * grams(BOX), rel=1e-6)
+    assert grams(beside, solid_below_area_mm2=0.0) == pytest.approx(
+        2.0 * grams(BOX, solid_below_area_mm2=0.0), rel=1e-6
+    )
+
+
 def test_what_is_all_solid_weighs_its_volume_within_three_percent():
     for changes in ({"infill": 1.0}, {"top_layers": 50}, {"bottom_layers": 50}):
         assert grams(BOX, **changes) == pytest.approx(4.8, rel=0.03)

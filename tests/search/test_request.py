@@ -132,6 +132,17 @@ def test_designs_of_a_prior_study_stand_for_first_ones(prior, first):
         assert plan_stages(request, prior)[0].initial == first
 
 
+def test_who_follows_another_method_begins_with_its_designs_and_has_no_first_ones():
+    """Nor has a genetic algorithm, whose first generation is its own, nor what moves bounds."""
+    for method in ("ga", "ga+bo"):
+        for widen in (False, True):
+            stages = plan_stages(Request(SMALL, Hill(), method=method, evaluations=240, widen=widen))
+            assert [stage.initial for stage in stages] == [0] * len(stages)
+    assert [stage.initial for stage in plan_stages(Request(SMALL, Hill(), method="bo", evaluations=240, widen=True))][
+        1:
+    ] == [0, 0, 0]
+
+
 def test_half_of_a_search_that_widens_goes_on_in_three_steps_from_moved_bounds():
     """Of 240 evaluations 180 are the search's: 90, then three times 30 by `bo`, whatever came before."""
     for method in ("bo", "ga"):

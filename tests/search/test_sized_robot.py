@@ -93,6 +93,18 @@ def test_a_solid_bar_weighs_its_volume_and_infill_saves_the_inside() -> None:
     assert inside == pytest.approx(layers + 0.2 * (20.0 - layers))
 
 
+def test_solid_links_weigh_their_mean_cross_sections() -> None:
+    """Toes taper in both directions, from 7 to 5 mm wide; leg and rails in one, front links in none."""
+    links, g_mm3 = SizedLinks.of(DESIGN, varied(SHOP, {"process.infill": 1.0})), 1.27e-3
+    sized = links.sections
+    assert links.toe_g_mm == pytest.approx(g_mm3 * 6.0 * (sized.toe_root_mm + sized.toe_tip_height_mm) / 2.0)
+    assert links.rail_g_mm == pytest.approx(
+        g_mm3 * sized.lug_thickness_mm * (sized.rail_root_mm + sized.rail_tip_mm) / 2.0
+    )
+    assert links.leg_g_mm == pytest.approx(g_mm3 * sized.thickness_mm * (sized.leg_root_mm + sized.leg_tip_mm) / 2.0)
+    assert links.front_g_mm == pytest.approx(g_mm3 * sized.thickness_mm * sized.front_mm)
+
+
 def test_links_weigh_the_same_whatever_gears_are_printed_in() -> None:
     """In the default workshop links and gears are of one material."""
     plain, other = (SizedLinks.of(DESIGN, shop) for shop in (SHOP, varied(SHOP, {"roles.gears": "PLA"})))

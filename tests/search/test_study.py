@@ -164,6 +164,17 @@ def test_a_larger_budget_lengthens_a_study(tmp_path, method):
         run(request, tmp_path / "s.db")
 
 
+def test_a_larger_budget_lengthens_the_last_stage_alone():
+    """After the published search, whose parts have shares of its evaluations, the last widening gets what comes."""
+    request = replace(REQUEST, method="paper", evaluations=40, widen=True)
+    with StudyStore.write(None, {}) as store:
+        *first, last = study._stages(request, store, 0)
+        *same, longer = study._stages(replace(request, evaluations=52), store, 0)
+    assert first[0].method == "paper"
+    assert same == first
+    assert longer == replace(last, evaluations=last.evaluations + 9)  # a quarter of 12 is for the pick
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

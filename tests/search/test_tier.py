@@ -67,6 +67,14 @@ def test_a_margin_s_error_is_twice_the_largest_miss_of_the_nearest_robots(sign: 
     assert errors["reach"] == pytest.approx(2.0 * 0.3)
 
 
+def test_limits_that_robots_missed_are_learned_with_their_figures() -> None:
+    """Four of five robots keep no reach: its margin is fitted, as the masses are."""
+    missed = Evaluation("jump", FIGURES, (Finding("reach", "error", -0.5, "mm", "", ""),))
+    trials = [replace(one, evaluation=missed) if one.place % 5 else one for one in trials_along_a_line(BESIDE)]
+    fitted = learned(trials, lambda _: Guess(1.0, {})).fit.coefficients
+    assert {"margin reach", "log body_mass_kg"} <= set(fitted)
+
+
 def test_where_guesses_miss_alike_a_score_is_as_well_known_as_the_robots_say() -> None:
     """All score a third more than guessed: the process knows it, and what is left of the error is next to nothing."""
     trials = trials_along_a_line(BESIDE)

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from support.machines import let_go
 
 from jumpcad.design import load_design
@@ -189,6 +190,19 @@ def test_the_loop_and_the_joints_are_closed_in_pybullet_at_release(lopsided: Rob
         np.testing.assert_allclose(mechanics.frame_positions_m(state)[at], pose[:3, 3], atol=1e-6, err_msg=str(index))
         np.testing.assert_allclose(state.rotation[at], pose[:3, :3], atol=1e-6)
     assert np.abs(state.velocity_m_s).max() == 0.0
+
+
+def test_the_loop_stays_closed_in_pybullet_while_the_leg_turns(lopsided: Robot) -> None:
+    """Its two points are those of front link and foot, however the axes of their inertia are turned."""
+    turn = Rotation.from_rotvec([-0.9, 0.2, 0.4]).as_matrix()
+    foot = lopsided.bodies[FOOT]
+    other = replace(foot, inertia_kg_m2=turn @ foot.inertia_kg_m2 @ turn.T)
+    robot = replace(lopsided, bodies={**lopsided.bodies, FOOT: other})
+    with engine_named("pybullet").world(robot, Settings()) as world:
+        world.advance(60)
+        state = world.state()
+    assert state.leg_rad > -lopsided.spring.wind_rad + 0.05
+    assert Mechanics(lopsided, 9.81).loop_gap_m(state) < 2e-4
 
 
 def test_the_foots_motion_is_that_of_the_state(kenan: Robot) -> None:

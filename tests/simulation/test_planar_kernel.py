@@ -1,6 +1,8 @@
 """The planar mechanism against rigid bodies that pins hold together, and against the laws of motion."""
 
+import importlib.util
 import math
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -391,6 +393,31 @@ def test_a_step_on_the_ground_obeys_the_laws_of_contact(either: Robot, held: boo
     assert {two for _, two in modes} == {False, True}
 
 
+def test_no_third_sphere_goes_below_the_ground_that_two_touch(lopsided: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Spheres in a row, the middle one lower, level or higher: two of them carry, whatever pushes there are."""
+    monkeypatch.setitem(sys.modules, "numba", None)  # compiling it for three spheres costs seconds
+    spec = importlib.util.spec_from_file_location("plain_kernel", kernel.__file__)
+    plain = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(plain)
+    model, rng, pairs = model_of(lopsided), np.random.default_rng(11), set()
+    for _ in range(200):
+        low, high = (rng.choice([-1.0, 0.0, 1.0]) * 10.0 ** rng.uniform(-7.0, -3.5) for _ in range(2))
+        spheres = 0.08 + 0j, complex(rng.uniform(-0.03, 0.05), low), complex(-0.07, high)
+        sole = tuple(spheres[index] for index in rng.permutation(3))
+        three = model._replace(sole_m=sole, sole_radius_m=(0.004, 0.004, 0.004))
+        ground = Ground(complex(0.0, 0.004 - min(at.imag for at in sole)), 1.0 + 0j, 1e-4)
+        inertia = plain.inertia_at(three, plain.links_at(three, rng.uniform(-0.7, 0.1)), ground.turn)
+        free = Motion(complex(rng.normal(0.0, 1.0), rng.normal(-1.0, 1.0)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0))
+        after, contact, _ = plain.settle(three, ground, plain.gains_of(inertia), free, NO_CONTACT, False)
+        assert min(contact.first_ns, contact.second_ns) >= -1e-12
+        for at in sole:
+            rate = after.ankle.imag - at.real * after.foot
+            assert rate >= -(ground.ankle_m.imag + at.imag - 0.004) / ground.half_s - 1e-9
+        pairs.add((contact.first, contact.second, contact.mode == plain.STICK))
+    assert {pair for pair in pairs if pair[1] >= 0} >= {(one, two, True) for one, two in ((1, 0), (2, 0), (2, 1))}
+    assert {pair[2] for pair in pairs if pair[1] >= 0} == {False, True}
+
+
 @pytest.mark.parametrize("height_m", [None, 0.5])
 def test_dry_friction_brakes_the_leg_or_holds_it(either: Robot, height_m: float | None) -> None:
     """All of it against a leg that turns; of one that would turn back, what it takes to stand still."""
@@ -494,6 +521,18 @@ def test_the_energy_at_take_off_is_audited_however_seldom_others_are(kenan: Robo
     change = kernel.energy(world.model, found.moment) - kernel.energy(world.model, world.moment)
     assert found.worst_gain_j == pytest.approx(change, abs=1e-12)
     assert -0.5 * kenan.spring.energy_j < found.worst_gain_j < 0.0
+
+
+def test_the_energy_is_audited_as_often_as_is_asked_for(kenan: Robot) -> None:
+    """What damping takes grows: the earlier the first audit, the less is missing there, and that is the worst."""
+    world, worst = PlanarWorld(kenan, replace_damping(FINE, 0.001)), []
+    start = kernel.energy(world.model, world.moment)
+    for every in (1, 60):
+        found = kernel.push_off(world.model, world.moment, FINE.dt_s, 0.004, 0.0, 0.1, FINE.max_time_s, every)
+        moment = kernel.advance(world.model, world.moment, FINE.dt_s, every)
+        assert found.worst_gain_j == pytest.approx(kernel.energy(world.model, moment) - start, abs=1e-12)
+        worst.append(found.worst_gain_j)
+    assert worst[1] < worst[0] < 0.0
 
 
 def test_a_robot_whose_leg_stops_before_its_springs_are_at_rest_flies(kenan: Robot) -> None:

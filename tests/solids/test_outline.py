@@ -186,3 +186,8 @@ def test_boxes_are_apart_that_pass_each_other_on_any_side(x: float, y: float, ap
 def test_the_middle_of_a_region_is_that_of_its_box() -> None:
     triangle = outline.polygon([(2.0, 1.0), (8.0, 1.0), (2.0, 7.0)])
     assert outline.middle_of(triangle) == pytest.approx([5.0, 4.0])
+
+
+def test_a_box_around_a_region_is_larger_by_the_margin_on_all_four_sides():
+    region = outline.rectangle((6.0, 4.0), (10.0, -7.0)) - outline.disc(2.0, (10.0, -7.0))
+    assert outline.box_around(region, 1.5).bounds() == pytest.approx((5.5, -10.5, 14.5, -3.5), abs=1e-6)

@@ -24,6 +24,14 @@ def test_overlapping_slabs_count_once():
     np.testing.assert_allclose(stack.bounds_mm, [[-5, -5, 0], [10, 5, 6]])
 
 
+def test_a_stack_of_a_stacks_slabs_is_that_stack():
+    """At their own heights, above the bed and below it."""
+    stack = Stack.of([(-3, 1.5, rectangle((10, 10))), (2, 6, disc(8))])
+    again = Stack.of(stack.slabs)
+    assert [(slab.z0_mm, slab.z1_mm) for slab in again.slabs] == [(-3, 1.5), (2, 6)]
+    assert again.volume_mm3 == stack.volume_mm3
+
+
 def test_the_order_of_slabs_does_not_matter():
     slabs = [(0, 3, disc(10)), (1, 5, rectangle((4, 30))), (2, 4, disc(6, (5, 5)))]
     assert Stack.of(slabs).volume_mm3 == pytest.approx(Stack.of(slabs[::-1]).volume_mm3)

@@ -185,6 +185,18 @@ def test_a_robot_with_hardly_any_spring_has_the_least_sections() -> None:
     assert sizes.foot_depth_mm == pytest.approx(eye + 1.0)  # the links are 1 mm above the ground
 
 
+def test_what_fails_grows_and_nothing_else_does() -> None:
+    """Each factor by a quarter; tips of rails and toes taper from their roots."""
+    linkage, shop = Linkage(load_design("best-bo")), load_workshop()
+    plain = vars(sections(linkage, shop))
+    grown = {"lever": "lever_root_mm", "toe": "toe_root_mm", "rail": "rail_root_mm", "dog": "dog_mm", "stop": "stop_mm"}
+    tips = {"toe": {"toe_tip_height_mm"}, "rail": {"rail_tip_mm"}}
+    for factor, size in {**grown, "front": "front_mm"}.items():
+        found = vars(sections(linkage, shop, growth=Growth(**{factor: 1.25})))
+        assert {name for name in plain if found[name] != plain[name]} == {size, *tips.get(factor, ())}, factor
+        assert found[size] == pytest.approx(1.25 * plain[size], abs=0.011), factor
+
+
 @pytest.mark.parametrize("times", [1.0, 1.5, 2.5])
 def test_the_foot_is_as_deep_as_the_higher_of_eyes_and_leg_and_a_millimetre(times: float) -> None:
     """A leg that tapers to 0.6 of its root's height is higher than its eye once it has grown."""
