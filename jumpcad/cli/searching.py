@@ -117,9 +117,9 @@ def require_study(study: Path | None) -> None:
     Raises
     ------
     JumpcadError
-        If it does not end in .db, its folder is missing, or it is no file.
+        If it does not end in .db, its folder is missing or cannot be written, or it is no file.
     """
-    from jumpcad.files.outputs import require_folder
+    from jumpcad.files.outputs import require_folder, require_writable
 
     if study is None:
         return
@@ -128,6 +128,8 @@ def require_study(study: Path | None) -> None:
     require_folder(study)
     if os.path.lexists(study) and not os.path.isfile(study):
         raise JumpcadError(f"{study}: is there already and is no file; choose another name")
+    if not os.path.lexists(study):
+        require_writable(study.parent)
 
 
 def require_plots(folder: Path | None, force: bool) -> None:
@@ -144,12 +146,14 @@ def require_pictures(folder: Path, names: Iterable[str], force: bool) -> None:
     Raises
     ------
     JumpcadError
-        If it is no folder, or has a file of a picture's name that jumpcad did not write (unless `force`).
+        If it is no folder, cannot be written, or has a file of a picture's name that jumpcad did not write (unless
+        `force`).
     """
-    from jumpcad.files.outputs import require_free
+    from jumpcad.files.outputs import require_free, require_writable
 
     if os.path.lexists(folder) and not os.path.isdir(folder):
         raise JumpcadError(f"{folder}: is there already and is no folder; choose another name")
     for name in names:
         for suffix in (".svg", ".png"):
             require_free(folder / f"{name}{suffix}", force)
+    require_writable(folder)
