@@ -118,7 +118,7 @@ def test_a_leg_that_is_too_short_for_its_pin_is_refused() -> None:
 
 
 def test_an_unknown_one_is_refused() -> None:
-    with pytest.raises(JumpcadError, match=r"no spring '9271K588' in the catalogue .*did you mean 9271K589"):
+    with pytest.raises(JumpcadError, match=r"bought.spring = '9271K588': is no spring .*did you mean 9271K589"):
         build(KENAN, with_stock("9271K588"))
 
 
