@@ -64,8 +64,8 @@ def optimize(
     objective
         One of `jumpcad.search.OBJECTIVES` by name; if None, `range` for a front, `body_lengths` of the printed robot,
         `fitness` of the others. `p10`, or as `p10-range`: the score that nine of ten neighbours reach within the
-        tolerances of the robust pick; a design that jumps then counts as up to eleven evaluations, and the last one
-        may take more than are left. Or an own one: a function that takes the figures of a jump (a mapping of names to
+        tolerances of the robust pick; a design that jumps then counts as up to eleven evaluations, and the search
+        ends where fewer are left. Or an own one: a function that takes the figures of a jump (a mapping of names to
         numbers) and returns the score, or `FILE.py:FUNCTION`.
     model
         The robot that is evaluated: `printed`, `capsule` or `published`.

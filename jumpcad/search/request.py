@@ -16,6 +16,7 @@ from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES,
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel
+from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.objective import Model, Objective, find_objective
 from jumpcad.search.robust import pick_share
 from jumpcad.search.space import Space
@@ -61,7 +62,8 @@ class Request:
         Bayesian optimisation, if it comes last, ends when `PATIENCE` proposals in a row promised and gained less than
         this share of the best score, where robots are guessed when `IDLE` steps gained less; 0 spends all evaluations.
     hours
-        The search ends after this time (h), the robust pick follows; 0 for no limit. The same request goes on later.
+        The search ends in time for the robust pick, and this ends after this time (h); 0 for no limit. The same request
+        goes on later.
     widen
         Whether bounds on which the best design lies are moved, and the search goes on: `WIDENINGS` times, with
         `WIDENING_SHARE` of the evaluations.
@@ -134,6 +136,11 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
+        if self.aim.neighbours_of and self.evaluations < 1 + NEIGHBOURS:
+            raise JumpcadError(
+                f"evaluations = {self.evaluations} must be at least {1 + NEIGHBOURS} for {self.objective}: a design "
+                f"takes as many with its {NEIGHBOURS} neighbours"
+            )
         if isinstance(self.model, RobotModel):
             self.model.require_figures(self.aim)
             if self.is_front and self.cost.of_design is None:

@@ -27,6 +27,11 @@ from jumpcad.search.widening import Widened, widen
 FIRST = 50
 """Designs after which it is said that none jumps."""
 
+PICK_SHARE = 0.25
+"""Share of a limited time that is kept for the robust pick, at most: that of its evaluations."""
+PICKED_AT_ONCE = 4
+"""Evaluations of a pick for each worker between two looks at the clock; judgement: seconds, and few waits."""
+
 
 class Hopeless:
     """Looks at the first designs of a search: when none of them jumps, its bounds may hold no robot."""
@@ -54,17 +59,24 @@ class Clock:
     def __init__(self, hours: float) -> None:
         self._limit_s = 3600.0 * (hours or math.inf)
         self._start_s = time.monotonic()
-        self._runs = False
+        self._computed = 0
 
     def see(self, computed: bool) -> None:
         """Look at a trial; the time starts after the last one that was read before any was computed."""
-        self._runs = self._runs or computed
-        if not self._runs:
+        self._computed += computed
+        if not self._computed:
             self._start_s = time.monotonic()
 
-    def is_over(self) -> bool:
-        """Whether the time is over."""
-        return self._runs and time.monotonic() >= self._start_s + self._limit_s
+    def is_over(self, following: int = 0) -> bool:
+        """Whether the time is over, or has come for as many evaluations as follow.
+
+        These take as long as those before; at most `PICK_SHARE` of the time is kept for them.
+        """
+        if not self._computed:
+            return False
+        passed_s = time.monotonic() - self._start_s
+        kept_s = min(following * passed_s / self._computed, PICK_SHARE * self._limit_s)
+        return passed_s >= self._limit_s - kept_s
 
 
 @typed
@@ -83,6 +95,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         stages = _stages(request, store, len(prior))
         hopeless, clock, allowance = Hopeless(), Clock(request.hours), 0
         widened: list[Widened] = []
+        picking, cut = False, list[bool]()
 
         def watched(trial: Trial, computed: bool) -> None:
             clock.see(computed)
@@ -91,9 +104,14 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             watch(trial, computed)
 
         def room() -> float:
-            """Return how many more designs fit if each takes all its neighbours, rounded up."""
+            """Return how many more designs fit if each takes all its neighbours; of a timed pick, how many at once."""
+            if picking and clock.is_over():
+                cut.append(True)
+                return 0
+            if picking and request.hours:
+                return PICKED_AT_ONCE * max(pool.workers, 1)
             left = allowance - evaluator.spent
-            return math.ceil(left / (1 + NEIGHBOURS)) if request.aim.neighbours_of else math.inf
+            return left // (1 + NEIGHBOURS) if request.aim.neighbours_of else math.inf
 
         evaluator = Evaluator(
             request.space,
@@ -103,7 +121,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             pool,
             prior,
             watched,
-            lambda: clock.is_over() or evaluator.spent >= allowance,
+            lambda: clock.is_over(request.pick) or evaluator.spent >= allowance or room() < 1,
             room,
         )
         for number, stage in enumerate(stages):
@@ -124,8 +142,9 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 converged = METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
         timed = []
-        if clock.is_over() and not converged and evaluator.spent < request.searched:
+        if clock.is_over(request.pick) and not converged and evaluator.spent < request.searched:
             timed = [f"ended after {request.hours:g} h, before {request.searched} designs: the same command goes on"]
+        picking = True
         best = best_trial(trials)
         candidates, bounds = [], []
         if request.pick and best is not None and request.is_front:
@@ -137,6 +156,8 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if candidates and not request.is_front:
             left = request.pick - (len(evaluator.trials) - len(trials))
             bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
+        if cut and not timed:
+            timed = [f"ended after {request.hours:g} h, during the robust pick: the same command goes on"]
         notes = [*store.notes(), *timed]
         return Result(request, trials, best, candidates, bounds, notes, evaluator.spent, widened, converged)
 
