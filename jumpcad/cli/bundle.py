@@ -17,6 +17,7 @@ from jumpcad.cli.subjects import (
     note_template,
     printed_robot,
 )
+from jumpcad.counting import counted
 from jumpcad.errors import CannotBuildError, JumpcadError
 
 if TYPE_CHECKING:
@@ -164,7 +165,7 @@ def verify(
     if as_json:
         print_json({"bundle": str(bundle), "differences": wrong, "added": added})
     else:
-        whole = f"{escaped(str(bundle))}: {len(open_bundle(bundle).files)} files, none changed or missing"
+        whole = f"{escaped(str(bundle))}: {counted(len(open_bundle(bundle).files), 'file')}, none changed or missing"
         print("\n".join([*(wrong or [whole]), *(f"{path}: added, not in the manifest" for path in added)]))
     if wrong:
         raise typer.Exit(1)

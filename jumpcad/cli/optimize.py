@@ -15,6 +15,7 @@ from jumpcad.cli.searching import (
     require_study,
     with_search_options,
 )
+from jumpcad.counting import counted
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
@@ -201,8 +202,8 @@ def _print_result(
     more = result.evaluations - len(result.trials)
     around = f", and {more} for the robust pick" if more else ""
     if request.aim.neighbours_of:
-        around = f", in {result.evaluations} evaluations with their neighbours"
-    print(f"{len(result.trials)} designs evaluated{around}; rejected: {_counted(result.rejected)}")
+        around = f", in {counted(result.evaluations, 'evaluation')} with their neighbours"
+    print(f"{counted(len(result.trials), 'design')} evaluated{around}; rejected: {_counted(result.rejected)}")
     if result.converged:
         print(
             f"ended before {request.searched}: in its last steps less than {request.until_percent:g} % of the best "

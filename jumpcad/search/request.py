@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from jumpcad.arguments import require_fields
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
@@ -191,7 +192,8 @@ class Request:
             raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
 
     def __repr__(self) -> str:
-        return f"<Request {self.title}: {self.evaluations} evaluations, {self.space.dimension} parameters free>"
+        evaluations, free = counted(self.evaluations, "evaluation"), counted(self.space.dimension, "parameter free")
+        return f"<Request {self.title}: {evaluations}, {free}>"
 
     @property
     def title(self) -> str:

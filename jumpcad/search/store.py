@@ -35,6 +35,8 @@ from jumpcad.search.stored import require_remembered, stored_text
 from jumpcad.search.stored_evaluation import stored_names
 from jumpcad.search.trial import SEARCH_PHASES, Trial
 
+ENDED = "ended"
+"""Key under which a study remembers what ended its search; None while it runs, and where it was interrupted."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
@@ -145,7 +147,7 @@ class StudyStore:
             value = json.loads(found[0])
         except (TypeError, ValueError, RecursionError) as error:
             raise JumpcadError(f"{self.path}: is damaged: its {key} cannot be read ({shown(str(error))})") from None
-        if key == "stages":
+        if key in ("stages", ENDED) and value is not None:
             self._require(key, value)
         return value
 

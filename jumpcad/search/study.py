@@ -8,8 +8,10 @@ import math
 import time
 from dataclasses import asdict, replace
 from pathlib import Path
+from typing import Any
 
 from jumpcad.arguments import typed
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.fronts import front
@@ -19,7 +21,7 @@ from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
 from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
-from jumpcad.search.store import StudyStore, difference
+from jumpcad.search.store import ENDED, StudyStore, difference
 from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
 from jumpcad.search.versions import versions
 from jumpcad.search.widening import Widened, widen
@@ -93,6 +95,8 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if remark:
             store.note_once(remark)
         stages = _stages(request, store, len(prior))
+        if store.recall(ENDED) is not None:
+            store.remember(ENDED, None)  # until this run ends
         hopeless, clock, allowance = Hopeless(), Clock(request.hours), 0
         widened: list[Widened] = []
         picking, cut = False, list[bool]()
@@ -143,7 +147,8 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         trials = evaluator.trials
         timed = []
         if clock.is_over(request.pick) and not converged and evaluator.spent < request.searched:
-            timed = [f"ended after {request.hours:g} h, before {request.searched} designs: the same command goes on"]
+            searched = counted(request.searched, "design")
+            timed = [f"ended after {request.hours:g} h, before {searched}: the same command goes on"]
         picking = True
         best = best_trial(trials)
         candidates, bounds = [], []
@@ -158,8 +163,21 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
         if cut and not timed:
             timed = [f"ended after {request.hours:g} h, during the robust pick: the same command goes on"]
+        store.remember(ENDED, _end(request, evaluator.spent, len(trials), converged, bool(timed)))
         notes = [*store.notes(), *timed]
         return Result(request, trials, best, candidates, bounds, notes, evaluator.spent, widened, converged)
+
+
+def _end(request: Request, spent: int, designs: int, converged: bool, timed: bool) -> dict[str, Any]:
+    """Return what ended a search, as a study remembers it."""
+    if timed:
+        return {"by": "hours", "hours": request.hours}
+    if converged:
+        return {"by": "until", "until_percent": request.until_percent}
+    if designs >= request.space.size:
+        return {"by": "space"}
+    all_spent = spent + (NEIGHBOURS if request.aim.neighbours_of else 0) >= request.searched
+    return {"by": "evaluations" if all_spent else "proposals"}
 
 
 def _bounds_step(request: Request, trials: list[Trial]) -> int:
@@ -183,8 +201,8 @@ def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
             )
         if more > 0 and METHODS[stages[-1].method].shares:
             raise JumpcadError(
-                f"{store.path}: its search by {request.method} is planned for {held} evaluations and does not go on "
-                f"with {request.searched}: name another file"
+                f"{store.path}: its search by {request.method} is planned for {counted(held, 'evaluation')} and does "
+                f"not go on with {request.searched}: name another file"
             )
         stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more)
     store.remember("stages", [asdict(stage) for stage in stages])

@@ -29,6 +29,7 @@ from jumpcad.search.study import _read_prior, run_study
 from jumpcad.search.trial import Trial
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4, until_percent=0.0)
+FEW = Space.parse(choose=["c_coef=0.9,1.0"], around=load_design("best-ga"), only=["c_coef"])
 SCRIPT = TESTS / "support" / "study_script.py"
 
 pytestmark = pytest.mark.usefixtures("quick_proposals")
@@ -264,6 +265,33 @@ def test_it_ends_where_proposals_promise_too_little_and_goes_on_where_less_is_as
     assert len(longer.trials) > len(first.trials)
     assert not longer.converged
     assert longer.trials[: len(first.trials)] == first.trials
+
+
+@pytest.mark.parametrize(
+    ("changes", "ended"),
+    [
+        ({"method": "ga", "evaluations": 40}, {"by": "evaluations"}),
+        ({"method": "bo", "evaluations": 40, "until_percent": 5.0}, {"by": "until", "until_percent": 5.0}),
+        ({"method": "ga", "evaluations": 40, "hours": 1e-12}, {"by": "hours", "hours": 1e-12}),
+        ({"method": "bo", "space": FEW}, {"by": "space"}),
+    ],
+    ids=["evaluations", "until", "hours", "space"],
+)
+def test_a_study_remembers_what_ended_it_and_forgets_it_while_it_goes_on(tmp_path, changes, ended):
+    request = replace(REQUEST, **changes)
+    result = run(request, tmp_path / "s.db")
+
+    def held():
+        with StudyStore.read(tmp_path / "s.db") as store:
+            return store.recall("ended")
+
+    assert held() == ended
+    seen = []
+    with local_pool(0) as pool:
+        run_study(request, tmp_path / "s.db", pool, lambda *_: seen.append(held()))
+    assert len(seen) >= len(result.trials)
+    assert set(seen) == {None}
+    assert held()["by"] == ended["by"]
 
 
 def test_it_ends_when_its_time_is_over_and_the_same_request_goes_on(tmp_path):

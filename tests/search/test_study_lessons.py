@@ -126,5 +126,5 @@ def test_reasons_are_counted_the_most_frequent_first() -> None:
     cells = [re.findall(r"<td[^>]*>(.*?)</td>", line) for line in page]
     assert [(re.sub("<wbr />", "", row[0]), row[3]) for row in cells if row] == [("tips", "2"), ("leg_flex", "1")]
     none = text(rejections(known(WON)))
-    assert "0 of 1 designs" in none
+    assert "Rejected: 0 of 1 design of the search" in none
     assert "most frequent" not in none
