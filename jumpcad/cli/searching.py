@@ -111,27 +111,6 @@ def with_search_options(command: Callable[..., None]) -> Callable[..., None]:
     return unfolded
 
 
-def require_study(study: Path | None) -> None:
-    """Require, before a search, that a file can be its study.
-
-    Raises
-    ------
-    JumpcadError
-        If it does not end in .db, its folder is missing or cannot be written, or it is no file.
-    """
-    from jumpcad.files.outputs import require_folder, require_writable
-
-    if study is None:
-        return
-    if study.suffix != ".db":
-        raise JumpcadError(f"{study}: a study file must end in .db")
-    require_folder(study)
-    if os.path.lexists(study) and not os.path.isfile(study):
-        raise JumpcadError(f"{study}: is there already and is no file; choose another name")
-    if not os.path.lexists(study):
-        require_writable(study.parent)
-
-
 def require_plots(folder: Path | None, force: bool) -> None:
     """Require, before a search, that its pictures can be written to a folder without replacing a user's files."""
     if folder is not None:  # without matplotlib, which takes 0.4 s to load
