@@ -12,7 +12,6 @@ from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
     require_plots,
-    require_study,
     with_search_options,
 )
 from jumpcad.counting import counted
@@ -84,6 +83,7 @@ def explore(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart
+    from jumpcad.search.database import require_study
     from jumpcad.search.evaluator import Evaluator
     from jumpcad.search.space import Space
     from jumpcad.search.store import StudyStore

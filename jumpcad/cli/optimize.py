@@ -12,7 +12,6 @@ from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
     require_plots,
-    require_study,
     with_search_options,
 )
 from jumpcad.counting import counted
@@ -108,6 +107,7 @@ def optimize(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
+    from jumpcad.search.database import require_study
     from jumpcad.search.request import Request
     from jumpcad.search.result import workshop_file
     from jumpcad.search.space import Space

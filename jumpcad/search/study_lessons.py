@@ -110,7 +110,8 @@ def rejections(found: Known) -> Iterator[str]:
     counts = count_rejections(found.trials)
     yield "<h2>Why designs were rejected</h2>"
     rejected = sum(trial.score is None for trial in found.trials)
-    yield f"<p>Rejected: {rejected} of {counted(len(found.trials), 'design of the search')}; one may have several reasons. "
+    yield f"<p>Rejected: {rejected} of {counted(len(found.trials), 'design of the search')}; one may have several "
+    yield "reasons. "
     yield "<code>jumpcad check</code> tells limit and remedy for a design.</p>"
     if counts:
         most, first = max(counts.values()), next(iter(counts))
