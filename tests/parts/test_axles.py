@@ -117,6 +117,7 @@ def test_an_axle_weighs_its_rod() -> None:
             r"no groove can be cut into spring-steel at home: choose a bought.axle of silver-steel",
         ),
         ({"axle": "silversteel"}, r"bought.axle = 'silversteel': is no rod in the catalogue: .*did you mean"),
+        ({"axle_mm": 6.0, "leg_bearing": "", "retention": "nuts"}, r"= 6: bought.retention = .nuts. .* make it 3, or"),
         ({"axle_mm": 2.4, "leg_bearing": ""}, r"bought.axle_mm = 2.4: no clip of that size \(2, 3 mm\)"),
         ({"axle_mm": 2.5, "leg_bearing": "", "retention": "clips", "axle": "silver-steel"}, r"no clip of that size"),
     ],
