@@ -19,6 +19,7 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
+from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.rows import (
     APPLICATION_ID,
     COLUMNS,
@@ -261,6 +262,12 @@ class StudyStore:
             raise JumpcadError(
                 f"{self.path}: was made by another program ({differs}), whose trials do not mix with this one's; "
                 f"go on with that program, or name another file (`--from-study {self.path}` learns from this one)"
+            )
+        if differs.startswith("against: "):
+            theirs = str(self.identity.get("against", SPRING_ENERGY.name))
+            raise JumpcadError(
+                f"{self.path}: holds a front against {theirs}, not "
+                f"{identity.get('against', SPRING_ENERGY.name)}: say --against {theirs}, or name another file"
             )
         if differs:
             raise JumpcadError(
