@@ -176,6 +176,7 @@ WORDS = {
     "candidates": "designs whose neighbours were examined, best first",
     "active_bounds": "bounds on which the winner lies, with the score beyond them",
     "identity": "what makes evaluations comparable: model, settings, workshop, space, seed, versions",
+    "by": "what ended the search: evaluations, until (little was gained), hours, space (all of it seen), proposals",
     "planned": "designs that the search will evaluate",
     "other_evaluations": "neighbours and others beside the search",
     "evaluation_time_s": "time of all evaluations together",

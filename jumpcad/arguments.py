@@ -5,7 +5,7 @@ import functools
 import inspect
 import types
 import typing
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, cast
@@ -28,7 +28,7 @@ TEMPLATES = dict.fromkeys(("Design", "Mechanism", "Robot"), "kenan-2.0") | dict.
 )
 WORDS = {
     "Mechanism": "a Robot", "str": "a text", "bool": "True or False", "Path": "a path", "int": "a whole number",
-    "float": "a number", "Sequence": "a sequence", "Mapping": "a table", "Callable": "a function",
+    "float": "a number", "Sequence": "a list", "Iterable": "a list", "Mapping": "a table", "Callable": "a function",
 }  # fmt: skip
 
 
@@ -119,6 +119,8 @@ def _misfit(value: Any, kinds: Sequence[Kind]) -> str:
 def _is_instance(value: Any, kind: type) -> bool:
     if kind is float:
         return isinstance(value, float | int)
+    if isinstance(value, str | bytes) and kind in (Sequence, Iterable):  # else each of its letters would be an item
+        return False
     if getattr(kind, "_is_protocol", False):
         return all(hasattr(type(value), name) for name in vars(kind) if name == "__call__" or not name.startswith("_"))
     return isinstance(value, kind)

@@ -55,6 +55,8 @@ CAP_EAR_MM = 5.6
 0.8 mm, two lines of a 0.4 mm nozzle."""
 TOE_TIP_WIDTH_MM = 5.0
 """Width of a toe's tip; judgement: wider than high, so that a landing does not turn it over."""
+OVERHANG_LINES = 2.0
+"""Lines by which an underside may stand out without support; judgement: the first holds the second."""
 PAD_WALL_MM = 3.0
 """Material around an axle in the body plates; judgement: 2.5 recommended walls (`fits.wall_mm`)."""
 AXLE_END_RADIUS_MM = 3.6

@@ -14,9 +14,9 @@ from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
 from jumpcad.drive import Drive
 from jumpcad.drive.socket import cap_ear_mm
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.stock_spring import of_stock, springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.layout.electronics import Electronics
@@ -122,6 +122,17 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> 
 
     If there is no room for the springs' pin, springs for a free direction of the pin are found instead.
     """
+    try:
+        return _first_with_room(design, workshop, growth)
+    except CannotBuildError as refusal:
+        if workshop.bought.spring:
+            refusal.args = (of_stock(str(refusal)),)
+        raise
+
+
+def _first_with_room(design: Design, workshop: Workshop, growth: Growth) -> tuple[Layout, HoleSizes]:
+    """Return layout and hole sizes with springs whose pin has room."""
+    axles.require_retention(workshop.catalogue, workshop.bought)  # with nuts, of any axle only one is right
     small.require_axle(workshop)
     directions = PLATE_PINS_RAD
     for _ in range(PIN_ROUNDS):
@@ -139,7 +150,6 @@ def _laid_out(
 ) -> tuple[Layout, HoleSizes]:
     """Return layout and hole sizes with springs for one of the directions of the plates' pin."""
     settled = settle(design, workshop, growth, plate_pins_rad)
-    axles.require_retention(workshop.catalogue, workshop.bought)
     chosen = workshop.bought
     carried = chosen_parts(workshop)
     parts = carried.components

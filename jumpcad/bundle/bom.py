@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from jumpcad.counting import counted
 from jumpcad.files.csv_text import to_csv
 from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.spring_wire import CHOOSE, ORDERED
@@ -89,7 +90,7 @@ class Bill:
     def known(self) -> str:
         """How many lines have a price, in words."""
         priced = sum(item.price_eur is not None for item in self.items)
-        return f"prices known for {priced} of {len(self.items)} lines"
+        return f"prices known for {priced} of {counted(len(self.items), 'line')}"
 
     @property
     def summary(self) -> str:

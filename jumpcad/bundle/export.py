@@ -10,7 +10,7 @@ from typing import Any
 from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.electronics import electronics_facts
 from jumpcad.bundle.firmware import firmware_files
-from jumpcad.bundle.folder import write_folder
+from jumpcad.bundle.folder import require_place, write_folder
 from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.guide_page import write_page
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
@@ -73,6 +73,7 @@ def export(
         If a part's file is not one closed solid, or the electrical parts do not fit together.
     """
     require_name(robot.name)
+    require_place(folder)
     if wrong := errors(electronics_findings(robot)):
         raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
     exporters = chosen([name for name, wanted in (("step", step), ("ros2", ros2)) if wanted])

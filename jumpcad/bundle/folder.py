@@ -19,6 +19,7 @@ from jumpcad.bundle.place import write_in_place
 from jumpcad.bundle.tree import Tree, above, few, shown, tree
 from jumpcad.errors import JumpcadError
 from jumpcad.files import real_path
+from jumpcad.files.outputs import require_writable
 from jumpcad.version import __version__
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")
@@ -58,6 +59,7 @@ def write_folder(
         **facts,
     }
     old, new = _bundle_in(target), Bundle(target, manifest)
+    require_writable(target.parent)
     if old and old.content != new.content and not force:
         raise JumpcadError(
             f"{target}: holds {old.content}, not {new.content}; choose another folder with -o, "
@@ -65,6 +67,19 @@ def write_folder(
         )
     files = {path: data.encode() if isinstance(data, str) else data for path, data in contents}
     return _put(new, old, files, set(old.files) if old else set(), force)
+
+
+def require_place(folder: str | Path) -> None:
+    """Require, before a bundle is made, that it can be written to a folder: `write_folder` looks again.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder holds anything but a bundle, is or holds the current folder, or cannot be written.
+    """
+    target = _writable_folder(folder)
+    _bundle_in(target)
+    require_writable(target.parent)
 
 
 def change_files(
@@ -89,10 +104,11 @@ def require_unedited(bundle: Bundle, paths: Iterable[str], force: bool = False) 
     Raises
     ------
     JumpcadError
-        If some were edited; it names them.
+        If some were edited; it names them. Or if the bundle's folder cannot be replaced.
     """
     with _plain_errors(bundle.folder):
         _kept(bundle, tree(bundle.folder), dict.fromkeys(paths, b""), set(), force)
+    require_writable(real_path(bundle.folder).parent)
 
 
 def _put(new: Bundle, old: Bundle | None, files: Mapping[str, bytes], gone: set[str], force: bool) -> Bundle:

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, NoReturn
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from jumpcad.bundle.tree import above, is_safe, shown, tree, trouble
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files.names import Text
 
@@ -95,7 +96,7 @@ class Bundle:
     manifest: Mapping[str, Any]
 
     def __repr__(self) -> str:
-        return f"<Bundle {self.name[:40]!r}: {len(self.files)} files in {shown(str(self.folder))[-100:]}>"
+        return f"<Bundle {self.name[:40]!r}: {counted(len(self.files), 'file')} in {shown(str(self.folder))[-100:]}>"
 
     @property
     def name(self) -> str:

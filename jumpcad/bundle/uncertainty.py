@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
@@ -32,9 +33,9 @@ def uncertainty(found: Uncertainty) -> Iterator[str]:
     """Yield the section of the page: two ranges with their bars, and a table of first-order shares."""
     yield "<h2>How sure this is</h2>"
     yield (
-        f"<p>{found.jumps} jumps by the planar engine, each with other values of what nobody measured: springs and "
-        "pins from the priors of a calibration, lengths, spring rates, mass and floor within their tolerances. The "
-        "prior of the springs' efficiency is 0.95 in the middle; the figure on top counts on 1. "
+        f"<p>{counted(found.jumps, 'jump')} by the planar engine, each with other values of what nobody measured: "
+        "springs and pins from the priors of a calibration, lengths, spring rates, mass and floor within their "
+        "tolerances. The prior of the springs' efficiency is 0.95 in the middle; the figure on top counts on 1. "
         "<code>jumpcad simulate --uncertain</code> does the same with your calibration.</p>"
     )
     if found.jumps_share < 1.0:

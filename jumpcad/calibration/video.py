@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from jumpcad.counting import counted
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
 from jumpcad.files import read_text
@@ -68,7 +69,7 @@ def read_points(path: Path) -> Array:
             raise JumpcadError(f"{path}:{number}: {shown(','.join(row))} must be finite numbers")
         points.append(point)
     if len(points) < LEAST_POINTS:
-        raise JumpcadError(f"{path}: {len(points)} points are too few: mark at least {LEAST_POINTS} in flight")
+        raise JumpcadError(f"{path}: {counted(len(points), 'point')}: too few, mark at least {LEAST_POINTS} in flight")
     found = np.array(points)
     if (np.diff(found[:, 0]) <= 0.0).any():
         raise JumpcadError(f"{path}: t must grow from line to line")

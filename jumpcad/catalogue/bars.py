@@ -11,7 +11,9 @@ from jumpcad.catalogue.articles import Article, Length, Positive, Source
 from jumpcad.files import Contradiction
 
 STEPS = 16
-"""Flat steps with which a round bar and its socket are drawn; judgement: 0.25 mm for 4 mm, a layer's height."""
+"""Least flat steps with which a round bar and its socket are drawn; judgement: 0.25 mm for 4 mm, a layer's height."""
+MOST_STEPS = 256
+"""Judgement: of a bar of 30 mm, steps of 0.12 mm, a thin layer's height."""
 
 
 class LegBar(Article):
@@ -64,16 +66,26 @@ class LegBar(Article):
         """Return the mass of a length."""
         return self.density_g_cm3 * self.area_mm2 * length_mm / 1000.0
 
-    def slabs_mm(self, more_mm: float = 0.0) -> list[tuple[float, float, float]]:
+    def slabs_mm(self, more_mm: float = 0.0, ledge_mm: float = math.inf) -> list[tuple[float, float, float]]:
         """Return its section as slabs (from, to, height) across the robot, or that of a hole wider by `more_mm` a side.
 
         Steps of a round one are chords: of the bar at their middles, of a hole at their inner edges, so that it fits.
+        There are so many that none stands out from the next one by more than `ledge_mm`, which prints without support.
         """
         if not self.round:
             half = self.width_mm / 2.0 + more_mm
             return [(-half, half, self.height_mm + 2.0 * more_mm)]
+        steps = STEPS
+        slabs = self._steps_mm(more_mm, steps)
+        while steps < MOST_STEPS and max(b[2] - a[2] for a, b in itertools.pairwise(slabs)) > 2.0 * ledge_mm:
+            steps *= 2
+            slabs = self._steps_mm(more_mm, steps)
+        return slabs
+
+    def _steps_mm(self, more_mm: float, steps: int) -> list[tuple[float, float, float]]:
+        """Return a round section as that many slabs."""
         radius = self.width_mm / 2.0 + more_mm
-        edges = [round_mm(radius * (2.0 * step / STEPS - 1.0)) for step in range(STEPS + 1)]
+        edges = [round_mm(radius * (2.0 * step / steps - 1.0)) for step in range(steps + 1)]
         slabs = []
         for low, high in itertools.pairwise(edges):
             at = min(abs(low), abs(high)) if more_mm else (low + high) / 2.0

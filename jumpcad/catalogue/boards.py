@@ -97,6 +97,15 @@ class Board(Article):
             reason = f'is none of its pins with a GPIO, {_listed(sorted(numbered))}: "" for a board without a button'
             yield ("button",), self.button, reason
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """What its pins make it: controller, driver, regulator, or several of them; empty where no pin is given."""
+        can = {function for functions in self.pins.values() for function in functions}
+        controls, drives = any(map(GPIO.fullmatch, can)), bool(can & {"forward", "reverse", "motor+", "motor-"})
+        regulates = "out" in can and not controls and not drives
+        kinds = {"controller": controls, "driver": drives, "regulator": regulates}
+        return tuple(kind for kind, found in kinds.items() if found)
+
     def with_function(self, function: str) -> tuple[str, ...]:
         """Return the pins that do something, in the board's order."""
         return tuple(name for name, functions in self.pins.items() if function in functions)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -18,6 +18,9 @@ CELL_OHM = 0.15
 """Internal resistance of a small cell where none is given; judgement: 0.05 to 0.3 are usual."""
 RATED_SHARES = (0.25, 1.0)
 """Lowest and highest voltage of a motor over its rated one where none is given; judgement: below, it may not start."""
+
+ComponentKind = Literal["sensor", "switch", "plug", "capacitor", "diode", "wire"]
+"""What a small part is; a workshop names one of each kind under that word."""
 
 
 class Motor(Article):
@@ -143,13 +146,14 @@ class Travel(TomlTable):
 
 
 class Component(Article):
-    """A small electrical part: sensor, switch, plug, capacitor, diode or wire; `terminals` as its maker names them.
+    """A small electrical part: its `kind` says which, `terminals` are as its maker names them.
 
     `rated_a` and `rated_v` are its ratings, `least_a` the least current that keeps a contact clean, `drop_v` its
     voltage drop. Length, width and height are those of its case
     without terminals; `travel` is that of a sensor's plunger, in the middle of the case, along its height.
     """
 
+    kind: ComponentKind
     description: Source
     mass_g: Mass
     length_mm: Side | None = None

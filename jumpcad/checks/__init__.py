@@ -6,7 +6,7 @@ stronger, if the check is cheap.
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from typing import Any
 
@@ -26,6 +26,7 @@ from jumpcad.checks import (
     stop,
     strength,
 )
+from jumpcad.drive.stock_spring import of_stock
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
@@ -122,4 +123,7 @@ def basis_of(name: str) -> Basis | None:
 
 def _findings(robot: Mechanism, checks: Iterable[Check]) -> list[Finding]:
     """Return the findings of those checks whose needs the robot meets."""
-    return [found for check in checks if isinstance(robot, check.needs) for found in check.find(robot)]
+    findings = [found for check in checks if isinstance(robot, check.needs) for found in check.find(robot)]
+    if isinstance(robot, Robot) and robot.workshop.bought.spring:
+        return [replace(found, remedy=of_stock(found.remedy)) for found in findings]
+    return findings

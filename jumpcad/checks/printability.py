@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from manifold3d import CrossSection, JoinType
 
+from jumpcad.dimensions import OVERHANG_LINES
 from jumpcad.findings import Basis, Finding, at_least, at_most, limit
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
@@ -34,6 +35,8 @@ SMALLEST_PIECE_MM2 = 0.05
 TOUCH_MM = 0.05
 ROUND_OFF_MM = 0.02
 """By how much polygons can reduce a width."""
+MINIMA = ("wall_min_mm", "hole_min_mm", "pin_min_mm")
+"""Fits that say what a printer can just print."""
 PRACTICE = "practice of desktop printing: templates/workshops/default.toml"
 BASIS = {
     "bed_fit": Basis(
@@ -98,15 +101,22 @@ def printability_findings(robot: Robot) -> list[Finding]:
         if height > fits.pin_min_mm and _longest_mm(piece) < 3.0 * fits.pin_min_mm  # longer ones are walls
     ]
     flat = [(name, region) for name, _, region in regions]
-    finer = "a finer nozzle with its own fits, or a larger part"
+    finer = "a finer nozzle with its own fits"
+    less = {key: f"{finer}, or a lower fits.{key} if your printer prints it" for key in MINIMA}
     undersides = [(drawing.name, *side) for drawing in drawings for side in _undersides(drawing, fits, process)]
     reaches = [(size, name) for name, bridge, size in undersides if not bridge]
     spans = [(size, name) for name, bridge, size in undersides if bridge]
     return [
-        _narrowest("walls", "wall", flat, _thin_wall, fits.wall_min_mm, finer),
-        _narrowest("holes", "hole", flat, _narrow_hole, hole_min, f"{finer}, or drill it"),
-        _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, finer),
-        _largest("overhangs", "overhang", reaches, 2.0 * process.line_width_mm, "turn the part over, or use support"),
+        _narrowest("walls", "wall", flat, _thin_wall, fits.wall_min_mm, less["wall_min_mm"]),
+        _narrowest("holes", "hole", flat, _narrow_hole, hole_min, f"{less['hole_min_mm']}, or drill it"),
+        _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, less["pin_min_mm"]),
+        _largest(
+            "overhangs",
+            "overhang",
+            reaches,
+            OVERHANG_LINES * process.line_width_mm,
+            "turn the part over, or use support",
+        ),
         _largest("bridges", "bridge", spans, fits.bridge_mm, "use support, or raise fits.bridge_mm if possible"),
         *_solid_findings(drawings),
     ]

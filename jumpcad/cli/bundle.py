@@ -17,6 +17,7 @@ from jumpcad.cli.subjects import (
     note_template,
     printed_robot,
 )
+from jumpcad.counting import counted
 from jumpcad.errors import CannotBuildError, JumpcadError
 
 if TYPE_CHECKING:
@@ -68,12 +69,17 @@ def build(
     everything else stays. A robot that does not jump is refused.
     """
     from jumpcad.bundle.export import export
-    from jumpcad.files.outputs import require_apart
+    from jumpcad.bundle.folder import require_place
+    from jumpcad.files.outputs import require_apart, require_writable
     from jumpcad.mechanism.capsule import capsule_robot
     from jumpcad.simulation import simulate
     from jumpcad.simulation.engines import default_engine
 
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
+    if output is None:
+        require_writable(EXPORTS)
+    else:
+        require_place(output)
     note_template(design)
     with status(f"building {design} …"):
         robot = printed_robot(design, workshop, printer, material)
@@ -107,12 +113,14 @@ def render(
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
     from jumpcad.bundle.folder import change_files, require_unedited
     from jumpcad.bundle.renders import RENDERS, jump_gif, renders
-    from jumpcad.files.outputs import require_apart, require_free, write_files
+    from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
     from jumpcad.simulation import Settings, simulate
     from jumpcad.simulation.engines import default_engine
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     note_template(subject)
+    if output is not None:
+        require_writable(output)
     names = [*(f"{name}.png" for name in RENDERS), GIF]
     bundle = bundle_of(subject, workshop) if output is None else None
     if bundle:
@@ -123,6 +131,7 @@ def render(
     if not bundle:
         for name in names:
             require_free(folder / name, force)
+        require_writable(folder)
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
@@ -156,7 +165,7 @@ def verify(
     if as_json:
         print_json({"bundle": str(bundle), "differences": wrong, "added": added})
     else:
-        whole = f"{escaped(str(bundle))}: {len(open_bundle(bundle).files)} files, none changed or missing"
+        whole = f"{escaped(str(bundle))}: {counted(len(open_bundle(bundle).files), 'file')}, none changed or missing"
         print("\n".join([*(wrong or [whole]), *(f"{path}: added, not in the manifest" for path in added)]))
     if wrong:
         raise typer.Exit(1)

@@ -7,6 +7,7 @@ import typer
 
 from jumpcad.cli.output import JsonFlag, console, print_json
 from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completion, note_template
+from jumpcad.counting import counted
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -148,7 +149,7 @@ def _print_table(findings: "list[Finding]", every: bool) -> None:
     else:
         _print_lines(screen, shown)
     counts = {severity: sum(finding.severity == severity for finding in findings) for severity in SEVERITIES}
-    violated = ", ".join(f"{counts[word]} {word}{'s' * (counts[word] != 1)}" for word in ("error", "warning"))
+    violated = ", ".join(counted(counts[word], word) for word in ("error", "warning"))
     held = counts["info"]
     screen.print(f"{violated}, {held} limit{' holds' if held == 1 else 's hold'}")
     if left := len(findings) - len(shown):

@@ -12,9 +12,9 @@ from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
     require_plots,
-    require_study,
     with_search_options,
 )
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 
@@ -83,6 +83,7 @@ def explore(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart
+    from jumpcad.search.database import require_study
     from jumpcad.search.evaluator import Evaluator
     from jumpcad.search.space import Space
     from jumpcad.search.store import StudyStore
@@ -150,7 +151,9 @@ def _swept(centre: "Design", points: int) -> View:
         for one in sweeps:
             scores = [trial.score for trial in one.trials if trial.score is not None]
             reach = f"{min(scores):9.4f} … {max(scores):9.4f}" if scores else "never feasible       "
-            lines.append(f"{one.parameter:24s}{reach}  feasible at {len(scores)} of {len(one.trials)} values")
+            lines.append(
+                f"{one.parameter:24s}{reach}  feasible at {len(scores)} of {counted(len(one.trials), 'value')}"
+            )
         return {"sweeps": data}, lines, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
 
     return run
@@ -184,7 +187,9 @@ def _sampled(view: str, samples: int, seed: int) -> View:
         data, lines = {"note": UNIFORM_NOTE}, []
         for name, view_of in views.items():
             data[name] = {"designs": view_of.designs, "shares": view_of.shares, "directions": view_of.directions}
-            lines.append(f"{name:8s} ({view_of.designs} designs): " + "  ".join(f"{s:.3f}" for s in view_of.shares))
+            lines.append(
+                f"{name:8s} ({counted(view_of.designs, 'design')}): " + "  ".join(f"{s:.3f}" for s in view_of.shares)
+            )
         return data, [*lines, UNIFORM_NOTE], {"pca": lambda: plots.components(views)}
 
     return run

@@ -12,9 +12,9 @@ from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
     require_plots,
-    require_study,
     with_search_options,
 )
+from jumpcad.counting import counted
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
@@ -107,6 +107,7 @@ def optimize(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
+    from jumpcad.search.database import require_study
     from jumpcad.search.request import Request
     from jumpcad.search.result import workshop_file
     from jumpcad.search.space import Space
@@ -201,8 +202,8 @@ def _print_result(
     more = result.evaluations - len(result.trials)
     around = f", and {more} for the robust pick" if more else ""
     if request.aim.neighbours_of:
-        around = f", in {result.evaluations} evaluations with their neighbours"
-    print(f"{len(result.trials)} designs evaluated{around}; rejected: {_counted(result.rejected)}")
+        around = f", in {counted(result.evaluations, 'evaluation')} with their neighbours"
+    print(f"{counted(len(result.trials), 'design')} evaluated{around}; rejected: {_counted(result.rejected)}")
     if result.converged:
         print(
             f"ended before {request.searched}: in its last steps less than {request.until_percent:g} % of the best "

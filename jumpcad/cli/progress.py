@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from jumpcad.cli.output import LINE_EVERY_S, console
+from jumpcad.counting import counted
 
 if TYPE_CHECKING:
     from jumpcad.search.evaluator import Watch
@@ -58,7 +59,8 @@ class Tally:
         """Return the progress as one line of text."""
         best = "–" if self.best is None else f"{self.best:.4g}"
         left = "" if self.left_s is None else f", about {duration(self.left_s)} left"
-        return f"{self.phase}: {self.done} of {self.total} evaluations, best {best}, {self.per_second:.2g}/s{left}"
+        done = f"{self.done} of {counted(self.total, 'evaluation')}"
+        return f"{self.phase}: {done}, best {best}, {self.per_second:.2g}/s{left}"
 
 
 def duration(seconds: float) -> str:

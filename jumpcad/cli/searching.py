@@ -111,25 +111,6 @@ def with_search_options(command: Callable[..., None]) -> Callable[..., None]:
     return unfolded
 
 
-def require_study(study: Path | None) -> None:
-    """Require, before a search, that a file can be its study.
-
-    Raises
-    ------
-    JumpcadError
-        If it does not end in .db, its folder is missing, or it is no file.
-    """
-    from jumpcad.files.outputs import require_folder
-
-    if study is None:
-        return
-    if study.suffix != ".db":
-        raise JumpcadError(f"{study}: a study file must end in .db")
-    require_folder(study)
-    if os.path.lexists(study) and not os.path.isfile(study):
-        raise JumpcadError(f"{study}: is there already and is no file; choose another name")
-
-
 def require_plots(folder: Path | None, force: bool) -> None:
     """Require, before a search, that its pictures can be written to a folder without replacing a user's files."""
     if folder is not None:  # without matplotlib, which takes 0.4 s to load
@@ -144,12 +125,14 @@ def require_pictures(folder: Path, names: Iterable[str], force: bool) -> None:
     Raises
     ------
     JumpcadError
-        If it is no folder, or has a file of a picture's name that jumpcad did not write (unless `force`).
+        If it is no folder, cannot be written, or has a file of a picture's name that jumpcad did not write (unless
+        `force`).
     """
-    from jumpcad.files.outputs import require_free
+    from jumpcad.files.outputs import require_free, require_writable
 
     if os.path.lexists(folder) and not os.path.isdir(folder):
         raise JumpcadError(f"{folder}: is there already and is no folder; choose another name")
     for name in names:
         for suffix in (".svg", ".png"):
             require_free(folder / f"{name}{suffix}", force)
+    require_writable(folder)

@@ -8,6 +8,7 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
 from jumpcad.cli.searching import PlotsOption, require_plots
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -98,6 +99,7 @@ def _watch(file: Path) -> None:
 
 
 def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
+    from jumpcad.search.store import ENDED
     from jumpcad.search.trial import count_rejections, feasible_trials, searched, trial_numbers
 
     trials, identity = store.trials(), store.identity
@@ -108,6 +110,7 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
         "study": str(file),
         "identity": identity,
         "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])),
+        "ended": store.recall(ENDED),
         "evaluations": len(proposed),
         "other_evaluations": len(trials) - len(proposed),
         "refused": count_rejections(proposed),
@@ -126,6 +129,8 @@ def _print_one(summary: dict[str, Any]) -> None:
     print(f"{escaped(summary['study'])}: {about}")
     around = f", and {summary['other_evaluations']} around the best" if summary["planned"] else ""
     print(f"{_done(summary['evaluations'], summary['planned'], identity['model'])}{around}")
+    if summary["ended"] is not None:
+        print(f"  ended: {_end_in_words(summary['ended'], identity['method'])}")
     for name, count in summary["refused"].items():
         print(f"  rejected {count:6d}  {name}")
     for note in summary["notes"]:
@@ -139,11 +144,24 @@ def _print_one(summary: dict[str, Any]) -> None:
         print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}  (trial {trial['trial']})")
 
 
+def _end_in_words(ended: dict[str, Any], method: str) -> str:
+    """Return what ended a search, and how it goes on."""
+    words = {
+        "evaluations": "all evaluations that it was to take are spent; more --evaluations go on",
+        "until": f"its last steps gained less than {ended.get('until_percent', 0.0):g} % of the best score (--until); "
+        "--until 0 goes on",
+        "hours": f"its time is over (--hours {ended.get('hours', 0.0):g}); the same command goes on",
+        "space": "it has all designs of the space",
+        "proposals": f"{method} proposed no other designs that are new",
+    }
+    return words[ended["by"]]
+
+
 def _done(designs: int, planned: int, model: dict[str, Any]) -> str:
     """Return how far a search is; where a design takes neighbours too, evaluations are planned, not designs."""
     if planned and model.get("neighbours_of"):
-        return f"{designs} designs, of {planned} evaluations with their neighbours"
-    return f"{designs} of {planned} designs" if planned else f"{designs} designs"
+        return f"{counted(designs, 'design')}, of {counted(planned, 'evaluation')} with their neighbours"
+    return f"{designs} of {counted(planned, 'design')}" if planned else counted(designs, "design")
 
 
 def _print_comparison(summaries: list[dict[str, Any]]) -> None:
@@ -151,6 +169,6 @@ def _print_comparison(summaries: list[dict[str, Any]]) -> None:
         identity, best = summary["identity"], summary["best"]
         score = "none" if best is None else f"{best['score']:.4f}"
         print(
-            f"{summary['study']}: best {identity['objective']} {score} in {summary['evaluations']} designs "
+            f"{summary['study']}: best {identity['objective']} {score} in {counted(summary['evaluations'], 'design')} "
             f"({identity['method']}, {identity['model']['name']}, seed {identity['seed']})"
         )

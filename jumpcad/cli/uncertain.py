@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from jumpcad.cli.output import status
+from jumpcad.counting import counted
 
 if TYPE_CHECKING:
     from jumpcad.robot import Robot
@@ -22,7 +23,7 @@ def uncertain_lines(found: dict[str, Any]) -> list[str]:
     from jumpcad.simulation.uncertain import FIGURES
 
     source = "the calibration's draws" if found["calibrated"] else "the priors of a calibration: none was given"
-    lines = [f"uncertainty ({found['jumps']} jumps, {source}), quantiles 10…50…90 %:"]
+    lines = [f"uncertainty ({counted(found['jumps'], 'jump')}, {source}), quantiles 10…50…90 %:"]
     for name, label in FIGURES.items():
         shown = "…".join(f"{1000.0 * value:.0f}" for value in found["quantiles"][name])
         lines.append(f"  {label:<36}{shown} mm")

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from jumpcad.bundle.folder import write_folder
+from jumpcad.bundle.folder import require_place, write_folder
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
@@ -35,6 +35,7 @@ def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -
     CannotBuildError
         If a piece does not fit the bed, or its file is not one closed solid.
     """
+    require_place(folder)
     holes = coupon_holes(workshop)
     made = pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
     kg = [_mass_kg(piece, workshop) for piece in made]

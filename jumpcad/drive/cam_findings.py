@@ -52,7 +52,7 @@ LIMITS = (
         ),
     ),
     Limit(
-        "cam_contact", "MPa", 10.0, "lower stiffness_nmm_per_deg or compression_ratio, or a wider cam",
+        "cam_contact", "MPa", 10.0, "lower stiffness_nmm_per_deg or compression_ratio, or a wider bought.roller",
         Basis(
             f"largest √(N·E/((1 - ν²)·π·b·ρ)) ≤ {_PRESSURE}/√r (MPa); N = K·(θ + p)/(L·cos α) force on the roller, b "
             f"its width, 1/ρ sum of both curvatures, E modulus of the gears' material, ν = {CamLimits.poisson:g}",
@@ -147,7 +147,9 @@ def missed(limits: CamLimits, margin: Array) -> str:
 def _short(name: str, room: float) -> str:
     unit = next(checked.unit for checked in LIMITS if checked.name == name)
     shown, factor = SHOWN_AS.get(unit, (unit, 1.0))
-    return f"{-factor * room:.2g}{'' if shown == '°' else ' '}{shown}"
+    short = -factor * room
+    figure = f"{short:.0f}" if short >= 10.0 else f"{max(short, 0.01):.2g}"
+    return f"{figure}{'' if shown == '°' else ' '}{shown}"
 
 
 def _found(name: str, room: float, limits: CamLimits) -> str:

@@ -16,6 +16,17 @@ BASIS = {
         "data sheet of the spring: templates/hardware/springs.toml, or [springs.NAME]",
     )
 }
+STIFFNESS, SPRING = "stiffness_nmm_per_deg", "bought.spring"
+"""Parameter of a design that says nothing where springs are bought, and the key of a workshop that does then."""
+
+
+def of_stock(words: str) -> str:
+    """Return a message with a remedy that can be taken where springs are bought: their rate is not the design's."""
+    for way, kind in (("lower", "weaker"), ("raise", "stronger")):
+        choose = f"choose a {kind} {SPRING}"
+        words = words.replace(f"{way} {STIFFNESS} or compression_ratio", f"{choose} or {way} compression_ratio")
+        words = words.replace(f"{way} {STIFFNESS}", choose)
+    return words.replace(f"a choose a weaker {SPRING}", f"a weaker {SPRING}")
 
 
 def springs_on_leg(design: Design, stock: StockSpring | None = None, preload_rad: float = 0.0) -> Spring:

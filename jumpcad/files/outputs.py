@@ -107,13 +107,15 @@ def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -
     Raises
     ------
     JumpcadError
-        If it has another suffix, its folder is missing, or it would replace a user's file (unless `force`).
+        If it has another suffix, its folder is missing or cannot be written, or it would replace a user's file (unless
+        `force`).
     """
     require_path(path)
     if path.suffix not in suffixes:
         raise JumpcadError(f"{path}: must end in {' or '.join(suffixes)}")
     require_folder(path)
     require_free(path, force)
+    require_writable(path.parent)
 
 
 def require_folder(path: Path) -> None:
@@ -126,6 +128,31 @@ def require_folder(path: Path) -> None:
     """
     if not os.path.isdir(path.parent):
         raise JumpcadError(f"{path}: cannot be written: there is no folder {path.parent}")
+
+
+def require_writable(folder: Path) -> None:
+    """Require that files can be made in a folder, or in the nearest one above it that is there.
+
+    It makes an empty file and removes it: what the system says of rights is not the whole truth on disks that are
+    mounted to be read only, or shared. Called before long work, so that its result is not lost.
+
+    Raises
+    ------
+    JumpcadError
+        If no file can be made.
+    """
+    require_path(folder)
+    there = folder
+    while not os.path.lexists(there) and there.parent != there:
+        there = there.parent
+    probe = there / f".jumpcad-{secrets.token_hex(8)}"
+    try:
+        os.close(os.open(probe, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600))
+        os.unlink(probe)
+    except OSError as error:
+        raise JumpcadError(
+            f"{folder}: cannot be written: no file can be made in {there} ({error.strerror}); choose another folder"
+        ) from None
 
 
 def require_free(path: Path, force: bool = False) -> None:

@@ -82,6 +82,11 @@ class Electronics:
         return max(WALL_MM, self.wall_mm) + max(PLAY_MM, self.play_mm)
 
     @property
+    def rim_mm(self) -> float:
+        """Thickness of the rims at the boards' ends, and of the battery's stops."""
+        return max(RIM_MM, self.wall_mm)
+
+    @property
     def ties_apart_mm(self) -> float:
         """From one board to the next: the ties of both, and a wall between them."""
         return 2.0 * (SEAT_PLAY_MM + TIE_SLOT_MM[0]) + max(WALL_MM, self.wall_mm)
@@ -112,7 +117,7 @@ class Electronics:
     @property
     def _stopped_mm(self) -> float:
         """Half of the battery's length with its stop, which keeps away from the strap."""
-        return max(self.battery.length_mm / 2.0 + BATTERY_PLAY_MM, STRAP_SLOT_MM[1] / 2.0 + TIE_END_MM) + RIM_MM
+        return max(self.battery.length_mm / 2.0 + BATTERY_PLAY_MM, STRAP_SLOT_MM[1] / 2.0 + TIE_END_MM) + self.rim_mm
 
     @property
     def _balance_room_mm(self) -> float:
@@ -126,7 +131,7 @@ class Electronics:
     @property
     def stop_mm(self) -> float:
         """From the battery's middle to that of the stops at its ends."""
-        return self._stopped_mm - RIM_MM / 2.0
+        return self._stopped_mm - self.rim_mm / 2.0
 
     @property
     def balance_mm(self) -> float:
@@ -178,7 +183,7 @@ class Electronics:
         """Return the room across the robot that a board needs besides its own length."""
         part = self.tied.get(self._neighbour(role))
         tied = 0.0 if part is None else (part.width_mm or 0.0) + 2.0 * TIE_SLOT_MM[0]
-        return _from_plate_mm(role) + SEAT_PLAY_MM + RIM_MM + tied + self.side_mm
+        return _from_plate_mm(role) + SEAT_PLAY_MM + self.rim_mm + tied + self.side_mm
 
     def seats(self, inside: Interval) -> dict[str, Seat]:
         """Return where everything lies on the trays between the plates."""
@@ -198,7 +203,7 @@ class Electronics:
             if beside:
                 part = self.tied[beside]
                 size = (part.length_mm or 0.0, part.width_mm or 0.0, part.height_mm or 0.0)
-                end = board.length_mm / 2.0 + SEAT_PLAY_MM + RIM_MM + TIE_SLOT_MM[0]
+                end = board.length_mm / 2.0 + SEAT_PLAY_MM + self.rim_mm + TIE_SLOT_MM[0]
                 at = self.length_mm / 2.0 - size[0] / 2.0 if beside == "plug" else x
                 seats[beside] = Seat(at, y + side * (end + size[1] / 2.0), board_bottom - TAPE_MM, size)
             start += board.width_mm + self.ties_apart_mm

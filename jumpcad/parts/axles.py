@@ -87,6 +87,11 @@ def require_retention(catalogue: Catalogue, chosen: BoughtParts) -> None:
         Saying what to choose.
     """
     rod, how, size = catalogue.rods[chosen.axle], chosen.retention, chosen.axle_mm
+    if how == "nuts" and size != (thread := catalogue.screws["M3 long"].diameter_mm):
+        raise JumpcadError(
+            f'bought.axle_mm = {size:g}: bought.retention = "nuts" has screws of {thread:g} mm as axles: make it '
+            f'{thread:g}, or choose "plates" or "clips"'
+        )
     if how == "clips":
         catalogue.clip_for(size)
         if not rod.grooves:
@@ -97,8 +102,6 @@ def require_retention(catalogue: Catalogue, chosen: BoughtParts) -> None:
         return
     if clipped_pins(catalogue, chosen):
         catalogue.clip_for(size)
-    if how == "nuts" and size != (thread := catalogue.screws["M3 long"].diameter_mm):
-        raise JumpcadError(f'bought.axle_mm = {size:g}: retention = "nuts" has screws of {thread:g} mm as axles')
 
 
 def _rod(place: Place, y: Interval, diameter_mm: float, catalogue: Catalogue, chosen: BoughtParts) -> BoughtPart:

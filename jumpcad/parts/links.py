@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, STOP_PAD_MM
+from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, OVERHANG_LINES, STOP_PAD_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.layout.leg_bars import BarPlace, bar_place
 from jumpcad.mechanism.model import FRONT_LINK, MAIN_LEG
@@ -139,5 +139,5 @@ def _socketed(stack: Stack, place: BarPlace, holes: HoleSizes, half_mm: float) -
     length, middle = place.far_floor_mm - place.floor_mm, place.middle_mm
     return stack.minus(
         (half_mm + y0, half_mm + y1, rectangle((length, height), (middle, 0.0)))
-        for y0, y1, height in place.bar.slabs_mm(holes.fits.lying_mm)
+        for y0, y1, height in place.bar.slabs_mm(holes.fits.lying_mm, OVERHANG_LINES * holes.process.line_width_mm)
     )

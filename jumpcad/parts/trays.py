@@ -5,7 +5,7 @@ rim, each under a cable tie.
 """
 
 from jumpcad.dimensions import STRAP_SLOT_MM, TAB_MM, TIE_SLOT_MM, TRAY_MM
-from jumpcad.layout.electronics import BALANCE_MM, RIM_HEIGHT_MM, RIM_MM, SEAT_PLAY_MM, STOP_HEIGHT_MM
+from jumpcad.layout.electronics import BALANCE_MM, RIM_HEIGHT_MM, SEAT_PLAY_MM, STOP_HEIGHT_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
@@ -31,11 +31,11 @@ RIM_SHARE = 0.6
 def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     """Return the lower and the upper tray."""
     electronics, inside = layout.electronics, layout.lateral.inside
-    battery, middle = electronics.battery, sum(inside) / 2.0
+    battery, middle, rim = electronics.battery, sum(inside) / 2.0, electronics.rim_mm
     strap_y, seat = battery.width_mm / 2.0 + STRAP_SLOT_MM[0], electronics.seats(inside)["battery"]
     x, at = seat.x_mm, seat.y_mm - middle
     straps = [rectangle(STRAP_SLOT_MM[::-1], (x, at + side * strap_y)) for side in (-1.0, 1.0)]
-    between = 2.0 * (electronics.stop_mm - RIM_MM / 2.0 - STOP_FOOT_MM)
+    between = 2.0 * (electronics.stop_mm - rim / 2.0 - STOP_FOOT_MM)
     window = _window(min(electronics.length_mm - 2.0 * (EDGE_MM - x), between), battery.width_mm - 2.0 * LEDGE_MM)
     if electronics.balanced:
         reach = (BALANCE_MM + TIE_SLOT_MM[0]) / 2.0
@@ -44,7 +44,7 @@ def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
         ]
     lower = _floor(layout, holes, 0) - union([*straps, *(region.translate((x, at)) for region in window)])
     stops = [
-        rectangle((RIM_MM, max(RIM_SHARE * battery.width_mm, STOP_MIN_MM)), (x + end * electronics.stop_mm, at))
+        rectangle((rim, max(RIM_SHARE * battery.width_mm, STOP_MIN_MM)), (x + end * electronics.stop_mm, at))
         for end in (-1.0, 1.0)
     ]
     floor = _floor(layout, holes, 1)
@@ -59,8 +59,8 @@ def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
         under = _window(width - 2.0 * BOARD_LEDGE_MM, length - 2.0 * BOARD_LEDGE_MM)
         cuts += [window.translate((x, y)) for window in under]
         # at its other end the plate keeps it
-        end, inwards = length / 2.0 + SEAT_PLAY_MM + RIM_MM / 2.0, 1.0 if role == "controller" else -1.0
-        rims.append(rectangle((RIM_SHARE * width, RIM_MM), (x, y + inwards * end)))
+        end, inwards = length / 2.0 + SEAT_PLAY_MM + rim / 2.0, 1.0 if role == "controller" else -1.0
+        rims.append(rectangle((RIM_SHARE * width, rim), (x, y + inwards * end)))
     upper = floor - union(cuts)
     low = [(0.0, TRAY_MM, lower), (TRAY_MM, TRAY_MM + STOP_HEIGHT_MM, union(stops) ^ lower)]
     slabs = [(0.0, TRAY_MM, upper), (TRAY_MM, TRAY_MM + RIM_HEIGHT_MM, union(rims) ^ upper)]

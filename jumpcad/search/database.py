@@ -8,8 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from jumpcad.errors import JumpcadError, without_controls
-from jumpcad.files.outputs import require_path
+from jumpcad.files.outputs import require_folder, require_path, require_writable
 
+SUFFIX = ".db"
 PATIENCE_S = 5.0
 """Time for which a reader or writer waits for another one."""
 
@@ -41,6 +42,26 @@ def open_to_read(path: Path) -> sqlite3.Connection:
             if way == ways[-1] or not _name(error).startswith(("SQLITE_CANTOPEN", "SQLITE_READONLY")):
                 raise
     raise AssertionError
+
+
+def require_study(study: Path | None) -> None:
+    """Require, before a search, that a file can be its study.
+
+    Raises
+    ------
+    JumpcadError
+        If it does not end in .db, its folder is missing or cannot be written, or it is no file.
+    """
+    if study is None:
+        return
+    if study.suffix != SUFFIX:
+        raise JumpcadError(f"{study}: a study file must end in {SUFFIX}")
+    require_path(study)
+    require_folder(study)
+    if os.path.lexists(study) and not os.path.isfile(study):
+        raise JumpcadError(f"{study}: is there already and is no file; choose another name")
+    if not os.path.lexists(study):
+        require_writable(study.parent)
 
 
 def lock(path: Path) -> int:

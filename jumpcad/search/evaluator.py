@@ -138,7 +138,7 @@ class Evaluator:
                 f"{self.store.path}: this search proposes other designs than the study holds; start a new study"
             )
         waiting = list(fresh)
-        while count := max(0, int(min(len(waiting), self._room()))):
+        while waiting and (count := max(0, int(min(len(waiting), self._room())))):
             part, waiting = waiting[:count], waiting[count:]
             notes = {key: {} if proposals is None else proposals[fresh[key]] for key in part}
             self._evaluate({key: variants[fresh[key]] for key in part}, places, notes, left_out or {})

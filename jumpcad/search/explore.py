@@ -7,6 +7,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from jumpcad.arguments import typed
+from jumpcad.counting import counted
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
@@ -133,7 +134,7 @@ def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
     from sklearn.decomposition import PCA
 
     if len(trials) < 3:
-        raise JumpcadError(f"{len(trials)} designs are too few for principal components; raise --samples")
+        raise JumpcadError(f"{counted(len(trials), 'design')}: too few for principal components; raise --samples")
     units = np.array([evaluator.space.to_unit(trial.variant) for trial in trials])
     deviation = units.std(axis=0)
     found = PCA(svd_solver="full").fit(units / np.where(deviation > 0, deviation, 1.0))

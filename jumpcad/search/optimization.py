@@ -6,6 +6,7 @@ from typing import Any
 
 from jumpcad.arguments import typed
 from jumpcad.design import Design, load_design
+from jumpcad.search.database import require_study
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, UNTIL_PERCENT
 from jumpcad.search.models import robot_model
 from jumpcad.search.pool import open_pool
@@ -64,8 +65,8 @@ def optimize(
     objective
         One of `jumpcad.search.OBJECTIVES` by name; if None, `range` for a front, `body_lengths` of the printed robot,
         `fitness` of the others. `p10`, or as `p10-range`: the score that nine of ten neighbours reach within the
-        tolerances of the robust pick; a design that jumps then counts as up to eleven evaluations, and the last one
-        may take more than are left. Or an own one: a function that takes the figures of a jump (a mapping of names to
+        tolerances of the robust pick; a design that jumps then counts as up to eleven evaluations, and the search
+        ends where fewer are left. Or an own one: a function that takes the figures of a jump (a mapping of names to
         numbers) and returns the score, or `FILE.py:FUNCTION`.
     model
         The robot that is evaluated: `printed`, `capsule` or `published`.
@@ -107,6 +108,8 @@ def optimize(
     JumpcadError
         If an argument is wrong, or the study file holds another study, is damaged or in use.
     """
+    path = None if study is None else Path(study)
+    require_study(path)
     centre = load_design(around) if isinstance(around, str | Path) else around
     robot = robot_model(model, workshop, settings, engine)
     space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop)
@@ -116,4 +119,4 @@ def optimize(
         until_percent=until_percent, hours=hours, widen=widen, screen=screen, against=against,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
-        return run_study(request, None if study is None else Path(study), pool)
+        return run_study(request, path, pool)

@@ -258,7 +258,9 @@ def _parameter(change: Change, values: Sequence[float]) -> SearchParameter:
 
 
 def several(name: str, values: Any) -> tuple[Any, ...]:
-    """Return a caller's values for one parameter; raises `JumpcadError` for a single number."""
+    """Return a caller's values for one parameter; raises `JumpcadError` for a single number or text."""
+    if isinstance(values, str | bytes):  # its letters are no values
+        raise JumpcadError(f"{name} = {described(values)}: must be a list of values")
     try:
         return tuple(values)
     except TypeError:

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from jumpcad.arguments import typed
+from jumpcad.counting import counted
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
@@ -158,7 +159,7 @@ def components(views: Mapping[str, Components]) -> Figure:
         axes.bar(np.arange(1, len(view.shares) + 1), view.shares, color=BLUE)
         axes.axhline(1.0 / len(view.shares), color=GREY, lw=1, ls="--", label="equal shares")
         axes.legend()
-        labels(axes, "component", "share of variance", f"{name}: {view.designs} designs")
+        labels(axes, "component", "share of variance", f"{name}: {counted(view.designs, 'design')}")
     return figure
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from jumpcad.arguments import require_fields
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
@@ -16,6 +17,7 @@ from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES,
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel
+from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.objective import Model, Objective, find_objective
 from jumpcad.search.robust import pick_share
 from jumpcad.search.space import Space
@@ -61,7 +63,8 @@ class Request:
         Bayesian optimisation, if it comes last, ends when `PATIENCE` proposals in a row promised and gained less than
         this share of the best score, where robots are guessed when `IDLE` steps gained less; 0 spends all evaluations.
     hours
-        The search ends after this time (h), the robust pick follows; 0 for no limit. The same request goes on later.
+        The search ends in time for the robust pick, and this ends after this time (h); 0 for no limit. The same request
+        goes on later.
     widen
         Whether bounds on which the best design lies are moved, and the search goes on: `WIDENINGS` times, with
         `WIDENING_SHARE` of the evaluations.
@@ -134,6 +137,11 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
+        if self.aim.neighbours_of and self.evaluations < 1 + NEIGHBOURS:
+            raise JumpcadError(
+                f"evaluations = {self.evaluations} must be at least {1 + NEIGHBOURS} for {self.objective}: a design "
+                f"takes as many with its {NEIGHBOURS} neighbours"
+            )
         if isinstance(self.model, RobotModel):
             self.model.require_figures(self.aim)
             if self.is_front and self.cost.of_design is None:
@@ -184,7 +192,8 @@ class Request:
             raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
 
     def __repr__(self) -> str:
-        return f"<Request {self.title}: {self.evaluations} evaluations, {self.space.dimension} parameters free>"
+        evaluations, free = counted(self.evaluations, "evaluation"), counted(self.space.dimension, "parameter free")
+        return f"<Request {self.title}: {evaluations}, {free}>"
 
     @property
     def title(self) -> str:

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from jumpcad.counting import counted
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
@@ -170,7 +171,8 @@ class Result:
 
     def __repr__(self) -> str:
         found = "no design jumps" if self.winner is None else f"{self.request.objective} {self.score:.4g}"
-        return f"<Result {self.request.method}: {found}, {len(self.trials)} trials, {len(self.candidates)} candidates>"
+        trials, candidates = counted(len(self.trials), "trial"), counted(len(self.candidates), "candidate")
+        return f"<Result {self.request.method}: {found}, {trials}, {candidates}>"
 
     def _repr_html_(self) -> str:
         from jumpcad.notebook import figures_table
@@ -197,6 +199,7 @@ class Result:
         if self.winner is None:
             reasons = ", ".join(f"{name} {count}" for name, count in list(self.rejected.items())[:5])
             raise CannotBuildError(
-                f"none of {len(self.trials)} designs jumps ({reasons}): widen the bounds, or evaluate more designs"
+                f"none of {counted(len(self.trials), 'design')} jumps ({reasons}): "
+                "widen the bounds, or evaluate more designs"
             )
         return self.winner

@@ -37,7 +37,7 @@ APART = 0.02
 """Least difference between two candidates in some parameter, over its range; judgement."""
 WIDENING = 0.05
 """How far beyond an active bound a design is evaluated, over the bound's range; judgement."""
-NOT_EXAMINED = "not examined: the robust pick has no evaluations left"
+NOT_EXAMINED = "not examined: the robust pick has no evaluations or time left"
 
 
 @dataclass(frozen=True, repr=False)

@@ -19,6 +19,7 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
+from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.rows import (
     APPLICATION_ID,
     COLUMNS,
@@ -35,6 +36,8 @@ from jumpcad.search.stored import require_remembered, stored_text
 from jumpcad.search.stored_evaluation import stored_names
 from jumpcad.search.trial import SEARCH_PHASES, Trial
 
+ENDED = "ended"
+"""Key under which a study remembers what ended its search; None while it runs, and where it was interrupted."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
@@ -145,7 +148,7 @@ class StudyStore:
             value = json.loads(found[0])
         except (TypeError, ValueError, RecursionError) as error:
             raise JumpcadError(f"{self.path}: is damaged: its {key} cannot be read ({shown(str(error))})") from None
-        if key == "stages":
+        if key in ("stages", ENDED) and value is not None:
             self._require(key, value)
         return value
 
@@ -259,6 +262,12 @@ class StudyStore:
             raise JumpcadError(
                 f"{self.path}: was made by another program ({differs}), whose trials do not mix with this one's; "
                 f"go on with that program, or name another file (`--from-study {self.path}` learns from this one)"
+            )
+        if differs.startswith("against: "):
+            theirs = str(self.identity.get("against", SPRING_ENERGY.name))
+            raise JumpcadError(
+                f"{self.path}: holds a front against {theirs}, not "
+                f"{identity.get('against', SPRING_ENERGY.name)}: say --against {theirs}, or name another file"
             )
         if differs:
             raise JumpcadError(

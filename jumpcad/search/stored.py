@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
@@ -93,16 +93,23 @@ class _Stage(TomlTable):
     widen: bool = False
 
 
+class _Ended(TomlTable):
+    by: Literal["evaluations", "until", "hours", "space", "proposals"]
+    until_percent: Annotated[float, Field(ge=0, le=100)] = 0.0
+    hours: Annotated[float, Field(ge=0, le=1e6)] = 0.0
+
+
 _REMEMBERED: dict[str, TypeAdapter[Any]] = {
     "identity": TypeAdapter(_Identity),
     "stages": TypeAdapter(Annotated[list[_Stage], Field(min_length=1)]),
+    "ended": TypeAdapter(_Ended),
 }
 _WORKSHOP = TypeAdapter(dict[str, Finite | Text], config=STRICT)
 _PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]] | list[list[Share]]], config=STRICT)
 
 
 def require_remembered(key: str, value: Any) -> None:
-    """Reject what a study cannot have remembered as its `identity` or its `stages`.
+    """Reject what a study cannot have remembered as its `identity`, its `stages` or what `ended` it.
 
     Raises
     ------

@@ -8,8 +8,10 @@ import math
 import time
 from dataclasses import asdict, replace
 from pathlib import Path
+from typing import Any
 
 from jumpcad.arguments import typed
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.fronts import front
@@ -19,13 +21,18 @@ from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
 from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
-from jumpcad.search.store import StudyStore, difference
+from jumpcad.search.store import ENDED, StudyStore, difference
 from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
 from jumpcad.search.versions import versions
 from jumpcad.search.widening import Widened, widen
 
 FIRST = 50
 """Designs after which it is said that none jumps."""
+
+PICK_SHARE = 0.25
+"""Share of a limited time that is kept for the robust pick, at most: that of its evaluations."""
+PICKED_AT_ONCE = 4
+"""Evaluations of a pick for each worker between two looks at the clock; judgement: seconds, and few waits."""
 
 
 class Hopeless:
@@ -54,17 +61,24 @@ class Clock:
     def __init__(self, hours: float) -> None:
         self._limit_s = 3600.0 * (hours or math.inf)
         self._start_s = time.monotonic()
-        self._runs = False
+        self._computed = 0
 
     def see(self, computed: bool) -> None:
         """Look at a trial; the time starts after the last one that was read before any was computed."""
-        self._runs = self._runs or computed
-        if not self._runs:
+        self._computed += computed
+        if not self._computed:
             self._start_s = time.monotonic()
 
-    def is_over(self) -> bool:
-        """Whether the time is over."""
-        return self._runs and time.monotonic() >= self._start_s + self._limit_s
+    def is_over(self, following: int = 0) -> bool:
+        """Whether the time is over, or has come for as many evaluations as follow.
+
+        These take as long as those before; at most `PICK_SHARE` of the time is kept for them.
+        """
+        if not self._computed:
+            return False
+        passed_s = time.monotonic() - self._start_s
+        kept_s = min(following * passed_s / self._computed, PICK_SHARE * self._limit_s)
+        return passed_s >= self._limit_s - kept_s
 
 
 @typed
@@ -81,8 +95,11 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if remark:
             store.note_once(remark)
         stages = _stages(request, store, len(prior))
+        if store.recall(ENDED) is not None:
+            store.remember(ENDED, None)  # until this run ends
         hopeless, clock, allowance = Hopeless(), Clock(request.hours), 0
         widened: list[Widened] = []
+        picking, cut = False, list[bool]()
 
         def watched(trial: Trial, computed: bool) -> None:
             clock.see(computed)
@@ -91,9 +108,14 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             watch(trial, computed)
 
         def room() -> float:
-            """Return how many more designs fit if each takes all its neighbours, rounded up."""
+            """Return how many more designs fit if each takes all its neighbours; of a timed pick, how many at once."""
+            if picking and clock.is_over():
+                cut.append(True)
+                return 0
+            if picking and request.hours:
+                return PICKED_AT_ONCE * max(pool.workers, 1)
             left = allowance - evaluator.spent
-            return math.ceil(left / (1 + NEIGHBOURS)) if request.aim.neighbours_of else math.inf
+            return left // (1 + NEIGHBOURS) if request.aim.neighbours_of else math.inf
 
         evaluator = Evaluator(
             request.space,
@@ -103,7 +125,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             pool,
             prior,
             watched,
-            lambda: clock.is_over() or evaluator.spent >= allowance,
+            lambda: clock.is_over(request.pick) or evaluator.spent >= allowance or room() < 1,
             room,
         )
         for number, stage in enumerate(stages):
@@ -124,8 +146,10 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 converged = METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
         timed = []
-        if clock.is_over() and not converged and evaluator.spent < request.searched:
-            timed = [f"ended after {request.hours:g} h, before {request.searched} designs: the same command goes on"]
+        if clock.is_over(request.pick) and not converged and evaluator.spent < request.searched:
+            searched = counted(request.searched, "design")
+            timed = [f"ended after {request.hours:g} h, before {searched}: the same command goes on"]
+        picking = True
         best = best_trial(trials)
         candidates, bounds = [], []
         if request.pick and best is not None and request.is_front:
@@ -137,8 +161,23 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if candidates and not request.is_front:
             left = request.pick - (len(evaluator.trials) - len(trials))
             bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
+        if cut and not timed:
+            timed = [f"ended after {request.hours:g} h, during the robust pick: the same command goes on"]
+        store.remember(ENDED, _end(request, evaluator.spent, len(trials), converged, bool(timed)))
         notes = [*store.notes(), *timed]
         return Result(request, trials, best, candidates, bounds, notes, evaluator.spent, widened, converged)
+
+
+def _end(request: Request, spent: int, designs: int, converged: bool, timed: bool) -> dict[str, Any]:
+    """Return what ended a search, as a study remembers it."""
+    if timed:
+        return {"by": "hours", "hours": request.hours}
+    if converged:
+        return {"by": "until", "until_percent": request.until_percent}
+    if designs >= request.space.size:
+        return {"by": "space"}
+    all_spent = spent + (NEIGHBOURS if request.aim.neighbours_of else 0) >= request.searched
+    return {"by": "evaluations" if all_spent else "proposals"}
 
 
 def _bounds_step(request: Request, trials: list[Trial]) -> int:
@@ -162,8 +201,8 @@ def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
             )
         if more > 0 and METHODS[stages[-1].method].shares:
             raise JumpcadError(
-                f"{store.path}: its search by {request.method} is planned for {held} evaluations and does not go on "
-                f"with {request.searched}: name another file"
+                f"{store.path}: its search by {request.method} is planned for {counted(held, 'evaluation')} and does "
+                f"not go on with {request.searched}: name another file"
             )
         stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more)
     store.remember("stages", [asdict(stage) for stage in stages])

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.explore import LEAST_R_SQUARED, Importance, importance
 from jumpcad.search.page_text import broken, table, written
@@ -26,7 +27,7 @@ def importances(store: StudyStore, found: Known) -> Iterator[str]:
     try:
         learned = importance(Replay(store), feasible[:: -(-len(feasible) // MOST_LEARNED)], store.identity["seed"])
     except JumpcadError:
-        yield f"<p>{len(feasible)} designs that jump are too few to say what is important.</p>"
+        yield f"<p>{counted(len(feasible), 'design')} that jumped: too few to say what is important.</p>"
         return
     if not learned.r_squared >= LEAST_R_SQUARED:  # nor is NaN
         yield f"<p>From {learned.designs} designs the score of others cannot be predicted (R² {learned.r_squared:.2f}, "
@@ -109,13 +110,14 @@ def rejections(found: Known) -> Iterator[str]:
     counts = count_rejections(found.trials)
     yield "<h2>Why designs were rejected</h2>"
     rejected = sum(trial.score is None for trial in found.trials)
-    yield f"<p>{rejected} of {len(found.trials)} designs of the search were rejected; one may have several reasons. "
+    yield f"<p>Rejected: {rejected} of {counted(len(found.trials), 'design of the search')}; one may have several "
+    yield "reasons. "
     yield "<code>jumpcad check</code> tells limit and remedy for a design.</p>"
     if counts:
         most, first = max(counts.values()), next(iter(counts))
         meaning = reason_words(first)
         said = f": {written(meaning)}" if meaning else ""
-        yield f"<p>The most frequent reason is {broken(first)}, of {counts[first]} designs{said}.</p>"
+        yield f"<p>The most frequent reason is {broken(first)}, of {counted(counts[first], 'design')}{said}.</p>"
         rows = [
             [broken(reason), written(reason_words(reason)), _bar(count / most), str(count)]
             for reason, count in counts.items()

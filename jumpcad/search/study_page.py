@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from jumpcad.arguments import typed
+from jumpcad.counting import counted
 from jumpcad.files.templates import templates_folder
 from jumpcad.search.figures import MEANINGS, svg_text
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
@@ -92,9 +93,11 @@ def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
     objective = found.objective
     jumped = len(feasible_trials(found.trials))
     if found.winner is None:
-        yield f'<p class="error">None of {len(found.trials)} designs jumps.</p>'
+        yield f'<p class="error">None of {counted(len(found.trials), "design")} jumps.</p>'
     else:
-        which = "most robust of the best designs" if found.candidates else f"best of {len(found.trials)} designs"
+        which = (
+            "most robust of the best designs" if found.candidates else f"best of {counted(len(found.trials), 'design')}"
+        )
         yield (
             f'<p class="verdict">The {which}: {written(objective.meaning)} '
             f"{found.winner.score:.4g} {written(objective.unit)}.</p>"
@@ -117,7 +120,7 @@ def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
 def _asked(store: StudyStore, found: Known) -> Iterator[str]:
     """Yield the objective, the stages, and the space with the winner's values."""
     identity, objective = store.identity, found.objective
-    stages = [f"{stage['method']}, {stage['evaluations']} designs" for stage in store.recall("stages", [])]
+    stages = [f"{stage['method']}, {counted(stage['evaluations'], 'design')}" for stage in store.recall("stages", [])]
     yield "<h2>What was asked</h2>"
     yield (
         f"<p>The highest {written(identity['objective'])} ({written(objective.meaning)}, {written(objective.unit)})"

@@ -7,20 +7,12 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean, find_template, read_toml, template_names
 from jumpcad.files.complaints import shown
+from jumpcad.workshop.slots import SLOTS
 from jumpcad.workshop.workshop import Workshop
 
 Value = float | str
 """A value that can vary: a number, or a name of the catalogue."""
 
-PARTS = {
-    "bought.leg_bearing": "bearings", "bought.roller": "bearings", "bought.battery": "batteries",
-    "bought.controller": "boards", "bought.driver": "boards", "bought.regulator": "boards",
-    "bought.sensor": "components", "bought.switch": "components", "bought.plug": "components",
-    "bought.capacitor": "components", "bought.diode": "components", "bought.wire": "components",
-    "bought.spring": "springs", "bought.axle": "rods", "bought.kit": "kits",
-    "ground.pad": "pads", "body.stop_pad": "pads",
-}  # fmt: skip
-"""Keys that name a part, and where in the catalogue it stands."""
 WORDS = ("name", "source", "surface")
 """Last steps of keys that describe and decide nothing."""
 
@@ -74,12 +66,12 @@ def varied(workshop: Workshop, values: Mapping[str, Value]) -> Workshop:
 
 
 def _require_part(workshop: Workshop, key: str, value: Value) -> None:
-    """Refuse a name that the catalogue does not have."""
-    if key in PARTS and value not in ("", "any"):
-        known = getattr(workshop.catalogue, PARTS[key])
-        if value not in known:
-            hint = did_you_mean(str(value), known)
-            raise JumpcadError(f"{key} = {shown(value)}: is none of {', '.join(known)}{hint}")
+    """Refuse a name that is no part of the catalogue, or one of another kind."""
+    slot = SLOTS.get(key)
+    if slot is not None and (reason := slot.misfit(workshop.catalogue, str(value))):
+        raise JumpcadError(f"{key} = {shown(value)}: {reason}")
+    if key == "bought.kit" and value and value not in (kits := workshop.catalogue.kits):
+        raise JumpcadError(f"{key} = {shown(value)}: is none of {', '.join(kits)}{did_you_mean(str(value), kits)}")
 
 
 def _shipped_material(name: Any) -> dict[str, Any]:

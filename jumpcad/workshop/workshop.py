@@ -28,6 +28,7 @@ from jumpcad.catalogue import (
 from jumpcad.dimensions import DOG_PLAY_MIN_DEG
 from jumpcad.files import Contradiction, Record, to_toml
 from jumpcad.files.names import Name
+from jumpcad.workshop.slots import SLOTS
 from jumpcad.workshop.tables import (
     BodyPlates,
     BoughtParts,
@@ -161,8 +162,18 @@ class Workshop(Record):
         for role, name in self.roles.model_dump().items():
             if name not in self.materials:
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
+        yield from self._misfits()
         for kind in OWN_PARTS:
             yield from _own_contradictions(kind, getattr(self, kind))
+
+    def _misfits(self) -> Iterator[Contradiction]:
+        """Yield names of parts that are not in the catalogue, or of another kind than their key asks for."""
+        catalogue = self.catalogue
+        for key, slot in SLOTS.items():
+            table, name = key.split(".")
+            value = getattr(getattr(self, table), name)
+            if reason := slot.misfit(catalogue, value):
+                yield (table, name), value, reason
 
 
 def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Contradiction]:

@@ -73,7 +73,7 @@ def test_a_flight_backwards() -> None:
     [
         ("", r"no column t: the first line must be t,x,z"),
         ("t,x,y\n", r"no column z"),
-        ("t,x,z\n0,0,0\n", r"1 points are too few: mark at least 6"),
+        ("t,x,z\n0,0,0\n", r"1 point: too few, mark at least 6"),
         ("t,x,z\n0,0,a\n", r"points.csv:2: '0,0,a' must be three numbers"),
         ("t,x,z\n0,0,nan\n", r"must be finite"),
         ("t,x,z\n" + "0,0,0\n" * 8, r"t must grow"),

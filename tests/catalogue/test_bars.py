@@ -44,6 +44,17 @@ def test_a_round_bar_fits_the_steps_of_its_hole() -> None:
     assert area == pytest.approx(9.0 * math.pi, rel=0.02)
 
 
+@pytest.mark.parametrize("ledge_mm", [0.9, 0.54, 0.3])
+def test_no_step_of_a_hole_stands_out_farther_than_is_asked_for(ledge_mm: float) -> None:
+    """Half of the difference of two chords, up to the middle; a hole of steps still holds the bar."""
+    wide = TUBE.slabs_mm(0.07, ledge_mm)
+    heights = [height for *_, height in wide]
+    assert max(abs(one - other) / 2.0 for one, other in itertools.pairwise(heights)) <= ledge_mm
+    for low, high, height in wide:
+        assert min(math.hypot(y, height / 2.0) for y in (low, high)) >= 3.07 - 1e-5
+    assert TUBE.slabs_mm(0.07, 0.9) == TUBE.slabs_mm(0.07)
+
+
 def test_bars_and_clips_that_cannot_be_are_refused() -> None:
     tube = TUBE.model_dump() | {"name": "x"}
     for changed, key in (

@@ -6,9 +6,10 @@ from dataclasses import replace
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
 
-from jumpcad.cli.searching import SearchOptions, require_plots, require_study
+from jumpcad.cli.searching import SearchOptions, require_plots
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.search.database import require_study
 from jumpcad.search.figures import PICTURES
 from jumpcad.settings import load_settings
 from jumpcad.workshop import load_workshop

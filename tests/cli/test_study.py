@@ -69,7 +69,8 @@ def summary(**changes: object) -> dict[str, object]:
     identity = {"method": "ga+bo", "model": {"name": "capsule"}, "objective": "range", "seed": 5}
     plain = {
         "study": "s.db", "identity": identity, "planned": 40, "evaluations": 31, "other_evaluations": 12,
-        "refused": {"tips": 6, "loop": 2}, "evaluation_time_s": 9.0, "best": top[0], "top": top, "notes": ["a note"],
+        "ended": None, "refused": {"tips": 6, "loop": 2}, "evaluation_time_s": 9.0, "best": top[0],
+        "top": top, "notes": ["a note"],
     }  # fmt: skip
     return plain | changes
 
@@ -94,6 +95,27 @@ def test_designs_with_their_neighbours_are_not_counted_against_evaluations(capsy
     study._print_one(summary(identity=identity, other_evaluations=0))
     told = capsys.readouterr().out.splitlines()[1]
     assert told == "31 designs, of 40 evaluations with their neighbours, and 0 around the best"
+
+
+@pytest.mark.parametrize(
+    ("ended", "told"),
+    [
+        (
+            {"by": "until", "until_percent": 0.5},
+            "ended: its last steps gained less than 0.5 % of the best score (--until); --until 0 goes on",
+        ),
+        ({"by": "hours", "hours": 8.0}, "ended: its time is over (--hours 8); the same command goes on"),
+        ({"by": "space"}, "ended: it has all designs of the space"),
+        ({"by": "proposals"}, "ended: ga+bo proposed no other designs that are new"),
+        ({"by": "evaluations"}, "ended: all evaluations that it was to take are spent; more --evaluations go on"),
+    ],
+    ids=lambda one: one["by"] if isinstance(one, dict) else "",
+)
+def test_a_study_says_what_ended_its_search(
+    capsys: pytest.CaptureFixture[str], ended: dict[str, object], told: str
+) -> None:
+    study._print_one(summary(ended=ended))
+    assert capsys.readouterr().out.splitlines()[2].strip() == told
 
 
 def test_an_exploration_has_no_number_of_designs_to_come(capsys: pytest.CaptureFixture[str]) -> None:

@@ -64,6 +64,14 @@ def test_what_a_cam_misses_is_named_with_how_much_and_what_to_change() -> None:
     assert "lower compression_ratio, or a larger cam" in words
 
 
+def test_what_is_missed_by_much_is_a_plain_number() -> None:
+    margin = 0.0 * SCALES[FIRST_ROWS] + 1.0
+    place = [checked.name for checked in LIMITS].index("cam_contact")
+    for short, said in ((136.4, "136 MPa"), (1000.0, "1000 MPa"), (12.34, "12 MPa"), (1.234, "1.2 MPa")):
+        margin[place] = -short
+        assert f"({said} short)" in missed(CAM, margin)
+
+
 def test_three_findings_have_their_value_and_limit() -> None:
     """Pressure angle, contact pressure and force on the roller; the others are places and gaps."""
     numbers = {"pressure_angle": [0.4], "pressure": [30.0], "force": [20.0]}

@@ -9,12 +9,12 @@ from support.limits import default_limits
 
 from jumpcad.building import build
 from jumpcad.catalogue import StockSpring, load_catalogue
-from jumpcad.checks import constraint_findings
+from jumpcad.checks import constraint_findings, quick_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import TorsionSpring
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM
-from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
+from jumpcad.drive.stock_spring import fitted_spring, of_stock, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
@@ -120,7 +120,7 @@ def test_a_leg_that_is_too_short_for_its_pin_is_refused() -> None:
 
 
 def test_an_unknown_one_is_refused() -> None:
-    with pytest.raises(JumpcadError, match=r"no spring '9271K588' in the catalogue .*did you mean 9271K589"):
+    with pytest.raises(JumpcadError, match=r"bought.spring = '9271K588': is no spring .*did you mean 9271K589"):
         build(KENAN, with_stock("9271K588"))
 
 
@@ -179,3 +179,35 @@ def test_where_several_directions_of_the_plates_pin_are_free_the_shortest_arms_a
         found = fitted(STOCK, limits=replace(LIMITS, plate_pins_rad=tuple(order)))
         assert found.arms.lever_mm == shortest
         assert found.plate_pin_rad == angles[alone.index(shortest)]
+
+
+@pytest.mark.parametrize(
+    ("made", "bought"),
+    [
+        ("lower stiffness_nmm_per_deg or compression_ratio",
+         "choose a weaker bought.spring or lower compression_ratio"),
+        ("raise stiffness_nmm_per_deg or compression_ratio, or allow a slower motor",
+         "choose a stronger bought.spring or raise compression_ratio, or allow a slower motor"),
+        ("lower stiffness_nmm_per_deg (a smaller spring)", "choose a weaker bought.spring (a smaller spring)"),
+        ("a smaller bearing, or a lower stiffness_nmm_per_deg", "a smaller bearing, or a weaker bought.spring"),
+        ("choose a thicker axle", "choose a thicker axle"),
+    ],
+)  # fmt: skip
+def test_remedies_name_the_spring_that_is_bought(made: str, bought: str) -> None:
+    """The stiffness of a design decides nothing there: the springs have the rate that they have."""
+    assert of_stock(made) == bought
+
+
+def test_no_refusal_or_finding_names_a_stiffness_that_decides_nothing() -> None:
+    """A roller that bears 5 N is too weak for these springs, made or bought."""
+    workshop = with_stock("9271K589")
+    weak = load_catalogue().bearings["623"].model_copy(update={"name": "weak", "static_load_n": 5.0})
+    for spring, named in (("", True), ("9271K589", False)):
+        bought = workshop.bought.model_copy(update={"spring": spring, "roller": "weak"})
+        with pytest.raises(CannotBuildError, match=r"force on the roller .* N short") as refused:
+            build(KENAN, workshop.model_copy(update={"bought": bought, "bearings": {"weak": weak}}))
+        assert ("stiffness_nmm_per_deg" in str(refused.value)) == named
+        assert ("weaker bought.spring" in str(refused.value)) != named
+    remedies = [found.remedy for found in quick_findings(build(KENAN, workshop))]
+    assert any("weaker bought.spring" in remedy for remedy in remedies)
+    assert not any("stiffness_nmm_per_deg" in remedy for remedy in remedies)

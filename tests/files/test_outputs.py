@@ -16,6 +16,7 @@ from jumpcad.files.outputs import (
     require_free,
     require_path,
     require_target,
+    require_writable,
     same_file,
     sealed,
     sealed_png,
@@ -149,6 +150,20 @@ def test_a_folder_that_cannot_be_made_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine")
     with pytest.raises(JumpcadError, match="file: cannot be written"):
         write_files(tmp_path / "file", {"a": b""})
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="nobody, not even root, makes a file in /proc")
+def test_a_folder_that_takes_no_file_is_known_beforehand(tmp_path: Path) -> None:
+    for folder in ("/proc", "/proc/new/newer"):
+        with pytest.raises(JumpcadError, match=f"^{folder}: cannot be written: no file can be made in /proc "):
+            require_writable(Path(folder))
+    with pytest.raises(JumpcadError, match="no file can be made in /proc "):
+        require_target(Path("/proc/x.toml"), (".toml",))
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(JumpcadError, match=r"no file can be made in .*file \(Not a directory\)"):
+        require_writable(tmp_path / "file")
+    require_writable(tmp_path / "new" / "newer")
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
 def test_a_sealed_png_is_a_png_and_is_replaced_until_somebody_edits_it(tmp_path: Path) -> None:

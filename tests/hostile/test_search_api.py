@@ -69,7 +69,7 @@ def test_a_seed_is_a_whole_number(odd: object) -> None:
 
 def test_items_of_a_sequence_are_looked_at() -> None:
     assert refused(lambda: search.hypervolume([(1, 2)])) == (
-        "hypervolume() takes a sequence of Trial as trials, not one with (1, 2) (tuple)"
+        "hypervolume() takes a list of Trial as trials, not one with (1, 2) (tuple)"
     )
 
 

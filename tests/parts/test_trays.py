@@ -9,6 +9,8 @@ import shapely
 import trimesh
 from support.built import built, geared, placed
 
+from jumpcad.building import build
+from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.trays import _window, trays
@@ -164,3 +166,16 @@ def test_the_window_under_a_short_battery_ends_a_millimetre_before_its_stops(len
     assert window.area < 0.8 * floor.area
     assert window.bounds[0] - low.bounds[2] == pytest.approx(1.0, abs=2e-3)
     assert high.bounds[0] - window.bounds[2] == pytest.approx(1.0, abs=2e-3)
+
+
+def test_rims_and_stops_are_as_thick_as_the_thinnest_wall_that_prints() -> None:
+    """Three lines of a nozzle of 0.4 mm, 1.2 mm, or what a workshop asks for."""
+    shop = load_workshop()
+    thick = shop.model_copy(update={"fits": shop.fits.model_copy(update={"wall_min_mm": 1.3, "wall_mm": 1.4})})
+    for workshop, least in ((shop, 1.2), (thick, 1.3)):
+        robot = build(load_design("kenan-2.0"), workshop)
+        for name in ("electronics_tray_lower", "electronics_tray_upper"):
+            _, rims, _ = shapes(robot, name)
+            for rim in rims.geoms:
+                low_x, low_y, high_x, high_y = rim.bounds
+                assert min(high_x - low_x, high_y - low_y) == pytest.approx(least, abs=2e-3)

@@ -96,7 +96,7 @@ def test_too_little_to_look_at(evaluator):
     few = evaluator(space=Space.default())
     trials = sample(few, 20, 0)
     assert components(few, trials[:3]).designs == 3
-    with pytest.raises(JumpcadError, match="2 designs are too few"):
+    with pytest.raises(JumpcadError, match="2 designs: too few"):
         components(few, trials[:2])
     with pytest.raises(JumpcadError, match="not a free parameter"):
         feasibility_map(evaluator(), CENTRE, "c_coef", "rest_angle_deg", 3)

@@ -83,15 +83,31 @@ def test_designs_that_do_not_jump_cost_one():
 
 
 @pytest.mark.parametrize(("method", "batch"), [("ga", 1), ("bo", 1), ("bo", 5), ("pareto", 1)])
-def test_all_evaluations_count_and_only_the_last_design_may_take_more_than_are_left(method, batch):
+def test_all_evaluations_count_and_no_more_than_asked_for(method, batch):
     with local_pool(0) as pool:
         others = {"evaluations": 60, "batch": batch, "until_percent": 0.0}
         request = Request.make(Space.default(), Slope("capsule"), method, "p10-fitness", **others)
         assert (request.objective, request.pick) == ("p10-fitness", 0)
         result = run_study(request, None, pool)
     assert result.evaluations == sum(int(t.evaluation.metrics.get("evaluations", 1)) for t in result.trials)
-    assert 60 <= result.evaluations <= 60 + NEIGHBOURS
+    assert 60 - NEIGHBOURS <= result.evaluations <= 60
     assert len(result.trials) < result.evaluations
+
+
+@pytest.mark.parametrize("evaluations", [11, 12, 21, 22, 23, 34, 47])
+@pytest.mark.parametrize("method", ["ga", "bo", "ga+bo"])
+def test_a_search_takes_no_more_than_asked_for_however_few(method, evaluations):
+    with local_pool(0) as pool:
+        request = Request.make(Space.default(), Slope("capsule"), method, "p10-fitness", evaluations=evaluations)
+        result = run_study(request, None, pool)
+    assert evaluations - NEIGHBOURS <= result.evaluations <= evaluations
+    assert result.trials
+
+
+def test_fewer_evaluations_than_one_design_takes_are_refused():
+    words = "evaluations = 10 must be at least 11 for p10-fitness: a design takes as many with its 10 neighbours"
+    with pytest.raises(JumpcadError, match=f"^{words}$"):
+        Request.make(Space.default(), Slope("capsule"), "ga", "p10-fitness", evaluations=10)
 
 
 def test_names():

@@ -123,3 +123,23 @@ def test_a_search_is_around_a_design_however_it_is_named(folder, monkeypatch):
         for around in ("best-ga", "own.toml", Path("own.toml"), folder / "own.toml", design)
     ]
     assert spaces == [jumpcad.search.Space.parse(around=design, within_percent=10)] * 5
+
+
+@pytest.mark.parametrize("name", ["best.toml", "robot.urdf", "study"])
+def test_a_study_is_a_file_of_its_own_kind_as_on_the_command_line(tmp_path, name):
+    with pytest.raises(JumpcadError, match=f"{name}: a study file must end in .db$"):
+        jumpcad.optimize(evaluations=3, model="capsule", study=tmp_path / name, workers=0)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"only": "range"}, r"^optimize\(\) takes a list of str as only, not 'range' \(str\)$"),
+        ({"choices": {"c_coef": "abc"}}, r"^c_coef = 'abc' \(str\): must be a list of values$"),
+        ({"bounds": {"c_coef": "ab"}}, r"^c_coef = 'ab' \(str\): must be a list of values$"),
+    ],
+)
+def test_a_text_is_not_taken_for_a_list_of_its_letters(changes, message):
+    with pytest.raises(JumpcadError, match=message):
+        jumpcad.optimize(evaluations=3, model="capsule", around="kenan-2.0", workers=0, **changes)

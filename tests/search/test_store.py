@@ -427,3 +427,15 @@ def test_a_study_for_which_there_is_no_space_leaves_no_file(tmp_path, monkeypatc
     with pytest.raises(JumpcadError, match="disk is full"):
         StudyStore.write(tmp_path / "mine.db", {})
     assert (tmp_path / "mine.db").is_file()
+
+
+@pytest.mark.parametrize(("there", "here"), [({}, "mass"), ({"against": "mass"}, "rise"), ({"against": "mass"}, None)])
+def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path, there, here):
+    """One that names no figure was made when all were against the energy in the springs."""
+    path = tmp_path / "front.db"
+    StudyStore.write(path, IDENTITY | there).close()
+    mine = {"against": here} if here else {}
+    named, asked = there.get("against", "spring-energy"), here or "spring-energy"
+    words = f"holds a front against {named}, not {asked}: say --against {named}, or name another file$"
+    with pytest.raises(JumpcadError, match=words):
+        StudyStore.write(path, IDENTITY | mine)

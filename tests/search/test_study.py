@@ -1,6 +1,5 @@
 """Whole studies: the same trials, whoever computes them and whatever interrupts them."""
 
-import math
 import os
 import random
 import subprocess
@@ -30,6 +29,7 @@ from jumpcad.search.study import _read_prior, run_study
 from jumpcad.search.trial import Trial
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4, until_percent=0.0)
+FEW = Space.parse(choose=["c_coef=0.9,1.0"], around=load_design("best-ga"), only=["c_coef"])
 SCRIPT = TESTS / "support" / "study_script.py"
 
 pytestmark = pytest.mark.usefixtures("quick_proposals")
@@ -79,12 +79,58 @@ def test_a_search_that_ended_by_itself_was_not_cut_off(monkeypatch, converged):
         over.append(True)
         return converged
 
-    monkeypatch.setattr(study.Clock, "is_over", lambda self: bool(over))
+    monkeypatch.setattr(study.Clock, "is_over", lambda self, following=0: bool(over))
     monkeypatch.setattr(study, "METHODS", {"bo": SimpleNamespace(ends=True, run=search)})
     result = run(replace(REQUEST, method="bo", hours=2.0))
     assert result.converged == converged
-    said = f"ended after 2 h, before {REQUEST.searched} designs: the same command goes on"
-    assert result.notes == ([] if converged else [said])
+    where = "during the robust pick" if converged else f"before {REQUEST.searched} designs"
+    assert result.notes == [f"ended after 2 h, {where}: the same command goes on"]
+
+
+def test_time_is_kept_for_what_follows_at_the_pace_so_far_and_a_quarter_at_most(monkeypatch):
+    """Ten evaluations in 1000 s: two that follow take 200 s; twenty would take 2000 s, and get 900 s of an hour."""
+    now = [0.0]
+    monkeypatch.setattr(study, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    clock = study.Clock(1.0)
+    clock.see(False)
+    for number in range(10):
+        now[0] = 100.0 * (number + 1)
+        clock.see(True)
+    assert not clock.is_over(20)
+    for at, of_two, of_twenty in ((2600.0, False, False), (2800.0, False, True), (3100.0, True, True)):
+        now[0] = at
+        assert (clock.is_over(2), clock.is_over(20), clock.is_over()) == (of_two, of_twenty, False)
+
+
+def test_a_robust_pick_ends_with_the_time_and_the_same_request_goes_on(tmp_path, monkeypatch):
+    """The time is over after some of its evaluations: what it has is kept, and the rest follows later."""
+    request = replace(REQUEST, method="ga", evaluations=60)
+    whole = run(request)
+    around = [trial for trial in whole.candidates if trial.neighbours]
+    assert around
+    picked = []
+
+    class Timed(study.Clock):
+        def see(self, computed):
+            super().see(computed)
+            picked.append(computed)
+
+        def is_over(self, following=0):
+            return len(picked) > request.searched + 3
+
+    monkeypatch.setattr(study, "Clock", Timed)
+    cut = run(replace(request, hours=1.0), tmp_path / "s.db")
+    assert [trial.key for trial in cut.trials] == [trial.key for trial in whole.trials]
+    assert 3 < cut.evaluations - len(cut.trials) < whole.evaluations - len(whole.trials)
+    assert cut.notes == ["ended after 1 h, during the robust pick: the same command goes on"]
+    assert cut.candidates
+    assert all(bound.reason.startswith("not examined") for bound in cut.bounds)
+    monkeypatch.undo()
+    again = run(replace(request, hours=1.0), tmp_path / "s.db")
+    assert again.notes == []
+    assert again.evaluations == whole.evaluations
+    assert [one.to_dict() for one in again.candidates] == [one.to_dict() for one in whole.candidates]
+    assert again.bounds == whole.bounds
 
 
 def contents(path):
@@ -232,13 +278,43 @@ def test_it_ends_where_proposals_promise_too_little_and_goes_on_where_less_is_as
     assert longer.trials[: len(first.trials)] == first.trials
 
 
+@pytest.mark.parametrize(
+    ("changes", "ended"),
+    [
+        ({"method": "ga", "evaluations": 40}, {"by": "evaluations"}),
+        ({"method": "bo", "evaluations": 40, "until_percent": 5.0}, {"by": "until", "until_percent": 5.0}),
+        ({"method": "ga", "evaluations": 40, "hours": 1e-12}, {"by": "hours", "hours": 1e-12}),
+        ({"method": "bo", "space": FEW}, {"by": "space"}),
+    ],
+    ids=["evaluations", "until", "hours", "space"],
+)
+def test_a_study_remembers_what_ended_it_and_forgets_it_while_it_goes_on(tmp_path, changes, ended):
+    request = replace(REQUEST, **changes)
+    result = run(request, tmp_path / "s.db")
+
+    def held():
+        with StudyStore.read(tmp_path / "s.db") as store:
+            return store.recall("ended")
+
+    assert held() == ended
+    seen = []
+    with local_pool(0) as pool:
+        run_study(request, tmp_path / "s.db", pool, lambda *_: seen.append(held()))
+    assert len(seen) >= len(result.trials)
+    assert set(seen) == {None}
+    assert held()["by"] == ended["by"]
+
+
 def test_it_ends_when_its_time_is_over_and_the_same_request_goes_on(tmp_path):
     for method, evaluations, least in (("ga", 40, 20), ("bo", 16, 8), ("ga+bo", 24, 6)):
         request = replace(REQUEST, method=method, evaluations=evaluations)
         begun = run(replace(request, hours=1e-12), tmp_path / f"{method}.db")
         assert least <= len(begun.trials) < evaluations
         said = [f"ended after 1e-12 h, before {request.searched} designs: the same command goes on"]
-        assert (method, begun.notes) == (method, said if len(begun.trials) < request.searched else [])
+        whole = len(begun.trials) == request.searched
+        said = ["ended after 1e-12 h, during the robust pick: the same command goes on"] if whole else said
+        assert (method, begun.notes) == (method, said)
+        assert begun.evaluations == len(begun.trials)
         whole = run(request, tmp_path / f"{method}.db")
         assert not any("ended after" in note for note in whole.notes)
         assert [trial.key for trial in whole.trials] == [trial.key for trial in run(request).trials]
@@ -416,9 +492,9 @@ def test_as_many_designs_with_neighbours_are_tried_together_as_fit(monkeypatch, 
         request = Request(SMALL, Crowd(), "p10-fitness", "ga", evaluations)
         trials = [trial for trial in run_study(request, None, pool).trials if trial.step == 0]
     left, waiting = evaluations, 20
-    while left > 0 and waiting > 0:
+    while left >= 11 and waiting > 0:
         count = parts.pop(0)
-        assert count == min(waiting, math.ceil(left / 11))
+        assert count == min(waiting, left // 11)
         part, trials = trials[:count], trials[count:]
         left, waiting = left - sum(11 if trial.score else 2 for trial in part), waiting - count
     assert not trials

@@ -120,11 +120,11 @@ def test_reasons_are_counted_the_most_frequent_first() -> None:
     """Two of four designs are rejected, one of them for two reasons; bars are shares of the largest count."""
     page = list(rejections(known(WON, failed("tips"), failed("leg_flex", "tips"), WON)))
     said = text(page).replace("_ ", "_")
-    assert "2 of 4 designs of the search were rejected" in said
+    assert "Rejected: 2 of 4 designs of the search" in said
     assert "The most frequent reason is tips, of 2 designs: with loaded springs" in said
     assert re.findall(r"width: (\d+)%", "".join(page)) == ["100", "50"]
     cells = [re.findall(r"<td[^>]*>(.*?)</td>", line) for line in page]
     assert [(re.sub("<wbr />", "", row[0]), row[3]) for row in cells if row] == [("tips", "2"), ("leg_flex", "1")]
     none = text(rejections(known(WON)))
-    assert "0 of 1 designs" in none
+    assert "Rejected: 0 of 1 design of the search" in none
     assert "most frequent" not in none

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from jumpcad.counting import counted
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.learner import Learner
@@ -149,7 +150,9 @@ def run_steps(
         if count == 0:
             found = len(evaluator.trials) - start
             if found < space.size:
-                evaluator.store.note_once(f"ended after {found} designs: no other was found that is new and has room")
+                evaluator.store.note_once(
+                    f"ended after {counted(found, 'design')}: no other was found that is new and has room"
+                )
             return False
         left -= count
     raise AssertionError  # steps have no end
