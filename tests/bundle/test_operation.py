@@ -49,6 +49,20 @@ def test_an_unknown_charger_is_measured() -> None:
     assert "charge it over USB with the switch on" in operation.charging_loaded(chosen)
 
 
+def test_a_battery_is_charged_outside_where_the_board_has_no_charger_for_it() -> None:
+    """A board without pads for a cell, or two cells at a board's own supply, or one cell behind a regulator."""
+    one, two = parts(ONE), parts(TWO)
+    bare = one.controller.model_copy(update={"charge_ma": None, "pins": {"GND": ("ground",)}})
+    for chosen in (replace(one, controller=bare), replace(two, regulator=None), replace(two, battery=one.battery)):
+        cells = chosen.battery.cells
+        words = operation.charging(chosen)
+        assert words.endswith(f"set to LiPo {cells}S, outside the robot.")
+        assert ("balance lead" in words) == (cells > 1)
+        assert "USB" not in words
+        assert "unplug the battery, charge it outside" in operation.charging_loaded(chosen)
+        assert not operation.fed_by_usb(chosen)
+
+
 def test_usb_feeds_the_driver_of_one_cell_alone() -> None:
     """The board's charger is connected to the battery's pads; two cells pass a regulator and a diode."""
     one, two = parts(ONE), parts(TWO)
