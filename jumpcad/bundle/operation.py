@@ -19,9 +19,10 @@ def charging(chosen: Chosen) -> str:
     """Return how the battery is charged, with which current."""
     battery, controller = chosen.battery, chosen.controller
     if not chosen.charged_by_usb:
+        bears_ma = min(battery.capacity_mah, battery.bears_ma)
         return (
-            f"Charge with {battery.capacity_mah:.0f} mA at most (1 C) by a {charger(battery)}, set to LiPo "
-            f"{battery.cells}S, outside the robot."
+            f"Charge with {bears_ma:.0f} mA at most ({bears_ma / battery.capacity_mah:.2g} C) by a "
+            f"{charger(battery)}, set to LiPo {battery.cells}S, outside the robot."
         )
     way = "Charge through the controller's USB socket, with the switch on and somebody beside it."
     if controller.charge_ma is None:

@@ -31,6 +31,14 @@ def test_two_cells_are_charged_with_1_c_outside() -> None:
     assert "unplug the battery, charge it outside" in operation.charging_loaded(chosen)
 
 
+@pytest.mark.parametrize(("permitted", "words"), [(90.0, "90 mA at most (0.5 C)"), (900.0, "180 mA at most (1 C)")])
+def test_a_charger_outside_gives_no_more_than_the_battery_bears(permitted: float, words: str) -> None:
+    """Of 180 mAh: 1 C, or less where its maker permits less."""
+    two = parts(TWO)
+    battery = two.battery.model_copy(update={"charge_ma": permitted})
+    assert words in operation.charging(replace(two, battery=battery))
+
+
 @pytest.mark.parametrize(("milliamperes", "rate", "hours"), [(370.0, 1.23, 1.2), (150.0, 0.5, 3.0), (300.0, 1.0, 1.5)])
 def test_the_charger_on_the_board_gives_its_current(milliamperes: float, rate: float, hours: float) -> None:
     """300 mAh: at 150 mA they take 2 h, and half as long again since the current falls at the end."""
