@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator
 
-from jumpcad.catalogue import Board
+from jumpcad.catalogue import Battery, Board
+from jumpcad.catalogue.electrical import DEAD_CELL_V
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.supply import supply_of
 
-STORED_V, DEAD_V = 3.8, 3.0
-"""Per lithium polymer cell at rest: for storage, and below which it is spoiled; practice."""
+STORED_V = 3.8
+"""Per lithium polymer cell at rest, for storage; practice."""
 BUTTON_DELAY_MS = 3000
 """Time to step back after the button was pressed; judgement."""
 FULL_AFTER = 1.5
@@ -17,10 +18,11 @@ FULL_AFTER = 1.5
 def charging(chosen: Chosen) -> str:
     """Return how the battery is charged, with which current."""
     battery, controller = chosen.battery, chosen.controller
-    if chosen.regulator is not None:
+    if not chosen.charged_by_usb:
+        bears_ma = min(battery.capacity_mah, battery.bears_ma)
         return (
-            f"Charge with {battery.capacity_mah:.0f} mA at most (1 C) by a charger with a balance lead, set to LiPo "
-            f"{battery.cells}S, outside the robot."
+            f"Charge with {bears_ma:.0f} mA at most ({bears_ma / battery.capacity_mah:.2g} C) by a "
+            f"{charger(battery)}, set to LiPo {battery.cells}S, outside the robot."
         )
     way = "Charge through the controller's USB socket, with the switch on and somebody beside it."
     if controller.charge_ma is None:
@@ -42,9 +44,14 @@ def charging(chosen: Chosen) -> str:
     )
 
 
+def charger(battery: Battery) -> str:
+    """Return what charges a battery outside the robot: a pack of one cell has no balance lead."""
+    return "charger with a balance lead" if battery.cells > 1 else "charger for one cell"
+
+
 def charging_loaded(chosen: Chosen) -> str:
     """Return how to charge while the springs are partly loaded, so that nobody's hand is in the leg's way."""
-    if chosen.regulator is None:
+    if chosen.charged_by_usb:
         return (
             "Lay the robot on its side, nothing in the leg's way, and charge it over USB with the switch on; do not "
             "open it."
@@ -57,7 +64,7 @@ def charging_loaded(chosen: Chosen) -> str:
 
 def fed_by_usb(chosen: Chosen) -> bool:
     """Tell whether USB feeds the driver too: through the board's charger and its battery pads, past the switch."""
-    return chosen.regulator is None
+    return chosen.charged_by_usb
 
 
 def usb_out(chosen: Chosen) -> str:
@@ -117,7 +124,7 @@ def after_use(chosen: Chosen) -> Iterator[str]:
     yield f"- {switching_off(chosen)}, unplug the battery: boards left on empty a full one in {hours:.0f} h."
     yield (
         f"- Store it outside the robot, at about {STORED_V * battery.cells:.1f} V, where nothing near it can burn. "
-        f"Below {DEAD_V * battery.cells:.1f} V at rest, swollen or dented: do not charge it, discard it where "
+        f"Below {DEAD_CELL_V * battery.cells:.1f} V at rest, swollen or dented: do not charge it, discard it where "
         "batteries are collected."
     )
 

@@ -61,7 +61,7 @@ def switch_order(robot: Robot) -> Iterator[str]:
         f"here. The nearest is {SIMILAR_SWITCH}, which sellers rate 0.3 or {SIMILAR_A:g} A at 50 V ({enough}): "
         f"{SIMILAR_FITS}"
         f"{short if needed_mm > SIMILAR_SLIDER_MM else ''}"
-        f"{NO_SWITCH if chosen.regulator is None else NEEDS_SWITCH}"
+        f"{NO_SWITCH if chosen.battery.cells == 1 else NEEDS_SWITCH}"
     )
 
 

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 
 from jumpcad.bundle.arrival import REAMED_MM, scale_range_kg
+from jumpcad.bundle.operation import charger
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
 from jumpcad.robot import Robot
@@ -26,16 +27,16 @@ def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
         "screwdriver, side cutters"
     )
     chosen = chosen_parts(robot.workshop)
-    charger = ""
-    if chosen.regulator is not None:
+    needed = ""
+    if not chosen.charged_by_usb:
         adapter = f" and an adapter to {plain(chosen.battery.plug)}" if chosen.battery.plug else ""
-        charger = f", LiPo charger with a balance lead{adapter}"
+        needed = f", LiPo {charger(chosen.battery)}{adapter}"
     plug = robot.layout.fittings.usb_size_mm if robot.layout.fittings.usb_mm is not None else None
     body = "" if plug is None else f", plug body at most {plug[0] - PLUG_ROOM_MM:g} x {plug[1] - PLUG_ROOM_MM:g} mm"
     yield (
         "- soldering iron, wire stripper, heat gun or lighter for the tube, multimeter with a 10 A range, two leads "
         "with crocodile clips, computer, "
-        f"USB cable with data lines{body}{charger}"
+        f"USB cable with data lines{body}{needed}"
     )
     yield "- on the computer: Python with `pip install esptool mpremote` (firmware/README.md)"
     yield (

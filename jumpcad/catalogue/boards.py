@@ -34,7 +34,8 @@ class Board(Article):
     that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
     length. `left` and `right` are the pins along its sides, from that end on, as seen from above; others are
     underneath. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma`
-    the fixed current of its battery charger, `micropython` the name of its image among MicroPython's downloads.
+    the fixed current of its battery charger (a board without it and without `battery` pads has none: the battery is
+    then charged outside the robot), `micropython` the name of its image among MicroPython's downloads.
     """
 
     description: Source

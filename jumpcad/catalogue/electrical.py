@@ -14,8 +14,11 @@ STEEL_G_CM3 = 7.85
 """Density of steel (EN 1991-1-1, table A.4: 77 to 78.5 kN/m³)."""
 CELL_V = (3.3, 3.7, 4.2)
 """One lithium polymer cell: empty under light load, nominal, full; the usual figures of makers."""
+DEAD_CELL_V = 3.0
+"""One lithium polymer cell at rest, below which it is spoiled; practice."""
 CELL_OHM = 0.15
 """Internal resistance of a small cell where none is given; judgement: 0.05 to 0.3 are usual."""
+ROUND_OFF_V = 1e-6
 RATED_SHARES = (0.25, 1.0)
 """Lowest and highest voltage of a motor over its rated one where none is given; judgement: below, it may not start."""
 
@@ -83,7 +86,11 @@ class Motor(Article):
 
 
 class Battery(Article):
-    """A battery pack: length along the robot, width across it; `charge_ma` is the largest charging current."""
+    """A pack of lithium polymer or lithium-ion cells: length along the robot, width across it.
+
+    `charge_ma` is the largest charging current. Packs of other cells (LiFePO4, NiMH, alkaline) are not for these
+    robots: a LiPo charger charges each cell to 4.2 V.
+    """
 
     description: Source
     length_mm: Side
@@ -121,11 +128,18 @@ class Battery(Article):
         return self.charge_ma or self.capacity_mah
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield voltages that are not in the order empty, nominal, full."""
+        """Yield voltages that are not in the order empty, nominal, full, or that lithium polymer cells do not have."""
         empty, full = self.range_v
         if not empty < self.voltage_v < full:
             reason = f"must lie between empty_v = {empty:g} and full_v = {full:g}"
             yield ("voltage_v",), self.voltage_v, reason
+        cells = "one lithium cell" if self.cells == 1 else f"{self.cells} lithium cells"
+        charged, dead = self.cells * CELL_V[2], self.cells * DEAD_CELL_V
+        if full < charged - ROUND_OFF_V:
+            reason = f"must be at least {charged:g}, to which LiPo chargers charge {cells}: others are overcharged"
+            yield ("full_v",), full, reason
+        if empty < dead - ROUND_OFF_V:
+            yield ("empty_v",), empty, f"must be at least {dead:g}: below, {cells} would be spoiled"
 
 
 class Travel(TomlTable):

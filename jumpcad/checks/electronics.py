@@ -95,9 +95,9 @@ def _currents(robot: Robot, chosen: Chosen, supply: Supply) -> Iterator[Finding]
 
 
 def _charging(chosen: Chosen) -> Iterator[Finding]:
-    """Yield whether the battery bears what the controller charges it with; behind a regulator it is charged outside."""
+    """Yield whether the battery bears what the controller charges it with; elsewhere it is charged outside."""
     battery, current = chosen.battery, chosen.controller.charge_ma
-    if chosen.regulator is not None or current is None:
+    if not chosen.charged_by_usb or current is None:
         return
     rated = "by its charge_ma" if battery.charge_ma else "1 C, since its charge_ma is not given"
     yield at_most(

@@ -42,7 +42,10 @@ BASIS = {
 
 
 def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
-    """Yield the findings of `BASIS`; `wiring_contact` and `wiring_diode` where there is a sensor, or a regulator."""
+    """Yield the findings of `BASIS`; `wiring_contact` where there is a sensor, `wiring_diode` behind a regulator.
+
+    Without a regulator `wiring_diode` is yielded where the battery lies at a pin that USB feeds.
+    """
     yield _enough_pins(chosen, wiring)
     yield _fit_pins(chosen, wiring)
     yield from _contact_current(chosen, wiring)
@@ -65,9 +68,16 @@ def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
         f"{'a' if 'capacitor' in chosen.components else 'no'} capacitor is connected to the driver's supply",
         "name one in bought.capacitor: without it the starting motor lowers the controller's voltage",
     )  # fmt: skip
+    pin = supply_pin(chosen.controller, logic_range(chosen))
+    needed = pin in chosen.controller.diode_at
+    if chosen.regulator is None and needed:
+        yield _yes_or_no(
+            "wiring_diode", False, "error",
+            f"USB feeds {pin} of {chosen.controller.name}, to which the battery is connected: it would charge the "
+            "battery without a charger",
+            "name a bought.regulator and a bought.diode, or a bought.controller with pads for the battery",
+        )  # fmt: skip
     if chosen.regulator is not None:
-        pin = supply_pin(chosen.controller, logic_range(chosen))
-        needed = pin in chosen.controller.diode_at
         yield _yes_or_no(
             "wiring_diode", not needed or chosen.diode is not None, "error",
             f"{chosen.controller.name} {'has its' if chosen.diode else 'needs a'} diode at {pin}",

@@ -30,6 +30,15 @@ class Chosen:
         """The diode after the regulator."""
         return self.components.get("diode") if self.regulator else None
 
+    @property
+    def charged_by_usb(self) -> bool:
+        """Tell whether the controller charges the battery: one cell, without a regulator between, and a charger.
+
+        A board that neither says `charge_ma` nor has pads for a cell has no charger.
+        """
+        charger = self.controller.charge_ma is not None or bool(self.controller.with_function("battery"))
+        return charger and self.regulator is None and self.battery.cells == 1
+
 
 def chosen_parts(workshop: Workshop) -> Chosen:
     """Return the electrical parts of a workshop.

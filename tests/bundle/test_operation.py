@@ -31,6 +31,14 @@ def test_two_cells_are_charged_with_1_c_outside() -> None:
     assert "unplug the battery, charge it outside" in operation.charging_loaded(chosen)
 
 
+@pytest.mark.parametrize(("permitted", "words"), [(90.0, "90 mA at most (0.5 C)"), (900.0, "180 mA at most (1 C)")])
+def test_a_charger_outside_gives_no_more_than_the_battery_bears(permitted: float, words: str) -> None:
+    """Of 180 mAh: 1 C, or less where its maker permits less."""
+    two = parts(TWO)
+    battery = two.battery.model_copy(update={"charge_ma": permitted})
+    assert words in operation.charging(replace(two, battery=battery))
+
+
 @pytest.mark.parametrize(("milliamperes", "rate", "hours"), [(370.0, 1.23, 1.2), (150.0, 0.5, 3.0), (300.0, 1.0, 1.5)])
 def test_the_charger_on_the_board_gives_its_current(milliamperes: float, rate: float, hours: float) -> None:
     """300 mAh: at 150 mA they take 2 h, and half as long again since the current falls at the end."""
@@ -47,6 +55,20 @@ def test_an_unknown_charger_is_measured() -> None:
     assert f"is not known: measure it, {chosen.battery.bears_ma:.0f} mA at most" in words
     assert "cannot be set" not in words
     assert "charge it over USB with the switch on" in operation.charging_loaded(chosen)
+
+
+def test_a_battery_is_charged_outside_where_the_board_has_no_charger_for_it() -> None:
+    """A board without pads for a cell, or two cells at a board's own supply, or one cell behind a regulator."""
+    one, two = parts(ONE), parts(TWO)
+    bare = one.controller.model_copy(update={"charge_ma": None, "pins": {"GND": ("ground",)}})
+    for chosen in (replace(one, controller=bare), replace(two, regulator=None), replace(two, battery=one.battery)):
+        cells = chosen.battery.cells
+        words = operation.charging(chosen)
+        assert words.endswith(f"set to LiPo {cells}S, outside the robot.")
+        assert ("balance lead" in words) == (cells > 1)
+        assert "USB" not in words
+        assert "unplug the battery, charge it outside" in operation.charging_loaded(chosen)
+        assert not operation.fed_by_usb(chosen)
 
 
 def test_usb_feeds_the_driver_of_one_cell_alone() -> None:

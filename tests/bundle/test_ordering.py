@@ -182,6 +182,16 @@ def test_the_grooves_of_clips_are_ordered_where_the_rods_have_them() -> None:
     assert "groove" not in order()
 
 
+def test_a_charger_is_a_tool_where_the_robot_has_none() -> None:
+    """A pack of one cell has no balance lead."""
+    robot = built("kenan-2.0")
+    bought = robot.workshop.bought.model_copy(update={"regulator": "s7v7f5", "diode": "schottky-1n5817"})
+    outside = replace(robot, workshop=robot.workshop.model_copy(update={"bought": bought}))
+    assert "LiPo charger for one cell" in "\n".join(tool_lines(outside, []))
+    assert "LiPo charger" not in "\n".join(tool_lines(robot, []))
+    assert "kit of two cells" not in "\n".join(order_lines(outside))
+
+
 def test_bars_of_legs_are_ordered_with_glue_and_glued_to_the_designs_lengths() -> None:
     robot = built("kenan-2.0", leg="carbon-strip-3x6")
     text = "\n".join(order_lines(robot))

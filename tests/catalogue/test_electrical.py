@@ -64,6 +64,22 @@ def test_a_battery_is_refused_whose_voltage_is_not_between_empty_and_full() -> N
         assert told == ([(("voltage_v",), volts)] if refused else [])
 
 
+@pytest.mark.parametrize(
+    ("voltage_v", "empty_v", "full_v", "refused"),
+    [
+        (3.7, 3.0, 4.2, None), (3.85, 3.3, 4.35, None), (11.1, 9.9, 12.6, None), (3.2, 3.0, 3.65, "full_v"),
+        (6.4, 6.0, 7.3, "full_v"), (4.0, 3.3, 4.19, "full_v"), (7.4, 5.9, 8.4, "empty_v"),
+    ],
+)  # fmt: skip
+def test_a_battery_that_a_lipo_charger_would_overcharge_is_refused(
+    voltage_v: float, empty_v: float, full_v: float, refused: str | None
+) -> None:
+    """4.2 V a cell, and 3.0 V at least, of lithium polymer; iron phosphate cells are full at 3.65 V."""
+    figures = {"voltage_v": voltage_v, "empty_v": empty_v, "full_v": full_v}
+    battery = load_catalogue().batteries["lipo-1s-300"].model_copy(update=figures)
+    assert [place for place, *_ in battery.contradictions()] == ([(refused,)] if refused else [])
+
+
 @pytest.mark.parametrize(("kind", "ranges"), [("motors", 16), ("batteries", 11), ("boards", 14)])
 def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
     assert len(documented_ranges(f"{kind}.NAME")) == ranges

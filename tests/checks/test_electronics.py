@@ -163,6 +163,8 @@ def test_pins_that_do_not_suit_are_named(pins: str, name: str, words: str, works
 
 
 OWN = '[bought]\ncontroller = "mine"\n[boards.mine]\nlike = "xiao-esp32c3"\nsource = "x"\nbutton = ""\npins = %s\n'
+FED = OWN.replace("pins = %s", 'supply_v = { VSYS = [%s] }\ndiode_at = ["VSYS"]')
+"""A board without pads for a cell, whose supply is behind a diode of its USB socket, as on a Raspberry Pi Pico."""
 
 
 @pytest.mark.parametrize(
@@ -172,6 +174,7 @@ OWN = '[bought]\ncontroller = "mine"\n[boards.mine]\nlike = "xiao-esp32c3"\nsour
         (OWN % '{ D1 = ["gpio1", "pwm"], D2 = ["gpio2"] }', "wiring_ground", "error", "no ground at controller"),
         ('[bought]\ncapacitor = ""', "wiring_capacitor", "warning", "no capacitor"),
         ('[bought]\nkit = "strong-2s"\ndiode = ""', "wiring_diode", "error", "needs a diode at 5V"),
+        (FED % "1.8, 5.5", "wiring_diode", "error", "it would charge the battery without a charger"),
         ('[bought]\nsensor = ""', "wiring_pins", "error", "no sensor"),
         ('[bought]\nswitch = ""', "wiring_cut_off", "error", "no switch: a motor that the program does not stop"),
         ('[bought]\nplug = ""', "wiring_cut_off", "error", "no plug: a motor that the program does not stop"),
@@ -275,7 +278,7 @@ def like(kind: str, of: str, figures: str) -> str:
     return f'[bought]\n{kind} = "own"\n[{table}.own]\nlike = "{of}"\nsource = "x"\n{figures}'
 
 
-HIGH = like("battery", "lipo-1s-300", "voltage_v = 120.0\nempty_v = 110.0\nfull_v = 130.0")
+HIGH = like("battery", "lipo-1s-300", "voltage_v = 120.0\nempty_v = 110.0\nfull_v = 135.0")
 """A battery whose voltage nothing here bears."""
 BLOCKED = '[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298-mp"\nsource = "x"\nstall_current_a = 6.0'
 """A motor of 1 ohm, which draws 2.8 A when blocked."""
@@ -290,7 +293,7 @@ BLOCKED = '[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298-mp"\nsource
         ("supply_voltage_plug", HIGH),
         ("supply_voltage_capacitor", HIGH),
         ("supply_voltage_regulator", HIGH.replace("[bought]", '[bought]\nkit = "strong-2s"')),
-        ("supply_voltage_motor", like("battery", "lipo-1s-300", "voltage_v = 3.0\nempty_v = 2.5")),
+        ("supply_voltage_motor", BLOCKED.replace("stall_current_a = 6.0", "bears_v = [3.4, 6.0]")),
         ("motor_current_driver", BLOCKED),
         ("motor_current_battery", BLOCKED),
         ("motor_current_switch", BLOCKED),
