@@ -74,9 +74,9 @@ def best_place(
         near = cloud.near(centres_mm[batch], half_mm)
         left = among(near.thinned(THINNED), batch)  # most places collide with one of few discs
         for begin in range(0, len(left), GROUP):  # and few of those that are left collide with one of the others
-            free = among(near, left[begin : begin + GROUP])
-            if free.size:
-                return int(free[0])
+            found = among(near, left[begin : begin + GROUP])
+            if found.size:
+                return int(found[0])
     free = clearance(obstacles, centres_mm, half_mm, angles, y_mm)
     best = int(np.argmax(free))
     here, turn = centres_mm[best : best + 1], angles[best : best + 1]
