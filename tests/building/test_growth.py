@@ -106,8 +106,14 @@ def test_a_section_grows_by_what_it_lacks(rounds: list[Robot]) -> None:
     assert Growth().more([before, lacking, before]).lever == pytest.approx(1.1)
 
 
-@pytest.mark.parametrize("leg", ["printed", "carbon-strip-3x6"])
-@pytest.mark.parametrize("growth", [Growth(lever=1.1), Growth(lever=1.1, thickness=1.1)])
+@pytest.mark.parametrize(
+    ("leg", "growth"),
+    [
+        ("printed", Growth(lever=1.1)),
+        ("carbon-strip-3x6", Growth(lever=1.1)),
+        ("printed", Growth(lever=1.1, thickness=1.1)),
+    ],
+)
 def test_what_a_round_takes_from_the_one_before_is_what_it_would_make(leg: str, growth: Growth) -> None:
     """All but the main leg where only its lever grew; nothing where something else did too."""
     design, shop = Design.from_vector(LIMP_LEVER), load_workshop()
