@@ -128,6 +128,12 @@ WORDS = {
 CALIBRATE = """The battery's voltage that `state` prints may be off by {off} V. Calibrate it once: measure the
   voltage at the plug with a multimeter, motor off, multiply `BATTERY_DIVIDER` in `robot.py` by the multimeter's voltage
   over that of `state`, and copy the file again (2). Without that the limits below are off by as much."""
+LOW = "Below {:g} V at rest it does not begin to wind: charge the battery."
+UNMEASURED = (
+    "Nothing stops it on an empty battery, which is spoiled then: measure the battery at its plug before use, and "
+    "charge it below {:g} V at rest."
+)
+"""Of a battery that the controller measures, and of one that it does not."""
 OPENING = """The sensor's contact opens when it is pressed, so a broken lead, a dirty contact or a missing ground reads
   as pressed: the motor stops. `wind` that says `ready` at once, or `fault: sensor pressed too early`, means a broken
   lead where the springs are not loaded. To unload springs that are: `wind`, `jump`, `wind`, `jump`, until the leg
@@ -177,6 +183,7 @@ def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -
         "WIND_MAX_S": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
         "SENSOR": OPENING if values["READY_LEVEL"] else CLOSING,
         "MIN_V": f"{values['BATTERY_MIN_V']:g}",
+        "LOW": (LOW if values["PIN_BATTERY"] is not None else UNMEASURED).format(values["BATTERY_MIN_V"] or 0.0),
         "EMPTY_V": f"{values['BATTERY_EMPTY_V']:g}",
         "STOPS": stops_the_motor(chosen),
         "STOP_BY": to_stop(chosen),

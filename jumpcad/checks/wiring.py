@@ -16,7 +16,9 @@ CUT_OFF = ("switch", "plug")
 SHEETS = "data sheets of the boards: templates/hardware/electronics.toml"
 BASIS = {
     "wiring_pins": Basis(
-        "every signal has a pin of its own at controller and driver; 0, or -1 where one has none", SHEETS
+        "every signal has a pin of its own at controller and driver, driver and regulator have one supply input; 0, or "
+        "-1",
+        SHEETS,
     ),
     "wiring_strapping": Basis(
         "no signal's pin is a strapping or boot log pin, and each can do what its signal needs; 0, or -1", SHEETS
@@ -108,7 +110,16 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
         signals = " and ".join(s for s in have if wiring.pins[s] in twice)
         message = f"{chosen.controller.name}: {', '.join(twice)} is used twice, by {signals}"
         return _yes_or_no("wiring_pins", False, "error", message, "name another pin in [bought.pins]")
-    if "battery" not in have and chosen.controller.adc_max_v is not None:
+    for role, board in chosen.boards.items():
+        if role != "controller" and len(board.supply_v) > 1:
+            inputs = " and ".join(board.supply_v)
+            message = f"{role} {board.name} has the supply inputs {inputs}, of which one alone would be connected"
+            remedy = f"choose another bought.{role}, or leave out of its supply_v what needs no wire"
+            return _yes_or_no("wiring_pins", False, "error", message, remedy)
+    if "battery" not in have and chosen.controller.adc_max_v is None:
+        message = f"{chosen.controller.name} has no adc_max_v: nothing measures the battery, so that it may run down"
+        return _yes_or_no("wiring_pins", False, "warning", message, "give the volts that its pins with adc read")
+    if "battery" not in have:
         message = f"{chosen.controller.name} has no pin left that measures the battery, so that it may run down"
         return _yes_or_no("wiring_pins", False, "warning", message, "leave a pin with adc free in [bought.pins]")
     used = ", ".join(f"{wiring.pins[s]} {s}" for s in have)

@@ -148,3 +148,7 @@ def test_the_notes_have_the_numbers_of_the_program(robot: Robot) -> None:
     ):  # fmt: skip
         assert factor * found[name] == pytest.approx(values[key]), name
     assert found["EMPTY_V"] < found["MIN_V"]
+    assert _filled("{LOW}", robot, values).startswith(f"Below {values['BATTERY_MIN_V']:g} V at rest it does not begin")
+    unmeasured = _filled("{LOW}", robot, values | {"PIN_BATTERY": None})
+    assert unmeasured.startswith("Nothing stops it on an empty battery")
+    assert unmeasured.endswith(f"below {values['BATTERY_MIN_V']:g} V at rest.")

@@ -52,6 +52,22 @@ def test_what_is_left_out_is_missed() -> None:
     assert found(without(apart, "diode"))["wiring_diode"].severity == "info"
 
 
+def test_a_second_supply_that_no_wire_reaches_is_named() -> None:
+    """A TB6612 needs a supply of its motor and one of its logic; a controller's inputs are alternatives."""
+    both = {"VM": (2.5, 13.5), "VCC": (2.7, 5.5)}
+    for role in ("driver", "regulator"):
+        finding = found(board(parts("strong-2s"), role, supply_v=both))["wiring_pins"]
+        assert finding.severity == "error"
+        assert "VM and VCC" in finding.message
+        assert f"bought.{role}" in finding.remedy
+    assert len(parts("strong-2s").controller.supply_v) == 2
+
+
+def test_a_battery_that_nothing_measures_is_a_warning() -> None:
+    finding = found(board(parts("light-1s"), "controller", adc_max_v=None))["wiring_pins"]
+    assert (finding.severity, "adc_max_v" in finding.message) == ("warning", True)
+
+
 def test_a_board_without_ground_is_named() -> None:
     """A driver's reverse input is on ground too."""
     chosen = parts("strong-2s")
