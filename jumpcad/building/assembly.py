@@ -1,8 +1,10 @@
 """From eight numbers and a workshop to a `Robot`: layout, parts, bought parts, bodies."""
 
 import math
+import pickle
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -52,19 +54,28 @@ PIN_ROUNDS = 5
 """Attempts with springs for other directions of their pin."""
 
 
-def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
-    """Return the robot of a design with its sections grown by factors."""
+def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, before: Robot | None = None) -> Robot:
+    """Return the robot of a design with its sections grown by factors.
+
+    `before` is the robot of the same design, workshop and name with other factors: where only its lever differs, as in
+    most robots that grow, all but the main leg is taken from it.
+    """
     layout, holes = layout_of(design, workshop, growth)
-    drawn = drawings(layout, holes, name)
-    _require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
+    kept: tuple[Part, ...] = ()
+    if before is not None and _same_but_for_lever(layout, before.layout):
+        drawn, hardware = links.main_leg(layout, holes), before.hardware
+        kept = before.parts[len(drawn) :]
+    else:
+        drawn = drawings(layout, holes, name)
+        hardware = (
+            *shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought),
+            *pads(layout, workshop.foot_pad),
+            *links.bars(layout, holes),
+        )
+        _require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
-    parts = tuple(_printed(drawing, workshop) for drawing in drawn)
-    hardware = (
-        *shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought),
-        *pads(layout, workshop.foot_pad),
-        *links.bars(layout, holes),
-    )
+    parts = (*(_printed(drawing, workshop) for drawing in drawn), *kept)
     bodies = _bodies(layout, parts, hardware)
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
     release = release_of(layout, workshop, holes, parts, hardware, bodies, spring)
@@ -90,6 +101,12 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
         stop_blow=held,
         stop=held.stop,
     )
+
+
+def _same_but_for_lever(one: Layout, other: Layout) -> bool:
+    """Tell whether two layouts are the same but for the height of the lever, which only the main leg has."""
+    sections = replace(one.sections, lever_root_mm=other.sections.lever_root_mm)
+    return pickle.dumps(replace(one, sections=sections)) == pickle.dumps(other)
 
 
 def _friction(layout: Layout, workshop: Workshop) -> Friction:
@@ -190,7 +207,7 @@ def _held(layout: Layout, blow: Blow) -> StopBlow:
 
 
 def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
-    """Return every printed part of a layout."""
+    """Return every printed part of a layout, those of the main leg first."""
     lateral = layout.lateral
     half = layout.sections.thickness_mm / 2.0
     low, high = lateral.inside

@@ -50,7 +50,7 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
         weak = [finding for finding in errors(findings) if finding.grows]
         if not weak:
             break
-        found = _first_with_room(design, workshop, name, (growth.leap(weak, uses), growth.more(weak)))
+        found = _first_with_room(robot, (growth.leap(weak, uses), growth.more(weak)))
         if found is None:  # the checks report what stays too weak
             break
         uses = growth.uses(weak)
@@ -59,13 +59,11 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
     return robot, findings
 
 
-def _first_with_room(
-    design: Design, workshop: Workshop, name: str, growths: Iterable[Growth]
-) -> tuple[Robot, Growth] | None:
-    """Return the robot, and its growth, of the first of some growths for which there is room; None if for none."""
+def _first_with_room(before: Robot, growths: Iterable[Growth]) -> tuple[Robot, Growth] | None:
+    """Return a robot grown, and its growth, by the first of some for which there is room; None if for none."""
     for growth in dict.fromkeys(growths):
         try:
-            return assembled(design, workshop, name, growth), growth
+            return assembled(before.design, before.workshop, before.name, growth, before), growth
         except CannotBuildError:
             continue
     return None

@@ -106,6 +106,34 @@ def test_a_section_grows_by_what_it_lacks(rounds: list[Robot]) -> None:
     assert Growth().more([before, lacking, before]).lever == pytest.approx(1.1)
 
 
+@pytest.mark.parametrize(
+    ("leg", "growth"),
+    [
+        ("printed", Growth(lever=1.1)),
+        ("carbon-strip-3x6", Growth(lever=1.1)),
+        ("printed", Growth(lever=1.1, thickness=1.1)),
+    ],
+)
+def test_what_a_round_takes_from_the_one_before_is_what_it_would_make(leg: str, growth: Growth) -> None:
+    """All but the main leg where only its lever grew; nothing where something else did too."""
+    design, shop = Design.from_vector(LIMP_LEVER), load_workshop()
+    if leg != "printed":
+        shop = shop.model_copy(update={"bought": shop.bought.model_copy(update={"leg": leg})})
+    before = assembly.assembled(design, shop, "", Growth())
+    after, made = (assembly.assembled(design, shop, "", growth, *given) for given in ([before], []))
+    for one, other in zip(after.parts, made.parts, strict=True):
+        assert (one.name, one.drawing.shape) == (other.name, other.drawing.shape)
+        assert one.mass.inertia_kg_m2.tobytes() == other.mass.inertia_kg_m2.tobytes()
+        for place, same in zip(one.placements, other.placements, strict=True):
+            assert place.T_body_part.tobytes() == same.T_body_part.tobytes()
+    for item, same_item in zip(after.hardware, made.hardware, strict=True):
+        assert (item.name, item.article, item.shape) == (same_item.name, same_item.article, same_item.shape)
+        assert item.mass.inertia_kg_m2.tobytes() == same_item.mass.inertia_kg_m2.tobytes()
+    taken = {part.name for part in after.parts if any(part is old for old in before.parts)}
+    others = {part.name for part in before.parts if not part.name.startswith("main_leg")}
+    assert taken == (others if growth == Growth(lever=1.1) else set())
+
+
 def test_what_lacks_much_takes_few_rounds(rounds: list[Robot]) -> None:
     """A leg that needs twice its height under the stop's blow: by tenths it took nine rounds and was not there yet."""
     found = {one.name: one for one in constraint_findings(build(Design.from_vector(HARD_STOP)))}
