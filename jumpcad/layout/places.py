@@ -9,9 +9,10 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.room import Cloud, Obstacle, clearance, lacking
+from jumpcad.layout.room import GROUP, Cloud, Obstacle, clearance, lacking
 from jumpcad.transforms import Array
 
 TURN_STEPS = 72
@@ -61,15 +62,21 @@ def best_place(
     order = np.argsort(cost(centres_mm), kind="stable")
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
     cloud = Cloud.of(obstacles, y_mm)
+
+    def among(discs: Cloud, places: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+        """Return those of some places that collide with none of the discs."""
+        return places[discs.clearance(centres_mm[places], half_mm, angles[places]) >= -ROUND_OFF_MM]
+
     first, size = 0, BATCH
     while first < len(order):
         batch = order[first : first + size]
         first, size = first + size, LARGER * size
         near = cloud.near(centres_mm[batch], half_mm)
-        for discs in (near.thinned(THINNED), near):  # most places collide with one of few discs
-            batch = batch[discs.clearance(centres_mm[batch], half_mm, angles[batch]) >= -ROUND_OFF_MM]
-        if batch.size:
-            return int(batch[0])
+        left = among(near.thinned(THINNED), batch)  # most places collide with one of few discs
+        for begin in range(0, len(left), GROUP):  # and few of those that are left collide with one of the others
+            found = among(near, left[begin : begin + GROUP])
+            if found.size:
+                return int(found[0])
     free = clearance(obstacles, centres_mm, half_mm, angles, y_mm)
     best = int(np.argmax(free))
     here, turn = centres_mm[best : best + 1], angles[best : best + 1]
