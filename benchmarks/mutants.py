@@ -158,7 +158,8 @@ class Mixer(Finder):
         match node:
             case ast.Call(args=arguments, keywords=keywords):
                 for left, right in pairwise(arguments):
-                    if all(isinstance(side, ast.Name | ast.Attribute) for side in (left, right)):
+                    named = all(isinstance(side, ast.Name | ast.Attribute) for side in (left, right))
+                    if named and self._text(left) != self._text(right):
                         yield self._exchanged(left, right)
                 yield from (self._without(node, keyword) for keyword in keywords if keyword.arg not in {None, *UNSAID})
             case ast.Attribute(attr=name, ctx=ast.Load()):

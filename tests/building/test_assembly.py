@@ -420,3 +420,10 @@ def test_nothing_that_is_bought_is_left_out() -> None:
     assert bought["standoff"] == standoffs >= 2
     for number in range(1, standoffs + 1):
         assert {f"standoff_{number}_screw_{side}" for side in ("left", "right")} < set(names)
+
+
+def test_trays_have_the_walls_and_the_play_of_the_workshop() -> None:
+    shop = load_workshop()
+    fits = shop.fits.model_copy(update={"wall_min_mm": 0.95, "sliding_mm": 0.23})
+    electronics = layout_of(load_design("kenan-2.0"), shop.model_copy(update={"fits": fits}))[0].electronics
+    assert (electronics.wall_mm, electronics.play_mm) == (0.95, 0.23)

@@ -108,6 +108,16 @@ def test_springs_that_last_longer_are_stressed_less() -> None:
     assert limits(changed("safety", jumps=1e6)).spring.stress_share == pytest.approx(0.5 / 1.05)
 
 
+def test_springs_pins_pass_hub_or_leg_whichever_is_thicker() -> None:
+    """With the usual clearance, and the half diagonal of a pin of 3 mm."""
+    workshop, holes = load_workshop(), HoleSizes.of(load_workshop(), None)
+    for leg_mm, rail_mm in ((14.0, 5.0), (40.0, 60.0)):
+        sized = replace(SECTIONS, leg_root_mm=leg_mm, rail_root_mm=rail_mm)
+        least = drive_limits(workshop, ROLLER, sized, holes).spring.pin_radius_min_mm
+        thicker = max(holes.hub_radius_mm, leg_mm / 2.0)
+        assert least == pytest.approx(thicker + CLEAR_MM + 3.0 / math.sqrt(2.0))
+
+
 def test_a_thick_lever_or_dog_pushes_the_cam_away() -> None:
     workshop, holes = load_workshop(), HoleSizes.of(load_workshop(), None)
     thick = drive_limits(workshop, ROLLER, replace(SECTIONS, lever_root_mm=20.0, dog_mm=20.0), holes)

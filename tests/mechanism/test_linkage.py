@@ -67,6 +67,22 @@ def test_joint_coordinates_point_the_links_where_the_points_are() -> None:
         np.testing.assert_allclose(by_foot, pose.front_eye_mm, atol=1e-9)
 
 
+def test_the_loop_closes_until_foot_and_front_link_lie_in_one_line() -> None:
+    """Turned until front pivot and ankle are a ten-thousandth of a millimetre nearer than both links are long."""
+    stretched = 0
+    for linkage in LINKAGES:
+        cosine = (linkage.l1**2 + linkage.l2**2 - (linkage.l3 + linkage.l4 - 1e-4) ** 2) / 2.0 / linkage.l1 / linkage.l2
+        if not -0.95 < cosine < 1.0:
+            continue  # no turn of the leg stretches both
+        turned = math.acos(cosine) - linkage.rest_rad
+        pose = linkage.pose([turned])
+        assert math.dist(pose.front_eye_mm[0], linkage.front_pivot_mm) == pytest.approx(linkage.l3)
+        with pytest.raises(CannotBuildError, match="does not close"):
+            linkage.pose([turned + 1e-4])
+        stretched += 1
+    assert stretched > 10
+
+
 def test_assembled_pose_has_parallel_legs_and_all_joints_at_zero() -> None:
     for linkage in LINKAGES:
         pose = linkage.pose(0.0)

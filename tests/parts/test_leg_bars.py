@@ -97,6 +97,14 @@ def test_the_mass_of_a_bar_is_its_section_times_its_length() -> None:
     assert f"cut {length:.1f} mm" in bar.article
 
 
+def test_both_ends_of_a_link_are_turned_and_moved_but_not_stretched() -> None:
+    ends = [place.T_body_part for part in robot("carbon-strip-3x6").parts for place in part.placements]
+    for pose in ends:
+        np.testing.assert_allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3), atol=1e-12)
+        assert np.linalg.det(pose[:3, :3]) == pytest.approx(1.0)
+        assert pose[3].tolist() == [0.0, 0.0, 0.0, 1.0]
+
+
 def place_of(case: LoadCase) -> BarPlace:
     place = leg_bar_place(case.layout, case.holes)
     assert place is not None

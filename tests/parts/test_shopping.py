@@ -16,10 +16,11 @@ from jumpcad.building.assembly import assembled
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.parts.shopping import _d_shaft, _standoffs
-from jumpcad.parts.toes import toes
+from jumpcad.parts.toes import joint_height_mm, toes
 from jumpcad.robot import Robot
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import load_workshop
@@ -329,6 +330,9 @@ def test_cross_screws_go_through_the_toe_into_the_stub() -> None:
         for item in screws:
             along = item.look.copy().apply_transform(inverse @ item.T_body_part).vertices @ side
             assert along.max() - outside == pytest.approx(1.65, abs=1e-3)
+            up = item.look.copy().apply_transform(inverse @ item.T_body_part).vertices[:, 2]
+            middle = (up.max() + up.min()) / 2.0 + robot.layout.sections.foot_depth_mm  # above the sole
+            assert middle == pytest.approx(joint_height_mm(robot.layout, HoleSizes.of(robot.workshop, None)) / 2.0)
             assert overlap[1].min() < along.min() <= inside - 4.0
 
 

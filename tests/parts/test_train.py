@@ -306,7 +306,10 @@ def test_the_sensors_land_rises_in_layers_from_the_bottom_of_its_groove_to_the_g
     layout = built(name).layout
     sensor, (low, face) = layout.sensor, layout.lateral.gears[0]
     assert sensor is not None
-    levels = [step[:2] for step in _track(layout, sensor).steps]
+    track = _track(layout, sensor)
+    assert np.ptp(track.radii_mm) == pytest.approx(2.0 * sensor.half_width_mm)
+    assert np.mean(track.radii_mm) == pytest.approx(sensor.radius_mm)
+    levels = [step[:2] for step in track.steps]
     assert levels[0][0] == pytest.approx(face - low - sensor.depth_mm)
     assert levels[-1][1] == pytest.approx(face - low)
     assert [top for _, top in levels[:-1]] == pytest.approx([bottom for bottom, _ in levels[1:]])

@@ -53,6 +53,17 @@ def test_what_touches_the_ground_is_that_of_the_built_robot(robot: Robot) -> Non
             assert one.surface == other.surface
 
 
+def test_toes_touch_the_ground_with_half_their_tips_height_and_their_pads() -> None:
+    """Tips of 5 mm with pads of 1.6 mm, whatever the rails' are: as low as all of the foot, at the toes' tips."""
+    links = SizedLinks.of(DESIGN, SHOP)
+    sized = replace(links.sections, toe_tip_height_mm=5.0, rail_tip_mm=3.2, pad_mm=1.6)
+    nose, toe = replace(links, sections=sized).contacts()[FOOT]
+    assert 1000.0 * toe.radius_m == pytest.approx(2.5 + 1.6)
+    assert [1000.0 * (one.centre_m[2] - one.radius_m) for one in (nose, toe)] == pytest.approx(
+        [-sized.foot_depth_mm - 1.6] * 2
+    )
+
+
 def test_friction_stop_and_springs_are_those_of_the_built_robot(robot: Robot) -> None:
     guess = sized_robot(robot.design, robot.workshop)
     assert guess.friction == robot.friction

@@ -42,6 +42,16 @@ def test_figures_are_those_of_the_robot_to_six_digits() -> None:
         assert found[name] == pytest.approx(value, rel=6e-6)
 
 
+def test_figures_of_a_layout_say_where_cam_motor_and_trays_are_and_how_large_a_spring_is() -> None:
+    layout, found = LIKE.layout, figures_of(LIKE)
+    places = {"cam": layout.cam_axis_mm, "motor": layout.motor_mm}
+    for part, (x, z) in places.items():
+        assert (found[f"laid_{part}_x_mm"], found[f"laid_{part}_z_mm"]) == pytest.approx((x, z), rel=6e-6), part
+    assert found["laid_tray_x_mm"] == pytest.approx(layout.tray_mm[0], rel=6e-6)
+    assert found["laid_spring_g"] == pytest.approx(layout.drive.spring.mass_g, rel=6e-6)
+    assert found["laid_coil_mm"] == pytest.approx(layout.drive.spring.arms.mean_mm, rel=6e-6)
+
+
 def test_each_figure_is_found_again_in_the_stand_in() -> None:
     """Bodies turn about y; the toes' spheres stand on the same ground as the foot's others."""
     plain, made = capsule_robot(LIKE.design), stand_in(LIKE.design, MADE_UP, LIKE)

@@ -8,7 +8,15 @@ from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.trial import Trial, best_trial, count_rejections, feasible_trials, searched, trial_numbers
+from jumpcad.search.trial import (
+    LEARNING_PHASES,
+    Trial,
+    best_trial,
+    count_rejections,
+    feasible_trials,
+    searched,
+    trial_numbers,
+)
 
 
 @pytest.fixture
@@ -23,6 +31,11 @@ def test_the_best_is_the_first_of_equals_and_none_where_all_are_rejected(trial: 
     assert [found.place for found in feasible_trials(trials)] == [2, 4, 0, 3]
     assert best_trial(trials) is trials[2]
     assert best_trial([trials[1]]) is None
+
+
+def test_who_proposes_by_a_surrogate_learns() -> None:
+    """Bayesian optimisation of a figure or of two; genetic algorithms do not, though all may end a search."""
+    assert set(LEARNING_PHASES) == {"bo", "pareto"}
 
 
 def test_trials_stand_in_the_order_of_phases_steps_and_places(trial: Trial) -> None:

@@ -11,6 +11,10 @@ def test_capitals_have_the_height_asked_for_and_stand_on_the_line():
     assert (low, high) == pytest.approx((0.0, 5.0), abs=0.01)
 
 
+def test_letters_may_be_lower_than_a_millimetre():
+    assert text("H", 0.7).bounds()[3] == pytest.approx(0.7, abs=0.01)
+
+
 def test_letters_have_their_holes():
     assert len(text("o", 5.0).to_polygons()) == 2
     assert len(text("B8", 5.0).to_polygons()) == 6

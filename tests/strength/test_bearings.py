@@ -20,6 +20,7 @@ from jumpcad.strength.bearings import (
     hub_width_mm,
     loaded_forces_n,
     roller_bearing,
+    roller_screw_mm,
     roller_washer,
 )
 from jumpcad.workshop import load_workshop
@@ -131,3 +132,10 @@ def test_the_nearer_bearing_bears_more_than_the_cam_pushes() -> None:
     assert bearing_load_n(push[::-1], 8.0, 4.0, bearing) == pytest.approx(5.0)
     against = (np.array([0.0, -100.0]), push[1])  # arms in the middle, which the cam unloads at its own side alone
     assert bearing_load_n(against, 8.0, 4.0, bearing) == pytest.approx(50.0 + 10.0 * (beside - apart / 2.0) / apart)
+
+
+def test_the_rollers_screw_goes_through_leg_washer_roller_and_lock_nut() -> None:
+    """6 + 0.5 + 4 mm and a nut of 4 mm (DIN 985, M3) are 14.5 mm; 12, 16 and 20 mm are sold (ISO 7380-1)."""
+    catalogue = load_catalogue()
+    lengths = [roller_screw_mm(leg_mm, catalogue.bearings["623"], catalogue) for leg_mm in (3.4, 3.6, 6.0, 7.6)]
+    assert lengths == [12.0, 16.0, 16.0, 20.0]
