@@ -164,10 +164,6 @@ class Stack:
         slabs = self._slabs_at(heights_mm)
         return Sections(outlines, which[slabs], insets[slabs], pockets)
 
-    def footprint(self) -> Region:
-        """Return the outline seen from above."""
-        return CrossSection.batch_boolean([slab.region for slab in self.slabs], OpType.Add)
-
     def solid(self) -> Manifold:
         """Return the stack as one closed solid whose corners 32-bit floats hold exactly (on a grid of 1 µm)."""
         heights = [(slab.z0_mm, slab.z1_mm) for slab in self.slabs]
