@@ -120,7 +120,7 @@ def test_whatever_is_on_the_foot_may_come_too_near(kenan: Robot, name: str) -> N
 
 @pytest.mark.parametrize(("width_mm", "height_mm"), [(10.0, 12.0), (5.0, 12.0), (16.0, 8.0)])
 def test_the_motor_counts_with_its_corners(strongest: Robot, width_mm: float, height_mm: float) -> None:
-    """A motor 80 mm further down is the lowest thing on the body: its socket holds the box of its sizes, however it turns."""
+    """A motor 80 mm further down is the lowest thing on the body: its socket holds its box, however it turns."""
     layout, lower = strongest.layout, np.array([0.0, -80.0])
     drive = layout.drive
     motor = drive.train.motor.model_copy(update={"width_mm": width_mm, "height_mm": height_mm})
