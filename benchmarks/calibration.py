@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.calibration import Model, calibrate, explanations, load_subject, predicted_jump
+from jumpcad.calibration import CalibrationModel, calibrate, explanations, load_subject, predicted_jump
 from jumpcad.calibration.likelihood import ANGLE_DEG, JUMP_SHARE, MODEL_SHARE, STUDENT_T_DEGREES
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, sampled
@@ -99,7 +99,7 @@ def trials(robot: str, count: int, seed: int) -> dict[str, Any]:
         for trial in range(count):
             rng = np.random.default_rng([seed, trial])
             true, jump = hidden(subject, rng)
-            posterior = sampled(Model([measured(subject, true, jump, plan, rng)]), trial, **SHORT)
+            posterior = sampled(CalibrationModel([measured(subject, true, jump, plan, rng)]), trial, **SHORT)
             true["energy per mass"] = true["spring_efficiency"] * true["rate"] / true["mass"]
             found = {key.split(":")[0]: values for key, values in posterior.values.items()}
             found["energy per mass"] = found["spring_efficiency"] * found["rate"] / found["mass"]

@@ -19,7 +19,7 @@ import viser
 
 from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.studio.answers import capsule_answer, printed_answer
-from jumpcad.studio.stage import Stage
+from jumpcad.studio.stage import StudioStage
 from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import load_workshop
 
@@ -39,7 +39,7 @@ def measured(steps: int) -> dict[str, Any]:
     server = viser.ViserServer(port=0, verbose=False)
     workshop, rows = load_workshop("default"), []
     for name in TEMPLATES:
-        design, stage = load_design(name), Stage(server)
+        design, stage = load_design(name), StudioStage(server)
         first = printed_answer(design, workshop)
         assert first.robot is not None
         capsule_answer(design)
@@ -59,7 +59,7 @@ def measured(steps: int) -> dict[str, Any]:
     }
 
 
-def _step(design: Design, stage: Stage, workshop: Any) -> dict[str, Any]:
+def _step(design: Design, stage: StudioStage, workshop: Any) -> dict[str, Any]:
     """Return CPU and wall time (ms) from a slider to each stage, and how many meshes were sent; None if refused."""
     times = [_clocks()]
     capsule_answer(design)

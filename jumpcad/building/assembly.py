@@ -132,7 +132,8 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> 
 
 def _first_with_room(design: Design, workshop: Workshop, growth: Growth) -> tuple[Layout, HoleSizes]:
     """Return layout and hole sizes with springs whose pin has room."""
-    axles.require_retention(workshop.catalogue, workshop.bought)  # with nuts, of any axle only one is right
+    if workshop.bought.retention == "nuts":  # of all axles one is right: a thinner one is no way out
+        axles.require_retention(workshop.catalogue, workshop.bought)
     small.require_axle(workshop)
     directions = PLATE_PINS_RAD
     for _ in range(PIN_ROUNDS):
@@ -150,6 +151,7 @@ def _laid_out(
 ) -> tuple[Layout, HoleSizes]:
     """Return layout and hole sizes with springs for one of the directions of the plates' pin."""
     settled = settle(design, workshop, growth, plate_pins_rad)
+    axles.require_retention(workshop.catalogue, workshop.bought)
     chosen = workshop.bought
     carried = chosen_parts(workshop)
     parts = carried.components

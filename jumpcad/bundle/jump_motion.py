@@ -1,7 +1,7 @@
 """The jump of a robot as a motion for the GLB file's animations."""
 
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.animation import Motion
+from jumpcad.exporters.animation import BodyMotion
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 
@@ -9,7 +9,7 @@ ENGINE = "planar"
 """Available on every platform, so that a bundle has the same bytes on each."""
 
 
-def jump_motion(robot: Robot) -> Motion | None:
+def jump_motion(robot: Robot) -> BodyMotion | None:
     """Return the motion from release to touchdown; None if the engine finds no jump or cannot simulate the robot."""
     try:
         path = simulate(robot, Settings(flight="simulated", trajectory=True), ENGINE).trajectory
@@ -19,4 +19,4 @@ def jump_motion(robot: Robot) -> Motion | None:
         return None
     places = {name: path.position_m[:, index] for index, name in enumerate(path.body_names)}
     turns = {name: path.quaternion_xyzw[:, index] for index, name in enumerate(path.body_names)}
-    return Motion(path.time_s, places, turns)
+    return BodyMotion(path.time_s, places, turns)

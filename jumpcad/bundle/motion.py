@@ -28,7 +28,7 @@ POSITION_DIGITS, TURN_DIGITS = 5, 5
 
 
 @dataclass(frozen=True)
-class Moment:
+class PhasePose:
     """One pose of the robot: the bodies' frames (4, 4) in the world (m), cam and cam gear from rest, time in phase."""
 
     phase: str
@@ -65,28 +65,28 @@ def motion(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None)
     }
 
 
-def _moments(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> Iterator[Moment]:
+def _moments(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> Iterator[PhasePose]:
     """Yield the moments of all phases; the last pose of a phase is the first of the next."""
     drive = robot.layout.drive
     law, speed = drive.cam.law, drive.train.cam_speed_rad_s
     lift, whole = law.lift_rad, robot.spring.wind_rad
     for angle in np.linspace(0.0, lift, WINDING_MOMENTS).tolist():
         loaded = float(law.wind_rad(angle)) / law.compression_rad
-        yield Moment("winding", angle / speed, body_poses(robot, loaded), angle, angle)
+        yield PhasePose("winding", angle / speed, body_poses(robot, loaded), angle, angle)
     if trajectory is None or robot.roller_off is None:
         return
     ahead = drive.cam.geometry.free_rad
     for share in np.linspace(0.0, 1.0, DROP_MOMENTS).tolist():
         leg = -whole + share * (robot.roller_off.leg_rad + whole)
         time_s = share * robot.release.roll_over_rad / speed
-        yield Moment("drop", time_s, body_poses(robot, -leg / whole), lift + share * (ahead - lift), lift)
+        yield PhasePose("drop", time_s, body_poses(robot, -leg / whole), lift + share * (ahead - lift), lift)
     for moment, time_s in enumerate(trajectory.time_s.tolist()):
         flies = takeoff_s is not None and time_s > takeoff_s
         if not flies or moment % FLIGHT_EVERY == 0 or moment == len(trajectory.time_s) - 1:
-            yield Moment("flight" if flies else "push-off", time_s, recorded_poses(trajectory, moment), ahead, lift)
+            yield PhasePose("flight" if flies else "push-off", time_s, recorded_poses(trajectory, moment), ahead, lift)
 
 
-def _times(moments: list[Moment]) -> tuple[list[float], list[float], dict[str, str]]:
+def _times(moments: list[PhasePose]) -> tuple[list[float], list[float], dict[str, str]]:
     """Return real and shown times of the moments (s), and the time scale of each phase in words."""
     real: list[float] = []
     shown: list[float] = []
@@ -112,7 +112,7 @@ def recorded_poses(trajectory: Trajectory, moment: int) -> dict[str, Array]:
     return {name: pose_at(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)}
 
 
-def _com_m(robot: Robot, moment: Moment) -> list[float]:
+def _com_m(robot: Robot, moment: PhasePose) -> list[float]:
     """Return x and z of the robot's centre of mass in the world (m)."""
     com = np.zeros(3)
     for name, body in robot.bodies.items():

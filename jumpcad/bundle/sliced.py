@@ -20,7 +20,7 @@ from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
-from jumpcad.solids.slab import Sections
+from jumpcad.solids.slab import CrossSections
 from jumpcad.transforms import Array
 from jumpcad.workshop import Material, Workshop
 
@@ -216,7 +216,7 @@ class _StlPart:
         """Volume moments (10,)."""
         return mesh_moments(self._solid)
 
-    def sections_at(self, heights_mm: Array) -> Sections:
+    def sections_at(self, heights_mm: Array) -> CrossSections:
         """Return the cross-sections at heights (n,); neighbours that differ by less than `SMALLEST_MM2` are one."""
         regions: list[Region] = []
         which = []
@@ -225,4 +225,4 @@ class _StlPart:
             if not regions or (region - regions[-1]).area() + (regions[-1] - region).area() >= SMALLEST_MM2:
                 regions.append(region)
             which.append(len(regions) - 1)
-        return Sections(regions, np.array(which), np.zeros(len(which)))
+        return CrossSections(regions, np.array(which), np.zeros(len(which)))

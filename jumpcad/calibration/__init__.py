@@ -9,7 +9,7 @@ from jumpcad.faces import face
 
 if TYPE_CHECKING:
     from jumpcad.calibration import plots as plots
-    from jumpcad.calibration.likelihood import Model as Model
+    from jumpcad.calibration.likelihood import CalibrationModel as CalibrationModel
     from jumpcad.calibration.measurements import Measurements as Measurements
     from jumpcad.calibration.measurements import load_measurements as load_measurements
     from jumpcad.calibration.posterior import CalibrationPosterior as CalibrationPosterior
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "CalibrationPosterior": "posterior",
     "Measurements": "measurements",
-    "Model": "likelihood",
+    "CalibrationModel": "likelihood",
     "Subject": "subject",
     "calibrate": "posterior",
     "elsewhere": "settings_file",

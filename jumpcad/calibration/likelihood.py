@@ -105,7 +105,7 @@ class Predicted:
         return np.hypot(single * value, spread)
 
 
-class Model:
+class CalibrationModel:
     """Parameters and data of some robots."""
 
     def __init__(self, subjects: Sequence[Subject]) -> None:

@@ -10,7 +10,14 @@ from typing import Any
 import numpy as np
 
 from jumpcad.arguments import typed
-from jumpcad.calibration.likelihood import CalibrationParameter, Datum, Model, Predicted, energy_per_mass, predict
+from jumpcad.calibration.likelihood import (
+    CalibrationModel,
+    CalibrationParameter,
+    Datum,
+    Predicted,
+    energy_per_mass,
+    predict,
+)
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import load_subject, renamed, require_each_once
 from jumpcad.errors import JumpcadError
@@ -38,7 +45,7 @@ class CalibrationPosterior:
     (steps), `steps` the length of the chains without burn-in, `walkers` their number.
     """
 
-    model: Model
+    model: CalibrationModel
     z: Array
     autocorrelation: float
     steps: int
@@ -126,11 +133,15 @@ def calibrate(files: Sequence[str | Path], seed: int = 0) -> CalibrationPosterio
     if not files:
         raise JumpcadError("no measurements: name at least one file, or the template kenan-1.0")
     require_each_once(files)
-    return sampled(Model(renamed([load_subject(file) for file in files])), seed)
+    return sampled(CalibrationModel(renamed([load_subject(file) for file in files])), seed)
 
 
 def sampled(
-    model: Model, seed: int = 0, steps: int = STEPS, most_steps: int = MOST_STEPS, walkers_each: int = WALKERS_EACH
+    model: CalibrationModel,
+    seed: int = 0,
+    steps: int = STEPS,
+    most_steps: int = MOST_STEPS,
+    walkers_each: int = WALKERS_EACH,
 ) -> CalibrationPosterior:
     """Sample the posterior of a model; chains are doubled until they have converged or have `most_steps`.
 
@@ -171,7 +182,7 @@ def sampled(
     return CalibrationPosterior(model, chain[chosen], autocorrelation, left, walkers)
 
 
-def require_data(model: Model) -> None:
+def require_data(model: CalibrationModel) -> None:
     """Require a measured jump or video of every robot.
 
     Raises
@@ -187,7 +198,7 @@ def require_data(model: Model) -> None:
             )
 
 
-def _start(model: Model, walkers: int, generator: np.random.Generator) -> Array:
+def _start(model: CalibrationModel, walkers: int, generator: np.random.Generator) -> Array:
     """Return starting points (walkers, parameters): the likeliest of many draws from the prior."""
     drawn = generator.standard_normal((100 * walkers, len(model.parameters)))
     chance = model.log_probability(drawn)
@@ -221,7 +232,7 @@ def _verdict(spread: float, shift: float) -> str:
 
 def _residual(datum: Datum, predicted: Predicted) -> dict[str, Any]:
     """Return one measurement with its predicted quantiles under the most probable reading."""
-    chances = Model.log_readings(datum, predicted)
+    chances = CalibrationModel.log_readings(datum, predicted)
     share = np.exp(chances - np.logaddexp.reduce(chances, axis=0)).mean(axis=1)
     likeliest = datum.readings[int(np.argmax(share))]
     value = predicted.of(datum.what, likeliest)

@@ -7,7 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, Datum, Model, Predicted, energy_per_mass, predict
+from jumpcad.calibration.likelihood import (
+    STUDENT_T_DEGREES,
+    CalibrationModel,
+    Datum,
+    Predicted,
+    energy_per_mass,
+    predict,
+)
 from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import Subject
@@ -53,7 +60,7 @@ class Prediction:
 
         Calls continue the generator: two calls differ.
         """
-        data = Model([self.subject]).data
+        data = CalibrationModel([self.subject]).data
         return [self._beside(datum, reading) for datum in data for reading in datum.readings]
 
     def _beside(self, datum: Datum, reading: str) -> dict[str, Any]:
@@ -75,7 +82,7 @@ def predicted_jump(posterior: CalibrationPosterior, subject: Subject, seed: int 
     generator = np.random.default_rng([seed, 1])
     draws = len(posterior.z)
     values = dict(posterior.values)
-    for one in Model([subject]).parameters:
+    for one in CalibrationModel([subject]).parameters:
         own = one.key.endswith(f":{subject.name}") and not one.key.startswith("rate:")
         if own or one.key not in values:
             values[one.key] = one.prior.at(generator.standard_normal(draws))

@@ -17,7 +17,7 @@ from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order.plan import Tool
-from jumpcad.scene.assembly_steps import SIDES, Placed, Step, assembly_steps, travel
+from jumpcad.scene.assembly_steps import SIDES, MovedParts, Step, assembly_steps, travel
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.solids.outline import disc
 from jumpcad.solids.stack import Stack
@@ -107,7 +107,7 @@ class Way:
     """One move: the moving parts, the path (3,) of each, and the parts that are already there, in the world (mm)."""
 
     step: Step
-    placed: Placed
+    placed: MovedParts
     movers: list[Piece]
     paths_mm: list[Array]
     there: list[Piece]
@@ -244,7 +244,7 @@ def _reach(mover: Piece, there: list[Piece], along: Array) -> float:
     return max(front - rear, 0.0) + BEYOND_MM
 
 
-def _side(placed: Placed, path_mm: Array) -> Array:
+def _side(placed: MovedParts, path_mm: Array) -> Array:
     """Return the direction (3,) from a fastener to its tool."""
     if placed.move.reach in SIDES:
         return -SIDES[placed.move.reach]
@@ -266,5 +266,5 @@ def _tool(tool: Tool, fastener: Piece, side: Array) -> Piece:
     return Piece(tool.name, fastener.body, Stack.of([(0.0, tool.length_mm, disc(tool.diameter_mm))]), pose)
 
 
-def _passes(placed: Placed, name: str) -> bool:
+def _passes(placed: MovedParts, name: str) -> bool:
     return bool(placed.move.past) and re.fullmatch(placed.move.past, name) is not None

@@ -4,9 +4,11 @@ import numpy as np
 
 from jumpcad.checks.interference import Position, box_of, pieces_of, pose_of
 from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, STOP_PAD_MM
+from jumpcad.drive.socket import socket_half_mm
 from jumpcad.findings import Basis, Finding, at_least, limit
 from jumpcad.layout.stop import TAB_MM
 from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.parts.motor_socket import ear_places, motor_box
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array, direction
 
@@ -110,8 +112,10 @@ def _body_discs(robot: Robot) -> tuple[Array, Array]:
     discs.append((layout.hub_mm, layout.drive.spring.outer_diameter_mm / 2.0))
     discs.append((layout.cam_axis_mm, layout.drive.cam.outer_radius_mm))
     discs.append((layout.cam_axis_mm, layout.drive.train.stages[-1].wheel.tip_radius_mm))
+    discs += [(place, layout.cap_ear_mm / 2.0) for place in ear_places(layout)]
     motor = layout.drive.train.motor
-    discs.append((layout.motor_mm, max(motor.width_mm, motor.height_mm)))
+    socket = motor_box(layout, *(2.0 * half for half in socket_half_mm(motor, 0.0)))
+    discs += [(corner, 0.0) for corner in socket.to_polygons()[0]]
     if layout.idler_mm is not None:
         discs.append((layout.idler_mm, layout.drive.train.stages[0].wheel.tip_radius_mm))
     half = layout.electronics.length_mm / 2.0

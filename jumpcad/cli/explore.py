@@ -93,14 +93,14 @@ def explore(
     for option, value in {"samples": samples, "points": points, "around": around, "over": over}.items():
         if value is not None and view not in USED_BY[option]:
             raise JumpcadError(f"--{option} {value}: does not apply to {view}, only to {' and '.join(USED_BY[option])}")
-    samples, points, over = samples or SAMPLES, points or POINTS, over or OVER
+    samples, points, over = samples or SAMPLES, points or POINTS, OVER if over is None else over
     require_apart({"--study": options.study, "--plots": plots}, {"--around": around, **options.inputs()})
     require_study(options.study)
     require_plots(plots, force)
     robot = options.robot_model()
     space = Space.parse(options.fix or (), options.bound or (), options.choose or (), workshop=robot.workshop)
     robot, objective = robot.aiming_at(options.objective)
-    centre = load_design(around or AROUND)
+    centre = load_design(AROUND if around is None else around)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),
         "around": centre.model_dump(), "seed": options.seed, "versions": robot.versions(),

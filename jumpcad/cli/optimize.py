@@ -113,8 +113,8 @@ def optimize(
     from jumpcad.search.space import Space
     from jumpcad.search.study import run_study
 
-    centre = load_design(around) if around else None
-    names = [name.strip() for name in only.split(",")] if only else []
+    centre = None if around is None else load_design(around)
+    names = [] if only is None else [name.strip() for name in only.split(",")]
     robot = options.robot_model()
     changes = (options.fix or (), options.bound or (), options.choose or ())
     space = Space.parse(*changes, centre, names, within, robot.workshop)

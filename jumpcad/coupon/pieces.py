@@ -28,18 +28,22 @@ if TYPE_CHECKING:
 STEP_MM = 0.05
 """Between neighbours of a series: the repeatability of holes from desktop printers (practice)."""
 LONGEST_SERIES = 15
+"""Holes of a series at most, beyond which its steps are doubled; judgement: three rows of `COLUMNS`."""
 BEYOND = 2
-"""Steps by which a series extends beyond the workshop's fits."""
+"""Steps by which a series extends beyond the workshop's fits; judgement."""
 PEGS_MM = (4.0, 6.0, 8.0)
+"""Diameters of the pegs; judgement: those of eyes and bosses, and far enough apart to tell a scale from an offset."""
 PEG_HEIGHT_MM = 8.0
-GAUGE_MM = 3.0
-HOLDER_MM = 6.0
+"""Judgement: the jaws of callipers hold it above its foot."""
+GAUGE_MM, HOLDER_MM = 3.0, 6.0
+"""Thickness of the gauge, about a body plate's, and of the gears' holder, longer than a gear is wide; judgement."""
 COLUMNS = 5
-MARGIN_MM = 3.0
-LETTERS_MM = 3.5
-LABEL_GAP_MM = 2.0
-TITLE_MM = 5.0
+"""Holes of a row; judgement: a gauge that any bed holds."""
+MARGIN_MM, LETTERS_MM, LABEL_GAP_MM, TITLE_MM = 3.0, 3.5, 2.0, 5.0
+"""Around holes and to the edge, height of labels, from hole to label, height of titles; judgement: read without a
+glass, printed by a nozzle of 0.4 mm."""
 ENGRAVED_MM = 0.6
+"""Depth of the letters; judgement: three layers of 0.2 mm."""
 MODULE_MM, PINION_TEETH, WHEEL_TEETH, FACE_MM = 1.25, 15, 20, 5.0
 """A gear pair as in robots: usual module and face width, no undercut, space for letters inside the pinion's root."""
 PINION_LETTERS_MM = 3.0

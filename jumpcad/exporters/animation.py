@@ -25,7 +25,7 @@ DIGITS = 6
 
 
 @dataclass(frozen=True)
-class Motion:
+class BodyMotion:
     """Bodies' frames in the world: `time_s` (n,), and by body `position_m` (n, 3) and `quaternion_xyzw` (n, 4)."""
 
     time_s: Array
@@ -33,7 +33,7 @@ class Motion:
     quaternion_xyzw: dict[str, Array]
 
 
-def animated(glb: bytes, motion: Motion) -> bytes:
+def animated(glb: bytes, motion: BodyMotion) -> bytes:
     """Return the GLB file of a robot with animations that move the nodes `BODY_frame`."""
     tree, binary = _chunks(glb)
     names = [node.get("name") for node in tree["nodes"]]

@@ -20,7 +20,7 @@ from jumpcad.exporters.thumbnail import thumbnail
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.markdown import plain
 from jumpcad.parts.pads import PrintedPad, printed_pads
-from jumpcad.printing.plates import Placed, Printable, PrintPlate, packed
+from jumpcad.printing.plates import PlacedCopy, Printable, PrintPlate, packed
 from jumpcad.printing.project import PADS_HOW, pad_settings, project_settings, settings_in_words, temperatures_in_words
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
@@ -174,7 +174,7 @@ def _lines(line: str, rows: npt.NDArray[np.generic]) -> str:
     return line * len(rows) % tuple(rows.ravel().tolist())
 
 
-def _item(number: int, placed: Placed) -> str:
+def _item(number: int, placed: PlacedCopy) -> str:
     """Return a copy to build; 3MF multiplies row vectors, so the pose is written transposed."""
     rows = placed.T_bed_part[:3].T.ravel().tolist()
     return f'<item objectid="{number}" transform="{" ".join(f"{value:.9g}" for value in rows)}"/>\n'

@@ -34,6 +34,14 @@ RIB_MM = 3.2
 EDGE_MM = 3.2
 POCKET_RADIUS_MM = 1.5
 """Width of ribs, distance of pockets from the edge, radius of their corners: judgement."""
+SPRING_PIN_PAD_MM = 8.0
+"""Material around the springs' pin (diameter): 2.5 mm around a pin of 3 mm; judgement."""
+SLOT_AROUND_MM = 2.5
+"""Material around the slot for a tray's tab; judgement: more than five lines of a 0.4 mm nozzle."""
+SLOT_PAD_RADIUS_MM = 1.0
+"""Radius of the corners of that material; judgement: no notch where it meets a rib."""
+SLOT_END_MM = 1.0
+"""From a tray's end to its tab; judgement: beyond the round corner of the floor's end."""
 
 
 def tray_slots(layout: Layout, side: Face) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
@@ -41,7 +49,7 @@ def tray_slots(layout: Layout, side: Face) -> tuple[list[tuple[float, float]], l
 
     Where the right plate has the opening for a USB plug, above the upper tray's back end, it has no slot.
     """
-    middle, reach = layout.tray_mm, layout.electronics.length_mm / 2.0 - TAB_MM / 2.0 - 1.0
+    middle, reach = layout.tray_mm, layout.electronics.length_mm / 2.0 - TAB_MM / 2.0 - SLOT_END_MM
     levels = (TRAY_MM / 2.0, layout.electronics.upper_tray_mm + TRAY_MM / 2.0)
     lower, upper = (
         [(float(middle[0] + sign * reach), float(middle[1] + level)) for sign in (-1.0, 1.0)] for level in levels
@@ -54,9 +62,11 @@ def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
     more = 2.0 * more_mm
     pads = [disc(layout.axle_mm + 2.0 * PAD_WALL_MM + more, place) for place in layout.axles.values()]
     pads += [disc(STANDOFF_PAD_MM + more, place) for place in layout.standoffs_mm]
-    pads.append(disc(8.0 + more, layout.spring_pin_mm))
-    slot = (TAB_MM + 5.0 + more, TRAY_MM + 5.0 + more)
-    pads += [rectangle(slot, place, 1.0 + more_mm) for level in tray_slots(layout, "left") for place in level]
+    pads.append(disc(SPRING_PIN_PAD_MM + more, layout.spring_pin_mm))
+    slot = (TAB_MM + 2.0 * SLOT_AROUND_MM + more, TRAY_MM + 2.0 * SLOT_AROUND_MM + more)
+    pads += [
+        rectangle(slot, place, SLOT_PAD_RADIUS_MM + more_mm) for level in tray_slots(layout, "left") for place in level
+    ]
     pads += fitting_pads(layout.fittings, more_mm)
     pads.append(grown(socket_outline(layout), more_mm))
     pads += [plate_pad(layout.sensor, more_mm)] if layout.sensor is not None else []

@@ -13,7 +13,7 @@ from jumpcad.parts.part import UNSEEN_MM, laid, lying_on_left
 from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import Slab
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.tube import Wire, tube
+from jumpcad.solids.tube import DrawnWire, tube
 from jumpcad.transforms import Array, chained, in_metres, pose_about_z
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class BoughtPart:
     T_body_part: Array
     mass: MassProperties
     units: int = 1
-    wire: Wire | None = None
+    wire: DrawnWire | None = None
 
     def __repr__(self) -> str:
         return f"<BoughtPart {self.name!r}: {self.article[:80]}, {1000.0 * self.mass_kg:.2f} g>"
@@ -52,7 +52,7 @@ class BoughtPart:
         T_body_part = chained(T_body_frame, self.T_body_part)
         return replace(self, T_body_part=T_body_part, mass=self.mass.placed(in_metres(T_body_frame)))
 
-    def seen_as(self, wire: Wire) -> "BoughtPart":
+    def seen_as(self, wire: DrawnWire) -> "BoughtPart":
         """Return the part with a wire to be seen in its place."""
         return replace(self, wire=wire)
 

@@ -26,6 +26,9 @@ from jumpcad.workshop import BoughtParts
 
 TOE_THREAD_MM = 4.0
 """Least length of thread of a toe's screw in the foot's stub."""
+CAP_SCREW_MM = 8.0
+"""Length of the M2 screws that hold the motor's cap on the ears of its socket, a stock length; judgement: more thread
+in plastic than twice their diameter, through a cap of 2.4 mm."""
 SCREW_END_MM = 4.0
 """Least length of thread of a standoff's screw inside the standoff, M3 in polyamide; judgement: as in a toe. Stock
 lengths are 2 mm apart, so that it stays below the 6 mm that are tapped."""
@@ -116,7 +119,7 @@ def _motor_things(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     screw = catalogue.screws["M2"]
     for number, ear in enumerate(ear_places(layout), start=1):
         top = layout.lateral.motor_cap[1] - screw.button_head_height_mm
-        yield placed_screw(f"cap_screw_{number}", BODY, ear, (top - 8.0, top), 1.0, screw, catalogue)
+        yield placed_screw(f"cap_screw_{number}", BODY, ear, (top - CAP_SCREW_MM, top), 1.0, screw, catalogue)
 
 
 def _standoffs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:

@@ -7,7 +7,7 @@ import numpy as np
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.spring_arms import FULL_TURN_RAD
 from jumpcad.layout.drive_places import arm_line
-from jumpcad.solids.tube import Wire
+from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array
 
 STEPS_A_TURN = 24
@@ -31,7 +31,7 @@ def spring_article(spring: TorsionSpring, hand: str) -> str:
     )
 
 
-def coil_with_arm(hub_mm: Array, spring: TorsionSpring, y_mm: tuple[float, float]) -> Wire:
+def coil_with_arm(hub_mm: Array, spring: TorsionSpring, y_mm: tuple[float, float]) -> DrawnWire:
     """Return body arm and coil in the body's frame at rest, the wire's middle from the outer y to the inner one.
 
     Seen from the robot's right the wire turns counter-clockwise from the body's arm to the leg's; a preload closes
@@ -46,10 +46,10 @@ def coil_with_arm(hub_mm: Array, spring: TorsionSpring, y_mm: tuple[float, float
         [hub_mm[0] + radius * np.cos(angle), outer + share * (inner - outer), hub_mm[1] + radius * np.sin(angle)]
     )
     _, end = arm_line(hub_mm, spring, "plate")
-    return Wire(np.vstack([[end[0], outer, end[1]], coil]), spring.wire_mm)
+    return DrawnWire(np.vstack([[end[0], outer, end[1]], coil]), spring.wire_mm)
 
 
-def leg_arm_wire(spring: TorsionSpring, y_mm: tuple[float, float]) -> Wire:
+def leg_arm_wire(spring: TorsionSpring, y_mm: tuple[float, float]) -> DrawnWire:
     """Return the leg's arm in the leg's frame, with the end of the coil that loading adds to it.
 
     At rest that end lies in the coil; `y_mm` are those of `coil_with_arm`.
@@ -61,4 +61,4 @@ def leg_arm_wire(spring: TorsionSpring, y_mm: tuple[float, float]) -> Wire:
     rise = (inner - outer) * turn / (FULL_TURN_RAD * spring.turns + spring.preload_rad)
     coil = np.column_stack([radius * np.cos(angle), inner - rise * (1.0 - share), radius * np.sin(angle)])
     _, end = arm_line(np.zeros(2), spring, "leg")
-    return Wire(np.vstack([coil, [[end[0], inner, end[1]]]]), spring.wire_mm)
+    return DrawnWire(np.vstack([coil, [[end[0], inner, end[1]]]]), spring.wire_mm)

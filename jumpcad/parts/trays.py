@@ -15,9 +15,11 @@ from jumpcad.solids.outline import Region, rectangle, union
 from jumpcad.solids.stack import Stack
 
 EDGE_MM, LEDGE_MM = 5.0, 2.0
-"""Of the battery's window: distance from the tray's ends, and width left under the battery."""
+"""Of the battery's window: distance from the tray's ends, and width left under the battery; judgement."""
+CORNER_MM = 1.5
+"""Radius of a floor's corners; judgement: none is sharp in the hand or lifts from the bed."""
 STOP_FOOT_MM = 1.0
-"""Floor left before a stop of the battery."""
+"""Floor left before a stop of the battery; judgement: two lines of a 0.4 mm nozzle."""
 STOP_MIN_MM = 4.0
 """Least length of a stop across; judgement."""
 BOARD_LEDGE_MM = 4.0
@@ -81,7 +83,7 @@ def _floor(layout: Layout, holes: HoleSizes, level: int) -> Region:
     low, high = layout.lateral.inside
     middle = (low + high) / 2.0
     width = high - low - 2.0 * holes.fits.sliding_mm
-    floor = rectangle((layout.electronics.length_mm, width), corner_radius_mm=1.5)
+    floor = rectangle((layout.electronics.length_mm, width), corner_radius_mm=CORNER_MM)
     tabs = []
     for side, face in (("left", layout.lateral.outside[1]), ("right", layout.lateral.outside[0])):
         reach = face - middle

@@ -10,14 +10,14 @@ from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.solids.moments import areas_and_borders, borders_mm
 from jumpcad.solids.outline import Region, box_around, union
-from jumpcad.solids.slab import NOTHING, Sections
+from jumpcad.solids.slab import NOTHING, CrossSections
 from jumpcad.transforms import Array
 
 OUTLINE_TOLERANCE_MM = 0.01
 """Corners nearer than this to a straight line are left out where shells and infill are concerned, for speed."""
 
 
-def section_moments(sections: Sections) -> tuple[Array, Array]:
+def section_moments(sections: CrossSections) -> tuple[Array, Array]:
     """Return the area moments (n, 6) of the n different cross-sections, and those along their borders."""
     count = len(sections.outlines)
     areas, borders = areas_and_borders([*sections.outlines, *(pocket for _, pocket in sections.pockets)])
@@ -27,7 +27,7 @@ def section_moments(sections: Sections) -> tuple[Array, Array]:
     return areas, borders
 
 
-def cores(sections: Sections, numbers: Sequence[int], shell_mm: float, spacing_mm: float) -> dict[int, Region]:
+def cores(sections: CrossSections, numbers: Sequence[int], shell_mm: float, spacing_mm: float) -> dict[int, Region]:
     """Return what is inside the perimeters of cross-sections, each under its number.
 
     It is empty where all of it is narrower than a line, as perimeters then widen to fill it; the same in PrusaSlicer
@@ -50,7 +50,7 @@ def cores(sections: Sections, numbers: Sequence[int], shell_mm: float, spacing_m
     return found
 
 
-def shared(core: Region, number: int, others: Sequence[int], sections: Sections) -> Region:
+def shared(core: Region, number: int, others: Sequence[int], sections: CrossSections) -> Region:
     """Return a region that has the same of the core of a cross-section as all of some others have."""
     around, pocket = _parted(sections, number)
     regions, beyond = [], []
@@ -64,7 +64,7 @@ def shared(core: Region, number: int, others: Sequence[int], sections: Sections)
     return CrossSection.batch_boolean(regions, OpType.Intersect)
 
 
-def _parted(sections: Sections, number: int) -> tuple[int, Region]:
+def _parted(sections: CrossSections, number: int) -> tuple[int, Region]:
     """Return the number of a cross-section's outline, and the pocket in it."""
     count = len(sections.outlines)
     return sections.pockets[number - count] if number >= count else (number, NOTHING)

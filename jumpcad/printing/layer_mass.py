@@ -19,7 +19,7 @@ from jumpcad.printing.cores import cores, section_moments, shared
 from jumpcad.printing.runs import LayerRun, Numbers, jumps_of, runs_of
 from jumpcad.solids.moments import areas_and_borders, mass_of, prism_moments
 from jumpcad.solids.outline import Region
-from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, Sections
+from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, CrossSections
 from jumpcad.transforms import Array
 from jumpcad.workshop import Process
 
@@ -44,7 +44,7 @@ class Weighable(Hashable, Protocol):
     def moments(self) -> Array:
         """Volume moments (10,)."""
 
-    def sections_at(self, heights_mm: Array) -> Sections:
+    def sections_at(self, heights_mm: Array) -> CrossSections:
         """Return the cross-sections at heights (n,) ascending."""
 
 
@@ -52,7 +52,7 @@ class Layers(NamedTuple):
     """A part cut into layers: where the n layers begin and end (n + 1,), from the bed up, and their cross-sections."""
 
     levels_mm: Array
-    sections: Sections
+    sections: CrossSections
 
 
 class Filling(NamedTuple):
@@ -162,7 +162,7 @@ def _window(middle: int, which: Numbers, jumps: Sequence[int], process: Process)
     return tuple(number for number in numbers if number != which[middle])
 
 
-def _filled(core: Region, number: int, window: Window, sections: Sections, solid_below_mm2: float) -> Filling:
+def _filled(core: Region, number: int, window: Window, sections: CrossSections, solid_below_mm2: float) -> Filling:
     """Return how the core of a cross-section is filled: sparsely where it lies in all those of a window, else solidly.
 
     Pieces of the sparse region that are smaller than `solid_below_mm2` become solid.

@@ -44,7 +44,7 @@ class Printable(Protocol):
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedCopy:
     """One copy of a part on a plate: its pose (4, 4) on the bed, in mm, from the bed's front left corner."""
 
     part: Printable
@@ -60,7 +60,7 @@ class PrintPlate:
 
     material: str
     number: int
-    items: tuple[Placed, ...]
+    items: tuple[PlacedCopy, ...]
     kind: str = "plate"
 
     @property
@@ -106,7 +106,7 @@ def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: flo
     if len(inside.rect_list()) == len(parts) and len(inside) == len(packer):
         packer = inside
     beside = {number: _beside(bin_, bed_mm, spacing_mm) for number, bin_ in enumerate(packer)}
-    plates: dict[int, list[tuple[int, Placed]]] = {}
+    plates: dict[int, list[tuple[int, PlacedCopy]]] = {}
     for plate, x, y, width, height, number in packer.rect_list():
         turned = (width, height) != sizes[number]
         angle = angles[parts[number].name] + (90.0 if turned else 0.0)
@@ -114,7 +114,7 @@ def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: flo
         pose = _turn(angle)
         corner = np.array([x, y]) / STEPS_PER_MM + beside[plate]
         pose[:3, 3] = *(corner - low[:2]), -low[2]
-        plates.setdefault(plate, []).append((number, Placed(parts[number], pose)))
+        plates.setdefault(plate, []).append((number, PlacedCopy(parts[number], pose)))
     return [
         PrintPlate(
             parts[0].material, number, tuple(item for _, item in sorted(plates[plate], key=lambda pair: pair[0]))

@@ -31,7 +31,7 @@ REST = "Everything else"
 
 
 @dataclass(frozen=True)
-class Placed:
+class MovedParts:
     """The parts of one move."""
 
     move: Move
@@ -48,7 +48,7 @@ class Step:
     key: str
     title: str
     onto: str
-    placed: tuple[Placed, ...]
+    placed: tuple[MovedParts, ...]
     text: tuple[str, ...]
     warnings: tuple[str, ...]
     checks: tuple[str, ...]
@@ -82,7 +82,7 @@ def assembly_steps(robot: Robot) -> list[Step]:
         texts = (_texts(words, names) for words in (plan.text, plan.warnings, plan.checks))
         steps.append(Step(plan.key, plan.title, plan.onto, placed, *texts))
     if left:
-        rest = Placed(Move(".*", way="laid"), tuple(left))
+        rest = MovedParts(Move(".*", way="laid"), tuple(left))
         steps.append(Step("rest", REST, ROBOT, (rest,), ("Fasten what remains where the picture shows it.",), (), ()))
     return steps
 
@@ -125,7 +125,7 @@ def _head_up(thing: Visual) -> bool:
 
 def _placed(
     plan: Plan, robot: Robot, names: list[str], left: list[Visual], built: dict[str, list[Visual]]
-) -> Iterator[Placed]:
+) -> Iterator[MovedParts]:
     """Yield a step's moves with the robot's parts; they are taken from `left` and added to `built`, by assembly."""
     there = built.setdefault(plan.onto, [])
     for move in plan.moves:
@@ -140,7 +140,7 @@ def _placed(
             left[:] = [thing for thing in left if thing not in things or move.trial]
         if things:
             there += [] if move.trial else things
-            yield Placed(move, tuple(things))
+            yield MovedParts(move, tuple(things))
 
 
 def _texts(words: Iterable[Words], names: list[str]) -> tuple[str, ...]:

@@ -9,11 +9,11 @@ import numpy as np
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order.plan import LEFT, LOWER, UPPER
-from jumpcad.scene.assembly_steps import Placed, Step, assembly_steps, travel
+from jumpcad.scene.assembly_steps import MovedParts, Step, assembly_steps, travel
 from jumpcad.scene.camera import View
 from jumpcad.scene.step_insets import BEHIND, INSETS, Inset
 from jumpcad.scene.visuals import Visual
-from jumpcad.solids.tube import Wire
+from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array, chained, pose_at
 
 FROM_LEFT = View(yaw_deg=62.0, pitch_deg=28.0)
@@ -242,7 +242,7 @@ def _beside(one: Array, other: Array, way: Array) -> bool:
     return True
 
 
-def _way(robot: Robot, placed: Placed, poses: dict[str, Array]) -> Array:
+def _way(robot: Robot, placed: MovedParts, poses: dict[str, Array]) -> Array:
     first = placed.things[0]
     return travel(robot, first, placed.move, poses[first.body])
 
@@ -276,7 +276,7 @@ def _labels(
 def _seen_at(thing: Visual, pose: Array, along_arm: float) -> Array:
     """Return where a label points to (3,) in the world (m): a part's middle, of bent wire a point of its first arm."""
     shape = thing.shape
-    if not isinstance(shape, Wire):
+    if not isinstance(shape, DrawnWire):
         return np.asarray(_corners(thing, pose).mean(axis=0))
     end, bend = shape.points_mm[:2] / 1000.0
     on_body = end + along_arm * (bend - end) - thing.T_body_mesh[:3, 3]

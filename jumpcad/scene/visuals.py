@@ -12,7 +12,7 @@ import numpy as np
 from jumpcad.parts.part import Part, Shape
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
-from jumpcad.solids.tube import Wire
+from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array, in_metres
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class Visual:
         return self.source.drawing.look if isinstance(self.source, Part) else self.source.look
 
     @property
-    def shape(self) -> Shape | Wire:
+    def shape(self) -> Shape | DrawnWire:
         """What the mesh is made from."""
         if isinstance(self.source, Part):
             return self.source.drawing.shape

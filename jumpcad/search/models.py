@@ -320,8 +320,14 @@ def robot_model(
         return RobotModel(name)
     built_in = None
     if name == "printed":
-        built_in = workshop if isinstance(workshop, Workshop) else load_workshop(workshop or DEFAULT)
-    how = settings.revalidated() if isinstance(settings, Settings) else load_settings(settings or "default")
+        built_in = (
+            workshop if isinstance(workshop, Workshop) else load_workshop(DEFAULT if workshop is None else workshop)
+        )
+    how = (
+        settings.revalidated()
+        if isinstance(settings, Settings)
+        else load_settings("default" if settings is None else settings)
+    )
     return RobotModel(name, built_in, how, engine or default_engine())
 
 

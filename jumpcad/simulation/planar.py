@@ -20,7 +20,7 @@ from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation import run
 from jumpcad.simulation.mechanics import State
 from jumpcad.simulation.planar_model import planar_model
-from jumpcad.simulation.planar_state import Moment, PushOff
+from jumpcad.simulation.planar_state import PushOff, StepState
 from jumpcad.simulation.run import AIRBORNE_S, AUDIT_EVERY_S, TAKEOFF_WITHIN_S, Run, Takeoff
 from jumpcad.transforms import Array
 
@@ -47,7 +47,7 @@ class PlanarWorld:
             self.model, release.joint_rad[leg], release.joint_rad_s[leg], complex(0.0, mechanism.foot_depth_m)
         )
 
-    def go_to(self, moment: Moment) -> None:
+    def go_to(self, moment: StepState) -> None:
         """Go to another moment of the same motion."""
         self.moment = moment
         self.joint_damping_j = moment.losses.damping_j + moment.losses.friction_j

@@ -12,8 +12,18 @@ Nothing here calls BLAS: the operations and their order are those written down, 
 import math
 
 from jumpcad.simulation.planar_compile import compiled
-from jumpcad.simulation.planar_model import Model
-from jumpcad.simulation.planar_state import Contact, Gains, Ground, Inertia, Links, Losses, Moment, Motion, PushOff
+from jumpcad.simulation.planar_model import PlanarModel
+from jumpcad.simulation.planar_state import (
+    Contact,
+    Gains,
+    Inertia,
+    Links,
+    Losses,
+    PlanarMotion,
+    PushOff,
+    Stance,
+    StepState,
+)
 
 OPEN_SHARE = 1e-6
 """(sine of the angle between diagonal and foot)² below which the loop counts as open: foot and front link in line."""
@@ -23,7 +33,7 @@ SEPARATE, STICK, FORWARD, BACKWARD = 0, 1, 2, 3
 
 
 @compiled
-def links_at(model: Model, leg_rad: float) -> Links:
+def links_at(model: PlanarModel, leg_rad: float) -> Links:
     """Solve the loop and its derivatives at a leg angle, on the assembled branch.
 
     The eye seen along main leg and foot is the eye seen along the front link; that equation differentiated twice gives
@@ -78,7 +88,7 @@ def _in_foot(
 
 
 @compiled
-def inertia_at(model: Model, links: Links, turn: complex) -> Inertia:
+def inertia_at(model: PlanarModel, links: Links, turn: complex) -> Inertia:
     """Return the mass matrix, the foot being turned by exp(-i·angle) = `turn`."""
     moment, moment1, foot, both, leg = 0j, 0j, 0.0, 0.0, 0.0
     for index in range(4):
@@ -101,7 +111,7 @@ def inertia_at(model: Model, links: Links, turn: complex) -> Inertia:
 
 
 @compiled
-def response(inertia: Inertia, ankle: complex, foot: float, leg: float) -> Motion:
+def response(inertia: Inertia, ankle: complex, foot: float, leg: float) -> PlanarMotion:
     """Return the change of velocities by impulses along the coordinates."""
     foot -= (inertia.by_foot.conjugate() * ankle).real / inertia.mass
     leg -= (inertia.by_leg.conjugate() * ankle).real / inertia.mass
@@ -109,7 +119,7 @@ def response(inertia: Inertia, ankle: complex, foot: float, leg: float) -> Motio
     by_foot = (inertia.leg * foot - inertia.both * leg) / determinant
     by_leg = (inertia.foot * leg - inertia.both * foot) / determinant
     shift = (ankle - inertia.by_foot * by_foot - inertia.by_leg * by_leg) / inertia.mass
-    return Motion(shift, by_foot, by_leg)
+    return PlanarMotion(shift, by_foot, by_leg)
 
 
 @compiled
@@ -124,28 +134,28 @@ def gains_of(inertia: Inertia) -> Gains:
 
 
 @compiled
-def plus(speed: Motion, change: Motion, factor: float) -> Motion:
+def plus(speed: PlanarMotion, change: PlanarMotion, factor: float) -> PlanarMotion:
     """Return velocities changed by a factor times a change."""
-    return Motion(
+    return PlanarMotion(
         speed.ankle + factor * change.ankle, speed.foot + factor * change.foot, speed.leg + factor * change.leg
     )
 
 
 @compiled
-def centre_speed(inertia: Inertia, speed: Motion) -> complex:
+def centre_speed(inertia: Inertia, speed: PlanarMotion) -> complex:
     """Return the velocity of the centre of mass."""
     return speed.ankle + (inertia.by_foot * speed.foot + inertia.by_leg * speed.leg) / inertia.mass
 
 
 @compiled
-def spring_torque(model: Model, leg_rad: float) -> float:
+def spring_torque(model: PlanarModel, leg_rad: float) -> float:
     """Return the springs' torque on the leg joint, see `Spring.torque_nm`."""
     torque = model.stiffness_nm_per_rad * (model.preload_rad - leg_rad)
     return max(torque, 0.0) if model.one_sided_spring else torque
 
 
 @compiled
-def energy(model: Model, moment: Moment) -> float:
+def energy(model: PlanarModel, moment: StepState) -> float:
     """Return kinetic, potential and spring energy together (J)."""
     links = links_at(model, moment.leg_rad)
     turn = complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
@@ -163,7 +173,7 @@ def energy(model: Model, moment: Moment) -> float:
 
 @compiled
 def forces(
-    model: Model, links: Links, inertia: Inertia, turn: complex, leg_rad: float, speed: Motion
+    model: PlanarModel, links: Links, inertia: Inertia, turn: complex, leg_rad: float, speed: PlanarMotion
 ) -> tuple[complex, float, float]:
     """Return the forces of gravity, springs, damping and the motion itself along the coordinates."""
     ankle, foot, leg = 0j, 0.0, 0.0
@@ -189,7 +199,9 @@ def forces(
 
 
 @compiled
-def pin_torque(model: Model, links: Links, ground: Ground, speed: Motion, change: Motion, contact: Contact) -> float:
+def pin_torque(
+    model: PlanarModel, links: Links, ground: Stance, speed: PlanarMotion, change: PlanarMotion, contact: Contact
+) -> float:
     """Return the dry friction of joints and pins, as a torque on the leg joint.
 
     The pins' forces follow from the motion by Newton's and Euler's laws: the eye's from the torques on front link and
@@ -231,20 +243,20 @@ def _torque(arm: complex, force: complex) -> float:
 
 
 @compiled
-def arm_m(model: Model, ground: Ground, index: int) -> float:
+def arm_m(model: PlanarModel, ground: Stance, index: int) -> float:
     """Return how far in front of the ankle a sphere of the sole is."""
     return (model.sole_m[index] * ground.turn).real
 
 
 @compiled
-def least_m_s(model: Model, ground: Ground, index: int) -> float:
+def least_m_s(model: PlanarModel, ground: Stance, index: int) -> float:
     """Return the least upward speed of a sphere, with which the rest of its gap closes by the end of the step."""
     height = (ground.ankle_m + model.sole_m[index] * ground.turn).imag
     return -max(height - model.sole_radius_m[index], 0.0) / ground.half_s
 
 
 @compiled
-def turning_impulse(model: Model, ground: Ground, contact: Contact) -> float:
+def turning_impulse(model: PlanarModel, ground: Stance, contact: Contact) -> float:
     """Return the ground's impulse of torque about the ankle."""
     turning = -ground.ankle_m.imag * contact.along_ns
     if contact.first >= 0:
@@ -256,7 +268,7 @@ def turning_impulse(model: Model, ground: Ground, contact: Contact) -> float:
 
 @compiled
 def contact_in_mode(
-    model: Model, ground: Ground, gains: Gains, free: Motion, first: int, second: int, mode: int
+    model: PlanarModel, ground: Stance, gains: Gains, free: PlanarMotion, first: int, second: int, mode: int
 ) -> tuple[bool, Contact]:
     """Return the impulses on one sphere (or two: `second` >= 0) in a mode, and whether they obey all laws.
 
@@ -310,7 +322,7 @@ def contact_in_mode(
 
 
 @compiled
-def contact_of(model: Model, ground: Ground, gains: Gains, free: Motion, last: Contact) -> Contact:
+def contact_of(model: PlanarModel, ground: Stance, gains: Gains, free: PlanarMotion, last: Contact) -> Contact:
     """Return the ground's impulses, beginning with the mode of the last step; NaN if no mode obeys the laws."""
     count = len(model.sole_m)
     touches = False
@@ -334,8 +346,8 @@ def contact_of(model: Model, ground: Ground, gains: Gains, free: Motion, last: C
 
 @compiled
 def settle(
-    model: Model, ground: Ground, gains: Gains, free: Motion, last: Contact, held: bool
-) -> tuple[Motion, Contact, float]:
+    model: PlanarModel, ground: Stance, gains: Gains, free: PlanarMotion, last: Contact, held: bool
+) -> tuple[PlanarMotion, Contact, float]:
     """Return velocities after a step, the ground's impulses, and the impulse that holds the leg joint if it is held."""
     by_x, by_z, by_foot, by_leg = gains
     hold = 0.0
@@ -358,8 +370,8 @@ def settle(
 
 @compiled
 def settle_with_friction(
-    model: Model, ground: Ground, gains: Gains, free: Motion, last: Contact, limit_ns: float
-) -> tuple[Motion, Contact, float]:
+    model: PlanarModel, ground: Stance, gains: Gains, free: PlanarMotion, last: Contact, limit_ns: float
+) -> tuple[PlanarMotion, Contact, float]:
     """Like `settle`, with dry friction on the leg joint: all of it against the motion, or what holds it still."""
     if limit_ns == 0.0:
         return settle(model, ground, gains, free, last, False)
@@ -374,8 +386,8 @@ def settle_with_friction(
 
 @compiled
 def settle_at_stop(
-    model: Model, ground: Ground, gains: Gains, free: Motion, last: Contact, leg_rad: float
-) -> tuple[Motion, Contact, float]:
+    model: PlanarModel, ground: Stance, gains: Gains, free: PlanarMotion, last: Contact, leg_rad: float
+) -> tuple[PlanarMotion, Contact, float]:
     """Do as `settle` with the leg in the stop: the pad pushes back, but no more than brings the leg to a standstill."""
     push = -2.0 * ground.half_s * model.stop_nm_per_rad * max(leg_rad - model.stop_rad, 0.0)
     pushed = plus(free, gains.leg, push)
@@ -386,13 +398,13 @@ def settle_at_stop(
 
 
 @compiled
-def step(model: Model, moment: Moment, dt: float) -> Moment:
+def step(model: PlanarModel, moment: StepState, dt: float) -> StepState:
     """Return the moment a time step later."""
     before, half = moment.speed, 0.5 * dt
     ankle, foot_rad = moment.ankle_m + half * before.ankle, moment.foot_rad + half * before.foot
     leg_rad = moment.leg_rad + half * before.leg
     turn = complex(math.cos(foot_rad), -math.sin(foot_rad))
-    ground, links = Ground(ankle, turn, half), links_at(model, leg_rad)
+    ground, links = Stance(ankle, turn, half), links_at(model, leg_rad)
     inertia = inertia_at(model, links, turn)
     gains = gains_of(inertia)
     last, pins, middle = moment.contact, moment.pins_nm, before
@@ -408,7 +420,7 @@ def step(model: Model, moment: Moment, dt: float) -> Moment:
         change = plus(after, before, -1.0)
         middle = plus(before, change, 0.5)
         pins = pin_torque(model, links, ground, middle, change, contact)
-    return Moment(
+    return StepState(
         ankle + half * after.ankle,
         foot_rad + half * after.foot,
         leg_rad + half * after.leg,
@@ -423,11 +435,11 @@ def step(model: Model, moment: Moment, dt: float) -> Moment:
 
 @compiled
 def _more_losses(
-    model: Model,
+    model: PlanarModel,
     losses: Losses,
     links: Links,
-    ground: Ground,
-    middle: Motion,
+    ground: Stance,
+    middle: PlanarMotion,
     contact: Contact,
     friction_ns: float,
     stop_ns: float,
@@ -447,7 +459,7 @@ def _more_losses(
 
 
 @compiled
-def _belly_gap_m(model: Model, links: Links, ground: Ground) -> float:
+def _belly_gap_m(model: PlanarModel, links: Links, ground: Stance) -> float:
     """Return the least distance of the body's spheres from the ground."""
     gap, middle = math.inf, 0.5 * (links.back_pivot + links.front_pivot)
     for index in range(len(model.belly_m)):
@@ -457,15 +469,15 @@ def _belly_gap_m(model: Model, links: Links, ground: Ground) -> float:
 
 
 @compiled
-def released(model: Model, leg_rad: float, leg_rad_s: float, ankle_m: complex) -> Moment:
+def released(model: PlanarModel, leg_rad: float, leg_rad_s: float, ankle_m: complex) -> StepState:
     """Return the robot on a flat foot, its leg joint at an angle and turning."""
     nothing = Contact(-1, -1, SEPARATE, 0.0, 0.0, 0.0)
-    still = Motion(0j, 0.0, leg_rad_s)
-    return Moment(ankle_m, 0.0, leg_rad, still, nothing, 0.0, Losses(0.0, 0.0, 0.0, 0.0, 0.0), math.inf, True)
+    still = PlanarMotion(0j, 0.0, leg_rad_s)
+    return StepState(ankle_m, 0.0, leg_rad, still, nothing, 0.0, Losses(0.0, 0.0, 0.0, 0.0, 0.0), math.inf, True)
 
 
 @compiled
-def advance(model: Model, moment: Moment, dt: float, steps: int) -> Moment:
+def advance(model: PlanarModel, moment: StepState, dt: float, steps: int) -> StepState:
     """Return the moment a number of time steps later, or the first at which the loop is open."""
     for _ in range(steps):
         if moment.closed:
@@ -475,8 +487,8 @@ def advance(model: Model, moment: Moment, dt: float, steps: int) -> Moment:
 
 @compiled
 def push_off(
-    model: Model,
-    moment: Moment,
+    model: PlanarModel,
+    moment: StepState,
     dt: float,
     airborne_s: float,
     clearance_m: float,
@@ -519,7 +531,7 @@ def push_off(
 
 
 @compiled
-def gap_m(model: Model, moment: Moment) -> float:
+def gap_m(model: PlanarModel, moment: StepState) -> float:
     """Return the distance of the lowest sphere of foot and body from the ground."""
     gap, turn = moment.belly_gap_m, complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
     for index in range(len(model.sole_m)):
@@ -528,7 +540,7 @@ def gap_m(model: Model, moment: Moment) -> float:
 
 
 @compiled
-def rising(model: Model, moment: Moment) -> bool:
+def rising(model: PlanarModel, moment: StepState) -> bool:
     """Tell whether the centre of mass rises."""
     turn = complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
     return centre_speed(inertia_at(model, links_at(model, moment.leg_rad), turn), moment.speed).imag > 0.0

@@ -17,7 +17,7 @@ NO_PINS_M = 0.0, 0.0, 0.0, 0.0
 """Radii of the pins where their forces cause no friction."""
 
 
-class Model(NamedTuple):
+class PlanarModel(NamedTuple):
     """A robot in the plane, SI units; tuples of four follow `BODY_NAMES`, those of the pins leg, front, ankle, eye.
 
     `com_m` are the centres of mass in the bodies' frames; `sole_m` and `belly_m` are the centres of the spheres of
@@ -50,7 +50,7 @@ class Model(NamedTuple):
     belly_radius_m: tuple[float, ...]
 
 
-def planar_model(mechanism: Mechanism, settings: Settings, pin_forces: bool = False) -> Model:
+def planar_model(mechanism: Mechanism, settings: Settings, pin_forces: bool = False) -> PlanarModel:
     """Return a robot's mechanism in the plane, left and right sides coinciding.
 
     Dry friction of the pins is the constant torque at the leg joint that the other engines have; with `pin_forces` it
@@ -64,7 +64,7 @@ def planar_model(mechanism: Mechanism, settings: Settings, pin_forces: bool = Fa
     foot, body = mechanism.bodies[FOOT], mechanism.bodies[BODY]
     sole, sole_radius = _spheres(foot)
     belly, belly_radius = _spheres(body)
-    return Model(
+    return PlanarModel(
         l1_m=design.l1_mm / 1000.0,
         l2_m=design.l2_mm / 1000.0,
         l3_m=design.l3_mm / 1000.0,

@@ -37,7 +37,7 @@ class Inertia(NamedTuple):
     leg: float
 
 
-class Motion(NamedTuple):
+class PlanarMotion(NamedTuple):
     """Velocities, or their changes: of the ankle, of the foot's angle, of the leg joint."""
 
     ankle: complex
@@ -56,7 +56,7 @@ class Contact(NamedTuple):
     along_ns: float
 
 
-class Ground(NamedTuple):
+class Stance(NamedTuple):
     """Where the foot stands in the middle of a step: ankle, exp(-i·angle) of the foot, and half of the time step."""
 
     ankle_m: complex
@@ -67,10 +67,10 @@ class Ground(NamedTuple):
 class Gains(NamedTuple):
     """Changes of velocity by unit impulses at the ankle along x and z, and of torque on foot and leg joint."""
 
-    x: Motion
-    z: Motion
-    foot: Motion
-    leg: Motion
+    x: PlanarMotion
+    z: PlanarMotion
+    foot: PlanarMotion
+    leg: PlanarMotion
 
 
 class Losses(NamedTuple):
@@ -83,13 +83,13 @@ class Losses(NamedTuple):
     stop_j: float
 
 
-class Moment(NamedTuple):
+class StepState(NamedTuple):
     """The state between two steps, and what the next step needs from the last."""
 
     ankle_m: complex
     foot_rad: float
     leg_rad: float
-    speed: Motion
+    speed: PlanarMotion
     contact: Contact
     pins_nm: float
     losses: Losses
@@ -102,6 +102,6 @@ class PushOff(NamedTuple):
 
     flown: bool
     steps: int
-    moment: Moment
+    moment: StepState
     worst_gain_j: float
     belly_gap_m: float

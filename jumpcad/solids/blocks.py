@@ -18,7 +18,7 @@ from manifold3d import CrossSection, Manifold, OpType
 from jumpcad.solids.finish import finished
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region, circle_points, corners_key
-from jumpcad.solids.slab import NOTHING, Sections
+from jumpcad.solids.slab import NOTHING, CrossSections
 from jumpcad.transforms import Array
 
 Contours = list[Array]
@@ -244,7 +244,7 @@ class Blocks:
         sections = self.sections_at(heights_mm)
         return [sections.outlines[number] for number in sections.which]
 
-    def sections_at(self, heights_mm: npt.ArrayLike) -> Sections:
+    def sections_at(self, heights_mm: npt.ArrayLike) -> CrossSections:
         """Return the cross-sections at heights (n,), each different outline once; blocks have no chamfers."""
         heights = np.asarray(heights_mm, dtype=float)
         numbers: dict[tuple[int, tuple[bytes, ...]], int] = {}
@@ -257,7 +257,7 @@ class Blocks:
                 region = CrossSection(added) if added else NOTHING
                 regions.append(region - CrossSection(removed) if removed else region)
             which.append(number)
-        return Sections(regions, np.array(which, dtype=np.int64), np.zeros(len(heights)))
+        return CrossSections(regions, np.array(which, dtype=np.int64), np.zeros(len(heights)))
 
 
 def _gathered(blocks: tuple[Block, ...], heights_mm: Array) -> Iterator[Contours]:

@@ -19,7 +19,7 @@ SMALLEST_AREA_MM2 = 1e-6  # what clipping leaves where two regions only touch
 NOTHING: Region = CrossSection()
 
 
-class Sections(NamedTuple):
+class CrossSections(NamedTuple):
     """Cross-sections at heights (n,).
 
     Attributes

@@ -15,7 +15,7 @@ SIDES = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Wire:
+class DrawnWire:
     """A round wire along points (n, 3)."""
 
     points_mm: Array

@@ -17,7 +17,7 @@ from jumpcad.studio.inputs import slider_ends, slider_step, when_changed
 from jumpcad.studio.playback import Playback, playback
 from jumpcad.studio.player import Player
 from jumpcad.studio.points import STUDYS, Points
-from jumpcad.studio.stage import Stage
+from jumpcad.studio.stage import StudioStage
 from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -54,7 +54,7 @@ class Studio:
     ) -> None:  # fmt: skip
         self.first, self.name, self.folder = design, name, folder
         self.points, self.number = points, number
-        self.server, self.stage = server, Stage(server, self._say_part)
+        self.server, self.stage = server, StudioStage(server, self._say_part)
         self.shown: Printed | None = None
         self.kept: Printed | None = None
         self._newest = threading.Condition()

@@ -21,7 +21,7 @@ SHORTEST_S = 1e-9
 
 
 @dataclass(frozen=True)
-class Moment:
+class ShownMoment:
     """What is shown at one time.
 
     `frames` are position (m) and quaternion xyzw of the bodies by name, `turned_rad` the angles of the turning parts
@@ -60,7 +60,7 @@ class Playback:
         path = np.array(self.motion["com_m"])
         return np.insert(path, 1, 0.0, axis=1)
 
-    def at(self, shown_s: float) -> Moment:
+    def at(self, shown_s: float) -> ShownMoment:
         """Return the moment that is shown at a time, which is brought into the motion."""
         shown = self._shown_s
         wanted = min(max(shown_s, 0.0), self.end_s)
@@ -70,7 +70,7 @@ class Playback:
         (cam, _), (gear, _), (real, lasts) = (
             _between(self.motion[key], low, share) for key in ("cam_rad", "gear_rad", "time_s")
         )
-        return Moment(
+        return ShownMoment(
             {name: _posed(poses[low], poses[low + 1], share) for name, poses in self._frames.items()},
             {one["node"]: one["per_cam"] * (cam if one["node"] == CAM else gear) for one in self.turning},
             self.motion["phase"][low + 1 if share == 1.0 else low],

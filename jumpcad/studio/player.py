@@ -9,7 +9,7 @@ from jumpcad.bundle.motion import SHOWN_S
 from jumpcad.errors import JumpcadError
 from jumpcad.studio.inputs import when_changed
 from jumpcad.studio.playback import Playback
-from jumpcad.studio.stage import Stage
+from jumpcad.studio.stage import StudioStage
 
 FRAME_S = 1.0 / 30.0
 """Time between two frames."""
@@ -30,7 +30,7 @@ class Player:
         Returns the motion of the robot that is shown, or raises `JumpcadError`.
     """
 
-    def __init__(self, server: Any, stage: Stage, make: Callable[[], Playback]) -> None:
+    def __init__(self, server: Any, stage: StudioStage, make: Callable[[], Playback]) -> None:
         self.server, self.stage, self._make = server, stage, make
         self._motion: Playback | None = None
         self._run = 0

@@ -13,8 +13,8 @@ from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.surface import seen
 from jumpcad.scene.visuals import Visual, visuals
-from jumpcad.solids.tube import Wire, tube
-from jumpcad.studio.playback import Moment
+from jumpcad.solids.tube import DrawnWire, tube
+from jumpcad.studio.playback import ShownMoment
 from jumpcad.transforms import Array, chained, pose_about_y
 
 WRONG = (0.80, 0.16, 0.14)
@@ -29,7 +29,7 @@ GHOST_COLOUR, GHOST_OPACITY = (0.5, 0.55, 0.6), 0.25
 PATH_COLOUR, PATH_MM = (0.82, 0.29, 0.36), 1.0
 
 
-class Stage:
+class StudioStage:
     """What a viser server shows; names of nodes are `/robot/BODY/PART`, `/ghost/BODY/PART` and `/path`.
 
     Parameters
@@ -101,7 +101,7 @@ class Stage:
                 "/path", line.vertices * 0.001, line.faces, color=PATH_COLOUR, cast_shadow=False
             )
 
-    def move(self, moment: Moment) -> None:
+    def move(self, moment: ShownMoment) -> None:
         """Move bodies and turning parts to where they are at a moment."""
         for body, seven in moment.frames.items():
             self.place(f"/robot/{body}", seven)
@@ -193,6 +193,6 @@ def _put_on(handle: Any, colour: tuple[int, ...], opacity: float | None) -> None
 def _shape(one: Visual) -> object:
     """Return a key that is equal for equal meshes."""
     shape = one.shape
-    if isinstance(shape, Wire):  # it lies in its body's frame, and its mesh does not
+    if isinstance(shape, DrawnWire):  # it lies in its body's frame, and its mesh does not
         return shape.points_mm.tobytes(), shape.diameter_mm, one.T_body_mesh.tobytes()
     return shape

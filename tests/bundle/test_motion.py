@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from support.built import built, geared
 from support.decimals import decimals
 
-from jumpcad.bundle.motion import SHOWN_S, Moment, _times, motion
+from jumpcad.bundle.motion import SHOWN_S, PhasePose, _times, motion
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.simulation import Settings, simulate
@@ -134,7 +134,7 @@ def test_what_a_click_on_a_part_shows_weighs_as_much_as_the_robot() -> None:
 def test_a_phase_that_is_shown_longer_is_slower(factor: float, words: str) -> None:
     """Shown for so many times as long as it takes."""
     lasts = SHOWN_S["drop"] / factor
-    real, shown, said = _times([Moment("drop", lasts * share, {}, 0.0, 0.0) for share in (0.0, 0.25, 1.0)])
+    real, shown, said = _times([PhasePose("drop", lasts * share, {}, 0.0, 0.0) for share in (0.0, 0.25, 1.0)])
     assert words in said["drop"]
     assert shown == pytest.approx([factor * time_s for time_s in real], abs=2e-4 * factor)
 

@@ -15,8 +15,8 @@ from jumpcad.calibration.likelihood import (
     ANGLE_DEG,
     BODY_ANGLE_DEG,
     STUDENT_T_DEGREES,
+    CalibrationModel,
     Datum,
-    Model,
     Predicted,
     _log_density,
     data_of,
@@ -183,7 +183,7 @@ def test_parameters_are_what_the_measurements_leave_open() -> None:
     """
 
     def keys(*subjects: Any) -> list[str]:
-        return [one.key for one in Model(subjects).parameters]
+        return [one.key for one in CalibrationModel(subjects).parameters]
 
     shared = ["spring_efficiency", "pin_friction"]
     assert keys(measured_robot()) == [*shared, "rate:a", "mass:a", "floor:a"]
@@ -207,7 +207,7 @@ def test_parameters_are_what_the_measurements_leave_open() -> None:
         (known, measured_robot("d", spring={"pair": "ours"})),
         (measured_robot("d", spring={"pair": "ours"}), known),
     ):
-        (rate,) = (one for one in Model(pair).parameters if one.key.startswith("rate:"))
+        (rate,) = (one for one in CalibrationModel(pair).parameters if one.key.startswith("rate:"))
         assert (rate.key, rate.prior.source) == ("rate:ours", "measured")
 
 
@@ -234,7 +234,7 @@ def test_travel_is_drawn_in_mm_and_said_in_m() -> None:
 
 def test_a_posterior_is_prior_times_the_mean_of_the_readings() -> None:
     """Bayes, for one distance of which it is not known what it is of, and the energy from the battery."""
-    model = Model([measured_robot(jumps=JUMPED)])
+    model = CalibrationModel([measured_robot(jumps=JUMPED)])
     z = np.array([[0.3, -0.2, 0.5, -1.0, 0.4, 0.1, 0.7], np.zeros(7)])
     values = model.values(z)
     energy = values["spring_efficiency"] * values["rate:a"] / values["mass:a"]
@@ -253,7 +253,7 @@ def test_a_posterior_is_prior_times_the_mean_of_the_readings() -> None:
 def test_what_does_not_jump_is_not_believed() -> None:
     robot = measured_robot(jumps=({"distance_mm": (200.0,), "distance_of": "centre-of-mass"},))
     robot.surface = SimpleNamespace(at=lambda *_: JumpAt(np.nan * ONE, ONE, ONE, ONE))
-    assert Model([robot]).log_probability(np.zeros((1, 5))).tolist() == [-math.inf]
+    assert CalibrationModel([robot]).log_probability(np.zeros((1, 5))).tolist() == [-math.inf]
 
 
 def test_of_several_robots_all_measurements_count() -> None:
@@ -262,7 +262,7 @@ def test_of_several_robots_all_measurements_count() -> None:
         measured_robot(jumps=({"distance_mm": (200.0,), "distance_of": "centre-of-mass"},)),
         measured_robot("b", jumps=({"distance_mm": (150.0,), "distance_of": "centre-of-mass"},)),
     ]
-    model = Model(robots)
+    model = CalibrationModel(robots)
     assert [(datum.subject, datum.value) for datum in model.data] == [
         ("a", pytest.approx(0.2)),
         ("b", pytest.approx(0.15)),
@@ -271,7 +271,7 @@ def test_of_several_robots_all_measurements_count() -> None:
     keys = [one.key for one in model.parameters]
     parts = []
     for robot in robots:
-        alone = Model([robot])
+        alone = CalibrationModel([robot])
         own = z[:, [keys.index(one.key) for one in alone.parameters]]
         parts.append(alone.log_probability(own) + 0.5 * (own**2).sum(axis=1))
     assert model.log_probability(z) == pytest.approx(parts[0] + parts[1] - 0.5 * (z**2).sum(axis=1))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from jumpcad.calibration import posterior as module
-from jumpcad.calibration.likelihood import CalibrationParameter, Datum, Model, Predicted
+from jumpcad.calibration.likelihood import CalibrationModel, CalibrationParameter, Datum, Predicted
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, _residual, _verdict, require_data, sampled
 from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, SPRING_EFFICIENCY
@@ -32,14 +32,14 @@ def measured(subject: Subject, **data: Any) -> Subject:
 
 def fitted(subject: Subject, **data: Any) -> CalibrationPosterior:
     """Return the posterior of some measurements."""
-    return sampled(Model([measured(subject, **data)]), 1, **SHORT)
+    return sampled(CalibrationModel([measured(subject, **data)]), 1, **SHORT)
 
 
 @pytest.fixture(scope="module")
 def posterior(subject: Subject) -> CalibrationPosterior:
     """Of a weighed robot with a distance, and the energy of its battery; with chains as long as by default."""
     jumps = ({"distance_mm": (240.0,), "distance_of": "centre-of-mass", "battery_j": (1.6,)},)
-    return sampled(Model([measured(subject, jumps=jumps, mass={"robot_g": 103.0})]), 1, STEPS)
+    return sampled(CalibrationModel([measured(subject, jumps=jumps, mass={"robot_g": 103.0})]), 1, STEPS)
 
 
 def test_the_drive_has_the_answer_of_normal_logarithms(posterior: CalibrationPosterior, subject: Subject) -> None:
@@ -65,16 +65,16 @@ def test_chains_are_long_enough_or_say_so(posterior: CalibrationPosterior) -> No
 
 
 def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: CalibrationPosterior) -> None:
-    first, again = (sampled(Model(posterior.model.subjects), 1, **SHORTEST) for _ in range(2))
+    first, again = (sampled(CalibrationModel(posterior.model.subjects), 1, **SHORTEST) for _ in range(2))
     assert np.array_equal(again.z, first.z)
-    assert not np.array_equal(sampled(Model(posterior.model.subjects), 2, **SHORTEST).z, first.z)
+    assert not np.array_equal(sampled(CalibrationModel(posterior.model.subjects), 2, **SHORTEST).z, first.z)
     assert first.walkers == 8 * len(posterior.model.parameters)
     assert first.steps == SHORTEST["steps"] - SHORTEST["steps"] // 3  # a third is burn-in, and is not kept
     assert len(first.z) == first.steps * first.walkers
 
 
 def test_a_calibration_is_of_each_robot_that_is_named_and_drawn_by_its_seed(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, made in (("load_subject", lambda name: SimpleNamespace(name=name)), ("Model", list)):
+    for name, made in (("load_subject", lambda name: SimpleNamespace(name=name)), ("CalibrationModel", list)):
         monkeypatch.setattr(module, name, made)
     monkeypatch.setattr(module, "sampled", lambda model, seed=0: ([subject.name for subject in model], seed))
     assert module.calibrate(["kenan-1.0", "kenan-2.0"], 7) == (["kenan-1.0", "kenan-2.0"], 7)
@@ -140,7 +140,7 @@ def test_nothing_to_calibrate_on(subject: Subject) -> None:
     robots = [measured(subject, jumps=jumps), replace(measured(subject, jumps=({"battery_j": (1.5,)},)), name="other")]
     for order in (robots, robots[::-1]):
         with pytest.raises(JumpcadError, match="other: too little to calibrate on"):
-            sampled(Model(order), 1, **SHORTEST)
+            sampled(CalibrationModel(order), 1, **SHORTEST)
 
 
 def test_jumps_that_no_robot_does(subject: Subject) -> None:
@@ -174,7 +174,7 @@ def drawn(z: np.ndarray, autocorrelation: float = 30.0, steps: int = 1500) -> Ca
         CalibrationParameter("spring_efficiency", "springs", SPRING_EFFICIENCY),
         CalibrationParameter("pin_friction", "pins", PIN_FRICTION), CalibrationParameter("floor:a", "floor", FLOOR),
     ]  # fmt: skip
-    model: Any = Model([])
+    model: Any = CalibrationModel([])
     vars(model)["parameters"] = parameters
     return CalibrationPosterior(model, z, autocorrelation, steps, 24)
 
@@ -237,7 +237,7 @@ def test_each_robot_has_its_own_energy(subject: Subject) -> None:
     """
     heavy = measured(subject, mass={"robot_g": 1250.0 * subject.robot.mass_kg})
     other = replace(subject.remeasured(Measurements(**{**SAID, "release": "fixed"})), name="other")
-    model = Model([heavy, other])
+    model = CalibrationModel([heavy, other])
     z = np.zeros((3, len(model.parameters)))
     z[:, [one.key for one in model.parameters].index("mass:other")] = (-1.0, 0.0, 1.0)
     found = CalibrationPosterior(model, z, 1.0, 1, 1).energies()
@@ -252,6 +252,6 @@ def test_each_robot_has_its_own_energy(subject: Subject) -> None:
 )
 def test_a_distance_or_a_height_is_enough_to_calibrate_on(subject: Subject, jump: dict[str, Any]) -> None:
     """Both tell of the springs' energy; that of the battery tells of the drive alone."""
-    require_data(Model([measured(subject, jumps=(jump,))]))
+    require_data(CalibrationModel([measured(subject, jumps=(jump,))]))
     with pytest.raises(JumpcadError, match="too little"):
-        require_data(Model([measured(subject, jumps=({"battery_j": (1.5,)},))]))
+        require_data(CalibrationModel([measured(subject, jumps=({"battery_j": (1.5,)},))]))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from jumpcad.calibration.likelihood import Model
+from jumpcad.calibration.likelihood import CalibrationModel
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, sampled
 from jumpcad.calibration.prediction import explanations, growth, predicted_jump
@@ -26,7 +26,7 @@ JUMPS = ({"distance_mm": (220.0,), "distance_of": "centre-of-mass"},)
 def posterior(subject: Subject) -> CalibrationPosterior:
     """Of a weighed robot on a tested floor."""
     measured = Measurements(**SAID, jumps=JUMPS, mass={"robot_g": 103.0}, floor={"slope_deg": (38.0,)})
-    return sampled(Model([subject.remeasured(measured)]), 0, 300, 300, 30)
+    return sampled(CalibrationModel([subject.remeasured(measured)]), 0, 300, 300, 30)
 
 
 def twin(subject: Subject, **data: Any) -> Subject:
@@ -113,7 +113,9 @@ def test_what_is_no_setting_is_told_with_its_place(posterior: CalibrationPosteri
     assert rate.startswith("kenan-2.0, in its design: stiffness_nmm_per_deg = ")
     stiffness = np.median(found[f"rate:{subject.pair}"]) * subject.robot.design.stiffness_nmm_per_deg
     assert float(rate.split(" = ")[1]) == pytest.approx(stiffness, rel=5e-3)
-    (line,) = elsewhere(replace(posterior, model=Model([subject.remeasured(Measurements(**SAID, jumps=JUMPS))])))
+    (line,) = elsewhere(
+        replace(posterior, model=CalibrationModel([subject.remeasured(Measurements(**SAID, jumps=JUMPS))]))
+    )
     assert "ground" not in line
 
 

@@ -13,6 +13,7 @@ from jumpcad.checks.ground import _body_discs, foot_findings, ground_findings
 from jumpcad.checks.interference import Piece, Position, pieces_of, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.parts.motor_socket import socket_outline
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
@@ -119,7 +120,7 @@ def test_whatever_is_on_the_foot_may_come_too_near(kenan: Robot, name: str) -> N
 
 @pytest.mark.parametrize(("width_mm", "height_mm"), [(10.0, 12.0), (5.0, 12.0), (16.0, 8.0)])
 def test_the_motor_counts_with_its_corners(strongest: Robot, width_mm: float, height_mm: float) -> None:
-    """A motor 80 mm further down is the lowest thing on the body: the box of its catalogue sizes, however it turns."""
+    """A motor 80 mm further down is the lowest thing on the body: its socket holds its box, however it turns."""
     layout, lower = strongest.layout, np.array([0.0, -80.0])
     drive = layout.drive
     motor = drive.train.motor.model_copy(update={"width_mm": width_mm, "height_mm": height_mm})
@@ -132,8 +133,9 @@ def test_the_motor_counts_with_its_corners(strongest: Robot, width_mm: float, he
     up = np.stack([np.sin(pose.foot_rad), np.cos(pose.foot_rad)], axis=-1)
     middle = ((layout.motor_mm + lower - pose.ankle_mm) * up).sum(axis=1).min() + 1000.0 * strongest.foot_depth_m
     corner = middle - np.hypot(motor.width_mm, motor.height_mm) / 2.0
-    flat_side = middle - max(motor.width_mm, motor.height_mm)
-    assert flat_side - 0.1 <= finding.margin + 0.6 <= corner + 1e-6
+    around = np.hypot(motor.width_mm + 3.8, motor.height_mm + 3.8) / 2.0  # socket: 0.3 mm of play, walls of 1.6 mm
+    ears = motor.height_mm / 2.0 + 1.6 + layout.cap_ear_mm
+    assert middle - max(around, ears) - 0.1 <= finding.margin + 0.6 <= corner + 1e-6
 
 
 def test_the_roller_counts_with_its_radius(strongest: Robot) -> None:
@@ -222,6 +224,22 @@ def test_round_things_count_with_their_radius(what: str) -> None:
     (finding,) = ground_findings(replace(robot, layout=sunk))
     assert "the body" in finding.message
     assert finding.margin + 0.6 == pytest.approx(lowest_mm(robot, middle, lambda up: radius), abs=1e-6)
+
+
+def test_the_motor_s_socket_reaches_as_far_as_it_is_drawn() -> None:
+    """In every direction, its cap's ears included: those of a motor of 12 mm reach 13.2 mm from its axis."""
+    robot = built("kenan-2.0")
+    layout = robot.layout
+    alone = replace(layout, motor_mm=layout.motor_mm + np.array([0.0, -500.0]))  # nothing else is so low
+    middles, radii = _body_discs(replace(robot, layout=alone))
+    near = middles[:, 1] < -300.0
+    drawn = np.vstack(socket_outline(alone).to_polygons())
+    reach = np.linalg.norm(drawn - alone.motor_mm, axis=1).max()
+    assert reach == pytest.approx(12.0 / 2.0 + 1.6 + 5.6, abs=0.01)
+    for turn in np.radians(np.arange(0.0, 360.0, 5.0)):
+        way = np.array([np.cos(turn), np.sin(turn)])
+        assert (middles[near] @ way + radii[near]).max() == pytest.approx((drawn @ way).max(), abs=0.4)
+        assert (middles[near] @ way + radii[near]).max() >= (drawn @ way).max() - 1e-3
 
 
 @pytest.mark.parametrize(("axle_mm", "radius_mm"), [(2.0, 4.0), (4.0, 5.0), (1.0, 3.6)])

@@ -311,6 +311,22 @@ def test_the_document_names_files_and_violated_limits(folder, monkeypatch):
     assert found["winner"]["design"] == load_design("b.toml").model_dump()
 
 
+@pytest.mark.parametrize("won", [True, False])
+def test_the_document_names_the_workshop_s_file_where_the_search_varied_it(folder, monkeypatch, won):
+    """Beside the design's file; null where no design jumps, so that no file is written."""
+    saved = []
+    winner = SimpleNamespace(workshop={"body.plate_mm": 2.0}) if won else None
+    result = SimpleNamespace(winner=winner, save=lambda file, force: saved.append(file), to_dict=dict)
+    monkeypatch.setattr(study, "run_study", lambda *_: result)
+    monkeypatch.setattr(optimize, "_violated", lambda result, robot: [])
+    asked = ["optimize", "--bound", "body.plate_mm=1.6:2.4", "--workers", "0", "-o", "far.toml", "--json"]
+    done = CliRunner().invoke(app, asked, catch_exceptions=False)
+    found = json.loads(done.stdout)
+    assert (done.exit_code, saved) == ((0, [Path("far.toml")]) if won else (1, []))
+    assert found["design_file"] == ("far.toml" if won else None)
+    assert found["workshop_file"] == ("far-workshop.toml" if won else None)
+
+
 def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_s(capsys):
     """All ten first candidates stand there, with their neighbours; notes and the number of all evaluations too."""
     best, winner = load_design("best-ga"), load_design("kenan-2.0")

@@ -11,7 +11,7 @@ from jumpcad.printing import runs
 from jumpcad.printing.layer_mass import line_spacing_mm, mass_properties, sliced
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.outline import disc, rectangle, tapered_bar
-from jumpcad.solids.slab import Sections
+from jumpcad.solids.slab import CrossSections
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
@@ -150,7 +150,7 @@ class Turned:
     def sections_at(self, heights_mm):
         outlines, which, inset_mm, _ = self.shape.sections_at(heights_mm)
         turned = [outline.rotate(self.angle_deg).translate((1.234567, -0.7654321)) for outline in outlines]
-        return Sections(turned, which, inset_mm)
+        return CrossSections(turned, which, inset_mm)
 
 
 def test_a_part_weighs_the_same_however_it_lies_on_the_bed():

@@ -8,7 +8,7 @@ from jumpcad.scene.surface import Piece, seen, surface
 from jumpcad.scene.visuals import visuals
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.tube import Wire
+from jumpcad.solids.tube import DrawnWire
 
 BIG, SMALL = rectangle((20.0, 20.0)), rectangle((10.0, 8.0))
 
@@ -49,7 +49,7 @@ def test_only_what_lies_bare_is_there_and_faces_outwards(stack: Stack, area: flo
 def test_a_robots_parts_look_as_their_closed_solids(small_robot: Robot) -> None:
     """Within what outlines 0.02 mm off make of the smallest part, 2 mm thick."""
     for one in visuals(small_robot):
-        if isinstance(one.shape, Wire):
+        if isinstance(one.shape, DrawnWire):
             continue
         solid, piece = one.shape.solid(), seen(one)
         assert [*piece[0].min(axis=0), *piece[0].max(axis=0)] == pytest.approx(solid.bounding_box(), abs=0.05)

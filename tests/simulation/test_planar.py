@@ -18,7 +18,7 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld
-from jumpcad.simulation.planar_state import Motion
+from jumpcad.simulation.planar_state import PlanarMotion
 
 FINE = load_settings("fine")
 
@@ -110,7 +110,7 @@ def test_a_hop_with_wound_springs_is_no_takeoff(kenan: Robot) -> None:
     """Thrown up by 0.3 mm with springs too weak for a jump: in the air for more than 4 ms, rising, and down again."""
     weak = replace(kenan, spring=replace(kenan.spring, stiffness_nm_per_rad=0.02))
     world = PlanarWorld(weak, FINE)
-    world.go_to(world.moment._replace(speed=Motion(0.08j, 0.0, 0.0)))
+    world.go_to(world.moment._replace(speed=PlanarMotion(0.08j, 0.0, 0.0)))
     thrown = world.moment
     world.advance(round(0.005 / FINE.dt_s))
     assert not world.loaded()
@@ -196,7 +196,7 @@ def test_a_dead_point_in_flight_is_said(jumping: list[Flight]) -> None:
     """A leg that turns on to where foot and front link are in line, beyond which its angle does not tell the pose."""
     robot = next(flight.robot for flight in jumping if flight.name == "ga-c")
     world = PlanarWorld(one_sided(robot), Settings())
-    speed = Motion(0j, 0.0, 60.0)
+    speed = PlanarMotion(0j, 0.0, 60.0)
     world.go_to(world.moment._replace(ankle_m=1j, leg_rad=0.0, speed=speed))
     moment, steps = world.moment, 0
     while moment.closed:

@@ -20,8 +20,8 @@ from jumpcad.simulation import Settings
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import Mechanics, State
 from jumpcad.simulation.planar import PlanarWorld
-from jumpcad.simulation.planar_model import Model, planar_model
-from jumpcad.simulation.planar_state import Contact, Ground, Inertia, Losses, Moment, Motion
+from jumpcad.simulation.planar_model import PlanarModel, planar_model
+from jumpcad.simulation.planar_state import Contact, Inertia, Losses, PlanarMotion, Stance, StepState
 from jumpcad.transforms import Array
 
 NO_CONTACT = Contact(-1, -1, kernel.SEPARATE, 0.0, 0.0, 0.0)
@@ -37,24 +37,24 @@ def either(request: pytest.FixtureRequest) -> Robot:
     return make_lopsided(capsule_robot(load_design(request.param)))
 
 
-def moving(model: Model, leg_rad: float, height_m: float = 0.5) -> Moment:
+def moving(model: PlanarModel, leg_rad: float, height_m: float = 0.5) -> StepState:
     """Return a moment in the air in which everything moves."""
-    speed = Motion(0.4 + 1.3j, 2.1, 9.0)
-    return Moment(0.02 + 1j * height_m, 0.3, leg_rad, speed, NO_CONTACT, 0.0, NO_LOSSES, math.inf, True)
+    speed = PlanarMotion(0.4 + 1.3j, 2.1, 9.0)
+    return StepState(0.02 + 1j * height_m, 0.3, leg_rad, speed, NO_CONTACT, 0.0, NO_LOSSES, math.inf, True)
 
 
-def world_at(robot: Robot, moment: Moment, settings: Settings = FINE) -> PlanarWorld:
+def world_at(robot: Robot, moment: StepState, settings: Settings = FINE) -> PlanarWorld:
     """Return a planar world at a moment of its own."""
     world = PlanarWorld(robot, settings)
     world.go_to(moment)
     return world
 
 
-def model_of(robot: Robot, settings: Settings = FINE) -> Model:
+def model_of(robot: Robot, settings: Settings = FINE) -> PlanarModel:
     return planar_model(robot, settings)
 
 
-def turn_of(moment: Moment) -> complex:
+def turn_of(moment: StepState) -> complex:
     return complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
 
 
@@ -155,7 +155,7 @@ def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(
     ground_n = ((0.0, complex(along)), *((x, 1j * push) for x, push in zip(places, pushes, strict=False)))
     accelerations, pin_n = pinned_bodies(either, state, settings, ground_n)
     model, turn, speed = model_of(either, settings), turn_of(moment), moment.speed
-    ground = Ground(moment.ankle_m, turn, dt / 2)
+    ground = Stance(moment.ankle_m, turn, dt / 2)
     seen = [(ground.ankle_m + one * turn).real for one in model.sole_m]
     numbers = [int(np.argmin([abs(x - other) for other in seen])) for x in places]
     up = [dt * push for push in pushes] + [0.0] * (2 - len(pushes))
@@ -174,7 +174,7 @@ def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(
         radii = [0.0] * 4
         radii[pin] = 0.0015
         rubbed = planar_model(rubbing(either, pin=0.2, pin_radius_m=tuple(radii)), settings, pin_forces=True)
-        gained = Motion(*(dt * part for part in change))
+        gained = PlanarMotion(*(dt * part for part in change))
         torque = kernel.pin_torque(rubbed, links, ground, speed, gained, contact)
         expected = 0.2 * 0.0015 * np.linalg.norm(pin_n[pin]) * abs(links.pin1[pin])
         assert torque == pytest.approx(expected, rel=1e-9)
@@ -275,7 +275,7 @@ def test_springs_push_by_hooke_from_where_they_are_relaxed(kenan: Robot, preload
         for angle in (-0.6, 0.0, preload_rad - 0.01, preload_rad + 0.2):
             left = preload_rad - angle if pulls else max(preload_rad - angle, 0.0)
             assert kernel.spring_torque(model, angle) == pytest.approx(stiffness * left)
-            still = moving(model, angle)._replace(speed=Motion(0j, 0.0, 0.0))
+            still = moving(model, angle)._replace(speed=PlanarMotion(0j, 0.0, 0.0))
             slack = model._replace(stiffness_nm_per_rad=0.0)
             held = kernel.energy(model, still) - kernel.energy(slack, still)
             assert held == pytest.approx(0.5 * stiffness * left**2, abs=1e-12)
@@ -344,7 +344,7 @@ def mass_matrix(inertia: Inertia) -> Array:
     return full
 
 
-def vector(speed: Motion) -> Array:
+def vector(speed: PlanarMotion) -> Array:
     return np.array([speed.ankle.real, speed.ankle.imag, speed.foot, speed.leg])
 
 
@@ -359,9 +359,11 @@ def test_a_step_on_the_ground_obeys_the_laws_of_contact(either: Robot, held: boo
         angle, leg_rad = rng.choice([0.0, rng.uniform(-0.15, 0.15)]), rng.uniform(-0.7, 0.1)
         turn = complex(math.cos(angle), -math.sin(angle))
         lowest = min((at * turn).imag - radius for at, radius in zip(model.sole_m, model.sole_radius_m, strict=True))
-        ground = Ground(complex(0.0, -lowest + rng.choice([0.0, 1e-4])), turn, 1e-4)
+        ground = Stance(complex(0.0, -lowest + rng.choice([0.0, 1e-4])), turn, 1e-4)
         inertia = kernel.inertia_at(model, kernel.links_at(model, leg_rad), turn)
-        free = Motion(complex(rng.normal(0.0, 1.0), rng.normal(-0.5, 1.0)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0))
+        free = PlanarMotion(
+            complex(rng.normal(0.0, 1.0), rng.normal(-0.5, 1.0)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0)
+        )
         after, contact, hold = kernel.settle(model, ground, kernel.gains_of(inertia), free, NO_CONTACT, held)
         arms = [(at * turn).real for at in model.sole_m]
         up, height = contact.first_ns + contact.second_ns, ground.ankle_m.imag
@@ -425,9 +427,9 @@ def test_dry_friction_brakes_the_leg_or_holds_it(either: Robot, height_m: float 
     limit = 2e-4
     for _ in range(80):
         ankle = complex(0.0, either.foot_depth_m if height_m is None else height_m)
-        ground = Ground(ankle, complex(1.0, 0.0), 1e-4)
+        ground = Stance(ankle, complex(1.0, 0.0), 1e-4)
         inertia = kernel.inertia_at(model, kernel.links_at(model, rng.uniform(-0.6, 0.0)), ground.turn)
-        free = Motion(complex(rng.normal(0.0, 0.2), -0.3), rng.normal(0.0, 2.0), rng.normal(0.0, 3.0))
+        free = PlanarMotion(complex(rng.normal(0.0, 0.2), -0.3), rng.normal(0.0, 2.0), rng.normal(0.0, 3.0))
         after, contact, friction = kernel.settle_with_friction(
             model, ground, kernel.gains_of(inertia), free, NO_CONTACT, limit
         )
@@ -462,7 +464,7 @@ def test_the_stop_in_the_air_takes_no_momentum_from_a_leg_with_friction_either(k
 def test_what_a_flat_fall_takes_is_the_impact(kenan: Robot) -> None:
     """Both ends of the foot strike at once, the springs loaded: the energy that is missing is the impact's alone."""
     model = model_of(kenan, replace_damping(FINE))
-    high = moving(model, -0.5)._replace(foot_rad=0.0, speed=Motion(0.0 - 0.8j, 0.0, 0.0))
+    high = moving(model, -0.5)._replace(foot_rad=0.0, speed=PlanarMotion(0.0 - 0.8j, 0.0, 0.0))
     drop = 1j * (kernel.gap_m(model, high) - 1e-5)
     world = world_at(kenan, high._replace(ankle_m=high.ankle_m - drop), replace_damping(FINE))
     energy = kernel.energy(world.model, world.moment)
@@ -479,13 +481,13 @@ def test_the_bodys_gap_and_rise_are_those_of_the_robot_in_space(either: Robot) -
     model, mechanics = model_of(either), Mechanics(either, 9.81)
     body = either.bodies[BODY]
     for leg_rad, upward in ((-0.6, 1.3), (-0.2, -1.6), (0.1, -0.4)):
-        moment = moving(model, leg_rad)._replace(speed=Motion(0.4 + 1j * upward, 2.1, 9.0))
+        moment = moving(model, leg_rad)._replace(speed=PlanarMotion(0.4 + 1j * upward, 2.1, 9.0))
         state, links = world_at(either, moment).state(), kernel.links_at(model, leg_rad)
         gap = min(
             float(state.com_m[0, 2] + state.rotation[0, 2] @ (contact.centre_m - body.com_m)) - contact.radius_m
             for contact in body.contacts
         )
-        assert kernel._belly_gap_m(model, links, Ground(moment.ankle_m, turn_of(moment), 1e-4)) == pytest.approx(gap)
+        assert kernel._belly_gap_m(model, links, Stance(moment.ankle_m, turn_of(moment), 1e-4)) == pytest.approx(gap)
         assert kernel.gap_m(model, moment._replace(belly_gap_m=gap)) == pytest.approx(mechanics.clearance_m(state))
         assert kernel.rising(model, moment) == (mechanics.velocity_m_s(state)[2] > 0.0)
 
@@ -561,7 +563,7 @@ def test_a_push_off_tells_how_near_the_body_came_to_the_ground(kenan: Robot) -> 
 def test_how_near_the_body_comes_in_the_air_is_not_told(kenan: Robot) -> None:
     """Of a robot that sinks: only the first step off the ground counts."""
     model = model_of(kenan)
-    sinking = moving(model, -0.5)._replace(speed=Motion(-1.0j, 0.0, 0.0))
+    sinking = moving(model, -0.5)._replace(speed=PlanarMotion(-1.0j, 0.0, 0.0))
     first = kernel.advance(model, sinking, FINE.dt_s, 1)
     found = kernel.push_off(model, sinking, FINE.dt_s, 1.0, 0.0, 1.0, 0.01, 16)
     assert not found.flown

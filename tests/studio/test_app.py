@@ -24,7 +24,7 @@ viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 from jumpcad.studio import Points, Studio, app, inputs  # noqa: E402
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer  # noqa: E402
 from jumpcad.studio.app import BY_NUMBER  # noqa: E402
-from jumpcad.studio.stage import Stage  # noqa: E402
+from jumpcad.studio.stage import StudioStage  # noqa: E402
 
 
 @pytest.fixture
@@ -80,7 +80,7 @@ def test_the_camera_stands_farther_off_large_robots_and_on_a_high_page(tmp_path:
         initial_camera=SimpleNamespace(), on_client_connect=calls.append,
         scene=SimpleNamespace(set_up_direction=lambda _: None, add_grid=lambda *_, **__: None),
     )  # fmt: skip
-    stage, design, places = Stage(server), load_design("kenan-2.0"), []
+    stage, design, places = StudioStage(server), load_design("kenan-2.0"), []
     larger = design.model_copy(update={"carrying_link_mm": 2.0 * design.carrying_link_mm})
     toes = design.model_copy(update={"e_coef": 2.0 * design.e_coef + 1.0})
     for one in (design, larger, toes):

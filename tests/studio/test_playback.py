@@ -13,7 +13,7 @@ from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.settings import Settings
 from jumpcad.studio import playback as module
-from jumpcad.studio.playback import Moment, Playback, playback
+from jumpcad.studio.playback import Playback, ShownMoment, playback
 
 ROBOT = "kenan-2.0"
 
@@ -23,7 +23,7 @@ def played() -> Playback:
     return playback(built(ROBOT))
 
 
-def point(moment: Moment, body: str, x_mm: float) -> np.ndarray:
+def point(moment: ShownMoment, body: str, x_mm: float) -> np.ndarray:
     """Return a point on the x axis of a body's frame in the world (m)."""
     seven = moment.frames[body]
     return seven[:3] + Rotation.from_quat(seven[3:]).apply([x_mm / 1000.0, 0.0, 0.0])
