@@ -50,7 +50,6 @@ motors = ["own"]
 leg_bearing = "own"
 roller = "own"
 battery = "own"
-controller = "own"
 driver = "own"
 [body]
 stop_pad = "own"

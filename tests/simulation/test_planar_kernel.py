@@ -407,9 +407,11 @@ def test_no_third_sphere_goes_below_the_ground_that_two_touch(lopsided: Robot, m
         spheres = 0.08 + 0j, complex(rng.uniform(-0.03, 0.05), low), complex(-0.07, high)
         sole = tuple(spheres[index] for index in rng.permutation(3))
         three = model._replace(sole_m=sole, sole_radius_m=(0.004, 0.004, 0.004))
-        ground = Ground(complex(0.0, 0.004 - min(at.imag for at in sole)), 1.0 + 0j, 1e-4)
+        ground = Stance(complex(0.0, 0.004 - min(at.imag for at in sole)), 1.0 + 0j, 1e-4)
         inertia = plain.inertia_at(three, plain.links_at(three, rng.uniform(-0.7, 0.1)), ground.turn)
-        free = Motion(complex(rng.normal(0.0, 1.0), rng.normal(-1.0, 1.0)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0))
+        free = PlanarMotion(
+            complex(rng.normal(0.0, 1.0), rng.normal(-1.0, 1.0)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0)
+        )
         after, contact, _ = plain.settle(three, ground, plain.gains_of(inertia), free, NO_CONTACT, False)
         assert min(contact.first_ns, contact.second_ns) >= -1e-12
         for at in sole:
