@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from support.built import built
 
+from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism import flight
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import BODY_NAMES
+from jumpcad.mechanism.planar import seen_from_foot
 from jumpcad.settings import load_settings
 from jumpcad.simulation.planar import PlanarEngine
 from jumpcad.transforms import turned_about_y
@@ -72,6 +74,48 @@ def test_inertia_in_flight_is_what_is_left_without_momenta(name: str) -> None:
     solved = np.linalg.lstsq(np.array(rows), np.array(right), rcond=None)
     blow = leg_blow(robot.bodies, robot.linkage, robot.spring, stop)
     assert blow.inertia_kg_m2 == pytest.approx(float(solved[1][0]), rel=2e-3)
+
+
+@pytest.mark.parametrize("rates", [(30.0, 0.0), (0.0, 12.0), (-25.0, 9.0)])
+@pytest.mark.parametrize(("name", "end", "slim"), [("kenan-2.0", 0, 1.0), ("best-bo", 1, 1.0), ("best-ga", 1, 30.0)])
+def test_push_off_obeys_the_principle_of_virtual_power(
+    name: str, end: int, slim: float, rates: tuple[float, float]
+) -> None:
+    """The bodies' accelerations, times how they move by each coordinate, are the power of springs and weight.
+
+    The accelerations are those of places a moment before and after, while the foot rolls on one end's sphere. What all
+    of them need from below is the ground's force. With inertias 30 times as large the turning of the links counts too.
+    """
+    robot = built(name)
+    bodies = {key: replace(body, inertia_kg_m2=slim * body.inertia_kg_m2) for key, body in robot.bodies.items()}
+    chain, pivot = flight._Chain(bodies, robot.linkage, robot.spring, 0.1), bodies["foot"].contacts[end]
+    start, speeds, gains = np.array([chain.leg[120], 0.15]), np.array(rates), np.array([900.0, -400.0])
+    mass = np.array([bodies[key].mass_kg for key in BODY_NAMES])
+    inertia = np.array([bodies[key].inertia_kg_m2[1, 1] for key in BODY_NAMES])
+
+    def where(coordinates: np.ndarray) -> np.ndarray:
+        """Return x, z and angle below x (3, 4) of the bodies."""
+        leg, foot = coordinates
+        place, turns = seen_from_foot(bodies, robot.linkage, np.array([leg]))
+        arm = place[0] - complex(pivot.centre_m[0], pivot.centre_m[2])
+        world = pivot.radius_m * (foot + 1j) + arm * np.exp(-1j * foot)
+        return np.stack([world.real, world.imag, turns[0] + foot])
+
+    step = 1e-5
+    before, now, after = (where(start + t * speeds + 0.5 * t**2 * gains) for t in (-step, 0.0, step))
+    x, z, turn = (before - 2.0 * now + after) / step**2
+    needed = np.stack([mass * x, mass * (z + GRAVITY_M_S2), inertia * turn])
+    by_each = [(where(start + one) - where(start - one)) / 2e-5 for one in 1e-5 * np.eye(2)]
+    found = chain.equations(flight._State(*start, *rates, pivot))
+    springs = robot.spring.torque_nm(start[0])
+    for (one, other), torque, along, own in zip(
+        ((found.leg, found.mixed), (found.mixed, found.foot)), (found.leg_nm, found.foot_nm), by_each, (springs, 0.0),
+        strict=True,
+    ):  # fmt: skip
+        least = 2e-3 * np.abs(needed * along).sum()
+        assert one * gains[0] + other * gains[1] - torque == pytest.approx((needed * along).sum() - own, abs=least)
+    up = found.up_by_leg * gains[0] + found.up_by_foot * gains[1] + found.up
+    assert up == pytest.approx(needed[1].sum(), abs=2e-3 * np.abs(needed[1]).sum())
 
 
 class Rocking:

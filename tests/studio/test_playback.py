@@ -82,12 +82,17 @@ def test_gears_turn_against_each_other_while_the_spring_is_wound(played: Playbac
 
 
 def test_a_turn_through_half_a_circle_takes_the_short_way() -> None:
-    """From 179° to 181° it is 180° half way: the quaternions, each with w >= 0, point away from each other."""
+    """From 179° to 181° it is 180° half way: the quaternions, each with w >= 0, point away from each other.
+
+    The place goes straight on.
+    """
     turns = [Rotation.from_euler("y", angle, degrees=True).as_quat(canonical=True).tolist() for angle in (179, 181)]
     columns = {key: [0.0, 1.0] for key in ("show_s", "time_s", "cam_rad", "gear_rad")}
-    frames = {BODY: [[0.0, 0.0, 0.0, *turn] for turn in turns]}
+    frames = {BODY: [[x, 0.0, z, *turn] for x, z, turn in zip((0.2, 0.6), (0.5, 0.3), turns, strict=True)]}
     motion = {**columns, "phase": ["flight"] * 2, "com_m": [[0.0, 0.0]] * 2, "frames": frames}
-    half = Rotation.from_quat(Playback(motion, []).at(0.5).frames[BODY][3:])
+    seven = Playback(motion, []).at(0.5).frames[BODY]
+    assert seven[:3] == pytest.approx([0.4, 0.0, 0.4])
+    half = Rotation.from_quat(seven[3:])
     assert half.magnitude() == pytest.approx(np.pi, abs=1e-9)
     assert np.abs(half.apply([1.0, 0.0, 0.0]) - [-1.0, 0.0, 0.0]).max() < 1e-9
 
