@@ -206,7 +206,7 @@ def test_a_leg_that_is_too_short_is_refused_with_the_length_that_misses() -> Non
 
 
 def test_an_unknown_bar_is_refused_with_a_hint() -> None:
-    with pytest.raises(JumpcadError, match=r"no leg bar 'carbon-tube-4x1'.*carbon-tube-4x2"):
+    with pytest.raises(JumpcadError, match=r"'carbon-tube-4x1': is no leg bar in the catalogue: .*carbon-tube-4x2"):
         build(load_design("kenan-2.0"), workshop("carbon-tube-4x1"))
 
 
