@@ -79,6 +79,17 @@ def test_an_old_bundle_is_replaced_and_what_was_added_stays(small_robot: Robot, 
     assert [path.name for path in tmp_path.iterdir()] == ["b"]
 
 
+def test_what_a_user_edited_is_replaced_only_by_force(small_robot: Robot, tmp_path: Path) -> None:
+    bill = exported(small_robot, tmp_path / "b").folder / "bom.csv"
+    before = bytes_of(tmp_path)
+    bill.write_text("mine")
+    with pytest.raises(JumpcadError, match=r"bom\.csv: edited or added"):
+        exported(small_robot, tmp_path / "b")
+    assert bill.read_text() == "mine"
+    export(small_robot, tmp_path / "b", pictures=False, force=True)
+    assert bytes_of(tmp_path) == before
+
+
 def test_nothing_else_is_replaced(small_robot: Robot, tmp_path: Path) -> None:
     (tmp_path / "thesis").mkdir()
     (tmp_path / "thesis" / "chapter1.txt").write_text("years of work")

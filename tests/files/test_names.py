@@ -4,7 +4,7 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from jumpcad.errors import without_controls
-from jumpcad.files.names import NAME_RULE, Name, OptionalName, Text, control_character
+from jumpcad.files.names import NAME_RULE, Name, OptionalName, Text, composed, control_character
 
 
 def refused(kind: object, value: str) -> str:
@@ -29,6 +29,12 @@ def test_a_name_begins_no_formula_and_leads_nowhere(name: str) -> None:
 def test_an_optional_name_may_be_empty() -> None:
     assert TypeAdapter(OptionalName).validate_python("") == ""
     assert refused(OptionalName, "a/b") == NAME_RULE
+
+
+def test_the_same_letters_are_one_name_wherever_they_stand_in_a_file() -> None:
+    """U+00FC and u with U+0308 are the same letter (Unicode, ch. 3.7): as a table's key, its value, in a list."""
+    one, other = "gr\u00fcn", "gru\u0308n"
+    assert composed({other: {"colours": [other, 1.0]}, "role": other}) == {one: {"colours": [one, 1.0]}, "role": one}
 
 
 def test_free_text_is_one_line_of_moderate_length() -> None:
