@@ -1,6 +1,6 @@
 """Rasterization of triangles: at every pixel the nearest triangle that faces the camera.
 
-Many triangles at once: every triangle is cut into the span that it covers of each row, every span into its pixels. An
+All triangles at once: every triangle is cut into the span that it covers of each row, every span into its pixels. An
 edge that two triangles share is cut at the same points in both, so that there are neither gaps nor overlaps.
 """
 
@@ -13,9 +13,6 @@ Ints = npt.NDArray[np.int64]
 
 X, Y, NEARNESS, SHADE = range(4)
 """Columns of a corner's data."""
-BATCH = 60_000
-"""Pixels of triangles that are drawn at once: with more, their data no longer fit into a processor's cache, and drawing
-takes half as long again."""
 
 
 def rasterized(corners: Array, size: tuple[int, int]) -> tuple[npt.NDArray[np.int32], Array, Array]:
@@ -38,38 +35,29 @@ def rasterized(corners: Array, size: tuple[int, int]) -> tuple[npt.NDArray[np.in
         Those of that triangle at the pixel's centre (height, width); 0 where there is none.
     """
     width, height = size
-    number, shade = np.full(width * height, -1, dtype=np.int32), np.zeros(width * height)
-    nearness = np.zeros(width * height)
     ahead, across = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
     before = (corners[:, :, NEARNESS] > 0.0).all(axis=1)
     facing = np.nonzero(before & (ahead[:, 0] * across[:, 1] < ahead[:, 1] * across[:, 0]))[0]
-    for some in _batches(corners, facing, size):
-        spans = _Spans(corners[some], height)
-        (left, right), (low, high) = spans.ends(X), spans.ends(NEARNESS)
-        first, many = _centres(left, right, width)
-        x = _counted(first, many)
-        share = x + 0.5
-        share -= np.repeat(left, many)
-        share /= np.repeat(right - left, many)
-        near = np.repeat(high - low, many)
-        near *= share
-        near += np.repeat(low, many)
-        pixel = np.repeat(spans.row * width, many) + x
-        np.maximum.at(nearness, pixel, near)
-        nearest = np.flatnonzero(near == nearness[pixel])
-        seen, span = pixel[nearest], np.repeat(np.arange(len(many)), many)[nearest]
-        low, high = spans.ends(SHADE)
-        number[seen] = some[spans.triangle][span]
-        shade[seen] = low[span] + share[nearest] * (high - low)[span]
+    spans = _Spans(corners[facing], height)
+    (left, right), (low, high) = spans.ends(X), spans.ends(NEARNESS)
+    first, many = _centres(left, right, width)
+    x = _counted(first, many)
+    share = x + 0.5
+    share -= np.repeat(left, many)
+    share /= np.repeat(right - left, many)
+    near = np.repeat(high - low, many)
+    near *= share
+    near += np.repeat(low, many)
+    pixel = np.repeat(spans.row * width, many) + x
+    nearness = np.zeros(width * height)
+    np.maximum.at(nearness, pixel, near)
+    nearest = np.flatnonzero(near == nearness[pixel])
+    seen, span = pixel[nearest], np.repeat(np.arange(len(many)), many)[nearest]
+    low, high = spans.ends(SHADE)
+    number, shade = np.full(width * height, -1, dtype=np.int32), np.zeros(width * height)
+    number[seen] = facing[spans.triangle][span]
+    shade[seen] = low[span] + share[nearest] * (high - low)[span]
     return number.reshape(height, width), nearness.reshape(height, width), shade.reshape(height, width)
-
-
-def _batches(corners: Array, facing: Ints, size: tuple[int, int]) -> list[Ints]:
-    """Return triangles in batches of about `BATCH` pixels; some are empty where one triangle has more."""
-    extent = [np.clip(corners[facing, :, axis], 0.0, size[axis]) for axis in (X, Y)]
-    wide, high = ((at.max(axis=1) - at.min(axis=1)) for at in extent)
-    pixels = np.cumsum(wide * high / 2.0 + high + 1.0)
-    return np.split(facing, np.searchsorted(pixels, np.arange(BATCH, pixels.max(initial=0.0), BATCH)))
 
 
 class _Spans:

@@ -1,10 +1,8 @@
 """Pixels show the nearest triangle that faces the camera, with neither gaps nor overlaps."""
 
 import numpy as np
-import pytest
 from scipy.spatial import Delaunay
 
-from jumpcad.scene import raster
 from jumpcad.scene.raster import rasterized
 
 SIZE = (40, 30)
@@ -59,16 +57,3 @@ def test_nearness_and_shade_of_a_slope_are_those_at_the_pixels_centre() -> None:
     assert (number == 0).all()
     assert np.allclose(nearness.ravel(), 3.0 + CENTRES @ [0.02, -0.01])
     assert np.allclose(shade.ravel(), 0.5 + CENTRES @ [0.001, 0.003])
-
-
-@pytest.mark.parametrize("batch", [1, 200])
-def test_batches_show_what_all_triangles_at_once_show(batch: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    draws = np.random.default_rng(6)
-    corners = np.concatenate([draws.uniform(-5.0, 45.0, (60, 3, 2)), draws.uniform(0.1, 1.0, (60, 3, 2))], axis=2)
-    corners = facing(np.concatenate([corners, corners]))  # every triangle twice: as near as its copy
-    whole = rasterized(corners, SIZE)
-    assert len(raster._batches(corners, np.arange(len(corners)), SIZE)) == 1
-    monkeypatch.setattr(raster, "BATCH", batch)
-    assert len(raster._batches(corners, np.arange(len(corners)), SIZE)) > 3
-    for one, other in zip(whole, rasterized(corners, SIZE), strict=True):
-        assert np.array_equal(one, other)
