@@ -123,14 +123,14 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> 
     If there is no room for the springs' pin, springs for a free direction of the pin are found instead.
     """
     try:
-        return _first_with_room(design, workshop, growth)
+        return _with_pin_room(design, workshop, growth)
     except CannotBuildError as refusal:
         if workshop.bought.spring:
             refusal.args = (of_stock(str(refusal)),)
         raise
 
 
-def _first_with_room(design: Design, workshop: Workshop, growth: Growth) -> tuple[Layout, HoleSizes]:
+def _with_pin_room(design: Design, workshop: Workshop, growth: Growth) -> tuple[Layout, HoleSizes]:
     """Return layout and hole sizes with springs whose pin has room."""
     if workshop.bought.retention == "nuts":  # of all axles one is right: a thinner one is no way out
         axles.require_retention(workshop.catalogue, workshop.bought)

@@ -22,11 +22,12 @@ STIFFNESS, SPRING = "stiffness_nmm_per_deg", "bought.spring"
 
 def of_stock(words: str) -> str:
     """Return a message with a remedy that can be taken where springs are bought: their rate is not the design's."""
+    words = words.replace(f"a lower {STIFFNESS}", f"a weaker {SPRING}")
     for way, kind in (("lower", "weaker"), ("raise", "stronger")):
         choose = f"choose a {kind} {SPRING}"
         words = words.replace(f"{way} {STIFFNESS} or compression_ratio", f"{choose} or {way} compression_ratio")
         words = words.replace(f"{way} {STIFFNESS}", choose)
-    return words.replace(f"a choose a weaker {SPRING}", f"a weaker {SPRING}")
+    return words
 
 
 def springs_on_leg(design: Design, stock: StockSpring | None = None, preload_rad: float = 0.0) -> Spring:
