@@ -99,7 +99,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             store.remember(ENDED, None)  # until this run ends
         hopeless, clock, allowance = Hopeless(), Clock(request.hours), 0
         widened: list[Widened] = []
-        picking, cut = False, list[bool]()
+        picking = cut = False
 
         def watched(trial: Trial, computed: bool) -> None:
             clock.see(computed)
@@ -109,8 +109,9 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
 
         def room() -> float:
             """Return how many more designs fit if each takes all its neighbours; of a timed pick, how many at once."""
+            nonlocal cut
             if picking and clock.is_over():
-                cut.append(True)
+                cut = True
                 return 0
             if picking and request.hours:
                 return PICKED_AT_ONCE * max(pool.workers, 1)

@@ -29,6 +29,18 @@ def bytes_of(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
+def test_a_folder_that_takes_no_files_is_told_before_any_is_made(
+    small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[object] = []
+    monkeypatch.setattr(bundle_module, "contents", lambda *_: made.append(1) or ())
+    (tmp_path / "file").write_text("a user's")
+    with pytest.raises(JumpcadError, match=r"no file can be made in .*file"):
+        exported(small_robot, tmp_path / "file" / "kenan")
+    assert not made
+    assert (tmp_path / "file").read_text() == "a user's"
+
+
 def test_manifest_knows_every_file(small_robot: Robot, tmp_path: Path) -> None:
     bundle = exported(small_robot, tmp_path / "deep" / "kenan")
     found = bytes_of(bundle.folder)

@@ -133,6 +133,26 @@ def test_a_robust_pick_ends_with_the_time_and_the_same_request_goes_on(tmp_path,
     assert again.bounds == whole.bounds
 
 
+def test_a_search_stops_for_its_pick_whose_time_has_come(monkeypatch):
+    """After 20 evaluations what is left is just enough for the pick, which is made in full."""
+    request = replace(REQUEST, method="ga", evaluations=60, hours=1.0)
+    seen = []
+
+    class Timed(study.Clock):
+        def see(self, computed):
+            seen.append(computed)
+
+        def is_over(self, following=0):
+            return following == request.pick and len(seen) >= 20
+
+    assert request.pick > 0
+    monkeypatch.setattr(study, "Clock", Timed)
+    result = run(request)
+    assert 20 <= len(result.trials) < request.searched
+    assert any(trial.neighbours for trial in result.candidates)
+    assert result.notes == [f"ended after 1 h, before {request.searched} designs: the same command goes on"]
+
+
 def contents(path):
     """Return all trials of a study without their durations."""
     with StudyStore.read(path) as store:
