@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from jumpcad.catalogue.boards import GPIO
 from jumpcad.electronics.chain import supply_pin
 from jumpcad.electronics.chosen import Chosen
-from jumpcad.electronics.nets import AVOIDED, SIGNALS, Wiring, logic_range
+from jumpcad.electronics.nets import AVOIDED, SIGNALS, Wiring, divider_ohm, logic_range
 from jumpcad.findings import Basis, Finding, Severity, at_least
 
 OWN_PULL_UP_OHM = 45_000
@@ -116,9 +116,16 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
             message = f"{role} {board.name} has the supply inputs {inputs}, of which one alone would be connected"
             remedy = f"choose another bought.{role}, or leave out of its supply_v what needs no wire"
             return _yes_or_no("wiring_pins", False, "error", message, remedy)
-    if "battery" not in have and chosen.controller.adc_max_v is None:
+    most = chosen.controller.adc_max_v
+    if "battery" not in have and most is None:
         message = f"{chosen.controller.name} has no adc_max_v: nothing measures the battery, so that it may run down"
         return _yes_or_no("wiring_pins", False, "warning", message, "give the volts that its pins with adc read")
+    if "battery" not in have and divider_ohm(chosen) is None:
+        message = (
+            f"{chosen.controller.name} reads {most:g} V at most, and the largest divider leaves more of a full battery's "
+            f"{chosen.battery.range_v[1]:g} V: nothing measures it, so that it may run down"
+        )
+        return _yes_or_no("wiring_pins", False, "warning", message, "choose another bought.controller or bought.battery")
     if "battery" not in have:
         message = f"{chosen.controller.name} has no pin left that measures the battery, so that it may run down"
         return _yes_or_no("wiring_pins", False, "warning", message, "leave a pin with adc free in [bought.pins]")

@@ -97,7 +97,7 @@ class Wiring:
 
 def wiring_of(chosen: Chosen, named: Mapping[Any, str]) -> Wiring:
     """Return the net list of a workshop's parts; `named` are pins that the workshop names, by signal."""
-    upper = _upper_ohm(chosen)
+    upper = divider_ohm(chosen)
     wanted = [s for s in SIGNALS if not (s == "battery" and upper is None)]
     wanted = [s for s in wanted if not (s == "sleep" and not chosen.driver.with_function("sleep"))]
     wanted = [s for s in wanted if not (s == "ready" and "sensor" not in chosen.components)]
@@ -141,7 +141,7 @@ def _pins(controller: Board, wanted: list[str], named: Mapping[Any, str]) -> dic
     return {signal: pins[signal] for signal in wanted if signal in pins}
 
 
-def _upper_ohm(chosen: Chosen) -> int | None:
+def divider_ohm(chosen: Chosen) -> int | None:
     """Return the divider's upper resistor with which a full battery stays in the converter's range, if any does."""
     if chosen.controller.adc_max_v is None:
         return None

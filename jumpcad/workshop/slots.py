@@ -1,4 +1,4 @@
-"""Keys of a workshop that name a part of the catalogue, and the parts that fit there."""
+"""Keys of a workshop that name parts of the catalogue, and the parts that fit there."""
 
 from dataclasses import dataclass
 
@@ -42,6 +42,7 @@ class Slot:
 
 
 SLOTS = {
+    "bought.motors": Slot("motors", "motor", ""),
     "bought.leg_bearing": Slot("bearings", "bearing", others=(ANY,)),
     "bought.roller": Slot("bearings", "bearing", ""),
     "bought.battery": Slot("batteries", "battery", ""),

@@ -172,8 +172,9 @@ class Workshop(Record):
         for key, slot in SLOTS.items():
             table, name = key.split(".")
             value = getattr(getattr(self, table), name)
-            if reason := slot.misfit(catalogue, value):
-                yield (table, name), value, reason
+            for one in value if isinstance(value, tuple) else (value,):
+                if reason := slot.misfit(catalogue, one):
+                    yield (table, name), one, reason
 
 
 def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Contradiction]:

@@ -68,6 +68,15 @@ def test_a_battery_that_nothing_measures_is_a_warning() -> None:
     assert (finding.severity, "adc_max_v" in finding.message) == ("warning", True)
 
 
+def test_a_converter_that_no_divider_brings_the_battery_to_is_named_with_both_voltages() -> None:
+    """Six times less than 8.4 V are 1.4 V: with the largest divider, 1000 to 200 kOhm."""
+    for most, severity in ((1.39, "warning"), (1.41, "info")):
+        finding = found(board(parts("strong-2s"), "controller", adc_max_v=most))["wiring_pins"]
+        assert finding.severity == severity
+        assert ("1.39 V at most" in finding.message and "8.4 V" in finding.message) == (severity == "warning")
+    assert "pin left" not in finding.message
+
+
 def test_a_board_without_ground_is_named() -> None:
     """A driver's reverse input is on ground too."""
     chosen = parts("strong-2s")

@@ -48,6 +48,18 @@ def test_a_part_of_another_kind_is_refused_with_its_line(tmp_path, key, name, sa
         load_workshop(file)
 
 
+def test_each_motor_of_the_list_is_looked_up(tmp_path):
+    """An empty list allows every motor, and one of the user's own counts; the name that is unknown is said."""
+    file = tmp_path / "w.toml"
+    own = '[motors.own]\nlike = "n20-298"\narticle = "a motor"\nsource = "measured"\n'
+    file.write_text('[bought]\nmotors = ["n20-298", "own", "n20-299"]\n' + own)
+    with pytest.raises(JumpcadError, match=r"w.toml:2: bought.motors = 'n20-299': is no motor .*mean n20-298\?\)$"):
+        load_workshop(file)
+    for named in ('["n20-298", "own"]', "[]"):
+        file.write_text(f"[bought]\nmotors = {named}\n{own}")
+        assert all(name in load_workshop(file).catalogue.motors for name in load_workshop(file).bought.motors)
+
+
 def test_a_board_of_one_s_own_is_what_its_pins_make_it():
     """A board whose pins are not given may be anything; one that controls and drives may be named for both."""
     drv8833 = load_catalogue().boards["drv8833"]
