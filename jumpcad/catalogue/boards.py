@@ -33,9 +33,10 @@ class Board(Article):
     that need a series diode, `button` the pin of a push button on the board. `usb_mm` is the opening (width, height)
     that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
     length. `left` and `right` are the pins along its sides, from that end on, as seen from above; others are
-    underneath. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma`
-    the fixed current of its battery charger (a board without it and without `battery` pads has none: the battery is
-    then charged outside the robot), `micropython` the name of its image among MicroPython's downloads.
+    underneath. `logic_v` is the level of a controller's pins, or the one that a driver's inputs are made for.
+    `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma` the fixed
+    current of its battery charger (a board without it and without `battery` pads has none: the battery is then charged
+    outside the robot), `micropython` the name of its image among MicroPython's downloads.
     """
 
     description: Source

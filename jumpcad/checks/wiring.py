@@ -7,10 +7,12 @@ from jumpcad.catalogue.boards import GPIO
 from jumpcad.electronics.chain import supply_pin
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.nets import AVOIDED, SIGNALS, Wiring, divider_ohm, logic_range
-from jumpcad.findings import Basis, Finding, Severity, at_least
+from jumpcad.findings import Basis, Finding, Severity, at_least, at_most
 
 OWN_PULL_UP_OHM = 45_000
 """Of a pin of the ESP32 family; its data sheet."""
+LOGIC_SHARE = 0.1
+"""Of a driver's logic level, by which the controller's may differ: tolerances of supplies; judgement."""
 CUT_OFF = ("switch", "plug")
 """What takes the battery off the boards."""
 SHEETS = "data sheets of the boards: templates/hardware/electronics.toml"
@@ -27,6 +29,10 @@ BASIS = {
         "U/R ≥ least current of the sensor's contact (mA); U logic supply, R pull-up resistor, or 45 kOhm in the "
         "controller",
         "Ohm; data sheets of switch and controller",
+    ),
+    "wiring_logic": Basis(
+        "|controller's logic level - that of the driver's inputs| ≤ a tenth of the latter (V)",
+        "data sheets: entries logic_v of controller and driver; the tenth, of usual supplies, is a judgement",
     ),
     "wiring_ground": Basis("every board has a terminal in the net of the battery's minus; 0, or -1", "net list"),
     "wiring_cut_off": Basis(
@@ -46,11 +52,14 @@ BASIS = {
 def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
     """Yield the findings of `BASIS`; `wiring_contact` where there is a sensor, `wiring_diode` behind a regulator.
 
+    `wiring_logic` is yielded where the logic levels of both boards are known.
+
     Without a regulator `wiring_diode` is yielded where the battery lies at a pin that USB feeds.
     """
     yield _enough_pins(chosen, wiring)
     yield _fit_pins(chosen, wiring)
     yield from _contact_current(chosen, wiring)
+    yield from _logic_levels(chosen)
     grounded = {terminal.part for net in wiring.nets if net.kind == "ground" for terminal in net.terminals}
     lacking = [role for role in ("battery", *chosen.boards) if role not in grounded]
     yield _yes_or_no(
@@ -122,10 +131,11 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
         return _yes_or_no("wiring_pins", False, "warning", message, "give the volts that its pins with adc read")
     if "battery" not in have and divider_ohm(chosen) is None:
         message = (
-            f"{chosen.controller.name} reads {most:g} V at most, and the largest divider leaves more of a full battery's "
-            f"{chosen.battery.range_v[1]:g} V: nothing measures it, so that it may run down"
+            f"{chosen.controller.name} reads {most:g} V at most, and the largest divider leaves more of the "
+            f"{chosen.battery.range_v[1]:g} V of a full battery: nothing measures it, so that it may run down"
         )
-        return _yes_or_no("wiring_pins", False, "warning", message, "choose another bought.controller or bought.battery")
+        remedy = "choose another bought.controller or bought.battery"
+        return _yes_or_no("wiring_pins", False, "warning", message, remedy)
     if "battery" not in have:
         message = f"{chosen.controller.name} has no pin left that measures the battery, so that it may run down"
         return _yes_or_no("wiring_pins", False, "warning", message, "leave a pin with adc free in [bought.pins]")
@@ -160,6 +170,21 @@ def _contact_current(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
         "wiring_contact", current, needed, "mA",
         f"{by} gives the contact of {sensor.name} {current:.2g} mA; it is rated from {needed:g} mA",
         'give the controller a pin with "out" at its logic_v: a pull-up resistor is connected to it', "warning",
+    )  # fmt: skip
+
+
+def _logic_levels(chosen: Chosen) -> Iterator[Finding]:
+    """Yield whether the controller's pins give the volts that the driver's inputs are made for."""
+    given, made_for = chosen.controller.logic_v, chosen.driver.logic_v
+    if given is None or made_for is None:
+        return
+    apart, allowed = abs(given - made_for), LOGIC_SHARE * made_for
+    yield at_most(
+        "wiring_logic", apart, allowed, "V",
+        f"the pins of {chosen.controller.name} give {given:g} V, the inputs of {chosen.driver.name} are for "
+        f"{made_for:g} V: {apart:.2f} V apart, of {allowed:.2f} V at most",
+        "choose another bought.driver or bought.controller; if its data sheet permits that level, give it as the "
+        "driver's logic_v", "warning",
     )  # fmt: skip
 
 

@@ -35,7 +35,8 @@ def test_a_kit_breaks_nothing(kit: str) -> None:
     findings = found(parts(kit))
     assert set(findings) == set(BASIS) - (set() if kit == "strong-2s" else {"wiring_diode"})
     assert {finding.severity for finding in findings.values()} == {"info"}
-    assert {finding.margin for name, finding in findings.items() if name != "wiring_contact"} == {0.0}
+    numbers = {"wiring_contact", "wiring_logic"}
+    assert {finding.margin for name, finding in findings.items() if name not in numbers} == {0.0}
 
 
 def test_what_is_left_out_is_missed() -> None:
@@ -75,6 +76,21 @@ def test_a_converter_that_no_divider_brings_the_battery_to_is_named_with_both_vo
         assert finding.severity == severity
         assert ("1.39 V at most" in finding.message and "8.4 V" in finding.message) == (severity == "warning")
     assert "pin left" not in finding.message
+
+
+@pytest.mark.parametrize(("pins_v", "inputs_v", "good"), [(3.3, 3.3, True), (5.0, 3.3, False), (3.3, 5.0, False)])
+def test_pins_have_the_level_of_the_drivers_inputs(pins_v: float, inputs_v: float, good: bool) -> None:
+    chosen = board(board(parts("light-1s"), "controller", logic_v=pins_v), "driver", logic_v=inputs_v)
+    finding = found(chosen)["wiring_logic"]
+    assert finding.severity == ("info" if good else "warning")
+    assert finding.margin == pytest.approx(0.1 * inputs_v - abs(pins_v - inputs_v))
+    assert f"give {pins_v:g} V" in finding.message
+    assert f"are for {inputs_v:g} V" in finding.message
+
+
+def test_levels_that_are_not_known_are_not_compared() -> None:
+    for role in ("controller", "driver"):
+        assert "wiring_logic" not in found(board(parts("light-1s"), role, logic_v=None))
 
 
 def test_a_board_without_ground_is_named() -> None:
