@@ -38,6 +38,19 @@ def test_best_and_front_are_listed(study: Path) -> None:
         assert text.startswith((f"front, {design.spring_energy_j:.4g} J: ", "best "))
 
 
+def test_ten_of_many_are_listed_as_best(tmp_path: Path) -> None:
+    """The best first, whatever their order in the study; what neighbours of a pick score is not among them."""
+    made = [replace(one, score=1.0 + (7 * place) % 12) for place, one in enumerate(trials(12))]
+    around = [replace(one, score=50.0) for one in trials(1, "robust", 1)]
+    with StudyStore.write(tmp_path / "many.db", IDENTITY) as store:
+        store.append([*made, *around])
+    points = Points(tmp_path / "many.db")
+    best = {text: number for text, number in points.listed.items() if text.startswith("best")}
+    assert [points.trial(number).score for number in best.values()] == [float(12 - place) for place in range(10)]
+    assert [text.partition(":")[0] for text in best] == [f"best {place}" for place in range(1, 11)]
+    assert points.best == 1 + [one.score for one in made].index(12.0)
+
+
 def test_a_front_that_seeks_more_of_both_is_listed_by_the_figures_themselves(tmp_path: Path) -> None:
     """Three trials that rise less the better their score is."""
     file = tmp_path / "rise.db"
