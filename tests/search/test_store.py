@@ -413,7 +413,7 @@ def test_an_apostrophe_is_no_end_of_an_identity(tmp_path):
             assert store.identity == identity
 
 
-def test_a_study_for_which_there_is_no_space_leaves_no_file(tmp_path, monkeypatch):
+def test_a_study_for_which_there_is_no_space_or_that_cannot_be_opened_leaves_no_file(tmp_path, monkeypatch):
     def full(target):
         connection = connect(target)
         connection.execute("PRAGMA max_page_count = 1")
@@ -427,6 +427,15 @@ def test_a_study_for_which_there_is_no_space_leaves_no_file(tmp_path, monkeypatc
     with pytest.raises(JumpcadError, match="disk is full"):
         StudyStore.write(tmp_path / "mine.db", {})
     assert (tmp_path / "mine.db").is_file()
+
+    def closed(_):
+        raise sqlite3.OperationalError("unable to open database file")
+
+    monkeypatch.setattr("jumpcad.search.store.connect", closed)
+    for name, left in (("s.db", False), ("mine.db", True)):
+        with pytest.raises(JumpcadError, match="unable to open"):
+            StudyStore.write(tmp_path / name, {})
+        assert (tmp_path / name).exists() == left
 
 
 @pytest.mark.parametrize(("there", "here"), [({}, "mass"), ({"against": "mass"}, "rise"), ({"against": "mass"}, None)])
