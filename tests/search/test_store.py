@@ -19,7 +19,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.database import connect
 from jumpcad.search.rows import APPLICATION_ID, COLUMNS, FORMATS, own_tables, to_row
 from jumpcad.search.space import Space
-from jumpcad.search.store import MOST_NOTES, StudyStore, difference
+from jumpcad.search.store import ENDED, MOST_NOTES, StudyStore, difference
 
 
 def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
@@ -165,8 +165,9 @@ def edited(path, *statements):
 
 
 def read_all(path):
-    """Read everything that a study holds."""
+    """Read everything that a study holds; its search has not ended."""
     with StudyStore.read(path) as store:
+        assert store.recall(ENDED) is None
         return store.trials(), store.recall("stages"), store.notes()
 
 
@@ -219,6 +220,8 @@ def test_a_damaged_row_is_named(tmp_path, column, value, reason):
         ("UPDATE study SET value = '{' WHERE key = 'stages'", "its stages cannot be read"),
         ("UPDATE study SET value = '[]' WHERE key = 'stages'", "stages: List should have at least 1"),
         ("UPDATE study SET value = replace(value, 'ga', 'zz') WHERE key = 'stages'", r"stages.0.method"),
+        ("INSERT INTO study VALUES ('ended', '{\"by\": \"boredom\"}')", r"ended.by: Input should be 'evaluations'"),
+        ("INSERT INTO study VALUES ('ended', '0')", "ended: Input should be"),
         (
             "CREATE VIEW endless AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n FROM r) SELECT n FROM r",
             "tables",

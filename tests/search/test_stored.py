@@ -154,3 +154,17 @@ def test_stages_are_of_known_methods() -> None:
     ):  # fmt: skip
         with pytest.raises(JumpcadError, match=message):
             require_remembered("stages", wrong)
+
+
+def test_a_search_ends_by_what_was_asked_or_for_want_of_designs() -> None:
+    for by in ("evaluations", "until", "hours", "space", "proposals"):
+        require_remembered("ended", {"by": by})
+    for fine in ({"by": "until", "until_percent": 100.0}, {"by": "hours", "hours": 1e6}):
+        require_remembered("ended", fine)
+    for wrong, message in (
+        ({}, "required"), ({"by": "x"}, "should be 'evaluations'"), ({"by": "until", "until_percent": 100.1}, "less than"),
+        ({"by": "until", "until_percent": -0.1}, "greater than"), ({"by": "hours", "hours": 1.1e6}, "less than"),
+        ({"by": "hours", "hours": -1.0}, "greater than"), ({"by": "space", "more": 1}, "more"),
+    ):  # fmt: skip
+        with pytest.raises(JumpcadError, match=message):
+            require_remembered("ended", wrong)
