@@ -451,3 +451,23 @@ def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path, there, her
     words = f"holds a front against {named}, not {asked}: say --against {named}, or name another file$"
     with pytest.raises(JumpcadError, match=words):
         StudyStore.write(path, IDENTITY | mine)
+
+
+def test_a_file_of_which_it_cannot_be_read_whether_it_is_empty_is_not_removed(tmp_path, monkeypatch):
+    """Neither when it is made nor when its request turns out wrong."""
+    store = StudyStore.write(tmp_path / "a.db", IDENTITY)
+    store._connection.execute("DROP TABLE evaluations")
+    store.__exit__(JumpcadError, JumpcadError("wrong"), None)
+    assert (tmp_path / "a.db").exists()
+
+    class Unreadable:
+        def execute(self, _):
+            raise sqlite3.DatabaseError("unreadable")
+
+        def close(self):
+            pass
+
+    monkeypatch.setattr("jumpcad.search.store.connect", lambda _: Unreadable())
+    with pytest.raises(JumpcadError, match="unreadable"):
+        StudyStore.write(tmp_path / "b.db", IDENTITY)
+    assert (tmp_path / "b.db").exists()
