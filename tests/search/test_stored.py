@@ -79,6 +79,14 @@ def test_what_else_was_predicted_is_a_number() -> None:
             proposal(**said)
 
 
+@pytest.mark.parametrize("value", ["NaN", "Infinity", "-Infinity"])
+def test_what_is_no_number_is_neither_predicted_nor_a_value_of_a_workshop(value: str) -> None:
+    with pytest.raises(JumpcadError, match=r"proposal\.log_feasible.*finite number"):
+        stored_proposal({"proposal": f'{{"log_feasible": {value}}}'.encode()}, 8)
+    with pytest.raises(JumpcadError, match=r"workshop\.body\.plate_mm.*finite number"):
+        stored_workshop({"workshop": f'{{"body.plate_mm": {value}}}'.encode()}, ("body.plate_mm",))
+
+
 def test_a_row_has_the_keys_of_the_study_in_their_order_and_may_have_those_of_making() -> None:
     def workshop(values: dict[str, Any], keys: tuple[str, ...], more: tuple[str, ...] = ()) -> dict[str, Any]:
         return stored_workshop({"workshop": json.dumps(values).encode()}, keys, more)
