@@ -9,6 +9,7 @@ import pytest
 from support.built import built
 
 from jumpcad.findings import Finding, at_most, limit
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.studio import answers
 from jumpcad.studio.answers import SHOWN, Printed
 from jumpcad.workshop import load_workshop
@@ -96,7 +97,9 @@ def test_the_capsule_robot_is_told_in_millimetres(
     monkeypatch: pytest.MonkeyPatch, reach_m: float | None, said: str
 ) -> None:
     jump = SimpleNamespace(ballistic_range_m=reach_m, com_rise_m=0.0641, verdict="tips")
-    monkeypatch.setattr(answers, "simulate", lambda *_, **__: jump)
+    asked: list[Any] = []
+    monkeypatch.setattr(answers, "simulate", lambda robot, **how: asked.append((robot.mass_kg, how)) or jump)
     answers.capsule_answer.cache_clear()
     assert answers.capsule_answer(built(NAME).design) == f"study's masses: {said}"
+    assert asked == [(capsule_robot(built(NAME).design).mass_kg, {"engine": "planar"})]  # docs/start.md
     answers.capsule_answer.cache_clear()

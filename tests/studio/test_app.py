@@ -23,7 +23,7 @@ viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Points, Studio, app, inputs  # noqa: E402
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer  # noqa: E402
-from jumpcad.studio.app import BY_NUMBER  # noqa: E402
+from jumpcad.studio.app import BY_NUMBER, CLICK  # noqa: E402
 from jumpcad.studio.stage import StudioStage  # noqa: E402
 
 
@@ -193,6 +193,11 @@ def test_a_design_that_cannot_be_built_is_told_with_its_reason(studio: Studio) -
     assert found.reason in studio.figures.content
     studio.player.show(1.0)
     assert "no motion" in studio.player.words.content
+    studio._say_part("cam")  # of the last robot, which is still seen
+    assert studio.part.content == CLICK
+    studio.shown = None
+    studio._say_part("cam")
+    assert studio.part.content == CLICK
 
 
 def test_the_ghost_is_what_was_kept_and_figures_show_the_difference(studio: Studio) -> None:
