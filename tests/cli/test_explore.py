@@ -209,3 +209,17 @@ def test_what_nine_of_ten_neighbours_reach_is_less_than_what_a_design_reaches(fo
     assert "needs body_lengths, which this model does not give" in refusal(
         "explore", "sweep", *QUICK, "--objective", "p10-body_lengths"
     )
+
+
+def test_what_cannot_be_written_is_told_before_anything_is_evaluated(folder, monkeypatch):
+    """Nor is a file replaced that is read, or that somebody made."""
+    monkeypatch.setattr("jumpcad.search.store.StudyStore.write", lambda *_: pytest.fail("begun"))
+    (folder / "own.toml").write_text(load_design("best-ga").to_toml())
+    (folder / "pics").mkdir()
+    (folder / "pics" / "pca.svg").write_text("<svg/>")
+    for words, said in (
+        (("sweep", "--around", "own.toml", "--study", "own.toml"), "--study own.toml: is --around itself"),
+        (("sweep", "--study", "s.sqlite"), "a study file must end in .db"),
+        (("pca", "--plots", "pics"), "pics/pca.svg: exists already"),
+    ):
+        assert said in refusal("explore", *words, *QUICK)

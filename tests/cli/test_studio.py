@@ -23,6 +23,15 @@ def test_a_bundle_brings_its_own_workshop() -> None:
     assert load_workshop(workshop).printer == load_workshop().printer
 
 
+def test_a_bundle_whose_workshop_is_not_its_own_is_not_opened(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: object) -> None:
+        raise JumpcadError("names other files")
+
+    monkeypatch.setattr("jumpcad.bundle.inputs.kept_workshop", refuse)
+    with pytest.raises(JumpcadError, match="names other files"):
+        _design(str(ROOT / "exports" / "kenan-2.0"), None)
+
+
 def test_a_template_comes_in_the_default_workshop() -> None:
     assert _design("best-bo", None) == (load_design("best-bo"), "default")
 

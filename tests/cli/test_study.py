@@ -129,3 +129,17 @@ def test_studies_are_compared_by_their_best(capsys: pytest.CaptureFixture[str]) 
         "s.db: best range 2.5000 in 31 designs (ga+bo, capsule, seed 5)",
         "t.db: best range none in 31 designs (ga+bo, capsule, seed 5)",
     ]
+
+
+def test_what_cannot_be_written_is_told_before_a_study_is_read(folder, monkeypatch):
+    monkeypatch.setattr(StudyStore, "read", lambda *_: pytest.fail("begun"))
+    (folder / "s.db").touch()
+    (folder / "pics").mkdir()
+    for name in ("pics/history.svg", "all.csv"):
+        (folder / name).write_text("mine")
+    for words, said in (
+        (("--export", "s.db"), "--export s.db: is the study s.db itself"),
+        (("--plots", "pics"), "pics/history.svg: exists already"), (("--export", "all.csv"), "all.csv: exists already"),
+        (("--export", "all.txt"), "all.txt: must end in .csv or .parquet"),
+    ):  # fmt: skip
+        assert said in refusal("study", "s.db", *words)
