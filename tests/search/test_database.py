@@ -140,7 +140,7 @@ def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):
     (tmp_path / "folder.db").mkdir()
     for wrong, said in (
         ("s.sqlite", "must end in .db"), ("none/s.db", "there is no folder"),
-        ("folder.db", "is there already and is no file"),
+        ("folder.db", "is there already and is no file"), ("a\0b.db", "cannot be a path: it has a NUL"),
     ):  # fmt: skip
         with pytest.raises(JumpcadError, match=said):
             require_study(tmp_path / wrong)
@@ -159,3 +159,16 @@ def test_before_a_search_it_is_tried_whether_its_folder_takes_a_new_study(tmp_pa
     require_study(tmp_path / "old.db")
     with pytest.raises(JumpcadError, match="no file can be made in"):
         require_study(tmp_path / "new.db")
+
+
+def test_what_a_file_says_of_its_tables_runs_no_functions(tmp_path):
+    """A study may come from elsewhere."""
+    for target in (":memory:", str(tmp_path / "s.db"), f"file:{tmp_path}/s.db?mode=ro"):
+        connection = database.connect(target)
+        assert connection.execute("PRAGMA trusted_schema").fetchone() == (0,)
+        connection.close()
+
+
+def test_a_name_that_no_file_can_have_is_no_study():
+    with pytest.raises(JumpcadError, match="cannot be a path: it has a NUL"):
+        lock(Path("a\0b.db"))

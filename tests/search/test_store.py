@@ -471,3 +471,11 @@ def test_a_file_of_which_it_cannot_be_read_whether_it_is_empty_is_not_removed(tm
     with pytest.raises(JumpcadError, match="unreadable"):
         StudyStore.write(tmp_path / "b.db", IDENTITY)
     assert (tmp_path / "b.db").exists()
+
+
+def test_a_study_is_written_ahead_and_no_batch_waits_for_the_disk(tmp_path):
+    """Others read it meanwhile; only a power cut can lose the last batches."""
+    for _ in range(2):
+        with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+            assert store._connection.execute("PRAGMA journal_mode").fetchone() == ("wal",)
+            assert store._connection.execute("PRAGMA synchronous").fetchone() == (1,)
