@@ -479,3 +479,22 @@ def test_a_study_is_written_ahead_and_no_batch_waits_for_the_disk(tmp_path):
         with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
             assert store._connection.execute("PRAGMA journal_mode").fetchone() == ("wal",)
             assert store._connection.execute("PRAGMA synchronous").fetchone() == (1,)
+
+
+def test_a_study_of_another_program_says_how_one_goes_on(tmp_path):
+    """What differs besides is another request, whoever made it."""
+    path = tmp_path / "s.db"
+    theirs, ours = (IDENTITY | {"versions": {"numpy": number}} for number in ("1.26.4", "2.1.0"))
+    StudyStore.write(path, theirs).close()
+    with pytest.raises(JumpcadError, match=r"was made by another program .* `--from-study .*s\.db`") as caught:
+        StudyStore.write(path, ours)
+    assert '(versions.numpy: "1.26.4" there, "2.1.0" here)' in str(caught.value)
+    with pytest.raises(JumpcadError, match=r"holds another study \(seed: 1 there, 2 here\)"):
+        StudyStore.write(path, ours | {"seed": 2})
+
+
+def test_two_designs_in_one_place_are_damage(tmp_path):
+    """To SQLite a text and its bytes are two keys."""
+    moved = "UPDATE evaluations SET phase = x'6761', place = 1 WHERE phase = 'ga' AND place = 2"
+    with pytest.raises(JumpcadError, match="is damaged: two rows ga 0 1"):
+        read_all(edited(tmp_path / "s.db", moved))

@@ -123,3 +123,14 @@ def test_a_trials_robot_is_built_in_its_workshop_with_the_name_of_its_study(
         monkeypatch.setattr(points, "trials", [replace(trial, workshop=values) for trial in points.trials])
         points.require_built(4)
         assert asked.pop() == (points.trial(4).design, workshop, study.stem)
+
+
+def test_of_a_study_in_which_nothing_jumps_any_trial_is_opened_by_its_number(tmp_path: Path) -> None:
+    made = [replace(one, score=None) for one in trials(3)]
+    with StudyStore.write(tmp_path / "none.db", IDENTITY) as store:
+        store.append(made)
+    points = Points(tmp_path / "none.db")
+    assert points.listed == {}
+    with pytest.raises(JumpcadError, match="no design of this study jumps; --trial N opens one that does not"):
+        _ = points.best
+    assert points.trial(3).design == made[2].design
