@@ -359,6 +359,9 @@ def test_what_joins_off_an_edge_stands_in_the_order_of_its_robustness(evaluator)
     assert scores == sorted(scores, reverse=True)
     assert ranked[-1].trial.design == edge
     assert ranked[-1].rejections["loop"] > 0
+    # Of the eight steps that a pick takes, the last is theirs: the next pick begins with the ninth.
+    first = 8 * (201 * (len(points) + 1) + 16)
+    assert {trial.step for trial in one.trials if trial.phase == "robust"} == {first, first + 7}
 
 
 def test_who_was_not_examined_is_no_candidate(evaluator):

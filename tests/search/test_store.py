@@ -486,7 +486,7 @@ def test_a_study_of_another_program_says_how_one_goes_on(tmp_path):
     path = tmp_path / "s.db"
     theirs, ours = (IDENTITY | {"versions": {"numpy": number}} for number in ("1.26.4", "2.1.0"))
     StudyStore.write(path, theirs).close()
-    with pytest.raises(JumpcadError, match=r"was made by another program .* `--from-study .*s\.db`") as caught:
+    with pytest.raises(JumpcadError, match=r"was made by another program .*`--from-study .*s\.db`") as caught:
         StudyStore.write(path, ours)
     assert '(versions.numpy: "1.26.4" there, "2.1.0" here)' in str(caught.value)
     with pytest.raises(JumpcadError, match=r"holds another study \(seed: 1 there, 2 here\)"):
