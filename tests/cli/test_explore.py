@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
+from support.told import told_default
 
 from jumpcad.cli import explore
 from jumpcad.design import load_design
@@ -223,3 +224,19 @@ def test_what_cannot_be_written_is_told_before_anything_is_evaluated(folder, mon
         (("pca", "--plots", "pics"), "pics/pca.svg: exists already"),
     ):
         assert said in refusal("explore", *words, *QUICK)
+
+
+def test_what_is_not_said_of_a_view_is_what_the_reference_says(folder, monkeypatch):
+    asked = []
+    for maker in ("_swept", "_mapped", "_sampled"):
+        monkeypatch.setattr(explore, maker, lambda *values: asked.append(values))
+
+    def stop(*_):
+        raise JumpcadError("enough")
+
+    monkeypatch.setattr("jumpcad.search.store.StudyStore.write", stop)
+    for view in ("sweep", "feasibility", "pca"):
+        assert "enough" in refusal("explore", view, *QUICK)
+    around, over = load_design(told_default("explore", "--around")), told_default("explore", "--over")
+    points, samples = (int(told_default("explore", option)) for option in ("--points", "--samples"))
+    assert asked == [(around, points), (around, over.replace(", ", ","), points), ("pca", samples, 0)]

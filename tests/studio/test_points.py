@@ -134,3 +134,12 @@ def test_of_a_study_in_which_nothing_jumps_any_trial_is_opened_by_its_number(tmp
     with pytest.raises(JumpcadError, match="no design of this study jumps; --trial N opens one that does not"):
         _ = points.best
     assert points.trial(3).design == made[2].design
+
+
+def test_a_workshop_that_is_none_any_more_is_told_with_its_study(tmp_path: Path) -> None:
+    """As one of another version."""
+    held = load_workshop().model_dump(mode="json") | {"lasers": {"watts": 5}}
+    with StudyStore.write(tmp_path / "old.db", IDENTITY | {"model": {"name": "printed", "workshop": held}}) as store:
+        store.append(trials(1))
+    with pytest.raises(JumpcadError, match=r"old\.db: its workshop cannot be used: .*lasers"):
+        _ = Points(tmp_path / "old.db").workshop

@@ -21,3 +21,11 @@ def told(page: str, *sentences: str) -> tuple[float, ...]:
         assert matched, f"docs/{page}.md does not say: {sentence}"
         found += [WORDS.get(word.lower()) or float(word) for word in matched.groups()]
     return tuple(found)
+
+
+def told_default(command: str, option: str) -> str:
+    """Return the default of a command's option as `docs/reference/commands.md` has it."""
+    page = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
+    rows = page.partition(f"\n## jumpcad {command}\n")[2].partition("\n## ")[0]
+    (default,) = re.findall(rf"^\|[^|]*`{option}[ `].*\| ([^|]*) \|$", rows, re.MULTILINE)
+    return str(default).strip("`")
