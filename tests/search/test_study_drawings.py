@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from support.hills import FIXED, SMALL
 
+from jumpcad.files import templates_folder
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.replay import Known
 from jumpcad.search.space import Space
-from jumpcad.search.study_drawings import _best, _end, _gain, _line, _spread, history, parallel, slices
+from jumpcad.search.study_drawings import AGES, _best, _end, _gain, _line, _spread, history, parallel, slices
 from jumpcad.search.trial import Trial
+from jumpcad.workshop import load_workshop
 
 NAN = float("nan")
 
@@ -32,6 +34,10 @@ NAN = float("nan")
         ([2.0] * 8 + [1.0, 2.0 / 0.992],
          "The best is number 10 of 10. The last fifth of the search raised the best score by 0.8 %: going on promises "
          "little."),
+        ([2.0] * 8 + [1.0, 2.0 / 0.9885],
+         "The best is number 10 of 10. The last fifth of the search raised the best score by 1.2 %: going on may pay."),
+        ([1.0] * 4 + [NAN] * 4 + [2.0, 1.0],
+         "The best is number 9 of 10. The last fifth of the search raised the best score by 50.0 %: going on may pay."),
         ([1.0] * 15 + [2.0] + [1.5] * 4,
          "The best is number 16 of 20. The last fifth of the search found nothing better: going on promises little."),
         ([-2.0] * 8 + [-1.0, -3.0],
@@ -192,6 +198,8 @@ def test_each_slice_has_every_jump_at_its_value_and_score_and_the_best_and_the_s
             assert read(page)(float(x), float(y)) == pytest.approx(
                 (getattr(one.design, parameter.name), one.score), **near
             )
+        assert f"Best: {_best(parameter, places[2][0])}." in page
+        assert read(page)(0.0, 50.0)[1] > read(page)(0.0, 150.0)[1]  # more is higher up
         width, height = box(page)
         words = [(float(x), float(y)) for x, y in re.findall(r'<text x="([\d.]+)" y="([-\d.]+)"', page)]
         assert all(0.0 < x < width and 0.0 < y < height for x, y in words)
@@ -223,3 +231,25 @@ def test_parallel_lines_are_the_stronger_the_better_and_lie_on_axes_with_their_e
     assert all(0.0 < float(y) < height for _, y, *_ in words)
     line = Space.parse(fix=[*FIXED, "rest_angle_deg=50", "stiffness_nmm_per_deg=20"])
     assert list(parallel(replace(found, space=line), ())) == list(parallel(known(None), ())) == []
+
+
+def test_the_best_lines_are_the_best_twentieth_of_many() -> None:
+    page = "\n".join(parallel(known(*range(1, 141)), ()))
+    assert "the best 7<" in page  # the legend has a line of that kind too
+    *_, best = re.findall(r'<path class="bundle3" d="([^"]*)"', page)
+    assert best.count("M") == 7
+
+
+def test_names_are_numbered_from_one_on_an_axis_of_whole_numbers() -> None:
+    battery = "lipo-2s-180", "lipo-1s-300"
+    space = Space.parse(fix=FIXED, choose=[f"bought.battery={','.join(battery)}"], workshop=load_workshop())
+    trials = [replace(trial(0.5, 0.5, 0.5), score=1.0 + n, workshop={"bought.battery": battery[n]}) for n in (0, 1)]
+    *_, page = "\n".join(slices(replace(known(), space=space, trials=trials), ())).split("</figure>")[:-1]
+    assert "1 is lipo-2s-180, 2 is lipo-1s-300. Best: lipo-1s-300." in page
+    assert re.findall(r'text-anchor="middle">([\d.]+)<', page) == ["1", "2"]
+    assert dots("top", page) == [pytest.approx((2.0, 2.0), abs=0.02)]
+
+
+def test_dots_of_every_age_have_a_colour() -> None:
+    style = (templates_folder() / "report" / "study.css").read_text(encoding="ascii")
+    assert sorted(set(re.findall(r"\bage(\d)\b", style))) == [str(age) for age in range(AGES)]
