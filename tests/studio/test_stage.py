@@ -11,6 +11,7 @@ import trimesh
 from scipy.spatial.transform import Rotation
 from support.built import built
 
+from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.scene.visuals import Visual, visuals
@@ -198,3 +199,25 @@ def test_the_path_is_a_thin_line_through_its_points_one_at_a_time(stage: StudioS
     stage.show_path(None)
     stage.show_path(None)
     assert nodes["/path"].removed == 1
+
+
+def test_the_camera_stands_farther_off_large_robots_and_on_a_high_page() -> None:
+    """As many times as legs and toes together are longer; a page higher than wide shows less from side to side."""
+    calls: list[Any] = []
+    server: Any = SimpleNamespace(
+        initial_camera=SimpleNamespace(), on_client_connect=calls.append,
+        scene=SimpleNamespace(set_up_direction=lambda _: None, add_grid=lambda *_, **__: None),
+    )  # fmt: skip
+    stage, design, places = StudioStage(server), load_design("kenan-2.0"), []
+    larger = design.model_copy(update={"carrying_link_mm": 2.0 * design.carrying_link_mm})
+    toes = design.model_copy(update={"e_coef": 2.0 * design.e_coef + 1.0})
+    for one in (design, larger, toes):
+        stage.look_at(one)
+        places.append(np.array([server.initial_camera.position, server.initial_camera.look_at]))
+    assert places[1] == pytest.approx(2.0 * places[0])
+    assert places[2] == pytest.approx(2.0 * places[0])
+    for aspect, moved in ((1.5, False), (0.6, True)):
+        camera = SimpleNamespace(aspect=aspect, position=tuple(places[2][0]), look_at=tuple(places[2][1]))
+        calls[-1](SimpleNamespace(camera=camera))
+        away = np.linalg.norm(np.subtract(camera.position, camera.look_at))
+        assert (away > 1.2 * np.linalg.norm(places[2][0] - places[2][1])) == moved
