@@ -270,11 +270,11 @@ def test_there_are_measurements_and_each_counts_once(
         module.calibrate(files)
 
 
-@pytest.mark.parametrize(("most", "length"), [(20, 20), (80, 80), (81, 160)])
+@pytest.mark.parametrize(("most", "length"), [(10, 10), (40, 40), (41, 80)])
 def test_chains_that_have_not_converged_are_doubled_until_they_are_long_enough(
     subject: Subject, posterior: CalibrationPosterior, most: int, length: int
 ) -> None:
     """A third of them is burn-in, and is not kept."""
-    found = sampled(CalibrationModel(posterior.model.subjects), 1, steps=20, most_steps=most, walkers_each=8)
+    found = sampled(CalibrationModel(posterior.model.subjects), 1, steps=10, most_steps=most, walkers_each=4)
     assert not found.converged
     assert found.steps == length - length // 3
