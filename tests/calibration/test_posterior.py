@@ -275,6 +275,6 @@ def test_chains_that_have_not_converged_are_doubled_until_they_are_long_enough(
     subject: Subject, posterior: CalibrationPosterior, most: int, length: int
 ) -> None:
     """A third of them is burn-in, and is not kept."""
-    found = sampled(CalibrationModel(posterior.model.subjects), 1, steps=10, most_steps=most, walkers_each=4)
+    found = sampled(CalibrationModel(posterior.model.subjects), 1, steps=10, most_steps=most, walkers_each=8)
     assert not found.converged
     assert found.steps == length - length // 3

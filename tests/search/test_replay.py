@@ -56,6 +56,17 @@ def test_a_pick_is_ranked_again_with_all_that_its_run_had(monkeypatch, change, m
     assert found.numbers == trial_numbers(held)
 
 
+def test_a_step_has_the_trials_that_the_study_holds_of_it():
+    """Also where they are fewer than were asked for: the run was stopped there."""
+    held = [*trials(2, "margin", 5), *trials(4, "margin", 6)[2:], *trials(6, "robust", 5)[4:]]
+    with StudyStore.write(None, IDENTITY) as store:
+        store.append(held)
+        replayed = replay.Replay(store)
+    assert replayed.finished("margin", 5, 3) == held[:2]
+    assert replayed.finished("margin", 6, 2) == held[2:4]
+    assert replayed.finished("margin", 7, 3) == []
+
+
 @pytest.mark.parametrize("top", [0.45, 0.72], ids=["bound below the bump", "constraint beside it"])
 def test_candidates_and_bounds_are_those_of_the_run(tmp_path, top):
     space = Space.parse(fix=REST, bound=[f"compression_ratio=0.1:{top}"])
