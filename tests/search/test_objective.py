@@ -54,7 +54,7 @@ def test_an_objective_that_the_model_cannot_give_is_named():
 
 
 def test_unknown_objective():
-    with pytest.raises(JumpcadError, match="^'fitnes' is not one of the objectives .*did you mean fitness") as caught:
+    with pytest.raises(JumpcadError, match=r"^'fitnes' is not one of the objectives .*did you mean fitness") as caught:
         find_objective("fitnes")
     assert all(name in str(caught.value) for name in OBJECTIVES)
 

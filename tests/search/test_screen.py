@@ -351,3 +351,15 @@ def test_a_screen_works_from_as_many_robots_and_is_as_careful_as_the_documentati
     limits = "if it misses a limit by more than {} the worst of them"
     gain = "nor if it can be better than the best by {} % at most"
     assert told("searching", errors, limits, gain) == (SURE, CAREFUL, pytest.approx(100.0 * WORTH))
+
+
+@pytest.mark.parametrize(("most", "left_out"), [(1.0004, True), (1.0006, False)])
+def test_what_can_gain_next_to_nothing_is_not_built(most: float, left_out: bool) -> None:
+    """0.05 % of a best score of 1."""
+    screen, variant = Screen.__new__(Screen), Variant(BEST)
+    screen.model = SimpleNamespace(  # type: ignore[assignment]
+        admits=lambda _: True, laid_out=lambda _: {"laid_coil_mm": 1.0}, refused_first=lambda _: None
+    )
+    known = SimpleNamespace(guess=lambda *_: Expected(1.0, 0.9, most, False))
+    screen.tiers = {False: known, True: known}  # type: ignore[dict-item]
+    assert (variant.key in screen.outcomes([variant], 1.0)) is left_out
