@@ -275,3 +275,14 @@ def test_of_several_robots_all_measurements_count() -> None:
         own = z[:, [keys.index(one.key) for one in alone.parameters]]
         parts.append(alone.log_probability(own) + 0.5 * (own**2).sum(axis=1))
     assert model.log_probability(z) == pytest.approx(parts[0] + parts[1] - 0.5 * (z**2).sum(axis=1))
+
+
+def test_each_parameter_is_called_after_what_it_belongs_to() -> None:
+    """A rate after its pair of springs, the others after their robot."""
+    robot = measured_robot(jumps=JUMPED, release="fixed", spring={"pair": "ours"})
+    assert {one.key: one.label for one in CalibrationModel([robot]).parameters} == {
+        "spring_efficiency": "spring efficiency", "pin_friction": "friction of pins",
+        "back_efficiency": "back efficiency of release", "drive_efficiency": "drive efficiency / model",
+        "rate:ours": "ours: spring rate / design", "mass:a": "a: mass / model", "floor:a": "a: friction of floor",
+        "travel:a": "a: travel after landing (mm)",
+    }  # fmt: skip

@@ -255,3 +255,26 @@ def test_a_distance_or_a_height_is_enough_to_calibrate_on(subject: Subject, jump
     require_data(CalibrationModel([measured(subject, jumps=(jump,))]))
     with pytest.raises(JumpcadError, match="too little"):
         require_data(CalibrationModel([measured(subject, jumps=({"battery_j": (1.5,)},))]))
+
+
+@pytest.mark.parametrize(
+    ("files", "said"),
+    [([], "no measurements: name at least one file, or the template"), (["kenan-1.0", "kenan-1.0"], "is given twice")],
+)
+def test_there_are_measurements_and_each_counts_once(
+    files: list[str], said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Told before a robot is built."""
+    monkeypatch.setattr(module, "load_subject", lambda _: pytest.fail("built"))
+    with pytest.raises(JumpcadError, match=said):
+        module.calibrate(files)
+
+
+@pytest.mark.parametrize(("most", "length"), [(10, 10), (40, 40), (41, 80)])
+def test_chains_that_have_not_converged_are_doubled_until_they_are_long_enough(
+    subject: Subject, posterior: CalibrationPosterior, most: int, length: int
+) -> None:
+    """A third of them is burn-in, and is not kept."""
+    found = sampled(CalibrationModel(posterior.model.subjects), 1, steps=10, most_steps=most, walkers_each=8)
+    assert not found.converged
+    assert found.steps == length - length // 3

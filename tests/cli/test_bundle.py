@@ -416,3 +416,48 @@ def test_a_robot_that_does_not_jump_is_drawn_and_its_jump_is_not(
     assert drawn == {"rest.png": b"still", "exploded.png": b"apart"} | ({"jump.gif": b"moving path"} if jumps else {})
     _, out, _ = run("render", "kenan-2.0", "-o", "other")
     assert out.splitlines() == [*(f"other/{name}" for name in files), *([] if jumps else ["no jump.gif: tips"])]
+
+
+@pytest.fixture
+def begun(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the work of a command end where it begins."""
+
+    def stop(*_: object) -> None:
+        raise JumpcadError("begun")
+
+    monkeypatch.setattr("jumpcad.cli.bundle.printed_robot", stop)
+
+
+@pytest.mark.usefixtures("inputs", "begun")
+@pytest.mark.parametrize("command", ["build", "render"])
+def test_an_output_that_is_an_input_is_told_before_the_work(run: Run, command: str) -> None:
+    for words, itself in (
+        (("own.toml", "-o", "own.toml"), "the design"),
+        (("kenan-2.0", "--workshop", "shop.toml", "-o", "shop.toml"), "--workshop"),
+    ):
+        assert f"is {itself} itself; choose another name" in run(command, *words)[2]
+
+
+@pytest.mark.usefixtures("read_only", "begun")
+@pytest.mark.parametrize("words", [("build",), ("build", "-o", "new"), ("render", "-o", "new")])
+def test_a_folder_in_which_no_file_can_be_made_is_told_before_the_work(run: Run, words: tuple[str, ...]) -> None:
+    command, *options = words
+    code, _, said = run(command, "kenan-2.0", *options)
+    assert (code, said.count("\n")) == (2, 1)
+    assert "cannot be written: no file can be made in" in said
+
+
+@pytest.mark.usefixtures("read_only")
+def test_pictures_that_cannot_be_written_are_not_drawn(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = SimpleNamespace(name="frog")
+    monkeypatch.setattr("jumpcad.cli.bundle.printed_robot", lambda *_: robot)
+    monkeypatch.setattr("jumpcad.bundle.renders.renders", lambda _: pytest.fail("drawn"))
+    assert "frog-pictures: cannot be written" in run("render", "kenan-2.0")[2]
+
+
+@pytest.mark.usefixtures("inputs", "begun")
+@pytest.mark.parametrize("command", ["build", "render"])
+def test_a_bare_name_beside_a_bundle_of_that_name_is_noted(run: Run, command: str) -> None:
+    note = "jumpcad: kenan-2.0 is the template; write ./kenan-2.0 for the bundle of this name\n"
+    assert run(command, "kenan-2.0")[2] == f"{note}jumpcad: begun\n"
+    assert run(command, "kenan-1.0")[2] == "jumpcad: begun\n"

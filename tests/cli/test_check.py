@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from support.commands import Run
 from typer.testing import CliRunner
 
 from jumpcad import checks
@@ -197,3 +198,13 @@ def test_all_limits_of_a_kind_are_explained_together(monkeypatch: pytest.MonkeyP
         assert ([one["name"] for one in told["findings"]], result.exit_code) == (names, code)
         assert [one["use"] for one in told["findings"]] == [one.use for one in findings if one.name in names]
         assert (told["design"], told["workshop"]) == ("kenan-2.0", "default")
+
+
+@pytest.mark.usefixtures("inputs")
+def test_a_bare_name_beside_a_bundle_of_that_name_is_noted(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def built(*_: object) -> None:
+        raise JumpcadError("begun")
+
+    monkeypatch.setattr("jumpcad.workshop.load_workshop", built)
+    note = "jumpcad: kenan-2.0 is the template; write ./kenan-2.0 for the bundle of this name\n"
+    assert run("check", "kenan-2.0")[2] == f"{note}jumpcad: begun\n"

@@ -22,6 +22,12 @@ def test_new_writes_a_copy_that_can_be_loaded(run: Run, tmp_path: Path) -> None:
     assert load_design(tmp_path / "frog.toml") == load_design("best-bo")
 
 
+def test_a_new_design_is_a_copy_of_the_template_that_the_help_says(run: Run, tmp_path: Path) -> None:
+    (default,) = re.findall(r"--from .*?\[default: \((.*?)\)\]", " ".join(run("new", "--help")[1].split()))
+    assert run("new", "frog.toml")[1].startswith(f"frog.toml: a copy of {default};")
+    assert load_design(tmp_path / "frog.toml") == load_design(default)
+
+
 def test_new_keeps_what_is_there(run: Run, tmp_path: Path) -> None:
     (tmp_path / "frog.toml").write_text("mine")
     code, _, err = run("new", "frog.toml")

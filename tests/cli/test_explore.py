@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
+from support.told import told_default
 
 from jumpcad.cli import explore
 from jumpcad.design import load_design
@@ -209,3 +210,33 @@ def test_what_nine_of_ten_neighbours_reach_is_less_than_what_a_design_reaches(fo
     assert "needs body_lengths, which this model does not give" in refusal(
         "explore", "sweep", *QUICK, "--objective", "p10-body_lengths"
     )
+
+
+def test_what_cannot_be_written_is_told_before_anything_is_evaluated(folder, monkeypatch):
+    """Nor is a file replaced that is read, or that somebody made."""
+    monkeypatch.setattr("jumpcad.search.store.StudyStore.write", lambda *_: pytest.fail("begun"))
+    (folder / "own.toml").write_text(load_design("best-ga").to_toml())
+    (folder / "pics").mkdir()
+    (folder / "pics" / "pca.svg").write_text("<svg/>")
+    for words, said in (
+        (("sweep", "--around", "own.toml", "--study", "own.toml"), "--study own.toml: is --around itself"),
+        (("sweep", "--study", "s.sqlite"), "a study file must end in .db"),
+        (("pca", "--plots", "pics"), "pics/pca.svg: exists already"),
+    ):
+        assert said in refusal("explore", *words, *QUICK)
+
+
+def test_what_is_not_said_of_a_view_is_what_the_reference_says(folder, monkeypatch):
+    asked = []
+    for maker in ("_swept", "_mapped", "_sampled"):
+        monkeypatch.setattr(explore, maker, lambda *values: asked.append(values))
+
+    def stop(*_):
+        raise JumpcadError("enough")
+
+    monkeypatch.setattr("jumpcad.search.store.StudyStore.write", stop)
+    for view in ("sweep", "feasibility", "pca"):
+        assert "enough" in refusal("explore", view, *QUICK)
+    around, over = load_design(told_default("explore", "--around")), told_default("explore", "--over")
+    points, samples = (int(told_default("explore", option)) for option in ("--points", "--samples"))
+    assert asked == [(around, points), (around, over.replace(", ", ","), points), ("pca", samples, 0)]

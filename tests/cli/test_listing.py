@@ -59,6 +59,10 @@ def test_parts_are_described_by_their_data_sheets_figures() -> None:
     assert motor.startswith("297.92:1, 6 V, 73/min, 235 mN·m stalled, ")
     assert described("bearings")["623"].startswith("3 x 10 x 4 mm, ")
     catalogue = load_workshop().catalogue
+    assert motor.endswith(f" stalled, {catalogue.motors['n20-298-mp'].mass_g:g} g")
+    for name, words in described("bearings").items():
+        bearing = catalogue.bearings[name]
+        assert words.endswith(f" mm, {bearing.static_load_n:g} N, {bearing.mass_g:g} g")
     for name, words in described("springs").items():
         spring = catalogue.springs[name]
         assert words == (
@@ -67,7 +71,8 @@ def test_parts_are_described_by_their_data_sheets_figures() -> None:
         )
     for name, words in described("batteries").items():
         assert words.endswith(f", {catalogue.batteries[name].mass_g:g} g")
-    assert described("printers")["mk4"].endswith("bed 250 x 210 x 220 mm, nozzle 0.4 mm")
+    mk4 = load_workshop(printer="mk4").printer
+    assert described("printers")["mk4"] == f"{mk4.name}: bed 250 x 210 x 220 mm, nozzle 0.4 mm"
     assert described("materials")["PETG"].startswith("1.27 g/cm³, 45 MPa along its layers")
     assert "to be entered in the workshop" in described("materials")["PA12"]
 

@@ -9,7 +9,6 @@ from support.searches import NARROW, QUICK, data, refusal, run
 from jumpcad.cli.searching import SearchOptions, require_plots
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.database import require_study
 from jumpcad.search.figures import PICTURES
 from jumpcad.settings import load_settings
 from jumpcad.workshop import load_workshop
@@ -106,19 +105,6 @@ def test_a_winner_that_somebody_edited_is_kept(folder):
     (folder / "pics" / "history.svg").write_text("<svg/>")
     assert "history.svg: exists already" in refusal("study", "s.db", "--plots", "pics")
     assert (folder / "pics" / "history.svg").read_text() == "<svg/>"
-
-
-def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):
-    (tmp_path / "old.db").touch()
-    for fine in (None, tmp_path / "new.db", tmp_path / "old.db"):
-        require_study(fine)
-    (tmp_path / "folder.db").mkdir()
-    for wrong, said in (
-        ("s.sqlite", "must end in .db"), ("none/s.db", "there is no folder"),
-        ("folder.db", "is there already and is no file"),
-    ):  # fmt: skip
-        with pytest.raises(JumpcadError, match=said):
-            require_study(tmp_path / wrong)
 
 
 @pytest.mark.parametrize("name", [f"{name}{end}" for name in PICTURES for end in (".svg", ".png")])

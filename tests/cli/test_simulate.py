@@ -299,3 +299,21 @@ def test_engines_are_those_asked_for_or_the_first_that_is_there(
     monkeypatch.setattr(module, "default_engine", lambda: "mujoco")
     assert module._engines(None) == ["mujoco"]
     assert capsys.readouterr().err == "jumpcad: pybullet is not installed; simulated with mujoco\n"
+
+
+@pytest.mark.usefixtures("inputs")
+def test_a_trajectory_is_not_written_over_what_is_simulated(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Told before the jump; a bare name beside a bundle of that name is noted."""
+
+    def built(*_: object) -> None:
+        raise JumpcadError("begun")
+
+    monkeypatch.setattr(module, "printed_robot", built)
+    for words, itself in (
+        (("own.toml", "--trajectory", "own.toml"), "the design"),
+        (("kenan-1.0", "--workshop", "shop.toml", "--trajectory", "shop.toml"), "--workshop"),
+        (("kenan-1.0", "--settings", "own.toml", "--trajectory", "own.toml"), "--settings"),
+    ):
+        assert f"is {itself} itself; choose another name" in command(*words)[2]
+    note = "jumpcad: kenan-2.0 is the template; write ./kenan-2.0 for the bundle of this name\n"
+    assert command("kenan-2.0")[2] == f"{note}jumpcad: begun\n"

@@ -307,3 +307,22 @@ def test_the_document_has_every_mass_and_time_under_its_name() -> None:
         "grams": 24.75, "time_s": 165.0, "workshop": "w.toml", "written": True,
     }  # fmt: skip
     assert slice_facts(Path("frog"), found, None)["workshop"] is None  # type: ignore[arg-type]
+
+
+@pytest.mark.usefixtures("inputs")
+def test_weighed_masses_replace_no_workshop_that_is_read_nor_one_that_came_meanwhile(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Slicing takes a minute, in which somebody may make a file of that name."""
+    workshop = Path("shop.toml").read_text()
+
+    def sliced(*_: object) -> SimpleNamespace:
+        Path("weighed.toml").write_text("mine")
+        return SimpleNamespace(weighed=load_workshop("fine"))
+
+    monkeypatch.setattr("jumpcad.bundle.sliced.slice_bundle", sliced)
+    said = run("slice", "kenan-2.0", "--workshop", "shop.toml", "--write-masses", "shop.toml", "--force")[2]
+    assert "is --workshop itself; choose another name" in said
+    assert Path("shop.toml").read_text() == workshop
+    assert "weighed.toml: exists already" in run("slice", "kenan-2.0", "--write-masses", "weighed.toml")[2]
+    assert Path("weighed.toml").read_text() == "mine"

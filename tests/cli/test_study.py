@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from support.searches import QUICK, data, refusal, run
 from support.studies import IDENTITY, trials
+from support.told import told_default
 
 from jumpcad.cli import study
 from jumpcad.design import load_design
@@ -129,3 +130,25 @@ def test_studies_are_compared_by_their_best(capsys: pytest.CaptureFixture[str]) 
         "s.db: best range 2.5000 in 31 designs (ga+bo, capsule, seed 5)",
         "t.db: best range none in 31 designs (ga+bo, capsule, seed 5)",
     ]
+
+
+def test_what_cannot_be_written_is_told_before_a_study_is_read(folder, monkeypatch):
+    monkeypatch.setattr(StudyStore, "read", lambda *_: pytest.fail("begun"))
+    (folder / "s.db").touch()
+    (folder / "pics").mkdir()
+    for name in ("pics/history.svg", "all.csv"):
+        (folder / name).write_text("mine")
+    for words, said in (
+        (("--export", "s.db"), "--export s.db: is the study s.db itself"),
+        (("--plots", "pics"), "pics/history.svg: exists already"), (("--export", "all.csv"), "all.csv: exists already"),
+        (("--export", "all.txt"), "all.txt: must end in .csv or .parquet"),
+    ):  # fmt: skip
+        assert said in refusal("study", "s.db", *words)
+
+
+def test_as_many_of_the_best_are_shown_as_the_reference_says(folder):
+    with StudyStore.write(folder / "s.db", IDENTITY) as store:
+        store.append(trials(24))
+    assert len([one for one in trials(24) if one.score is not None]) > 9
+    ranks = re.findall(r"^ *(\d+)\. ", run("study", "s.db"), re.M)
+    assert ranks[-1] == told_default("study", "--list")

@@ -53,6 +53,27 @@ def test_it_follows_a_search_until_it_ends(tmp_path, monkeypatch, capsys):
     assert f"{path}: ga on the hill robot, fitness" in text  # the study itself follows
 
 
+def test_it_looks_again_after_a_while_and_says_only_what_is_new(tmp_path, monkeypatch, capsys):
+    """Also what came while it found that nobody writes any more."""
+    path, waited = tmp_path / "s.db", []
+    later = [[], [], trials(2, step=1), []]
+    with StudyStore.write(path, IDENTITY) as store:
+        store.append(trials(3))
+
+    def running(_):
+        if more := later.pop(0):
+            with StudyStore.write(path, IDENTITY) as store:
+                store.append(more)
+        return bool(later)
+
+    monkeypatch.setattr("jumpcad.search.database.is_written", running)
+    monkeypatch.setattr(command.time, "sleep", waited.append)
+    command._watch(path)
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.partition(",")[0] for line in lines] == ["3 designs", "5 designs"]
+    assert waited == [command.WATCH_S] * 3
+
+
 def test_it_is_for_one_study_and_for_people(folder):
     assert "--watch is for one study" in refusal("study", "a.db", "b.db", "--watch")
     assert "--watch is for one study" in refusal("study", "a.db", "--watch", "--json")

@@ -149,3 +149,17 @@ def test_a_climb_ends_on_the_top_or_on_a_bound_and_leaves_choices_alone():
     chosen = Space.parse(fix=FIXED, choose=[f"{one.name}={one.lower},{one.upper}" for one in SMALL.free])
     assert _climb(chosen, hill, start, 40) is start
     assert start.tolist() == [0.6, 0.5, 0.5]
+
+
+def test_a_climb_takes_as_many_steps_as_it_may():
+    """Along a bent valley (Rosenbrock's) from (0.1, 0.9) to (0.8, 0.64) it takes more than two, and less than forty."""
+
+    def valley(points):
+        x, y = points[:, 0], points[:, 2]
+        return -((x - 0.8) ** 2) - 100.0 * (y - x**2) ** 2
+
+    start = np.array([0.1, 0.5, 0.9])
+    few, many = (_climb(SMALL, valley, start, steps) for steps in (2, 40))
+    assert many[[0, 2]] == pytest.approx([0.8, 0.64], abs=1e-3)
+    assert np.abs(few - many).max() > 0.1
+    assert valley(few[None]) > valley(start[None])

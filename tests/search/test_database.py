@@ -1,5 +1,6 @@
 """The SQLite file of a study: one writer, locks of other programs, what is not a file."""
 
+import errno
 import os
 import re
 import sqlite3
@@ -13,7 +14,7 @@ from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search import database
-from jumpcad.search.database import is_written, lock, plain_errors
+from jumpcad.search.database import is_written, lock, plain_errors, require_study
 from jumpcad.search.store import StudyStore
 
 
@@ -130,3 +131,44 @@ def test_a_study_is_written_while_its_lock_is_held(tmp_path):
         lock(tmp_path / "s.db")
     os.close(descriptor)
     assert not is_written(tmp_path / "s.db")
+
+
+def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):
+    (tmp_path / "old.db").touch()
+    for fine in (None, tmp_path / "new.db", tmp_path / "old.db"):
+        require_study(fine)
+    (tmp_path / "folder.db").mkdir()
+    for wrong, said in (
+        ("s.sqlite", "must end in .db"), ("none/s.db", "there is no folder"),
+        ("folder.db", "is there already and is no file"), ("a\0b.db", "cannot be a path: it has a NUL"),
+    ):  # fmt: skip
+        with pytest.raises(JumpcadError, match=said):
+            require_study(tmp_path / wrong)
+
+
+def test_before_a_search_it_is_tried_whether_its_folder_takes_a_new_study(tmp_path, monkeypatch):
+    """One that is there already is written in place; nothing is left of the trial."""
+    (tmp_path / "old.db").touch()
+    require_study(tmp_path / "new.db")
+    assert [path.name for path in tmp_path.iterdir()] == ["old.db"]
+
+    def read_only(*_):
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.setattr(os, "open", read_only)
+    require_study(tmp_path / "old.db")
+    with pytest.raises(JumpcadError, match="no file can be made in"):
+        require_study(tmp_path / "new.db")
+
+
+def test_what_a_file_says_of_its_tables_runs_no_functions(tmp_path):
+    """A study may come from elsewhere."""
+    for target in (":memory:", str(tmp_path / "s.db"), f"file:{tmp_path}/s.db?mode=ro"):
+        connection = database.connect(target)
+        assert connection.execute("PRAGMA trusted_schema").fetchone() == (0,)
+        connection.close()
+
+
+def test_a_name_that_no_file_can_have_is_no_study():
+    with pytest.raises(JumpcadError, match="cannot be a path: it has a NUL"):
+        lock(Path("a\0b.db"))

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.hills import SMALL, Hill
+from support.told import told
 
 from jumpcad.search.acquisition import Proposal
 from jumpcad.search.learner import HELD, ROUNDS, Learner, _best_of, _last_leap
@@ -293,3 +294,7 @@ def test_a_leap_is_two_per_cent_better_than_the_leap_before_it():
     assert [getattr(_last_leap(trials[:count]), "place", None) for count in range(9)] == [
         None, None, 1, 1, 1, 1, 5, 5, 5
     ]  # fmt: skip
+
+
+def test_a_proposal_that_fails_is_followed_by_as_many_as_the_documentation_says():
+    assert told("searching", "after {} in a row, the next is built unseen") == (ROUNDS,)

@@ -47,6 +47,8 @@ def test_a_model_says_what_decides_its_evaluations():
     assert [one.describe()["settings"] is None for one in (printed, capsule, published)] == [False, False, True]
     assert {"manifold3d", "trimesh"} < set(printed.versions())
     assert not {"manifold3d", "trimesh"} & set(capsule.versions())
+    assert replace(printed, stand_in=True).describe() == printed.describe() | {"stand_in": True}
+    assert replace(printed, neighbours_of="rise").describe() == printed.describe() | {"neighbours_of": "rise"}
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
     assert len(digests) == 4
 

@@ -4,7 +4,7 @@ import pytest
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.search.objective import Evaluation, described_objective, find_objective
+from jumpcad.search.objective import OBJECTIVES, Evaluation, described_objective, find_objective
 
 JUMP = {
     "body_lengths": 6.0,
@@ -54,8 +54,9 @@ def test_an_objective_that_the_model_cannot_give_is_named():
 
 
 def test_unknown_objective():
-    with pytest.raises(JumpcadError, match="did you mean fitness"):
+    with pytest.raises(JumpcadError, match=r"^'fitnes' is not one of the objectives .*did you mean fitness") as caught:
         find_objective("fitnes")
+    assert all(name in str(caught.value) for name in OBJECTIVES)
 
 
 def test_of_a_limit_of_several_parts_the_least_margin_counts():

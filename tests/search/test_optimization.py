@@ -74,6 +74,7 @@ def test_the_space_is_given_by_numbers():
         ({"workers": 1, "dask": "tcp://x"}, "exclude each other"),
         ({"engine": "ode"}, "not an engine"),
         ({"study": "none/s.db"}, "none/s.db"),
+        ({"study": "s.sqlite"}, "a study file must end in .db"),
     ],
 )
 def test_wrong_arguments_are_one_line(folder, options, message):

@@ -173,3 +173,23 @@ def test_a_range_is_narrowed_to_a_share_of_itself(percent: float) -> None:
     assert narrowed(ratio, 1.0, 100.0).width == pytest.approx(0.8)
     with pytest.raises(JumpcadError, match="is outside 0…100 %: a share of each parameter's range"):
         narrowed(ratio, 1.0, percent)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (Change("bound", "c_coef", (0.9,)), "c_coef has 1 bounds; give the lower and the upper one"),
+        (Change("bound", "c_coef", (0.9, 1.0, 1.1)), "c_coef has 3 bounds; give the lower and the upper one"),
+        (Change("choose", "c_coef", ()), "c_coef has no values to choose from; give at least one"),
+        (Change("fix", "c_coef", ("1",)), r"c_coef = '1' \(str\) is not a number"),
+        (Change("fix", "body.plate_mm", (None,)), "body.plate_mm = None is neither a number nor a name"),
+        (Change("fix", "body.plate_mm", (2.5,)), ""), (Change("fix", "body.plate_mm", ("2.5",)), ""),
+    ],
+)  # fmt: skip
+def test_a_change_has_as_many_numbers_as_its_kind_takes(change: Change, said: str) -> None:
+    """A number of the workshop may be written as text, one of the design not."""
+    if said:
+        with pytest.raises(JumpcadError, match=said):
+            changed_parameters([change], load_workshop())
+    else:
+        assert changed_parameters([change], load_workshop())[change.name].describe() == {"fixed": 2.5}

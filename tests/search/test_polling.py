@@ -6,9 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.hills import SMALL
+from support.told import told
 
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.polling import DRAWN, STEP, Progress, gains, neighbours
+from jumpcad.search.polling import DRAWN, STALLED, STEP, Progress, gains, neighbours
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
 from jumpcad.workshop import load_workshop
@@ -95,3 +96,7 @@ def test_neighbours_lie_along_the_axes_that_are_on_no_bound():
     assert (np.abs(points[6:] - [0.4, 0.5, 0.6]) > 0.0).all()
     wider = np.array(neighbours(SMALL, whole, np.random.default_rng(0), 2.5)) - [0.4, 0.5, 0.6]
     assert wider == pytest.approx(2.5 * (points - [0.4, 0.5, 0.6]), abs=3e-4)  # of the same draws, to four digits
+
+
+def test_neighbours_are_looked_at_after_as_many_steps_as_the_documentation_says():
+    assert told("searching", "Where {} steps in a row gain nothing, designs near the best are guessed") == (STALLED,)

@@ -13,9 +13,11 @@ import numpy as np
 import pytest
 from support.hills import SMALL, Hill, Trap
 
+from jumpcad import interrupts
 from jumpcad.errors import JumpcadError
+from jumpcad.search import pool as pool_module
 from jumpcad.search.objective import QUARANTINED
-from jumpcad.search.pool import InProcess, Pool, dask_pool, local_pool
+from jumpcad.search.pool import InProcess, Pool, dask_pool, local_pool, open_pool
 from jumpcad.search.space import Space
 
 SPACE = Space.parse(fix=["c_coef=1", "d_coef=0.8"])
@@ -160,13 +162,14 @@ def test_dask_loses_nothing_when_a_worker_is_killed(tmp_path):
 def test_a_dask_scheduler_is_let_go_when_the_pool_is_closed_or_it_has_no_workers(monkeypatch, threads):
     """As many designs at a time as its workers have threads; what runs is not waited for."""
     told = []
+    asked = []
     executor = SimpleNamespace(shutdown=lambda wait: told.append(("shutdown", wait)), submit=InProcess().submit)
     client = SimpleNamespace(
         scheduler_info=lambda n_workers: {"workers": {str(n): {"nthreads": count} for n, count in enumerate(threads)}},
-        get_executor=lambda pure: executor, close=lambda: told.append("closed"),
+        get_executor=lambda pure: asked.append(pure) or executor, close=lambda: told.append("closed"),
     )  # fmt: skip
     resolved = SimpleNamespace(resolve_address=lambda address: address)
-    scheduler = SimpleNamespace(comm=resolved, Client=lambda address, **_: client)
+    scheduler = SimpleNamespace(comm=resolved, Client=lambda *given, **how: asked.append((*given, how)) or client)
     monkeypatch.setitem(sys.modules, "distributed", scheduler)
     if not threads:
         with pytest.raises(JumpcadError, match="the Dask scheduler at tcp://a has no workers: start some"):
@@ -178,6 +181,8 @@ def test_a_dask_scheduler_is_let_go_when_the_pool_is_closed_or_it_has_no_workers
         assert len(list(pool.evaluate(Hill(), GOOD[:2]))) == 2
         assert told == []
     assert told == [("shutdown", False), "closed"]
+    # Other code of the same process keeps its own client; equal tasks are not taken for one.
+    assert asked == [("tcp://a", {"timeout": 10.0, "set_as_default": False}), False]
 
 
 def test_dask_that_does_not_answer(monkeypatch):
@@ -200,6 +205,53 @@ def test_dask_that_does_not_answer(monkeypatch):
 def test_wrong_pools(workers, limit_s, message):
     with pytest.raises(JumpcadError, match=message):
         local_pool(workers, limit_s)
+
+
+def test_a_pool_has_a_worker_for_each_core_that_it_may_use(monkeypatch):
+    """A machine that does not tell has as many as it has cores."""
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 2, 5}, raising=False)
+    monkeypatch.setattr(os, "cpu_count", lambda: 8)
+    assert (local_pool().workers, local_pool(2).workers) == (3, 2)
+    monkeypatch.delattr(os, "sched_getaffinity")
+    assert local_pool().workers == 8
+    monkeypatch.setattr(os, "cpu_count", lambda: None)
+    assert local_pool().workers == 1
+
+
+def test_a_cluster_has_its_own_workers_and_the_same_timeout(monkeypatch):
+    for wrong in (0.0, 1e6, float("nan")):
+        with pytest.raises(JumpcadError, match="the timeout per evaluation"):
+            dask_pool("tcp://a", wrong)
+    for name in ("dask_pool", "local_pool"):
+        monkeypatch.setattr(pool_module, name, lambda *given, made=name: (made, *given))
+    assert open_pool(None, "tcp://a", 7.0) == ("dask_pool", "tcp://a", 7.0)
+    assert open_pool(3, None, 7.0) == ("local_pool", 3, 7.0)
+    with pytest.raises(JumpcadError, match="workers and dask exclude each other"):
+        open_pool(3, "tcp://a")
+
+
+class Interrupted(Hill):
+    """A hill whose command is interrupted at the third evaluation; the steep ones fail."""
+
+    def __call__(self, design):
+        super().__call__(design)
+        if len(self.log.read_text().splitlines()) == 3:
+            interrupts.seen.append(2)
+        if design.rest_angle_deg > 60.0:
+            raise ZeroDivisionError
+        return Hill()(design)
+
+
+def test_a_command_that_was_interrupted_evaluates_no_more(tmp_path, monkeypatch):
+    """Neither further tasks, of which one was sent already, nor what is to be repeated."""
+    monkeypatch.setattr(interrupts, "seen", [])
+    bad = DESIGNS[min(TRAPPED)]
+    for number, (designs, most) in enumerate(((GOOD[:8], 4), ([bad, *GOOD[:2]], 3))):
+        log = tmp_path / str(number)
+        with local_pool(0) as pool, pytest.raises(KeyboardInterrupt):
+            list(pool.evaluate(Interrupted(log), designs))
+        assert 3 <= len(log.read_text().splitlines()) <= most
+        interrupts.seen.clear()
 
 
 @pytest.mark.parametrize("workers", [1, 3, 8])

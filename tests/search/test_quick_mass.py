@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from support.built import built
 
-from jumpcad.design import Design, load_design
+from jumpcad.design import Design, limits_of, load_design
 from jumpcad.mechanism.feasibility import statics_findings
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
@@ -242,6 +242,7 @@ def test_what_is_known_is_wider_than_what_is_searched() -> None:
         (SEARCH_BOUNDS[name].upper - SEARCH_BOUNDS[name].lower) / (high - low) for name, (low, high) in DESIGNS.items()
     ]
     assert 0.4 < np.mean(widths) < 0.7
+    assert all(limits_of(name)[0] <= low < high <= limits_of(name)[1] for name, (low, high) in DESIGNS.items())
     assert all(
         low < SEARCH_BOUNDS[name].lower < SEARCH_BOUNDS[name].upper < high for name, (low, high) in DESIGNS.items()
     )

@@ -28,6 +28,7 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
 from jumpcad.simulation import simulate
+from jumpcad.workshop import load_workshop
 
 TASK = Task(17, 0, initial=10)
 WHOLE = Space.default()
@@ -311,3 +312,47 @@ def test_of_what_held_the_last_are_guessed_and_every_trial_that_jumped(monkeypat
     found = rehearsal.guesses(trials, named[2:])
     assert list(found) == [number for number in range(3, GUESSED + 4) if number != 5] + [-1]
     assert found[-1] == (1, -10.0)
+
+
+def figures_that_know_their_rows(monkeypatch):
+    """Let guesses be the number of robots from which figures were fitted."""
+    coefficients = SimpleNamespace(coefficients=dict)
+    monkeypatch.setattr("jumpcad.search.rehearsal.Table", lambda *_, **__: coefficients)
+    monkeypatch.setattr("jumpcad.search.rehearsal.ranked_points", lambda *_: [])
+    monkeypatch.setattr(Guesser, "quick", lambda *_: lambda variant, fit, laid: Guess(float(fit.rows), {}))
+
+
+def test_what_was_guessed_is_guessed_anew_with_new_figures(monkeypatch):
+    """From eight robots on, then of ten (10.4), and not of nine."""
+    figures_that_know_their_rows(monkeypatch)
+    design = SPACE.to_design(np.full(SPACE.dimension, 0.5))
+    trials = [Trial("bo", 0, place, design, Evaluation("jump", {MARK: 1.0}), 1.0, "m", 0.0) for place in range(11)]
+    rehearsal, asked = rehearsal_of(), []
+    vars(rehearsal)["_model"] = SimpleNamespace(laid_out=lambda one: {})
+    for count in (7, 8, 9, 11):
+        rehearsal.learn(trials[:count])
+        asked.append(rehearsal.guess(Variant(design)))
+    assert asked == [None, 8.0, 8.0, 10.0]
+
+
+def test_where_the_workshop_varies_nothing_is_guessed(monkeypatch):
+    """docs/searching.md: there is only the layout."""
+    figures_that_know_their_rows(monkeypatch)
+    shop = load_workshop()
+    for bound, guessing in (([], True), (["body.plate_mm=1.6:2.4"], False)):
+        space = Space.parse(bound=bound, workshop=shop)
+        variant = space.to_variant(np.full(space.dimension, 0.5))
+        one = Trial(
+            "bo", 0, 0, variant.design, Evaluation("jump", {MARK: 1.0}), 1.0, "m", 0.0, workshop=variant.workshop
+        )
+        rehearsal = rehearsal_of(robot_model(), space)
+        rehearsal.learn([replace(one, place=place) for place in range(8)])
+        assert rehearsal.guessing == guessing
+
+
+def test_a_point_of_another_space_is_not_looked_at(monkeypatch):
+    """As of a search that had other free parameters."""
+    rehearsal = rehearsal_of()
+    monkeypatch.setattr(rehearsal, "_refusal", lambda one: pytest.fail("laid out"))
+    assert rehearsal.failures([], [np.full(SPACE.dimension + 1, 0.5), np.full(SPACE.dimension - 1, 0.5)]) == []
+    assert rehearsal.known([], [np.full(SPACE.dimension + 1, 0.5)]) == set()

@@ -1,7 +1,7 @@
 """What a study file knows of the pick is what the run that wrote it found."""
 
 import sqlite3
-from dataclasses import replace
+from dataclasses import asdict, replace
 from types import SimpleNamespace
 
 import pytest
@@ -9,13 +9,15 @@ from support.bumps import REST, Bump, studied
 from support.studies import IDENTITY, trials
 
 from jumpcad.search import replay
+from jumpcad.search.fronts import SPRING_ENERGY, front
 from jumpcad.search.pool import local_pool
 from jumpcad.search.replay import _share, known
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
-from jumpcad.search.trial import feasible_trials
+from jumpcad.search.tolerances import Making
+from jumpcad.search.trial import feasible_trials, trial_numbers
 
 
 def test_bounds_are_those_of_the_winner_where_it_is_not_the_best(tmp_path, monkeypatch):
@@ -28,6 +30,41 @@ def test_bounds_are_those_of_the_winner_where_it_is_not_the_best(tmp_path, monke
     with StudyStore.read(tmp_path / "s.db") as store:
         assert known(store).winner == found[1] != found[0]
     assert asked == [(found[1], 0)]
+
+
+@pytest.mark.parametrize(
+    ("change", "making"),
+    [
+        ({}, Making(0.0)), ({"tolerance_mm": 0.3}, Making(0.3)),
+        ({"making": asdict(Making(0.4, 0.05, 0.04, 0.15, True)), "method": "nsga2", "seed": 9},
+         Making(0.4, 0.05, 0.04, 0.15, True)),
+    ],
+)  # fmt: skip
+def test_a_pick_is_ranked_again_with_all_that_its_run_had(monkeypatch, change, making):
+    """Tolerances, of which the first studies had one; the seed; of a front, its designs alone may be candidates.
+
+    Trials have the numbers that they have in the study, those around the best too.
+    """
+    asked, held = [], [*trials(24), *trials(2, "robust", 8 * (201 * 24 + 57))]
+    monkeypatch.setattr(replay, "rank_candidates", lambda *given: asked.append(given[1:]) or [])
+    with StudyStore.write(None, IDENTITY | change) as store:
+        store.append(held)
+        found = known(store)
+    among = front(held[:24], SPRING_ENERGY) if "method" in change else None
+    assert asked == [(held[:24], change.get("seed", 1), making, 57, among)]
+    assert found.trials == held[:24]
+    assert found.numbers == trial_numbers(held)
+
+
+def test_a_step_has_the_trials_that_the_study_holds_of_it():
+    """Also where they are fewer than were asked for: the run was stopped there."""
+    held = [*trials(2, "margin", 5), *trials(4, "margin", 6)[2:], *trials(6, "robust", 5)[4:]]
+    with StudyStore.write(None, IDENTITY) as store:
+        store.append(held)
+        replayed = replay.Replay(store)
+    assert replayed.finished("margin", 5, 3) == held[:2]
+    assert replayed.finished("margin", 6, 2) == held[2:4]
+    assert replayed.finished("margin", 7, 3) == []
 
 
 @pytest.mark.parametrize("top", [0.45, 0.72], ids=["bound below the bump", "constraint beside it"])

@@ -247,7 +247,7 @@ def test_what_is_not_asked_for_follows_from_method_and_robot():
     [
         ({"method": "pareto"}, "bought.spring: a front against spring energy takes springs made to order"),
         ({"method": "nsga2"}, "bought.spring: a front against spring energy takes springs made to order"),
-        ({"method": "gaa"}, "'gaa' is not one of the methods ga.bo, ga, bo, pareto, paper, nsga2"),
+        ({"method": "gaa"}, "'gaa' is not one of the methods ga.bo, ga, bo, pareto, paper, nsga2 .did you mean ga"),
         ({"preset": "fast"}, "'fast' is not one of the presets recommended, published"),
         ({"objective": "reach"}, "'reach' is not one of the objectives"),
         ({"batch": 0}, "batch = 0 must be at least 1"), ({"evaluations": 0}, "evaluations = 0 must be at least 1"),

@@ -161,6 +161,9 @@ def test_the_winners_design_is_written_and_its_workshop_beside_it(tmp_path: Path
     """The files make the robot that won, and no other; a user's file is kept, unless it is to be replaced."""
     plain = found()
     assert plain.save(tmp_path / "plain.toml") == tmp_path / "plain.toml"
+    printed = found(request=Request(SMALL, robot_model("printed"), "range", "ga", 40))
+    assert (printed.workshop, printed.workshop_toml()) == (None, "")
+    printed.save(tmp_path / "plain.toml")
     assert [file.name for file in tmp_path.iterdir()] == ["plain.toml"]
     assert load_design(tmp_path / "plain.toml") == plain.design
     thick = replace(plain.trials[1], workshop={"body.plate_mm": 2.75})

@@ -136,6 +136,19 @@ def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluat
     assert sum(new for _, new in rounds) <= 32
 
 
+@pytest.mark.parametrize(
+    ("evaluations", "rounds"),
+    [
+        (6, [(1, 6)]), (8, [(2, 2), (1, 4)]), (24, [(4, 2), (2, 4), (1, 8)]), (40, [(4, 2), (2, 8), (1, 16)]),
+        (160, [(16, 2), (8, 4), (4, 8), (2, 16), (1, 2)]), (200, [(16, 2), (8, 4), (4, 10), (2, 16), (1, 0)]),
+        (1, [(1, 0)]),
+    ],
+)  # fmt: skip
+def test_every_round_costs_as_much_and_nobody_has_more_than_his_32_neighbours(evaluations, rounds):
+    """A half, a third or a fifth of what is left, in pairs: one of each kind, of which there are 16."""
+    assert plan_rounds(evaluations) == rounds
+
+
 def test_where_no_neighbour_is_rejected_the_last_candidate_gets_what_is_left(evaluator):
     one = evaluator(model=Spiked())
     one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.4, 0.6, 0.8)], "bo", 0)
@@ -346,6 +359,9 @@ def test_what_joins_off_an_edge_stands_in_the_order_of_its_robustness(evaluator)
     assert scores == sorted(scores, reverse=True)
     assert ranked[-1].trial.design == edge
     assert ranked[-1].rejections["loop"] > 0
+    # Of the eight steps that a pick takes, the last is theirs: the next pick begins with the ninth.
+    first = 8 * (201 * (len(points) + 1) + 16)
+    assert {trial.step for trial in one.trials if trial.phase == "robust"} == {first, first + 7}
 
 
 def test_who_was_not_examined_is_no_candidate(evaluator):

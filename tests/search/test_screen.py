@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.quick import BEST, FIGURES, LIKE, SPACE, Quick, quick
+from support.told import told
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from jumpcad.errors import JumpcadError
@@ -21,11 +22,11 @@ from jumpcad.search.models import GUESS_STEP_S, robot_model
 from jumpcad.search.objective import GUESSED, SCREENED, Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
-from jumpcad.search.screen import LEAST, WORTH, Screen, leaves_out
+from jumpcad.search.screen import GROWTH, LEAST, WORTH, Screen, leaves_out
 from jumpcad.search.space import Space
 from jumpcad.search.stand_in import LAID, stand_in
 from jumpcad.search.store import StudyStore
-from jumpcad.search.tier import Expected, Tier
+from jumpcad.search.tier import CAREFUL, SURE, Expected, Tier
 from jumpcad.search.trial import Trial, best_trial
 from jumpcad.search.variant import Key, Variant
 from jumpcad.settings import load_settings
@@ -340,3 +341,25 @@ def test_what_a_model_does_not_admit_is_left_to_its_evaluation() -> None:
     screen.model = SimpleNamespace(admits=lambda _: False, laid_out=None, refused_first=None)  # type: ignore[assignment]
     screen.tiers = {False: unasked, True: unasked}  # type: ignore[dict-item]
     assert screen.outcomes([Variant(BEST)], 9.0) == {}
+
+
+def test_a_screen_works_from_as_many_robots_and_is_as_careful_as_the_documentation_says() -> None:
+    first = "After the first {} robots, the masses of candidates are fitted"
+    anew = "The figures are fitted anew whenever a {} more robots were built"
+    assert told("searching", first, anew) == (LEAST, GROWTH - 1.0)
+    errors = "another one of its generation, by more than {} of 100 of these errors"
+    limits = "if it misses a limit by more than {} the worst of them"
+    gain = "nor if it can be better than the best by {} % at most"
+    assert told("searching", errors, limits, gain) == (SURE, CAREFUL, pytest.approx(100.0 * WORTH))
+
+
+@pytest.mark.parametrize(("most", "left_out"), [(1.0004, True), (1.0006, False)])
+def test_what_can_gain_next_to_nothing_is_not_built(most: float, left_out: bool) -> None:
+    """0.05 % of a best score of 1."""
+    screen, variant = Screen.__new__(Screen), Variant(BEST)
+    screen.model = SimpleNamespace(  # type: ignore[assignment]
+        admits=lambda _: True, laid_out=lambda _: {"laid_coil_mm": 1.0}, refused_first=lambda _: None
+    )
+    known = SimpleNamespace(guess=lambda *_: Expected(1.0, 0.9, most, False))
+    screen.tiers = {False: known, True: known}  # type: ignore[dict-item]
+    assert (variant.key in screen.outcomes([variant], 1.0)) is left_out

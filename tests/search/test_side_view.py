@@ -2,13 +2,14 @@
 
 import itertools
 import math
+import re
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
 
 from jumpcad.design import Design, load_design
-from jumpcad.search.side_view import POINTS, box_mm, joints_mm, side_view
+from jumpcad.search.side_view import LINKS, POINTS, box_mm, joints_mm, side_view
 
 DESIGN = Design.from_vector([100.0, 0.9, 0.8, 0.7, 0.6, 50.0, 20.0, 30.0])
 
@@ -66,3 +67,25 @@ def test_a_design_without_a_pose_is_told():
     said = side_view(impossible, box_mm([impossible]))
     assert "no assembled pose" in said
     assert list(itertools.chain(*ElementTree.fromstring(said).iter("svg"))) == []
+
+
+def test_every_link_is_a_line_between_its_joints_and_the_scale_is_50_mm_long():
+    """In millimetres, upwards counted down as SVG does; the scale lies below the ground."""
+    box = box_mm([DESIGN])
+    root = ElementTree.fromstring(side_view(DESIGN, box))
+    for pose, joints in joints_mm(DESIGN).items():
+        (group,) = (one for one in root.iter("g") if one.get("class") == pose)
+        at = dict(zip(POINTS, joints, strict=True))
+        lines = {one.get("class"): re.findall(r"-?[\d.]+", one.get("d")) for one in group.iter("path")}
+        assert set(lines) == {link.replace(" ", "-") for link in LINKS}
+        for link, ends in LINKS.items():
+            wanted = [number for end in ends for number in (at[end][0], -at[end][1])]
+            assert [float(number) for number in lines[link.replace(" ", "-")]] == pytest.approx(wanted, abs=0.051)
+        circles = [(float(one.get("cx")), -float(one.get("cy"))) for one in group.iter("circle")]
+        assert np.array(circles) == pytest.approx(np.array(joints[1:]), abs=0.051)  # toes end without a joint
+    (scale,) = (one.get("d") for one in root.iter("path") if one.get("class") == "scale")
+    x, y, length = map(float, re.findall(r"-?[\d.]+", scale))
+    assert length == 50.0
+    assert [one.text for one in root.iter("text")] == ["50 mm"]
+    assert box[0] < x < x + length < box[2]
+    assert 0.0 < y < -box[1] + 16.0

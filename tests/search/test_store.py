@@ -19,7 +19,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.database import connect
 from jumpcad.search.rows import APPLICATION_ID, COLUMNS, FORMATS, own_tables, to_row
 from jumpcad.search.space import Space
-from jumpcad.search.store import MOST_NOTES, StudyStore, difference
+from jumpcad.search.store import ENDED, MOST_NOTES, StudyStore, difference
 
 
 def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
@@ -165,8 +165,9 @@ def edited(path, *statements):
 
 
 def read_all(path):
-    """Read everything that a study holds."""
+    """Read everything that a study holds; its search has not ended."""
     with StudyStore.read(path) as store:
+        assert store.recall(ENDED) is None
         return store.trials(), store.recall("stages"), store.notes()
 
 
@@ -219,6 +220,8 @@ def test_a_damaged_row_is_named(tmp_path, column, value, reason):
         ("UPDATE study SET value = '{' WHERE key = 'stages'", "its stages cannot be read"),
         ("UPDATE study SET value = '[]' WHERE key = 'stages'", "stages: List should have at least 1"),
         ("UPDATE study SET value = replace(value, 'ga', 'zz') WHERE key = 'stages'", r"stages.0.method"),
+        ("INSERT INTO study VALUES ('ended', '{\"by\": \"boredom\"}')", r"ended.by: Input should be 'evaluations'"),
+        ("INSERT INTO study VALUES ('ended', '0')", "ended: Input should be"),
         (
             "CREATE VIEW endless AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n FROM r) SELECT n FROM r",
             "tables",
@@ -413,7 +416,7 @@ def test_an_apostrophe_is_no_end_of_an_identity(tmp_path):
             assert store.identity == identity
 
 
-def test_a_study_for_which_there_is_no_space_leaves_no_file(tmp_path, monkeypatch):
+def test_a_study_for_which_there_is_no_space_or_that_cannot_be_opened_leaves_no_file(tmp_path, monkeypatch):
     def full(target):
         connection = connect(target)
         connection.execute("PRAGMA max_page_count = 1")
@@ -428,6 +431,15 @@ def test_a_study_for_which_there_is_no_space_leaves_no_file(tmp_path, monkeypatc
         StudyStore.write(tmp_path / "mine.db", {})
     assert (tmp_path / "mine.db").is_file()
 
+    def closed(_):
+        raise sqlite3.OperationalError("unable to open database file")
+
+    monkeypatch.setattr("jumpcad.search.store.connect", closed)
+    for name, left in (("s.db", False), ("mine.db", True)):
+        with pytest.raises(JumpcadError, match="unable to open"):
+            StudyStore.write(tmp_path / name, {})
+        assert (tmp_path / name).exists() == left
+
 
 @pytest.mark.parametrize(("there", "here"), [({}, "mass"), ({"against": "mass"}, "rise"), ({"against": "mass"}, None)])
 def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path, there, here):
@@ -439,3 +451,50 @@ def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path, there, her
     words = f"holds a front against {named}, not {asked}: say --against {named}, or name another file$"
     with pytest.raises(JumpcadError, match=words):
         StudyStore.write(path, IDENTITY | mine)
+
+
+def test_a_file_of_which_it_cannot_be_read_whether_it_is_empty_is_not_removed(tmp_path, monkeypatch):
+    """Neither when it is made nor when its request turns out wrong."""
+    store = StudyStore.write(tmp_path / "a.db", IDENTITY)
+    store._connection.execute("DROP TABLE evaluations")
+    store.__exit__(JumpcadError, JumpcadError("wrong"), None)
+    assert (tmp_path / "a.db").exists()
+
+    class Unreadable:
+        def execute(self, _):
+            raise sqlite3.DatabaseError("unreadable")
+
+        def close(self):
+            pass
+
+    monkeypatch.setattr("jumpcad.search.store.connect", lambda _: Unreadable())
+    with pytest.raises(JumpcadError, match="unreadable"):
+        StudyStore.write(tmp_path / "b.db", IDENTITY)
+    assert (tmp_path / "b.db").exists()
+
+
+def test_a_study_is_written_ahead_and_no_batch_waits_for_the_disk(tmp_path):
+    """Others read it meanwhile; only a power cut can lose the last batches."""
+    for _ in range(2):
+        with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+            assert store._connection.execute("PRAGMA journal_mode").fetchone() == ("wal",)
+            assert store._connection.execute("PRAGMA synchronous").fetchone() == (1,)
+
+
+def test_a_study_of_another_program_says_how_one_goes_on(tmp_path):
+    """What differs besides is another request, whoever made it."""
+    path = tmp_path / "s.db"
+    theirs, ours = (IDENTITY | {"versions": {"numpy": number}} for number in ("1.26.4", "2.1.0"))
+    StudyStore.write(path, theirs).close()
+    with pytest.raises(JumpcadError, match=r"was made by another program .*`--from-study .*s\.db`") as caught:
+        StudyStore.write(path, ours)
+    assert '(versions.numpy: "1.26.4" there, "2.1.0" here)' in str(caught.value)
+    with pytest.raises(JumpcadError, match=r"holds another study \(seed: 1 there, 2 here\)"):
+        StudyStore.write(path, ours | {"seed": 2})
+
+
+def test_two_designs_in_one_place_are_damage(tmp_path):
+    """To SQLite a text and its bytes are two keys."""
+    moved = "UPDATE evaluations SET phase = x'6761', place = 1 WHERE phase = 'ga' AND place = 2"
+    with pytest.raises(JumpcadError, match="is damaged: two rows ga 0 1"):
+        read_all(edited(tmp_path / "s.db", moved))

@@ -79,6 +79,14 @@ def test_what_else_was_predicted_is_a_number() -> None:
             proposal(**said)
 
 
+@pytest.mark.parametrize("value", ["NaN", "Infinity", "-Infinity"])
+def test_what_is_no_number_is_neither_predicted_nor_a_value_of_a_workshop(value: str) -> None:
+    with pytest.raises(JumpcadError, match=r"proposal\.log_feasible.*finite number"):
+        stored_proposal({"proposal": f'{{"log_feasible": {value}}}'.encode()}, 8)
+    with pytest.raises(JumpcadError, match=r"workshop\.body\.plate_mm.*finite number"):
+        stored_workshop({"workshop": f'{{"body.plate_mm": {value}}}'.encode()}, ("body.plate_mm",))
+
+
 def test_a_row_has_the_keys_of_the_study_in_their_order_and_may_have_those_of_making() -> None:
     def workshop(values: dict[str, Any], keys: tuple[str, ...], more: tuple[str, ...] = ()) -> dict[str, Any]:
         return stored_workshop({"workshop": json.dumps(values).encode()}, keys, more)
@@ -154,3 +162,17 @@ def test_stages_are_of_known_methods() -> None:
     ):  # fmt: skip
         with pytest.raises(JumpcadError, match=message):
             require_remembered("stages", wrong)
+
+
+def test_a_search_ends_by_what_was_asked_or_for_want_of_designs() -> None:
+    for by in ("evaluations", "until", "hours", "space", "proposals"):
+        require_remembered("ended", {"by": by})
+    for fine in ({"by": "until", "until_percent": 100.0}, {"by": "hours", "hours": 1e6}):
+        require_remembered("ended", fine)
+    for wrong, message in (
+        ({}, "required"), ({"by": "x"}, "should be 'evaluations'"), ({"by": "space", "more": 1}, "more"),
+        ({"by": "until", "until_percent": 100.1}, "less than"), ({"by": "hours", "hours": 1.1e6}, "less than"),
+        ({"by": "until", "until_percent": -0.1}, "greater than"), ({"by": "hours", "hours": -1.0}, "greater than"),
+    ):  # fmt: skip
+        with pytest.raises(JumpcadError, match=message):
+            require_remembered("ended", wrong)

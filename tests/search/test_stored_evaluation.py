@@ -33,6 +33,11 @@ def test_findings_come_back_with_value_and_limit_or_without() -> None:
     assert again == new
 
 
+def test_a_number_in_quotes_is_text() -> None:
+    with pytest.raises(JumpcadError, match=r"findings\.0\.margin: Input should be a valid number"):
+        stored_evaluation(record({**OLD, "margin": "1.5"}), {})
+
+
 @pytest.mark.parametrize("figure", ["margin", "value", "limit"])
 def test_what_is_not_a_number_is_refused(figure: str) -> None:
     with pytest.raises(JumpcadError, match=f"the {figure} of loop is not a number"):
@@ -112,7 +117,11 @@ def test_rows_share_their_names(tmp_path: Path) -> None:
         ("UPDATE evaluations SET findings = '[2,\"ii\",[1.0]]'", "findings: 'ii' are not the severities"),
         ("UPDATE evaluations SET findings = '[2,\"i\",[NaN]]'", "the margin of loop is not a number"),
         ("UPDATE evaluations SET metrics = '[9,[1.0]]'", "metrics: number 9 of the names is not that of 1 metrics"),
-        ("UPDATE evaluations SET metrics = '[1,[\"x\"]]'", "metrics.1.0: Input should be a valid number"),
+        ("UPDATE evaluations SET metrics = '[1,[\"1.0\"]]'", "metrics.1.0: Input should be a valid number"),
+        ("UPDATE evaluations SET metrics = '[1.0,[1.0]]'", "metrics.0: Input should be a valid integer"),
+        ('UPDATE evaluations SET findings = \'[2,"i",["1.0"]]\'', "findings.2.0: Input should be a valid number"),
+        ("UPDATE evaluations SET findings = '[2,5,[1.0]]'", "findings.1: Input should be a valid string"),
+        ("UPDATE names SET names = '[5]' WHERE number = 1", "names.list[str].0: Input should be a valid string"),
     ],
 )
 def test_damaged_names_are_said(tmp_path: Path, statement: str, message: str) -> None:
@@ -131,6 +140,7 @@ def test_damaged_names_are_said(tmp_path: Path, statement: str, message: str) ->
         ("1.1e12", "mass_kg = 1.1e+12 is not"),
         ("NaN", "mass_kg = nan"),
         ("Infinity", "inf"),
+        ('"2.0"', "metrics.mass_kg: Input should be a valid number"),
     ],
 )
 def test_figures_are_numbers_below_a_million_million(figure: str, told: str) -> None:

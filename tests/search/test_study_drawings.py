@@ -1,18 +1,21 @@
 """What a study's page says beside its drawings: gains, values and spread, of made-up studies."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.hills import SMALL
+from support.hills import FIXED, SMALL
 
+from jumpcad.files import templates_folder
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.replay import Known
-from jumpcad.search.study_drawings import _best, _end, _gain, _line, _spread, history, slices
+from jumpcad.search.space import Space
+from jumpcad.search.study_drawings import AGES, _best, _end, _gain, _line, _spread, history, parallel, slices
 from jumpcad.search.trial import Trial
+from jumpcad.workshop import load_workshop
 
 NAN = float("nan")
 
@@ -31,6 +34,10 @@ NAN = float("nan")
         ([2.0] * 8 + [1.0, 2.0 / 0.992],
          "The best is number 10 of 10. The last fifth of the search raised the best score by 0.8 %: going on promises "
          "little."),
+        ([2.0] * 8 + [1.0, 2.0 / 0.9885],
+         "The best is number 10 of 10. The last fifth of the search raised the best score by 1.2 %: going on may pay."),
+        ([1.0] * 4 + [NAN] * 4 + [2.0, 1.0],
+         "The best is number 9 of 10. The last fifth of the search raised the best score by 50.0 %: going on may pay."),
         ([1.0] * 15 + [2.0] + [1.5] * 4,
          "The best is number 16 of 20. The last fifth of the search found nothing better: going on promises little."),
         ([-2.0] * 8 + [-1.0, -3.0],
@@ -129,3 +136,120 @@ def test_the_best_run_together_or_spread_by_their_reach_in_each_range() -> None:
 def test_a_tenth_of_the_range_is_together_and_more_than_half_apart(reach: float, said: str) -> None:
     best = [trial(0.2 + 0.25 * reach * n, 0.2 + 0.3 * n / 4.0, 0.2 + 0.3 * n / 4.0) for n in range(5)]
     assert said in _spread(SMALL, best)
+
+
+def box(page: str) -> tuple[float, float]:
+    """Return width and height of a drawing."""
+    (found,) = re.findall(r'class="drawn[^"]*" viewBox="0 0 ([\d.]+) ([\d.]+)" role', page)
+    return float(found[0]), float(found[1])
+
+
+def read(page: str) -> Callable[[float, float], tuple[float, float]]:
+    """Return a function that reads values at a place of a drawing by the words of its axes."""
+    across, up = (
+        np.array(
+            re.findall(rf'<text x="([\d.]+)" y="([\d.]+)" text-anchor="{side}">(-?[\d.]+)</text>', page), dtype=float
+        )
+        for side in ("middle", "end")
+    )
+    x, y = np.polyfit(across[:, 0], across[:, 2], 1), np.polyfit(up[:, 1] - 5.0, up[:, 2], 1)  # on a letter's middle
+    return lambda at, height: (float(np.polyval(x, at)), float(np.polyval(y, height)))
+
+
+def dots(kind: str, page: str) -> list[tuple[float, float]]:
+    """Return the values at which the dots of a kind are, legends left out."""
+    drawing, values = re.sub('<p class="legend">.*?</p>', "", page, flags=re.DOTALL), read(page)
+    paths = re.findall(f'<path class="dots {kind}" d="([^"]*)"', drawing)
+    places = [place for path in paths for place in re.findall(r"M([\d.]+) ([\d.]+)h0", path)]
+    return [values(float(x), float(y)) for x, y in places]
+
+
+def test_a_history_reads_as_the_scores_and_the_best_of_them_so_far() -> None:
+    """The line rises where a design is better than all before; it is level to the end."""
+    page = "\n".join(history(known(1.0, None, 2.0, 1.5, None)))
+    assert dots("phase0", page) == [pytest.approx(one, abs=0.01) for one in ((1.0, 1.0), (3.0, 2.0), (4.0, 1.5))]
+    (x, y, across, up, end), values = (
+        re.findall(r'class="best" d="M([\d.]+) ([\d.]+)H([\d.]+)V([\d.]+)H([\d.]+)"', page)[0],
+        read(page),
+    )
+    assert values(float(x), float(y)) == pytest.approx((1.0, 1.0), abs=0.01)
+    assert values(float(across), float(up)) == pytest.approx((3.0, 2.0), abs=0.01)
+    assert float(across) < float(end) < box(page)[0]
+    assert list(history(known())) == []
+    assert "<svg" not in "".join(history(known(None, None)))
+
+
+def test_each_slice_has_every_jump_at_its_value_and_score_and_the_best_and_the_shown_ones_marked() -> None:
+    """All of it within the drawing."""
+    found = known(1.0, None, 2.0, 3.0, 1.5)
+    jumped, shown = [one for one in found.trials if one.score is not None], found.trials[:3:2]
+    figures = "\n".join(slices(found, shown)).split("</figure>")[:-1]
+    assert len(figures) == len(SMALL.free)
+    for page, parameter in zip(figures, SMALL.free, strict=True):
+        places = [(getattr(one.design, parameter.name), one.score) for one in jumped]
+        near = {"abs": 0.01 * max(parameter.width, 2.0)}
+        seen = sorted(place for age in range(5) for place in dots(f"age{age}", page))
+        for one, place in zip(seen, sorted(places), strict=True):
+            assert one == pytest.approx(place, **near)
+        assert dots("top", page) == [pytest.approx(places[2], **near)]
+        rings = re.findall(r'<circle class="of" data-of="(\d)" cx="([\d.]+)" cy="([\d.]+)"', page)
+        assert [number for number, *_ in rings] == ["1", "2"]
+        for (_, x, y), one in zip(rings, shown, strict=True):
+            assert read(page)(float(x), float(y)) == pytest.approx(
+                (getattr(one.design, parameter.name), one.score), **near
+            )
+        assert f"Best: {_best(parameter, places[2][0])}." in page
+        assert read(page)(0.0, 50.0)[1] > read(page)(0.0, 150.0)[1]  # more is higher up
+        width, height = box(page)
+        words = [(float(x), float(y)) for x, y in re.findall(r'<text x="([\d.]+)" y="([-\d.]+)"', page)]
+        assert all(0.0 < x < width and 0.0 < y < height for x, y in words)
+    assert list(slices(known(None), ())) == []
+
+
+def test_parallel_lines_are_the_stronger_the_better_and_lie_on_axes_with_their_ends_named() -> None:
+    """Of fourteen the best five, and the others in thirds; nothing of one parameter alone, or without a jump."""
+    found = known(*range(1, 15), None)
+    page = "\n".join(parallel(found, found.trials[:2]))
+    ranked = [_line(SMALL, one) for one in found.trials[:14][::-1]]
+    bundles = {
+        name: re.findall("M[^M]+", path) for name, path in re.findall(r'<path class="(bundle\d)" d="([^"]*)"', page)
+    }
+    assert bundles == {
+        "bundle3": ranked[:5][::-1], "bundle2": ranked[5:8][::-1], "bundle1": ranked[8:11][::-1],
+        "bundle0": ranked[11:][::-1],
+    }  # fmt: skip
+    assert re.findall(r'<path class="of" data-of="(\d)" d="([^"]*)"', page) == [("1", ranked[-1]), ("2", ranked[-2])]
+    grid = [tuple(map(float, one)) for one in re.findall(r'class="grid" d="M([\d.]+) ([\d.]+)H([\d.]+)"', page)]
+    assert grid == [(16.0, 54.0 * row, 624.0) for row in (1, 2, 3)]
+    words = re.findall(r'<text x="([\d.]+)" y="([\d.]+)" text-anchor="(\w+)">(.*?)</text>', page)
+    assert words[:3] == [
+        ("16", "46", "start", "0.1"), ("320", "46", "middle", "compression_ratio (ratio)"), ("624", "46", "end", "0.8")
+    ]  # fmt: skip
+    width, height = box(page)
+    assert width == 640.0
+    assert 162.0 < height < 162.0 + 54.0
+    assert all(0.0 < float(y) < height for _, y, *_ in words)
+    line = Space.parse(fix=[*FIXED, "rest_angle_deg=50", "stiffness_nmm_per_deg=20"])
+    assert list(parallel(replace(found, space=line), ())) == list(parallel(known(None), ())) == []
+
+
+def test_the_best_lines_are_the_best_twentieth_of_many() -> None:
+    page = "\n".join(parallel(known(*range(1, 141)), ()))
+    assert "the best 7<" in page  # the legend has a line of that kind too
+    *_, best = re.findall(r'<path class="bundle3" d="([^"]*)"', page)
+    assert best.count("M") == 7
+
+
+def test_names_are_numbered_from_one_on_an_axis_of_whole_numbers() -> None:
+    battery = "lipo-2s-180", "lipo-1s-300"
+    space = Space.parse(fix=FIXED, choose=[f"bought.battery={','.join(battery)}"], workshop=load_workshop())
+    trials = [replace(trial(0.5, 0.5, 0.5), score=1.0 + n, workshop={"bought.battery": battery[n]}) for n in (0, 1)]
+    *_, page = "\n".join(slices(replace(known(), space=space, trials=trials), ())).split("</figure>")[:-1]
+    assert "1 is lipo-2s-180, 2 is lipo-1s-300. Best: lipo-1s-300." in page
+    assert re.findall(r'text-anchor="middle">([\d.]+)<', page) == ["1", "2"]
+    assert dots("top", page) == [pytest.approx((2.0, 2.0), abs=0.02)]
+
+
+def test_dots_of_every_age_have_a_colour() -> None:
+    style = (templates_folder() / "report" / "study.css").read_text(encoding="ascii")
+    assert sorted(set(re.findall(r"\bage(\d)\b", style))) == [str(age) for age in range(AGES)]

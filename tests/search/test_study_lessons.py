@@ -101,7 +101,9 @@ def test_a_score_rises_where_it_gains_more_than_a_twentieth_of_a_per_cent(worth:
         assert said == (
             "Here it rises beyond that of c_coef." if rises else "Here it rises beyond none that was examined."
         )
-    assert "did not examine them" in _gains(known(WON, bounds=(replace(bound, worth=None, reason=NOT_EXAMINED),)))
+    unknown = replace(bound, worth=None, reason=NOT_EXAMINED)
+    assert "did not examine them" in _gains(known(WON, bounds=(unknown,)))
+    assert "none that was examined" in _gains(known(WON, bounds=(unknown, replace(bound, worth=-1.0))))
 
 
 def test_a_bound_stands_in_its_row_with_units() -> None:

@@ -9,6 +9,7 @@ import pytest
 from support.built import built
 
 from jumpcad.findings import Finding, at_most, limit
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.studio import answers
 from jumpcad.studio.answers import SHOWN, Printed
 from jumpcad.workshop import load_workshop
@@ -60,15 +61,18 @@ def test_the_tightest_five_limits_are_shown_and_every_error() -> None:
     assert "| **apart** | -0.25 mm |" in printed(findings=[limit("apart", -0.25, "mm", "", "")]).to_markdown()
 
 
-def test_what_is_kept_counts_as_a_limit_only_where_it_has_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is violated is always told."""
+def test_limits_are_those_of_its_robot_the_violated_first_then_by_use(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is violated is always told, what is kept only where it has a share."""
     told = [
         at_most("kept", 1.0, 2.0, "N", "", ""), at_most("broken", 3.0, 2.0, "N", "", ""),
         limit("apart", -0.25, "mm", "", ""), limit("far", 0.25, "mm", "", ""),
+        at_most("tight", 1.9, 2.0, "N", "", ""), at_most("warned", 5.0, 2.0, "N", "", "", "warning"),
     ]  # fmt: skip
-    monkeypatch.setattr(answers, "quick_findings", lambda _: told)
+    asked: list[Any] = []
+    monkeypatch.setattr(answers, "quick_findings", lambda robot: asked.append(robot) or told)
     found = Printed(built(NAME).design, built(NAME))
-    assert {one.name for one in found.findings} == {"kept", "broken", "apart"}
+    assert [one.name for one in found.findings] == ["warned", "broken", "apart", "tight", "kept"]
+    assert asked == [built(NAME)]
 
 
 def test_what_cannot_be_built_says_why() -> None:
@@ -93,7 +97,9 @@ def test_the_capsule_robot_is_told_in_millimetres(
     monkeypatch: pytest.MonkeyPatch, reach_m: float | None, said: str
 ) -> None:
     jump = SimpleNamespace(ballistic_range_m=reach_m, com_rise_m=0.0641, verdict="tips")
-    monkeypatch.setattr(answers, "simulate", lambda *_, **__: jump)
+    asked: list[Any] = []
+    monkeypatch.setattr(answers, "simulate", lambda robot, **how: asked.append((robot.mass_kg, how)) or jump)
     answers.capsule_answer.cache_clear()
     assert answers.capsule_answer(built(NAME).design) == f"study's masses: {said}"
+    assert asked == [(capsule_robot(built(NAME).design).mass_kg, {"engine": "planar"})]  # docs/start.md
     answers.capsule_answer.cache_clear()

@@ -23,8 +23,7 @@ viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Points, Studio, app, inputs  # noqa: E402
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer  # noqa: E402
-from jumpcad.studio.app import BY_NUMBER  # noqa: E402
-from jumpcad.studio.stage import StudioStage  # noqa: E402
+from jumpcad.studio.app import BY_NUMBER, CLICK  # noqa: E402
 
 
 @pytest.fixture
@@ -71,28 +70,6 @@ def test_differences_are_those_from_the_robot_before() -> None:
     assert f"| mass | {mass:.1f} g (+{mass - before:.1f}) |" in new.to_markdown(old)
     assert f"| mass | {before:.1f} g (-{mass - before:.1f}) |" in old.to_markdown(new)
     assert f"| mass | {mass:.1f} g |" in new.to_markdown()
-
-
-def test_the_camera_stands_farther_off_large_robots_and_on_a_high_page(tmp_path: Path) -> None:
-    """As many times as legs and toes together are longer; a page higher than wide shows less from side to side."""
-    calls: list[Any] = []
-    server: Any = SimpleNamespace(
-        initial_camera=SimpleNamespace(), on_client_connect=calls.append,
-        scene=SimpleNamespace(set_up_direction=lambda _: None, add_grid=lambda *_, **__: None),
-    )  # fmt: skip
-    stage, design, places = StudioStage(server), load_design("kenan-2.0"), []
-    larger = design.model_copy(update={"carrying_link_mm": 2.0 * design.carrying_link_mm})
-    toes = design.model_copy(update={"e_coef": 2.0 * design.e_coef + 1.0})
-    for one in (design, larger, toes):
-        stage.look_at(one)
-        places.append(np.array([server.initial_camera.position, server.initial_camera.look_at]))
-    assert places[1] == pytest.approx(2.0 * places[0])
-    assert places[2] == pytest.approx(2.0 * places[0])
-    for aspect, moved in ((1.5, False), (0.6, True)):
-        camera = SimpleNamespace(aspect=aspect, position=tuple(places[2][0]), look_at=tuple(places[2][1]))
-        calls[-1](SimpleNamespace(camera=camera))
-        away = np.linalg.norm(np.subtract(camera.position, camera.look_at))
-        assert (away > 1.2 * np.linalg.norm(places[2][0] - places[2][1])) == moved
 
 
 def test_only_what_changes_is_sent_again(studio: Studio) -> None:
@@ -193,6 +170,11 @@ def test_a_design_that_cannot_be_built_is_told_with_its_reason(studio: Studio) -
     assert found.reason in studio.figures.content
     studio.player.show(1.0)
     assert "no motion" in studio.player.words.content
+    studio._say_part("cam")  # of the last robot, which is still seen
+    assert studio.part.content == CLICK
+    studio.shown = None
+    studio._say_part("cam")
+    assert studio.part.content == CLICK
 
 
 def test_the_ghost_is_what_was_kept_and_figures_show_the_difference(studio: Studio) -> None:

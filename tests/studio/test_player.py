@@ -40,7 +40,9 @@ def made(stage: Any, monkeypatch: pytest.MonkeyPatch) -> Player:
     """A player of a motion of four seconds, each of whose moments is its time."""
 
     def control(*given: Any, **_: Any) -> Any:
-        return SimpleNamespace(on_click=lambda _: None, on_update=lambda _: None, label=given[0], value=given[-1])
+        made = SimpleNamespace(label=given[0], value=given[-1], acts=[])
+        made.on_click = made.on_update = made.acts.append
+        return made
 
     gui = SimpleNamespace(
         add_button=control, add_slider=control, add_markdown=lambda text: SimpleNamespace(content=text)
@@ -117,3 +119,16 @@ def test_why_there_is_no_motion_is_said(made: Player, stage: Any) -> None:
     made.toggle()
     assert made.words.content == "**no motion**: no engine"
     assert (vars(made)["started"], made.button.label, stage.moved) == ([], PLAY, [])
+
+
+def test_a_click_plays_and_what_is_moved_by_hand_is_shown(made: Player, stage: Any) -> None:
+    """Not what the program itself moves while it plays."""
+    (click,), (moved,) = made.button.acts, made.time.acts  # type: ignore[attr-defined]
+    click(None)
+    assert (made.button.label, len(vars(made)["started"])) == (PAUSE, 1)
+    made.time.value = 2.25
+    moved(SimpleNamespace(client=None))
+    assert (made.button.label, stage.moved) == (PAUSE, [])
+    moved(SimpleNamespace(client="a browser"))
+    assert made.button.label == PLAY
+    assert [moment.shown_s for moment in stage.moved] == [2.25]

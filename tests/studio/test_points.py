@@ -38,6 +38,19 @@ def test_best_and_front_are_listed(study: Path) -> None:
         assert text.startswith((f"front, {design.spring_energy_j:.4g} J: ", "best "))
 
 
+def test_ten_of_many_are_listed_as_best(tmp_path: Path) -> None:
+    """The best first, whatever their order in the study; what neighbours of a pick score is not among them."""
+    made = [replace(one, score=1.0 + (7 * place) % 12) for place, one in enumerate(trials(12))]
+    around = [replace(one, score=50.0) for one in trials(1, "robust", 1)]
+    with StudyStore.write(tmp_path / "many.db", IDENTITY) as store:
+        store.append([*made, *around])
+    points = Points(tmp_path / "many.db")
+    best = {text: number for text, number in points.listed.items() if text.startswith("best")}
+    assert [points.trial(number).score for number in best.values()] == [float(12 - place) for place in range(10)]
+    assert [text.partition(":")[0] for text in best] == [f"best {place}" for place in range(1, 11)]
+    assert points.best == 1 + [one.score for one in made].index(12.0)
+
+
 def test_a_front_that_seeks_more_of_both_is_listed_by_the_figures_themselves(tmp_path: Path) -> None:
     """Three trials that rise less the better their score is."""
     file = tmp_path / "rise.db"
@@ -110,3 +123,23 @@ def test_a_trials_robot_is_built_in_its_workshop_with_the_name_of_its_study(
         monkeypatch.setattr(points, "trials", [replace(trial, workshop=values) for trial in points.trials])
         points.require_built(4)
         assert asked.pop() == (points.trial(4).design, workshop, study.stem)
+
+
+def test_of_a_study_in_which_nothing_jumps_any_trial_is_opened_by_its_number(tmp_path: Path) -> None:
+    made = [replace(one, score=None) for one in trials(3)]
+    with StudyStore.write(tmp_path / "none.db", IDENTITY) as store:
+        store.append(made)
+    points = Points(tmp_path / "none.db")
+    assert points.listed == {}
+    with pytest.raises(JumpcadError, match="no design of this study jumps; --trial N opens one that does not"):
+        _ = points.best
+    assert points.trial(3).design == made[2].design
+
+
+def test_a_workshop_that_is_none_any_more_is_told_with_its_study(tmp_path: Path) -> None:
+    """As one of another version."""
+    held = load_workshop().model_dump(mode="json") | {"lasers": {"watts": 5}}
+    with StudyStore.write(tmp_path / "old.db", IDENTITY | {"model": {"name": "printed", "workshop": held}}) as store:
+        store.append(trials(1))
+    with pytest.raises(JumpcadError, match=r"old\.db: its workshop cannot be used: .*lasers"):
+        _ = Points(tmp_path / "old.db").workshop

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
+from support.told import told
 
 from jumpcad.search.acquisition import Proposal
 from jumpcad.search.learner import Learner
@@ -316,3 +317,8 @@ def test_the_best_are_learned_from_however_far_away_they_are(monkeypatch):
     assert learned_trials(SMALL, trials, 0) == [trials[n] for n in (0, 1, 2, 4)]
     rejected = [replace(trial, score=None) for trial in trials]  # from the middle
     assert learned_trials(SMALL, rejected, 2) == [rejected[n] for n in (2, 3, 4, 5)]
+
+
+def test_a_search_ends_after_as_many_steps_as_the_documentation_says():
+    sentence = "when its last steps gain too little: {} in a row on the printed robot, elsewhere {} that promise too"
+    assert told("searching", sentence) == (IDLE, PATIENCE)

@@ -161,6 +161,9 @@ def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_wh
     assert fixed == {name: getattr(designs[0], name) for name in fixed}
     middle = {one.name: (one.lower + one.upper) / 2.0 for one in spaces[1].free if one.name == "stiffness_nmm_per_deg"}
     assert middle == {"stiffness_nmm_per_deg": pytest.approx(12.0)}
+    whole = {one.name: one.width for one in Space.default().free}
+    near = {one.name: one.width / whole[one.name] for one in spaces[1].free}
+    assert near == pytest.approx(dict.fromkeys(PARAMETERS, 0.2))  # docs/searching.md: within ±10 %
     held = {one.name: one.lower for one in spaces[2].parameters if not one.free}
     assert held == {name: getattr(better, name) for name in held}
     # 100 less the sample of 15 and three designs: a third, then halves of what is left

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 import typer
 from support.hills import SMALL, Hill
+from support.told import told
 
 from jumpcad.cli import optimize
 from jumpcad.search import methods, request
-from jumpcad.search.methods import FRONTS, METHODS, NAMES, SEQUENCES, Method, Task
+from jumpcad.search.methods import EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT, Method, Task
 from jumpcad.search.request import Request, Stage, plan_stages
 from jumpcad.search.space import Space
 from jumpcad.search.trial import LEARNING_PHASES, PHASES
@@ -89,3 +90,8 @@ def test_a_new_method_needs_one_line(evaluator, monkeypatch):
     one = evaluator()
     METHODS["random"].run(one, Task(9, seed=1))
     assert len(one.trials) == 9
+
+
+def test_a_search_ends_by_a_gain_or_a_number_of_designs_that_the_documentation_says():
+    gain = "Too little is less than {} % of the best score"
+    assert told("searching", gain, "At the latest it ends after {} designs") == (UNTIL_PERCENT, EVALUATIONS)
