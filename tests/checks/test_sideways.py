@@ -144,6 +144,16 @@ def test_the_bar_across_a_toe_is_checked() -> None:
     assert bar.value > 0.0
 
 
+def test_landing_is_in_the_worst_pose_from_one_end_of_the_play_to_the_other(strongest: Robot) -> None:
+    """Twice the play of one that stands still, in a pose in which it tips no later than at either end."""
+    rest, loaded, landing = rolls(strongest)
+    assert [roll.state for roll in (rest, loaded, landing)] == ["at rest", "springs loaded", "landing"]
+    assert rest.play_deg == loaded.play_deg > 0.0
+    assert landing.play_deg == pytest.approx(2.0 * rest.play_deg)
+    assert landing.stance_deg <= min(rest.stance_deg, loaded.stance_deg)
+    assert landing.margin_deg == pytest.approx(landing.stance_deg - landing.play_deg)
+
+
 @pytest.mark.parametrize("state", ["at rest", "springs loaded", "landing"])
 def test_the_state_in_which_least_is_left_is_told(kenan: Robot, state: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is left, not where the robot tips first: much play may take more."""
