@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import pytest
 from support.built import built, geared
+from support.documented import documented_bases
 from support.strengths import changed
 
-from jumpcad.checks.blocked import BLOCKED_FACTOR, blocked_findings
+from jumpcad.checks.blocked import BASIS, BLOCKED_FACTOR, blocked_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
@@ -45,3 +46,7 @@ def test_weak_gears_do_not_bear_a_blocked_motor() -> None:
     gentle = robot.workshop.safety.model_copy(update={"motor_torque_max_nm": 0.05})
     soft = replace(robot, workshop=robot.workshop.model_copy(update={"safety": gentle}))
     assert next(iter(blocked_findings(soft))).value < 0.4 * teeth
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

@@ -6,9 +6,10 @@ from functools import lru_cache
 from pathlib import Path
 
 import pytest
+from support.documented import documented_bases
 
 from jumpcad.building import build
-from jumpcad.checks.electronics import _voltage, electronics_findings
+from jumpcad.checks.electronics import BASIS, _voltage, electronics_findings
 from jumpcad.checks.wiring import wiring_findings
 from jumpcad.design import load_design
 from jumpcad.electronics.chain import Link
@@ -320,3 +321,7 @@ def test_a_board_of_unknown_inputs_is_a_warning_at_its_limit() -> None:
     assert (low.value, low.limit) == (3.0, 3.4)
     assert low.margin == pytest.approx(-0.4)
     assert "d at VM gets 3.00 V and bears 3.40 to 4.00 V" in low.message
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

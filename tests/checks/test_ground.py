@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from manifold3d import Manifold
 from support.built import body_in_plane, built, geared
+from support.documented import documented_bases
 
 from jumpcad.checks import ground
-from jumpcad.checks.ground import _body_discs, foot_findings, ground_findings
+from jumpcad.checks.ground import BASIS, _body_discs, foot_findings, ground_findings
 from jumpcad.checks.interference import Piece, Position, pieces_of, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
@@ -252,3 +253,7 @@ def test_plates_are_round_about_their_axles_by_three_millimetres(axle_mm: float,
         assert radius_mm in [
             pytest.approx(radius) for middle, radius in zip(middles, radii, strict=True) if np.allclose(middle, place)
         ]
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

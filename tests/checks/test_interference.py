@@ -7,9 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import body_in_plane, checked, in_body
+from support.documented import documented_bases
 
 from jumpcad.checks import interference
 from jumpcad.checks.interference import (
+    BASIS,
     Piece,
     Position,
     _near,
@@ -197,3 +199,7 @@ def test_the_positions_are_those_of_a_jump(kenan: Robot) -> None:
     beyond = {one.ahead_rad for one in free if one.leg_rad == legs[-1]}
     assert beyond == {0.0, play / 2.0, play}
     assert {one.ahead_rad for one in free if one.leg_rad <= 0.0} == {0.0}
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import checked
+from support.documented import documented_bases
 
 from jumpcad.checks.printability import (
+    BASIS,
     _longest_mm,
     _mesh_undersides,
     _tall_regions,
@@ -234,3 +236,7 @@ def test_the_roof_of_a_socket_that_is_open_at_one_end_is_a_bridge(
     shop = load_workshop()
     found = list(_undersides(drawing, shop.fits, shop.process))
     assert found == [(bridge, pytest.approx(size_mm, abs=0.05))]
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

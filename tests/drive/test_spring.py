@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.documented import documented_bases
 from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
-from jumpcad.drive.spring import inner_fibre
+from jumpcad.drive.spring import BASIS, inner_fibre
 from jumpcad.drive.spring_choice import _smallest_arms, synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
@@ -238,3 +239,7 @@ def test_the_smallest_coil_of_a_wire_is_at_one_of_its_limits(name, preload_deg):
         ]  # fmt: skip
         assert min(room) == pytest.approx(0.0, abs=1e-5)
     assert found
+
+
+def test_formulas_and_limits_are_those_of_the_reference():
+    assert documented_bases(BASIS) == BASIS

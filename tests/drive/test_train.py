@@ -7,6 +7,7 @@ import re
 
 import pytest
 from support.built import built, geared
+from support.documented import documented_bases
 from support.limits import LP6, default_limits
 
 from jumpcad.catalogue import load_catalogue
@@ -14,7 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.drive import train as train_module
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.drive.train import synthesise_train
+from jumpcad.drive.train import BASIS, synthesise_train
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
@@ -178,3 +179,7 @@ def test_the_gear_that_needs_room_beside_the_cam_is_the_cams_own():
         train = robot.layout.drive.train
         (room,) = (finding for finding in train.findings if finding.name == "cam_gear_room")
         assert room.value == pytest.approx(train.stages[-1].wheel.tip_radius_mm)
+
+
+def test_formulas_and_limits_are_those_of_the_reference():
+    assert documented_bases(BASIS) == BASIS
