@@ -81,6 +81,16 @@ def test_inside_the_plates_a_lead_runs_beside_its_plate(
     assert finding.severity == severity
 
 
+def test_a_robot_without_a_sensor_has_no_leads_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever moves where the controller is, which has no leads outside the plates."""
+    robot = built("kenan-2.0")
+    layout = replace(robot.layout, sensor=None)
+    ((x, y, z),) = way_in(layout, "sensor")
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.1, y + 0.1))])
+    (finding,) = lead_findings(replace(robot, layout=layout))
+    assert (finding.severity, finding.message.split("'")[0]) == ("info", "the motor")
+
+
 def test_an_idler_is_among_what_moves() -> None:
     """The leads of the sensor come in through a hole in front of the idler's axle: they pass through its wheel."""
     robot = geared()

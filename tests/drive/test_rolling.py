@@ -142,14 +142,32 @@ def test_a_play_is_counted_from_where_the_corner_first_drives_the_cam() -> None:
 @pytest.mark.parametrize(("rate", "left"), [(0.7, 0.0), (-0.7, -0.7)])
 def test_what_a_rebound_gives_the_leg_is_lost(monkeypatch: pytest.MonkeyPatch, rate: float, left: float) -> None:
     """The roller leaves the corner with the leg on its way up, or down."""
-    release = _Release(arc(0.2), parts())
+    release, times = _Release(arc(0.2), parts()), []
 
     def thrown(stop: int) -> None:
         release.at, release.touches, release.rate = stop, False, rate
+        times.append(release.at)
 
     monkeypatch.setattr(release, "_push_to", thrown)
     release._push_off(0)
     assert release.rate == left
+    assert times == [400], "once, to the corner's end"
+
+
+@pytest.mark.parametrize("steps", [0, 1, 7])
+def test_after_a_rebound_the_release_goes_on_from_where_it_was_and_at_least_by_a_step(
+    monkeypatch: pytest.MonkeyPatch, steps: int
+) -> None:
+    """A roller that leaves the corner again and again comes to its end all the same."""
+    release, begun = _Release(arc(0.2), parts()), []
+
+    def thrown(stop: int) -> None:
+        begun.append(release.at)
+        release.at, release.touches = min(release.at + steps, stop), False
+
+    monkeypatch.setattr(release, "_push_to", thrown)
+    release._push_off(300)
+    assert begun == list(range(0, 400, max(steps, 1)))
 
 
 def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:

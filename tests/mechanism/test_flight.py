@@ -140,6 +140,7 @@ def test_a_foot_that_comes_down_flat_keeps_the_momentum_of_the_leg() -> None:
     """The ground's blow has no moment about the leg's joint: 2·w + 0.6·v before is 2·w after, and the foot stands."""
     chain, robot = Rocking(), built("kenan-2.0")
     flight._push_off(chain, robot.bodies["foot"].contacts)  # type: ignore[arg-type]
+    assert chain.seen[0] == (0.0, 0.0, 0.0, 0.0), "it begins at rest"
     assert chain.pivots[0].endswith("toe"), "the nose lifts off"
     assert "front_eye" in chain.pivots, "whether the toes would lift off is tried too"
     seen = np.array(chain.seen)

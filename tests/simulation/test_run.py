@@ -368,6 +368,42 @@ def test_a_printed_robot_clears_the_ground_by_a_millimetre(kenan: Mechanism) -> 
     assert takeoff_s(kenan, flight, hop_m=0.0005, takeoff_clearance_m=0.002) is None
 
 
+class Thrown(Scripted):
+    """It rises until a time and falls from then on, its leg still opening."""
+
+    falls_s = 0.0
+
+    def state(self) -> State:
+        state = super().state()
+        sign = 1.0 if self.steps * DT_S < self.falls_s else -1.0
+        return replace(state, velocity_m_s=sign * np.abs(state.velocity_m_s))
+
+
+@pytest.mark.parametrize(
+    ("falls_s", "hop_m", "printed", "leaves"),
+    [
+        (0.042, 0.002, True, True),  # up to its highest point
+        (0.042, 0.0005, True, False),  # not a millimetre
+        (0.042, 0.002, False, False),  # the study's capsules leave with springs that are spent
+        (0.200, 0.002, True, False),  # it rises all the time, and may still be pushed
+        (0.010, 0.002, True, False),  # it only sinks
+    ],
+)
+def test_a_robot_in_the_air_up_to_its_highest_point_has_left_though_its_leg_creeps_open(
+    kenan: Mechanism, falls_s: float, hop_m: float, printed: bool, leaves: bool
+) -> None:
+    """Against dry friction of its pins; in the air from 20 ms to 60 ms, springs spent after 150 ms."""
+    robot = rubbing(kenan) if printed else kenan
+    with released(robot) as start:
+        world = Thrown(start, [(0.020, 0.060)], 0.5, opening_s=0.150, hop_m=hop_m)
+        world.falls_s = falls_s
+        run = Run(world, robot, Settings(dt_s=DT_S, max_time_s=0.140))
+        run.go()
+    assert (run.takeoff is not None) == leaves
+    if run.takeoff is not None:
+        assert run.takeoff.time_s == pytest.approx(0.020)
+
+
 def test_a_robot_that_sinks_has_not_taken_off(kenan: Mechanism) -> None:
     """Legs that fold faster than the robot falls lift the foot, and not the robot."""
     assert takeoff_s(kenan, [(0.010, 0.040)], speed_m_s=-0.1) is None
