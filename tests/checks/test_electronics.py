@@ -325,3 +325,19 @@ def test_a_board_of_unknown_inputs_is_a_warning_at_its_limit() -> None:
 
 def test_formulas_and_limits_are_those_of_the_reference() -> None:
     assert documented_bases(BASIS) == BASIS
+
+
+@pytest.mark.parametrize(
+    ("bears_v", "margin", "severity"),
+    [
+        ((3.3, 4.2), 0.0, "info"), ((3.3 + 1e-12, 4.2), 0.0, "info"), ((3.3, 4.2 - 1e-12), 0.0, "info"),
+        ((3.3, 4.1), -0.1, "error"), ((3.5, 5.0), -0.2, "error"), ((3.0, 4.7), 0.3, "info"), ((3.1, 4.7), 0.2, "info"),
+    ],
+)  # fmt: skip
+def test_a_board_that_gets_just_what_it_bears_has_nothing_left_and_is_no_error(
+    bears_v: tuple[float, float], margin: float, severity: str
+) -> None:
+    """But for the last digits of its volts; else what is left at the end that is nearer."""
+    finding = _voltage(Link("driver", "a driver", "VM", (3.3, 4.2), bears_v, "another"))
+    assert (finding.margin, finding.severity) == (pytest.approx(margin, abs=1e-9), severity)
+    assert finding.margin == 0.0 or abs(finding.margin) > 0.01

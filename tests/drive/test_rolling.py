@@ -103,6 +103,21 @@ def test_what_the_corner_pushes_turns_the_rotor_too() -> None:
     assert alone.kick_nm == 0.0
 
 
+@pytest.mark.parametrize("with_rotor", [False, True])
+def test_the_corner_pushes_the_rollers_mass_until_the_rotor_turns_too(with_rotor: bool) -> None:
+    """Cam and gear alone have no kick, and the roller's own mass at the corner's slope beside them."""
+    given = parts(cam_rad_s=0.5, roller_kg_m2=built("best-ga").release.parts[1].gear_kg_m2 / 4.0)
+    release = _Release(arc(0.2, 0.001), given)
+    release.leg_inertia = 1e9 * release.leg_inertia
+    release.inertia = given.cam_kg_m2 + given.gear_kg_m2 + (1e-7 if with_rotor else 0.0)
+    torque = given.held_nm_per_rad * (WIND_RAD - release.wind)
+    release._push_to(10)
+    moved = release.inertia + (0.0 if with_rotor else 0.2**2 * given.roller_kg_m2)
+    work = 0.2 * torque * 10 * release.step
+    assert 0.5 * moved * (release.speed**2 - 0.5**2) == pytest.approx(work, rel=1e-2)
+    assert (release.kick_nm > 0.0) == with_rotor
+
+
 def test_masses_that_join_keep_their_momentum_and_wind_up_what_is_between_them() -> None:
     """What they lose in speed is in the train's spring at its largest torque: T²/(2·k)."""
     given = parts(cam_rad_s=1.0)

@@ -172,6 +172,18 @@ def test_no_sensor_and_no_supply_are_pulled_up() -> None:
     assert _pull_up_ohm(replace(chosen, controller=dark)) is None
 
 
+def test_a_controller_that_supplies_nothing_reads_the_contact_by_its_own_pull_up() -> None:
+    """Nothing else is joined to pin and contact, and there is no net of its supply."""
+    chosen = parts("light-1s")
+    dark = replace(chosen, controller=chosen.controller.model_copy(update={"logic_v": None}))
+    wiring = wiring_of(dark, {})
+    nets = {net.name: {str(terminal) for terminal in net.terminals} for net in wiring.nets}
+    assert "logic supply" not in nets
+    assert nets["ready"] == {f"controller {wiring.pins['ready']}", "sensor NC"}
+    assert wiring.pull_up_ohm is None
+    assert "pull-up resistor" not in wiring.resistors
+
+
 def test_a_contact_without_a_least_current_has_the_largest_pull_up() -> None:
     """10 kOhm: 0.3 mA at 3.3 V."""
     chosen = parts("light-1s")
