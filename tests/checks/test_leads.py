@@ -91,6 +91,16 @@ def test_a_robot_without_a_sensor_has_no_leads_of_one(monkeypatch: pytest.Monkey
     assert (finding.severity, finding.message.split("'")[0]) == ("info", "the motor")
 
 
+def test_what_is_far_away_is_said_to_be_at_least_so_far(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = built("kenan-2.0")
+    (finding,) = lead_findings(robot)
+    assert f" pass {finding.value:.1f} mm from what moves" in finding.message
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [])
+    (finding,) = lead_findings(robot)
+    assert finding.value == 100.0
+    assert " pass at least 100.0 mm from what moves" in finding.message
+
+
 def test_an_idler_is_among_what_moves() -> None:
     """The leads of the sensor come in through a hole in front of the idler's axle: they pass through its wheel."""
     robot = geared()

@@ -49,6 +49,9 @@ def test_what_is_left_out_is_missed() -> None:
         finding = found(without(chosen, role))[name]
         assert (finding.severity, finding.margin) == (severity, -1.0)
         assert f"bought.{role}" in finding.remedy
+    for role in ("switch", "plug"):
+        finding = found(without(chosen, role))["wiring_cut_off"]
+        assert (finding.severity, finding.remedy) == ("error", f"name one in bought.{role}")
     apart = board(chosen, "controller", diode_at=[])
     assert found(without(apart, "diode"))["wiring_diode"].severity == "info"
 

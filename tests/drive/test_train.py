@@ -158,6 +158,18 @@ def test_springs_that_are_too_soft_for_a_motor_are_to_be_stiffer():
         synthesise_train(soft, MOTORS, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0, cam_speed_max_rad_s=0.1))
 
 
+@pytest.mark.parametrize(("share", "remedy"), [(0.87, "raise"), (0.93, "lower"), (1.08, "lower"), (1.2, "lower")])
+def test_a_motor_is_strong_enough_if_it_turns_the_cam_through_the_losses_of_a_pair(share, remedy):
+    """Nine tenths of what it may give: stiffer springs or a slower motor help up to there, else softer or stronger."""
+    law, motor = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]
+    allowed = min(LIMITS.stall_share * motor.stall_torque_nm, LIMITS.torque_max_nm)
+    times = share * allowed / (law.peak_torque_nm / LIMITS.cam_efficiency)
+    other = dataclasses.replace(law, stiffness_nm_per_rad=times * law.stiffness_nm_per_rad)
+    nothing_fits = dataclasses.replace(LIMITS, cam_gear_tip_max_mm=5.0)
+    with pytest.raises(CannotBuildError, match=f": {remedy} stiffness_nmm_per_deg"):
+        synthesise_train(other, [motor], nothing_fits)
+
+
 def test_a_train_that_misses_a_limit_is_passed_over(monkeypatch):
     """Whatever comes first as the lightest: here teeth that break, or a motor that is too fast or too weak."""
     law, motor = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]

@@ -20,7 +20,7 @@ from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.bullet import BulletEngine, BulletWorld
 from jumpcad.simulation.bullet_robot import LINKS
 from jumpcad.simulation.engines import engine_named
-from jumpcad.simulation.mechanics import Mechanics
+from jumpcad.simulation.mechanics import Mechanics, loaded_state
 from jumpcad.simulation.run import Run
 from jumpcad.strength.pin_friction import pin_torque_nm
 
@@ -52,6 +52,16 @@ def test_a_run_that_blows_up_is_rejected_and_leaves_no_trace(kenan: Robot, monke
     assert jump.trajectory is not None
     assert np.isfinite(jump.trajectory.position_m).all()
     assert simulate(kenan).ballistic_range_m == before.ballistic_range_m
+
+
+@pytest.mark.parametrize("key", ["com_m", "velocity_m_s"])
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_one_number_that_is_none_is_a_robot_blown_up(kenan: Robot, key: str, value: float) -> None:
+    whole = loaded_state(kenan)
+    broken = getattr(whole, key).copy()
+    broken[2, 1] = value
+    for state, blown in ((whole, False), (replace(whole, **{key: broken}), True)):
+        assert BulletWorld.blown_up(SimpleNamespace(state=lambda state=state: state)) == blown  # type: ignore[arg-type]
 
 
 def test_slip_takes_the_contacts_force_times_the_foots_velocity_there() -> None:

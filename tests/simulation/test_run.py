@@ -404,6 +404,23 @@ def test_a_robot_in_the_air_up_to_its_highest_point_has_left_though_its_leg_cree
         assert run.takeoff.time_s == pytest.approx(0.020)
 
 
+def test_the_published_distance_is_that_of_the_first_contact_after_half_a_second(kenan: Mechanism) -> None:
+    """Whatever it touches before; its own touchdown is the first contact. It goes on by 1 m/s."""
+
+    class Tumbling(Scripted):
+        def state(self) -> State:
+            state = super().state()
+            return replace(state, com_m=state.com_m + np.array([self.steps * DT_S, 0.0, 0.0]))
+
+    flights = [(0.020, 0.300), (0.310, 0.480), (0.490, 0.550), (0.560, 0.700)]
+    with released(kenan) as start:
+        run = Run(Tumbling(start, flights, 0.1), kenan, Settings(dt_s=DT_S, published_quantities=True))
+        run.go()
+    assert run.touchdown_distance_m == pytest.approx(0.300, abs=2.0 * DT_S)
+    assert run.published is not None
+    assert run.published.base_distance_m == pytest.approx(0.550, abs=2.0 * DT_S)
+
+
 def test_a_robot_that_sinks_has_not_taken_off(kenan: Mechanism) -> None:
     """Legs that fold faster than the robot falls lift the foot, and not the robot."""
     assert takeoff_s(kenan, [(0.010, 0.040)], speed_m_s=-0.1) is None

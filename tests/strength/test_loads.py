@@ -9,7 +9,10 @@ import pytest
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.settings import Settings
+from jumpcad.simulation.planar import PlanarWorld
 from jumpcad.strength.loads import (
     POSITIONS,
     MovingMass,
@@ -54,6 +57,24 @@ def test_parallel_legs_swing_the_body_like_a_pendulum() -> None:
     assert np.count_nonzero(stands) > 5
     assert along[stands] == pytest.approx((torque / design.l2_mm)[stands], abs=0.02)
     assert inward[stands] == pytest.approx((centripetal - weight * np.sin(angle))[stands], abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["best-ga", "best-bo"])
+@pytest.mark.parametrize("gyration_mm", [25.0, 42.0, 90.0])
+def test_the_ground_pushes_as_in_an_engine_whose_links_weigh_nothing(name: str, gyration_mm: float) -> None:
+    """At release, from a standstill; the legs are not parallel, so that the body turns."""
+    mass = MovingMass(0.1, np.array([4.0, 17.0]), gyration_mm)
+    plain = capsule_robot(load_design(name))
+    light = {key: replace(body, mass_kg=1e-9, inertia_kg_m2=1e-15 * np.eye(3)) for key, body in plain.bodies.items()}
+    com, inertia = np.array([0.004, 0.0, 0.017]), 0.1 * (gyration_mm / 1000.0) ** 2 * np.eye(3)
+    body = replace(light["body"], mass_kg=0.1, com_m=com, inertia_kg_m2=inertia)
+    settings = Settings(dt_s=1e-5, joint_damping_nms_per_rad=0.0, foot_friction=50.0)
+    world = PlanarWorld(replace(plain, bodies=light | {"body": body}), settings)
+    world.advance(20)
+    contact = world.moment.contact
+    along, up = push_off(plain.linkage, mass).ground_n[0]
+    assert (contact.first_ns + contact.second_ns) / 1e-5 == pytest.approx(up, rel=0.02)
+    assert contact.along_ns / 1e-5 == pytest.approx(along, rel=0.02)
 
 
 def test_leg_carries_the_springs_torque_to_the_ankle() -> None:
