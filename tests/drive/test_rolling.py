@@ -25,10 +25,13 @@ def arc(slope: float, span_rad: float = 0.5) -> Corner:
     return Corner(cam, WIND_RAD - slope * cam, -slope * even, 0.0 * even, 20.0 * even)
 
 
-@pytest.mark.parametrize("turned_rad", [0.1, 0.2, 0.4])
-def test_the_leg_swings_on_its_lever_as_a_mass_on_springs(turned_rad: float) -> None:
-    """On a level corner about where springs, weight and lever balance, with the root of (k + K)/I as frequency."""
-    given = parts(cam_rad_s=8.0)
+@pytest.mark.parametrize(("turned_rad", "cam_rad_s"), [(0.1, 8.0), (0.2, 8.0), (0.4, 8.0), (0.05, 0.4)])
+def test_the_leg_swings_on_its_lever_as_a_mass_on_springs(turned_rad: float, cam_rad_s: float) -> None:
+    """On a level corner about where springs, weight and lever balance, with the root of (k + K)/I as frequency.
+
+    However slowly the motor turns the cam.
+    """
+    given = parts(cam_rad_s=cam_rad_s)
     release = _Release(arc(0.0), given)
     begin, release.rate = release.wind, 0.02
     stop = round(turned_rad / release.step)
@@ -38,9 +41,9 @@ def test_the_leg_swings_on_its_lever_as_a_mass_on_springs(turned_rad: float) -> 
     torque = spring.stiffness_nm_per_rad * (begin + spring.preload_rad) + weight
     assert held * (WIND_RAD - begin) == pytest.approx(torque), "in balance"
     frequency = math.sqrt((held + spring.stiffness_nm_per_rad) / inertia)
-    phase = frequency * turned_rad / 8.0
+    phase = frequency * turned_rad / cam_rad_s
     assert release.at == stop
-    assert release.speed == 8.0
+    assert release.speed == pytest.approx(cam_rad_s)
     assert release.wind - begin == pytest.approx(0.02 / frequency * math.sin(phase), abs=0.05 * 0.02 / frequency)
     assert release.rate == pytest.approx(0.02 * math.cos(phase), abs=0.05 * 0.02)
 
@@ -194,6 +197,12 @@ def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:
     inertia = float(given.leg.at(np.array(rolled.wind_rad))[0])
     swing = 0.5 * inertia * rolled.wind_rad_s**2
     assert rolled.kept_j == pytest.approx(given.spring.stored_j(-rolled.wind_rad) + swing)
+    release = _Release(corner, given)
+    release.run()
+    assert release.blow_nm != release.kick_nm
+    assert (rolled.blow_nm, rolled.kick_nm) == (release.blow_nm, release.kick_nm)
+    assert (rolled.wind_rad, rolled.wind_rad_s) == (release.wind, release.rate)
+    assert rolled.held_j == given.spring.stored_j(-given.held_rad(float(corner.wind_rad.max())))
 
 
 @pytest.mark.parametrize(("impact_nm", "met_nm", "kick_nm"), [(5.0, 0.1, 5.0), (5.0, 9.0, 9.0)])
@@ -202,11 +211,30 @@ def test_the_larger_of_a_cams_impact_and_of_what_it_meets_later_is_the_kick(
 ) -> None:
     """The gear strikes the rotor, and the corner, still below the roller, pushes cam and gear on to it."""
     monkeypatch.setattr(rolling, "largest_torques_nm", lambda *_: (1.0, impact_nm))
-    monkeypatch.setattr(_Release, "_join", lambda self, inertia: met_nm)
+    joined: list[float] = []
+    monkeypatch.setattr(_Release, "_join", lambda self, inertia: joined.append(inertia) or met_nm)
     monkeypatch.setattr(_Release, "_push_off", lambda self, end: None)
-    release = _Release(arc(0.1), parts(play_rad=0.1, backlash_rad=0.05))
+    given = parts(play_rad=0.1, backlash_rad=0.05)
+    release = _Release(arc(0.1), given)
     release.run()
     assert (release.blow_nm, release.kick_nm) == (1.0, kick_nm)
+    assert joined == [given.gear_kg_m2, given.rotor_kg_m2]
+
+
+@pytest.mark.parametrize("below", [False, True])
+def test_a_leg_that_falls_to_the_corner_has_what_the_springs_and_itself_had(below: bool) -> None:
+    """It is bent by nothing then; a leg that is already below the corner's place bends its lever by what it is."""
+    release = _Release(arc(0.2), parts())
+    at, rate = 250, -1.5
+    here = float(release.corner.wind_rad[at])
+    release.wind, release.rate, release.touches = here - 0.01 if below else here + 0.05, rate, False
+    begin, spring = release.wind, release.parts.spring
+    release._fall_to(at)
+    lost = spring.stored_j(-begin) - spring.stored_j(-here)
+    assert (release.at, release.touches) == (at, True)
+    assert release.wind == min(begin, here)
+    assert release.rate == pytest.approx(-math.sqrt(max(rate**2 + 2.0 * lost / float(release.leg_inertia[at]), 0.0)))
+    assert (lost < 0.0) == below
 
 
 def test_an_impact_is_that_of_the_cams_speed_against_a_motor_that_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:

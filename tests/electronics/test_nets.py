@@ -124,6 +124,17 @@ def test_the_driver_turns_the_motor_and_the_controller_the_driver(kit: str) -> N
         assert reached(pin, wires(wiring)) == inputs | {pin}
 
 
+def test_of_several_outputs_of_a_driver_one_is_wired_to_each_pole() -> None:
+    """A driver for two motors has two pins for each; the motor's are the first ones."""
+    chosen = parts("light-1s")
+    twice = {f"second {pin}": able for pin, able in chosen.driver.pins.items() if {"motor+", "motor-"} & set(able)}
+    assert len(twice) >= 2
+    double = replace(chosen, driver=chosen.driver.model_copy(update={"pins": {**chosen.driver.pins, **twice}}))
+    nets = {net.name: list(map(str, net.terminals)) for net in wiring_of(double, {}).nets}
+    for pole in ("motor+", "motor-"):
+        assert nets[pole] == [f"driver {chosen.driver.with_function(pole)[0]}", f"motor {pole[-1]}"]
+
+
 def test_without_a_divider_a_volt_is_a_volt() -> None:
     chosen = parts("light-1s")
     bare = replace(chosen, controller=chosen.controller.model_copy(update={"adc_max_v": None}))

@@ -59,6 +59,8 @@ def element(tag: str, **attributes: str) -> str:
         (element("mass", value="-0.1"), "mass: value = -0.1: must be"),
         (element("mass", value="nan"), "mass: value = 'nan': must be 1 finite number"),
         (element("mass", value="1e400"), "must be 1 finite number"),
+        (element("mass", value="light"), "mass: value = 'light': must be 1 finite number"),
+        (element("mass", value="0.1 light"), "must be 1 finite number"),
         (element("mass", value="1_0"), "must be 1 finite number"),
         (element("inertia", ixx="0"), "principal moment 0 kg·m²: must be more than 0"),
         (element("inertia", izz="-1e-5"), "principal moment -1e-05 kg·m²: must be more than 0"),
