@@ -11,6 +11,7 @@ from support.documented import documented_bases
 
 from jumpcad.checks.printability import (
     BASIS,
+    _contours,
     _longest_mm,
     _mesh_undersides,
     _tall_regions,
@@ -60,6 +61,8 @@ def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
         ("walls", [(0.0, 5.0, BLOCK - rectangle((1.2, 30.0)) + rectangle((1.4, 0.6)))], 0.6 - 0.8),
         ("holes", [(0.0, 5.0, BLOCK - hole(1.2))], 1.2 - 1.6),
         ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(2.0))], 2.0 - 3.0),
+        # up to three times as long as the least column is thick; what is longer is a wall
+        ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, rectangle((2.0, 8.0)))], 2.0 - 3.0),
         # beside a block of the same height
         ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(2.0, (-10.0, 0.0)) + rectangle((12.0, 12.0), (6.0, 0.0)))], -1.0),
         # a ledge of 5 mm beyond a column; two lines of 0.45 mm hold
@@ -91,6 +94,7 @@ def test_fires_alone_with_its_margin(kenan: Robot, name: str, slabs: Slabs, marg
         [(0.0, 5.0, rectangle((30.0, 1.2)))],
         [(0.0, 5.0, BLOCK - hole(2.4))],
         [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(4.0))],
+        [(0.0, 2.0, BLOCK), (2.0, 12.0, rectangle((2.0, 9.0)))],
         [(0.0, 5.0, BLOCK - rectangle((8.0, 30.0))), (5.0, 6.0, BLOCK)],
     ],
 )
@@ -189,6 +193,27 @@ def test_bed_either_way_round(kenan: Robot) -> None:
     # MK4: 250 x 210 mm; 240 mm fit along x alone
     (finding,) = bed_findings(robot_of(kenan, Stack.of([(0.0, 5.0, rectangle((100.0, 240.0)))])))
     assert finding.margin == pytest.approx(10.0)
+
+
+def test_of_several_parts_the_one_with_the_least_room_is_told(kenan: Robot) -> None:
+    """MK4: 250 x 210 mm."""
+    sizes = {"short": (100.0, 50.0), "long": (247.0, 60.0), "middling": (180.0, 180.0)}
+    parts = []
+    for name, size in sizes.items():
+        (part,) = robot_of(kenan, Stack.of([(0.0, 5.0, rectangle(size))])).parts
+        parts.append(replace(part, drawing=replace(part.drawing, name=name)))
+    for order in (parts, parts[::-1]):
+        (finding,) = bed_findings(replace(kenan, parts=tuple(order)))
+        assert finding.message.startswith("long, 247 x 60 x 5 mm, on a bed of 250 x 210 x ")
+        assert finding.margin == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("middle", [(0.0, 0.0), (50.0, 30.0), (-40.0, 70.0)])
+def test_outlines_and_holes_are_told_apart_wherever_they_lie(middle: tuple[float, float]) -> None:
+    x, y = middle
+    region = rectangle((30.0, 20.0), middle) - rectangle((4.0, 3.0), (x + 9.0, y + 5.0)) - disc(2.0, (x - 8.0, y - 6.0))
+    assert [one.area() for one in _contours(region, 1.0)] == pytest.approx([600.0])
+    assert sorted(one.area() for one in _contours(region, -1.0)) == pytest.approx([math.pi, 12.0], rel=0.02)
 
 
 @pytest.mark.parametrize("middle", [(0.0, 0.0), (20.0, -7.0)])

@@ -410,7 +410,8 @@ def test_the_published_distance_is_that_of_the_first_contact_after_half_a_second
     class Tumbling(Scripted):
         def state(self) -> State:
             state = super().state()
-            return replace(state, com_m=state.com_m + np.array([self.steps * DT_S, 0.0, 0.0]))
+            below_m = 0.01 if self.steps else 0.0
+            return replace(state, com_m=state.com_m + np.array([self.steps * DT_S, 0.0, -below_m]))
 
     flights = [(0.020, 0.300), (0.310, 0.480), (0.490, 0.550), (0.560, 0.700)]
     with released(kenan) as start:
@@ -419,6 +420,7 @@ def test_the_published_distance_is_that_of_the_first_contact_after_half_a_second
     assert run.touchdown_distance_m == pytest.approx(0.300, abs=2.0 * DT_S)
     assert run.published is not None
     assert run.published.base_distance_m == pytest.approx(0.550, abs=2.0 * DT_S)
+    assert run.published.base_height_m == pytest.approx(release_pose(kenan).body_position_m[2])  # never so high again
 
 
 def test_a_robot_that_sinks_has_not_taken_off(kenan: Mechanism) -> None:
