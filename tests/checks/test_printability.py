@@ -237,6 +237,16 @@ def test_solids_that_are_no_stacks_are_cut_every_so_often_from_bottom_to_top(ken
     assert [area for _, area in regions] == sorted((area for _, area in regions), reverse=True)
 
 
+def test_undersides_of_a_mesh_that_a_wall_parts_are_looked_at_apart() -> None:
+    """A post with a ledge of 5 mm on its left and, higher, one of 3 mm on its right."""
+    post = Bar(rectangle((10.0, 30.0), (0.0, 15.0)), ((0.0, 12.0),))
+    left, right = rectangle((5.0, 2.0), (-7.5, 9.0)), rectangle((3.0, 2.0), (6.5, 15.0))
+    ledges = tuple(Bar(one, ((0.0, 12.0),)) for one in (left, right))
+    drawing = Drawing("piece", "body", Blocks((post, *ledges)), (Placement(BODY, np.eye(4)),))
+    found = sorted(_mesh_undersides(drawing.mesh, math.radians(45.0)))
+    assert found == [(True, pytest.approx(3.0)), (True, pytest.approx(5.0))]
+
+
 @pytest.mark.parametrize("lean_deg", [20.0, 40.0, 60.0])
 def test_a_meshs_wall_hangs_over_where_it_leans_more_than_the_printer_can(lean_deg: float) -> None:
     """The angle is that from upright, whatever it is: at 45° alone its sine and cosine are one."""

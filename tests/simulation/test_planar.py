@@ -184,6 +184,17 @@ def test_a_body_that_comes_down_is_said(flights: list[Flight]) -> None:
     assert "body_contact" not in [one.name for one in run.findings()]
 
 
+@pytest.mark.parametrize("dt_s", [0.001, 0.00025])
+def test_the_compiled_push_off_is_that_of_every_run(kenan: Robot, monkeypatch: pytest.MonkeyPatch, dt_s: float) -> None:
+    """In the air for 4 ms, within 60 ms of spent springs, audited every 8 ms, for as long as the settings allow."""
+    given: list[tuple[object, ...]] = []
+    push_off = kernel.push_off
+    monkeypatch.setattr(kernel, "push_off", lambda *arguments: given.append(arguments) or push_off(*arguments))
+    world = PlanarWorld(kenan, Settings(dt_s=dt_s, max_time_s=1.5, takeoff_clearance_m=0.002))
+    world.push_off()
+    assert given == [(world.model, world.moment, dt_s, 0.004, 0.002, 0.060, 1.5, round(0.008 / dt_s))]
+
+
 def test_what_the_push_off_gained_counts_as_a_share_of_the_springs(
     kenan: Robot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
