@@ -149,4 +149,6 @@ def test_the_roller_falls_freely_when_the_corner_is_far_enough_from_the_hub(name
     reach = cam.lever_mm + cam.roller_radius_mm + cam.clearance_mm
     assert np.hypot(*cam.in_body(cam.tip_mm, cam.free_rad)) == pytest.approx(reach)
     assert np.hypot(*cam.in_body(cam.tip_mm, cam.law.lift_rad)) < reach
-    assert math.isnan(replace(cam, clearance_mm=200.0).free_rad)
+    farthest = cam.axis_distance_mm + float(np.hypot(*cam.tip_mm)) - cam.lever_mm - cam.roller_radius_mm
+    for more, never in ((-0.1, False), (0.1, True), (5.0, True), (200.0, True)):
+        assert math.isnan(replace(cam, clearance_mm=farthest + more).free_rad) == never

@@ -63,7 +63,7 @@ def test_a_sockets_floor_bears_the_moment_beside_the_bars_room_and_its_glue_the_
 
 
 def test_a_tube_is_bent_sheared_and_twisted_as_its_rings_are() -> None:
-    """By integration over the radius: M·R/I + F/A, and T·R/J. Across, V·Q/(I·b) in its middle is a little under 2·V/A."""
+    """By integration over the radius: M·R/I + F/A, T·R/J. Across, V·Q/(I·b) in its middle is a little under 2·V/A."""
     r = np.linspace(2.0, 3.0, 100_001)
     area, polar = (float(np.trapezoid(2.0 * math.pi * r**power, r)) for power in (1, 3))
     assert bar_bending_mpa(TUBE, 500.0, 0.0) == pytest.approx(500.0 * 3.0 / (polar / 2.0), rel=1e-6)

@@ -19,6 +19,7 @@ from jumpcad.strength.loads import (
     landing_force_n,
     push_off,
     rail_moment_nmm,
+    rail_twist_nmm,
     reflected_share,
     toe_load_n,
     toe_moment_nmm,
@@ -165,6 +166,9 @@ def test_toes_and_rails_balance_about_the_ankle() -> None:
     design = Design(**{**load_design("kenan-2.0").model_dump(), "ground_link_angle_deg": 60.0})
     assert 2.0 * rail_moment_nmm(design, 10.0) == pytest.approx(10.0 * design.l5_mm * 0.5)
     assert toe_moment_nmm(design, 10.0) == pytest.approx(5.0 * design.l5_mm)
+    aside_mm = design.l5_mm * math.sqrt(0.75)  # of a tip; a rail 5.5 mm beside the middle is twisted by what is beyond
+    assert rail_twist_nmm(design, 10.0, 5.5) == pytest.approx(5.0 * (aside_mm - 5.5))
+    assert rail_twist_nmm(design, 10.0, aside_mm + 1.0) == 0.0
 
 
 def test_nothing_bears_after_the_robot_has_left_the_ground() -> None:
