@@ -221,6 +221,28 @@ def test_the_larger_of_a_cams_impact_and_of_what_it_meets_later_is_the_kick(
     assert joined == [given.gear_kg_m2, given.rotor_kg_m2]
 
 
+@pytest.mark.parametrize(
+    ("play_rad", "backlash_rad", "stops_rad", "pushed"),
+    [(0.1, 0.05, [0.1, 0.15], True), (0.1, 9.0, [0.1, 0.5], False), (0.0, 0.05, [0.05], True), (0.0, 9.0, [0.5], True)],
+)
+def test_gear_and_rotor_join_where_play_and_backlash_end(
+    monkeypatch: pytest.MonkeyPatch, play_rad: float, backlash_rad: float, stops_rad: list[float], pushed: bool
+) -> None:
+    """On a corner of 0.5 rad; whom a rigid key pushes, or the corner still, is what it meets at the rotor."""
+    given = parts(play_rad=play_rad, backlash_rad=backlash_rad)
+    release, stops, ends = _Release(arc(0.1), given), [], []
+    monkeypatch.setattr(rolling, "largest_torques_nm", lambda *_: (0.5, 0.25))
+    monkeypatch.setattr(release, "_push_to", stops.append)
+    monkeypatch.setattr(release, "_push_off", ends.append)
+    monkeypatch.setattr(release, "_join", lambda inertia: 2.0)
+    release.run()
+    assert [release.corner.cam_rad[stop] for stop in stops] == pytest.approx(stops_rad, abs=1.01 * release.step)
+    assert ends == (stops[-1:] if pushed else [])
+    assert release.kick_nm == (2.0 if pushed else 0.25)
+    assert release.blow_nm == (0.5 if play_rad else 0.0)
+    assert release.inertia == given.cam_kg_m2 + (0.0 if play_rad else given.gear_kg_m2)
+
+
 @pytest.mark.parametrize("below", [False, True])
 def test_a_leg_that_falls_to_the_corner_has_what_the_springs_and_itself_had(below: bool) -> None:
     """It is bent by nothing then; a leg that is already below the corner's place bends its lever by what it is."""
