@@ -6,10 +6,11 @@ from functools import lru_cache
 from pathlib import Path
 
 import pytest
+from support.built import built
 from support.documented import documented_bases
 
 from jumpcad.building import build
-from jumpcad.checks.electronics import BASIS, _voltage, electronics_findings
+from jumpcad.checks.electronics import BASIS, _voltage, electronics_findings, links
 from jumpcad.checks.wiring import wiring_findings
 from jumpcad.design import load_design
 from jumpcad.electronics.chain import Link
@@ -341,3 +342,13 @@ def test_a_board_that_gets_just_what_it_bears_has_nothing_left_and_is_no_error(
     finding = _voltage(Link("driver", "a driver", "VM", (3.3, 4.2), bears_v, "another"))
     assert (finding.margin, finding.severity) == (pytest.approx(margin, abs=1e-9), severity)
     assert finding.margin == 0.0 or abs(finding.margin) > 0.01
+
+
+def test_an_empty_battery_has_less_where_the_motor_draws_most() -> None:
+    """Its resistance times the largest current of winding, not the mean one; a full one may stand still."""
+    robot = built("kenan-2.0")
+    battery, train = chosen_parts(robot.workshop).battery, robot.layout.drive.train
+    assert train.peak_current_a > train.mean_current_a
+    empty, full = battery.range_v
+    (driver,) = (link for link in links(robot) if link.role == "driver")
+    assert driver.gets_v == pytest.approx((empty - train.peak_current_a * battery.ohm, full))

@@ -157,6 +157,9 @@ def test_a_contact_gets_the_current_of_its_pull_up_or_of_the_pins_own() -> None:
     pins = {name: does for name, does in chosen.controller.pins.items() if "out" not in does}
     weak = found(board(chosen, "controller", pins=pins))["wiring_contact"]
     assert weak.value == pytest.approx(3.3 / 45.0)
+    for volts, other in ((3.0, 5.0), (1.8, None)):  # what a board supplies to others is no matter
+        slow = found(board(chosen, "controller", pins=pins, logic_v=volts, output_v=other))["wiring_contact"]
+        assert slow.value == pytest.approx(volts / 45.0)
     assert weak.message.startswith("the controller's own pull-up gives")
     assert weak.severity == "warning"
     dry = chosen.components["sensor"].model_copy(update={"least_a": None})
