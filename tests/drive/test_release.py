@@ -219,6 +219,15 @@ def test_a_rigid_key_fails_its_checks() -> None:
     assert f'release.play_deg = "auto" or more than {enough},' in energy.remedy
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_what_is_left_after_a_release_is_compared_with_the_workshops_share(name: str) -> None:
+    robot = built(name)
+    (found,) = (finding for finding in robot.release.findings if finding.name == "release_energy")
+    assert found.limit == pytest.approx(100.0 * robot.workshop.release.energy_ratio_min)
+    assert found.margin == pytest.approx(found.value - found.limit)
+    assert f"{found.value:.1f} % of the springs' energy" in found.message
+
+
 def test_a_play_beyond_the_window_fails_its_check() -> None:
     release = built("best-bo").release
     (found,) = [finding for finding in release.findings if finding.name == "release_window"]
