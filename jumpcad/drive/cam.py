@@ -156,8 +156,8 @@ class Cam:
     ----------
     geometry
         Closed-form curves and conversions between frames.
-    profile_mm, pitch_mm
-        Outline (n, 2) and the pitch curve of the lift (m, 2), in the cam's frame at cam angle 0.
+    profile_mm
+        Outline (n, 2), in the cam's frame at cam angle 0.
     outer_radius_mm, core_radius_mm
         Distances of the outline's farthest and nearest point from the cam's axis.
     max_pressure_angle_rad, min_convex_radius_mm
@@ -170,7 +170,6 @@ class Cam:
 
     geometry: CamGeometry
     profile_mm: Array
-    pitch_mm: Array
     outer_radius_mm: float
     core_radius_mm: float
     max_pressure_angle_rad: float

@@ -184,7 +184,7 @@ def _sampled(law: CamLaw, samples: int) -> tuple[Array, Array, Array]:
 
 def axis_range(law: CamLaw, limits: CamLimits, axis: Array, lead: Array, outer: Array) -> tuple[Array, Array]:
     """Return the highest and lowest direction (n,) of the cam's axis that its place and the lever allow."""
-    above = np.arcsin(np.clip((outer + limits.lowest_mm) / axis, -1.0, 1.0))
+    above = np.arcsin(np.minimum((outer + limits.lowest_mm) / axis, 1.0))
     highest = np.minimum(
         np.minimum(limits.axis_max_rad, limits.lever_loaded_max_rad - law.compression_rad - lead), math.pi - above
     )

@@ -55,7 +55,6 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
     return Cam(
         geometry=geometry,
         profile_mm=outline,
-        pitch_mm=geometry.pitch_mm(np.linspace(0.0, law.lift_rad, 181)),
         outer_radius_mm=float(radii.max()),
         core_radius_mm=float(radii.min()),
         max_pressure_angle_rad=float(numbers["pressure_angle"][0]),

@@ -88,7 +88,7 @@ def _arm_turns_rad(stock: StockSpring, limits: SpringLimits) -> tuple[float, flo
     mean = stock.inside_diameter_mm + stock.wire_mm
     beside, least = beside_mm(mean, stock.wire_mm, limits.pin_mm), limits.pin_radius_mm(mean + stock.wire_mm)
     lever = min(stock.arm_length_mm - ARM_BEYOND_MM, limits.lever_max_mm)
-    return math.acos(min(1.0, beside / least)), math.atan2(lever, beside)
+    return math.acos(beside / least), math.atan2(lever, beside)
 
 
 def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: SpringLimits) -> str:

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import pytest
 from support.built import built, geared
+from support.documented import documented_bases
 from support.strengths import changed
 
-from jumpcad.checks.blocked import BLOCKED_FACTOR, blocked_findings
+from jumpcad.checks.blocked import BASIS, BLOCKED_FACTOR, blocked_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
@@ -45,3 +46,15 @@ def test_weak_gears_do_not_bear_a_blocked_motor() -> None:
     gentle = robot.workshop.safety.model_copy(update={"motor_torque_max_nm": 0.05})
     soft = replace(robot, workshop=robot.workshop.model_copy(update={"safety": gentle}))
     assert next(iter(blocked_findings(soft))).value < 0.4 * teeth
+    gentlest = robot.workshop.safety.model_copy(update={"motor_torque_max_nm": 0.01})
+    softest = replace(robot, workshop=robot.workshop.model_copy(update={"safety": gentlest}))
+    supply, motor = supply_of(chosen_parts(robot.workshop)), robot.layout.drive.train.motor
+    usual = robot.workshop.safety.motor_torque_max_nm
+    stalls = [supply.driven(motor, supply.full_v, most).stall_torque_nm for most in (0.01, usual)]
+    few, more = blocked_findings(softest)
+    assert few.value < 1.0
+    assert (few.value / teeth, more.value / dog) == pytest.approx((stalls[0] / stalls[1],) * 2)
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

@@ -52,3 +52,19 @@ def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
     )
     robot = replace(kenan, layout=replace(kenan.layout, drive=violated))
     assert [finding.name for finding in errors(drive_findings(robot))] == [name]
+
+
+@pytest.mark.parametrize(
+    ("margin", "told", "severity"),
+    [(1e-9, 0.0, "info"), (-1e-9, 0.0, "info"), (-1e-5, -1e-5, "error"), (1e-5, 1e-5, "info"), (0.3, 0.3, "info")],
+)
+def test_a_cam_that_ends_on_its_limit_has_nothing_left_and_is_no_error(
+    kenan: Robot, margin: float, told: float, severity: str
+) -> None:
+    """The cam's search ends on its limits, within 1e-9 of them."""
+    cam = kenan.layout.drive.cam
+    findings = (replace(cam.findings[0], margin=margin), *cam.findings[1:])
+    drive = replace(kenan.layout.drive, cam=replace(cam, findings=findings))
+    found = drive_findings(replace(kenan, layout=replace(kenan.layout, drive=drive)))
+    (limit,) = (one for one in found if one.name == cam.findings[0].name)
+    assert (limit.margin, limit.severity) == (told, severity)

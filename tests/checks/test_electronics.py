@@ -6,9 +6,11 @@ from functools import lru_cache
 from pathlib import Path
 
 import pytest
+from support.built import built
+from support.documented import documented_bases
 
 from jumpcad.building import build
-from jumpcad.checks.electronics import _voltage, electronics_findings
+from jumpcad.checks.electronics import BASIS, _voltage, electronics_findings, links
 from jumpcad.checks.wiring import wiring_findings
 from jumpcad.design import load_design
 from jumpcad.electronics.chain import Link
@@ -320,3 +322,33 @@ def test_a_board_of_unknown_inputs_is_a_warning_at_its_limit() -> None:
     assert (low.value, low.limit) == (3.0, 3.4)
     assert low.margin == pytest.approx(-0.4)
     assert "d at VM gets 3.00 V and bears 3.40 to 4.00 V" in low.message
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS
+
+
+@pytest.mark.parametrize(
+    ("bears_v", "margin", "severity"),
+    [
+        ((3.3, 4.2), 0.0, "info"), ((3.3 + 1e-12, 4.2), 0.0, "info"), ((3.3, 4.2 - 1e-12), 0.0, "info"),
+        ((3.3, 4.1), -0.1, "error"), ((3.5, 5.0), -0.2, "error"), ((3.0, 4.7), 0.3, "info"), ((3.1, 4.7), 0.2, "info"),
+    ],
+)  # fmt: skip
+def test_a_board_that_gets_just_what_it_bears_has_nothing_left_and_is_no_error(
+    bears_v: tuple[float, float], margin: float, severity: str
+) -> None:
+    """But for the last digits of its volts; else what is left at the end that is nearer."""
+    finding = _voltage(Link("driver", "a driver", "VM", (3.3, 4.2), bears_v, "another"))
+    assert (finding.margin, finding.severity) == (pytest.approx(margin, abs=1e-9), severity)
+    assert finding.margin == 0.0 or abs(finding.margin) > 0.01
+
+
+def test_an_empty_battery_has_less_where_the_motor_draws_most() -> None:
+    """Its resistance times the largest current of winding, not the mean one; a full one may stand still."""
+    robot = built("kenan-2.0")
+    battery, train = chosen_parts(robot.workshop).battery, robot.layout.drive.train
+    assert train.peak_current_a > train.mean_current_a
+    empty, full = battery.range_v
+    (driver,) = (link for link in links(robot) if link.role == "driver")
+    assert driver.gets_v == pytest.approx((empty - train.peak_current_a * battery.ohm, full))

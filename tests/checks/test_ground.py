@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from manifold3d import Manifold
 from support.built import body_in_plane, built, geared
+from support.documented import documented_bases
 
 from jumpcad.checks import ground
-from jumpcad.checks.ground import _body_discs, foot_findings, ground_findings
+from jumpcad.checks.ground import BASIS, _body_discs, foot_findings, ground_findings
 from jumpcad.checks.interference import Piece, Position, pieces_of, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
@@ -204,22 +205,27 @@ def test_the_stops_ears_count_with_their_corners(strongest: Robot, depth_mm: flo
             assert np.linalg.norm(middles - corner, axis=1).min() < 1e-9
 
 
-@pytest.mark.parametrize("what", ["axle", "standoff", "cam", "wheel", "idler"])
+@pytest.mark.parametrize("what", ["axle", "standoff", "cam", "wheel", "idler", "coil"])
 def test_round_things_count_with_their_radius(what: str) -> None:
-    """Each of them 100 mm further down, in a robot with two pairs of gears; a cam of 60 mm is larger than its gear."""
+    """Each of them 100 mm further down, in a robot with two pairs of gears; a cam of 60 mm is larger than its gear.
+
+    The springs' coil, around the hub, is 150 mm wide instead.
+    """
     robot = geared()
     layout, lower = robot.layout, np.array([0.0, -100.0])
     drive, axis = layout.drive, layout.cam_axis_mm + lower
     first, last = (stage.wheel.tip_radius_mm for stage in drive.train.stages)
     large = replace(drive, cam=replace(drive.cam, outer_radius_mm=60.0))
     idler, standoff = layout.idler_mm + lower, layout.standoffs_mm[0] + lower
-    front = layout.front_mm + lower
+    front, arms = layout.front_mm + lower, replace(drive.spring.arms, mean_mm=150.0 - drive.spring.wire_mm)
+    wide = replace(drive, spring=replace(drive.spring, arms=arms))
     sunk, middle, radius = {
         "axle": (replace(layout, front_mm=front), front, layout.axle_mm / 2.0 + 3.0),
         "standoff": (replace(layout, standoffs_mm=(standoff, *layout.standoffs_mm[1:])), standoff, 4.5),
         "cam": (replace(layout, cam_axis_mm=axis, drive=large), axis, 60.0),
         "wheel": (replace(layout, cam_axis_mm=axis), axis, max(last, drive.cam.outer_radius_mm)),
         "idler": (replace(layout, idler_mm=idler), idler, first),
+        "coil": (replace(layout, drive=wide), layout.hub_mm, 75.0),
     }[what]
     (finding,) = ground_findings(replace(robot, layout=sunk))
     assert "the body" in finding.message
@@ -252,3 +258,7 @@ def test_plates_are_round_about_their_axles_by_three_millimetres(axle_mm: float,
         assert radius_mm in [
             pytest.approx(radius) for middle, radius in zip(middles, radii, strict=True) if np.allclose(middle, place)
         ]
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

@@ -7,12 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import body_in_plane, checked, in_body
+from support.documented import documented_bases
 
 from jumpcad.checks import interference
 from jumpcad.checks.interference import (
+    BASIS,
     Piece,
     Position,
     _near,
+    box_of,
     interference_findings,
     overlaps,
     pieces_of,
@@ -69,6 +72,23 @@ def test_every_two_boxes_that_overlap_are_looked_at_once() -> None:
     for row in (boxes, boxes[::-1]):
         assert [(int(i), int(j)) for i, j in _near(row)] == [(0, 1), (2, 3)]
     assert [(int(i), int(j)) for i, j in _near([boxes[0]] * 3)] == [(0, 1), (0, 2), (1, 2)]
+
+
+def test_the_box_of_a_piece_is_that_of_its_mesh_where_it_is_placed(kenan: Robot) -> None:
+    """Turned out of all axes, as far as its own box reaches: never less than the mesh, and the same where it is not."""
+    piece = next(one for one in pieces_of(kenan) if one.name == "front_link")
+    turned = np.eye(4)
+    turned[:3, :3] = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]]
+    turned[:3, 3] = 1.0, -2.0, 3.0
+    for pose, exact in ((np.eye(4), True), (turned, False)):
+        corners = np.asarray(piece.solid.transform(pose[:3]).to_mesh64().vert_properties)[:, :3]
+        low, high = box_of(piece, pose)
+        assert (low <= corners.min(axis=0) + 1e-3).all()
+        assert (high >= corners.max(axis=0) - 1e-3).all()
+        if exact:
+            assert np.concatenate([low, high]) == pytest.approx(
+                np.concatenate([corners.min(axis=0), corners.max(axis=0)]), abs=1e-3
+            )
 
 
 @pytest.mark.parametrize("name", ["eye", "cam"])
@@ -197,3 +217,7 @@ def test_the_positions_are_those_of_a_jump(kenan: Robot) -> None:
     beyond = {one.ahead_rad for one in free if one.leg_rad == legs[-1]}
     assert beyond == {0.0, play / 2.0, play}
     assert {one.ahead_rad for one in free if one.leg_rad <= 0.0} == {0.0}
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 import shapely
 from support.built import built, geared
+from support.documented import documented_bases
 
 from jumpcad.bundle.wiring import wires
 from jumpcad.checks import leads
-from jumpcad.checks.leads import lead_findings
+from jumpcad.checks.leads import BASIS, lead_findings
 from jumpcad.layout.room import disc
 from jumpcad.parts.leads import way_in
 
@@ -80,6 +81,26 @@ def test_inside_the_plates_a_lead_runs_beside_its_plate(
     assert finding.severity == severity
 
 
+def test_a_robot_without_a_sensor_has_no_leads_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever moves where the controller is, which has no leads outside the plates."""
+    robot = built("kenan-2.0")
+    layout = replace(robot.layout, sensor=None)
+    ((x, y, z),) = way_in(layout, "sensor")
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.1, y + 0.1))])
+    (finding,) = lead_findings(replace(robot, layout=layout))
+    assert (finding.severity, finding.message.split("'")[0]) == ("info", "the motor")
+
+
+def test_what_is_far_away_is_said_to_be_at_least_so_far(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = built("kenan-2.0")
+    (finding,) = lead_findings(robot)
+    assert f" pass {finding.value:.1f} mm from what moves" in finding.message
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [])
+    (finding,) = lead_findings(robot)
+    assert finding.value == 100.0
+    assert " pass at least 100.0 mm from what moves" in finding.message
+
+
 def test_an_idler_is_among_what_moves() -> None:
     """The leads of the sensor come in through a hole in front of the idler's axle: they pass through its wheel."""
     robot = geared()
@@ -122,3 +143,7 @@ def test_leads_from_outside_pass_their_plate_square_to_it(part: str) -> None:
     assert outside[[0, 2]] == pytest.approx(hole)
     assert min(outside[1], inside[1]) < low < high < max(outside[1], inside[1])
     assert abs(inside[1]) < abs(outside[1])
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

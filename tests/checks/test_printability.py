@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import checked
+from support.documented import documented_bases
 
 from jumpcad.checks.printability import (
+    BASIS,
+    _contours,
     _longest_mm,
     _mesh_undersides,
     _tall_regions,
@@ -58,6 +61,8 @@ def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
         ("walls", [(0.0, 5.0, BLOCK - rectangle((1.2, 30.0)) + rectangle((1.4, 0.6)))], 0.6 - 0.8),
         ("holes", [(0.0, 5.0, BLOCK - hole(1.2))], 1.2 - 1.6),
         ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(2.0))], 2.0 - 3.0),
+        # up to three times as long as the least column is thick; what is longer is a wall
+        ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, rectangle((2.0, 8.0)))], 2.0 - 3.0),
         # beside a block of the same height
         ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(2.0, (-10.0, 0.0)) + rectangle((12.0, 12.0), (6.0, 0.0)))], -1.0),
         # a ledge of 5 mm beyond a column; two lines of 0.45 mm hold
@@ -89,6 +94,7 @@ def test_fires_alone_with_its_margin(kenan: Robot, name: str, slabs: Slabs, marg
         [(0.0, 5.0, rectangle((30.0, 1.2)))],
         [(0.0, 5.0, BLOCK - hole(2.4))],
         [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(4.0))],
+        [(0.0, 2.0, BLOCK), (2.0, 12.0, rectangle((2.0, 9.0)))],
         [(0.0, 5.0, BLOCK - rectangle((8.0, 30.0))), (5.0, 6.0, BLOCK)],
     ],
 )
@@ -189,6 +195,27 @@ def test_bed_either_way_round(kenan: Robot) -> None:
     assert finding.margin == pytest.approx(10.0)
 
 
+def test_of_several_parts_the_one_with_the_least_room_is_told(kenan: Robot) -> None:
+    """MK4: 250 x 210 mm."""
+    sizes = {"short": (100.0, 50.0), "long": (247.0, 60.0), "middling": (180.0, 180.0)}
+    parts = []
+    for name, size in sizes.items():
+        (part,) = robot_of(kenan, Stack.of([(0.0, 5.0, rectangle(size))])).parts
+        parts.append(replace(part, drawing=replace(part.drawing, name=name)))
+    for order in (parts, parts[::-1]):
+        (finding,) = bed_findings(replace(kenan, parts=tuple(order)))
+        assert finding.message.startswith("long, 247 x 60 x 5 mm, on a bed of 250 x 210 x ")
+        assert finding.margin == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("middle", [(0.0, 0.0), (50.0, 30.0), (-40.0, 70.0)])
+def test_outlines_and_holes_are_told_apart_wherever_they_lie(middle: tuple[float, float]) -> None:
+    x, y = middle
+    region = rectangle((30.0, 20.0), middle) - rectangle((4.0, 3.0), (x + 9.0, y + 5.0)) - disc(2.0, (x - 8.0, y - 6.0))
+    assert [one.area() for one in _contours(region, 1.0)] == pytest.approx([600.0])
+    assert sorted(one.area() for one in _contours(region, -1.0)) == pytest.approx([math.pi, 12.0], rel=0.02)
+
+
 @pytest.mark.parametrize("middle", [(0.0, 0.0), (20.0, -7.0)])
 def test_a_region_is_at_most_as_long_as_its_diagonal(middle: tuple[float, float]) -> None:
     """3, 4, 5; wherever it lies."""
@@ -208,6 +235,16 @@ def test_solids_that_are_no_stacks_are_cut_every_so_often_from_bottom_to_top(ken
     assert sum(height for height, _ in regions) == pytest.approx(20.0, abs=2.0 * regions[0][0])
     assert sum(height * area for height, area in regions) == pytest.approx(20.0 * 20.0 / 2.0 * 10.0, rel=0.1)
     assert [area for _, area in regions] == sorted((area for _, area in regions), reverse=True)
+
+
+def test_undersides_of_a_mesh_that_a_wall_parts_are_looked_at_apart() -> None:
+    """A post with a ledge of 5 mm on its left and, higher, one of 3 mm on its right."""
+    post = Bar(rectangle((10.0, 30.0), (0.0, 15.0)), ((0.0, 12.0),))
+    left, right = rectangle((5.0, 2.0), (-7.5, 9.0)), rectangle((3.0, 2.0), (6.5, 15.0))
+    ledges = tuple(Bar(one, ((0.0, 12.0),)) for one in (left, right))
+    drawing = Drawing("piece", "body", Blocks((post, *ledges)), (Placement(BODY, np.eye(4)),))
+    found = sorted(_mesh_undersides(drawing.mesh, math.radians(45.0)))
+    assert found == [(True, pytest.approx(3.0)), (True, pytest.approx(5.0))]
 
 
 @pytest.mark.parametrize("lean_deg", [20.0, 40.0, 60.0])
@@ -234,3 +271,7 @@ def test_the_roof_of_a_socket_that_is_open_at_one_end_is_a_bridge(
     shop = load_workshop()
     found = list(_undersides(drawing, shop.fits, shop.process))
     assert found == [(bridge, pytest.approx(size_mm, abs=0.05))]
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 from support.built import built, geared, placed
+from support.documented import documented_bases
 
 from jumpcad.building import build
 from jumpcad.bundle.firmware import numbers
-from jumpcad.checks.sensor import sensor_findings
+from jumpcad.checks.sensor import BASIS, sensor_findings
 from jumpcad.design import load_design
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -116,3 +117,7 @@ def test_limits_are_those_that_the_messages_say() -> None:
             assert finding.value == pytest.approx(finding.margin)
         else:
             assert f"{finding.limit:.2f}" in finding.message
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

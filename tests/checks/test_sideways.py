@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 import shapely
 import shapely.affinity
+from support.documented import documented_bases
 
 from jumpcad.building import build
 from jumpcad.checks import sideways
 from jumpcad.checks.interference import Position, pieces_of, pose_of
-from jumpcad.checks.sideways import Roll, play_rad, rolls, sideways_findings, stance_deg
+from jumpcad.checks.sideways import BASIS, Roll, play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
@@ -144,6 +145,16 @@ def test_the_bar_across_a_toe_is_checked() -> None:
     assert bar.value > 0.0
 
 
+def test_landing_is_in_the_worst_pose_from_one_end_of_the_play_to_the_other(strongest: Robot) -> None:
+    """Twice the play of one that stands still, in a pose in which it tips no later than at either end."""
+    rest, loaded, landing = rolls(strongest)
+    assert [roll.state for roll in (rest, loaded, landing)] == ["at rest", "springs loaded", "landing"]
+    assert rest.play_deg == loaded.play_deg > 0.0
+    assert landing.play_deg == pytest.approx(2.0 * rest.play_deg)
+    assert landing.stance_deg <= min(rest.stance_deg, loaded.stance_deg)
+    assert landing.margin_deg == pytest.approx(landing.stance_deg - landing.play_deg)
+
+
 @pytest.mark.parametrize("state", ["at rest", "springs loaded", "landing"])
 def test_the_state_in_which_least_is_left_is_told(kenan: Robot, state: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is left, not where the robot tips first: much play may take more."""
@@ -163,3 +174,7 @@ def test_the_workshops_reserve_is_what_must_be_left(kenan: Robot, reserve_deg: f
     left = min(roll.margin_deg for roll in rolls(kenan))
     assert (found.limit, found.margin) == (reserve_deg, pytest.approx(left - reserve_deg))
     assert (found.severity == "info") == (left >= reserve_deg)
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

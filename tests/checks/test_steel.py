@@ -6,12 +6,14 @@ from dataclasses import replace
 
 import pytest
 from support.built import built
+from support.documented import documented_bases
 from support.fits import LOADS
 from support.strengths import changed, margins
 
 from jumpcad.building import build
 from jumpcad.checks import steel
 from jumpcad.checks.load_case import LoadCase
+from jumpcad.checks.steel import BASIS
 from jumpcad.checks.strength import strength_findings
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
@@ -189,3 +191,7 @@ def test_a_thicker_axle_is_advised_only_where_it_can_be_bought(retention: str, n
     case = LoadCase(changed(built("kenan-2.0"), "bought", retention=retention, axle="silver-steel"))
     words = steel._stronger(case, name, 330.0, 300.0)
     assert words.partition("bought.axle_mm of ")[2].partition(" with")[0] == advised
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

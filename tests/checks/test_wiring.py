@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from support.documented import documented_bases
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks.wiring import BASIS, wiring_findings
@@ -49,6 +50,9 @@ def test_what_is_left_out_is_missed() -> None:
         finding = found(without(chosen, role))[name]
         assert (finding.severity, finding.margin) == (severity, -1.0)
         assert f"bought.{role}" in finding.remedy
+    for role in ("switch", "plug"):
+        finding = found(without(chosen, role))["wiring_cut_off"]
+        assert (finding.severity, finding.remedy) == ("error", f"name one in bought.{role}")
     apart = board(chosen, "controller", diode_at=[])
     assert found(without(apart, "diode"))["wiring_diode"].severity == "info"
 
@@ -178,7 +182,14 @@ def test_a_contact_gets_the_current_of_its_pull_up_or_of_the_pins_own() -> None:
     pins = {name: does for name, does in chosen.controller.pins.items() if "out" not in does}
     weak = found(board(chosen, "controller", pins=pins))["wiring_contact"]
     assert weak.value == pytest.approx(3.3 / 45.0)
+    for volts, other in ((3.0, 5.0), (1.8, None)):  # what a board supplies to others is no matter
+        slow = found(board(chosen, "controller", pins=pins, logic_v=volts, output_v=other))["wiring_contact"]
+        assert slow.value == pytest.approx(volts / 45.0)
     assert weak.message.startswith("the controller's own pull-up gives")
     assert weak.severity == "warning"
     dry = chosen.components["sensor"].model_copy(update={"least_a": None})
     assert "wiring_contact" not in found(replace(chosen, components=chosen.components | {"sensor": dry}))
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

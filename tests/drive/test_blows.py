@@ -85,8 +85,8 @@ def test_a_cam_that_flies_off_ends_the_run(monkeypatch: pytest.MonkeyPatch) -> N
     fly = blows._flight_s
     monkeypatch.setattr(blows, "_flight_s", lambda *state: flights.append(state[1]) or fly(*state))
     largest_torques_nm((8.3e-8, 1.67e-6, 0.0693), 1.99, 0.322, 0.014, 150.0, 0.5)
+    assert len(flights) == 3  # to the gear, which flies on to the rotor, and back from it, with less than it brought
     assert flights[1] < 0.0  # after the first impact the cam falls back
-    assert len(flights) < 10
 
 
 @pytest.mark.parametrize(

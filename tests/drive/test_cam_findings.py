@@ -5,9 +5,10 @@ import re
 from dataclasses import replace
 
 import pytest
+from support.documented import documented_bases
 from support.limits import default_limits
 
-from jumpcad.drive.cam_findings import LIMITS, SCALES, Limit, _found, cam_findings, missed
+from jumpcad.drive.cam_findings import BASIS, LIMITS, SCALES, Limit, _found, cam_findings, missed
 from jumpcad.drive.cam_limits import FIRST_ROWS
 
 CAM = default_limits().cam
@@ -64,12 +65,16 @@ def test_what_a_cam_misses_is_named_with_how_much_and_what_to_change() -> None:
     assert "lower compression_ratio, or a larger cam" in words
 
 
-def test_what_is_missed_by_much_is_a_plain_number() -> None:
+def test_what_is_missed_by_much_is_a_plain_number_and_hardly_anything_a_hundredth() -> None:
     margin = 0.0 * SCALES[FIRST_ROWS] + 1.0
     place = [checked.name for checked in LIMITS].index("cam_contact")
-    for short, said in ((136.4, "136 MPa"), (1000.0, "1000 MPa"), (12.34, "12 MPa"), (1.234, "1.2 MPa")):
+    figures = {
+        1000.0: "1000", 136.4: "136", 12.34: "12", 10.0: "10", 9.94: "9.9", 3.46: "3.5", 1.234: "1.2", 0.012: "0.012",
+        0.004: "0.01",
+    }  # fmt: skip
+    for short, said in figures.items():
         margin[place] = -short
-        assert f"({said} short)" in missed(CAM, margin)
+        assert f"({said} MPa short)" in missed(CAM, margin)
 
 
 def test_three_findings_have_their_value_and_limit() -> None:
@@ -80,3 +85,7 @@ def test_three_findings_have_their_value_and_limit() -> None:
     limits = {"cam_pressure_angle": (0.4, CAM.pressure_angle_rad), "cam_contact": (30.0, CAM.pressure_mpa)}
     assert compared == limits | {"cam_roller_load": (20.0, CAM.roller_load_n)}
     assert [one.name for one in found.values()] == [checked.name for checked in LIMITS]
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

@@ -109,8 +109,10 @@ def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg
     )
     past = shape.roller_mm(-limits.overshoot_rad) - shape.axis_mm
     way_out = past + (limits.roller_radius_mm + limits.clearance_mm) * shape.roller_mm(-limits.overshoot_rad) / lever
-    nearest = min(np.hypot(*past) - limits.roller_radius_mm - limits.clearance_mm, np.hypot(*way_out))
-    assert found["cam_core"] == pytest.approx(nearest - limits.core_radius_mm, abs=1e-6)
+    nearest = np.hypot(*past) - limits.roller_radius_mm - limits.clearance_mm, np.hypot(*way_out)
+    cores = [float(row[0]) for row, of in zip(rows, ROWS, strict=True) if LIMITS[of].name == "cam_core"]
+    assert cores == pytest.approx([distance - limits.core_radius_mm for distance in nearest], abs=1e-6)
+    assert found["cam_core"] == min(cores)
     corner = shape.in_body(shape.tip_mm, shape.free_rad)
     behind = math.atan2(corner[1], corner[0]) - (shape.lever_start_rad - limits.overshoot_rad)
     assert found["cam_overshoot"] == pytest.approx(min(behind, lead - limits.overshoot_rad), abs=1e-6)

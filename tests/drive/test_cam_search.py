@@ -137,6 +137,7 @@ def test_shapes_keep_off_the_axle_and_around_the_core(gap_mm: float, core_mm: fl
     limits = replace(LIMITS, gap_min_mm=gap_mm, core_radius_mm=core_mm, hub_radius_mm=6.0, clearance_mm=0.7)
     shapes = _Shapes(CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad), limits)
     assert np.exp(shapes.lower[:2]) == pytest.approx([6.0 + limits.roller_radius_mm + 0.7, least_mm])
+    assert limits.overshoot_rad < np.exp(shapes.lower[2]) < limits.overshoot_rad + 0.001  # else there is no hollow
     assert np.exp(shapes.upper) == pytest.approx([limits.lever_max_mm, limits.gap_max_mm, limits.lead_max_rad])
 
 

@@ -121,6 +121,19 @@ def test_what_is_beyond_an_end_of_the_rollers_way_is_in_it_while_nearer_than_its
     assert shapely.LineString(cam.roller_mm(way)).distance(carried) == pytest.approx(cam.roller_radius_mm, abs=0.05)
 
 
+@pytest.mark.parametrize("turned_deg", [90.0, 180.0, -90.0])
+def test_what_is_as_far_from_the_hub_elsewhere_around_it_is_not_in_the_rollers_way(turned_deg: float) -> None:
+    """Of a point that is turned about the hub, out of the middle of the way, the roller's end is far enough away."""
+    cam = geometry("kenan-2.0")
+    point = cam.roller_mm(cam.law.compression_rad / 2.0 + math.radians(turned_deg))
+    begin, end = _window(cam, turned_about_y(point - cam.axis_mm, -cam.law.lift_rad)[None])
+    whole = 2.0 * math.pi - cam.law.lift_rad
+    assert begin == 0.0
+    if abs(turned_deg) == 180.0:
+        assert end == pytest.approx(whole)
+    assert end > 0.1
+
+
 def test_a_gap_opens_between_two_samples_by_a_straight_line() -> None:
     turns, gap = np.array([0.0, 0.1, 0.2, 0.3]), np.array([-0.3, 0.1, 0.2, -0.6])
     assert _crossing(turns, gap, 0, 1) == pytest.approx(0.075)
@@ -136,4 +149,6 @@ def test_the_roller_falls_freely_when_the_corner_is_far_enough_from_the_hub(name
     reach = cam.lever_mm + cam.roller_radius_mm + cam.clearance_mm
     assert np.hypot(*cam.in_body(cam.tip_mm, cam.free_rad)) == pytest.approx(reach)
     assert np.hypot(*cam.in_body(cam.tip_mm, cam.law.lift_rad)) < reach
-    assert math.isnan(replace(cam, clearance_mm=200.0).free_rad)
+    farthest = cam.axis_distance_mm + float(np.hypot(*cam.tip_mm)) - cam.lever_mm - cam.roller_radius_mm
+    for more, never in ((-0.1, False), (0.1, True), (5.0, True), (200.0, True)):
+        assert math.isnan(replace(cam, clearance_mm=farthest + more).free_rad) == never

@@ -10,7 +10,7 @@ from support.limits import default_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.gear_choice import _printable, _strong, by_cost, least_tip_mm
+from jumpcad.drive.gear_choice import _area, _printable, _strong, by_cost, least_tip_mm
 from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.gears import Gear, least_shift
 from jumpcad.drive.motor import winding_s
@@ -72,6 +72,7 @@ def test_who_is_in_a_hurry_gets_heavier_gears(name):
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-ga", "best-bo"])
 def test_the_least_cam_gear_turns_the_cam_alone_and_none_smaller_does(name):
     tip = least_tip_mm(law_of(name), MOTORS, LIMITS)
+    assert least_tip_mm(law_of(name), MOTORS, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=tip - 1.0)) == tip
     just, too_small = (dataclasses.replace(LIMITS, cam_gear_tip_max_mm=tip + more) for more in (1e-6, -1e-6))
     train = synthesise_train(law_of(name), MOTORS, just)
     assert len(train.stages) == 1
@@ -227,3 +228,11 @@ def test_a_pair_is_strong_enough_up_to_its_pinions_lewis_stress():
         for share, strong in ((1.001, True), (0.999, False)):
             limits = dataclasses.replace(LIMITS, stress_mpa=share * stress)
             assert bool(_strong(pair, 0.4, limits)[0]) == strong
+
+
+def test_gears_are_as_large_as_the_squares_of_their_pitch_circles():
+    table = _printable((0.8, 1.25), 0.15, 0.45, 2.9)[::200]
+    for row, area in zip(table, _area(table), strict=True):
+        pair = gear_pair(int(row["pinion"]), int(row["wheel"]), float(row["module"]), 1.0, 0.15)
+        circles = [2.0 * gear.pitch_radius_mm for gear in (pair.pinion, pair.wheel)]
+        assert area == pytest.approx(sum(diameter**2 for diameter in circles))

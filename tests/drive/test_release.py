@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 from support.built import built, geared
 from support.decimals import decimals
+from support.documented import documented_bases
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.building.limits import release_limits
 from jumpcad.building.releasing import release_of
 from jumpcad.drive import release as release_module
 from jumpcad.drive.corner import roll_over
-from jumpcad.drive.release import Release, _kick_limit_nm
+from jumpcad.drive.release import BASIS, Release, _kick_limit_nm
 from jumpcad.drive.rolling import ReleaseParts, Rolled, _Release, roll
 from jumpcad.errors import JumpcadError
 from jumpcad.parts.holes import HoleSizes
@@ -218,6 +219,15 @@ def test_a_rigid_key_fails_its_checks() -> None:
     assert f'release.play_deg = "auto" or more than {enough},' in energy.remedy
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_what_is_left_after_a_release_is_compared_with_the_workshops_share(name: str) -> None:
+    robot = built(name)
+    (found,) = (finding for finding in robot.release.findings if finding.name == "release_energy")
+    assert found.limit == pytest.approx(100.0 * robot.workshop.release.energy_ratio_min)
+    assert found.margin == pytest.approx(found.value - found.limit)
+    assert f"{found.value:.1f} % of the springs' energy" in found.message
+
+
 def test_a_play_beyond_the_window_fails_its_check() -> None:
     release = built("best-bo").release
     (found,) = [finding for finding in release.findings if finding.name == "release_window"]
@@ -286,3 +296,7 @@ def test_the_worst_of_both_corners_and_both_motors_counts(worst: int, monkeypatc
     assert of["release_energy"].value == pytest.approx(80.0)
     reserve = 1.0 + robot.workshop.safety.kick_reserve
     assert of["release_kick"].value == pytest.approx(1000.0 * reserve * found.kick_nm)
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

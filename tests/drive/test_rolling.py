@@ -25,10 +25,13 @@ def arc(slope: float, span_rad: float = 0.5) -> Corner:
     return Corner(cam, WIND_RAD - slope * cam, -slope * even, 0.0 * even, 20.0 * even)
 
 
-@pytest.mark.parametrize("turned_rad", [0.1, 0.2, 0.4])
-def test_the_leg_swings_on_its_lever_as_a_mass_on_springs(turned_rad: float) -> None:
-    """On a level corner about where springs, weight and lever balance, with the root of (k + K)/I as frequency."""
-    given = parts(cam_rad_s=8.0)
+@pytest.mark.parametrize(("turned_rad", "cam_rad_s"), [(0.1, 8.0), (0.2, 8.0), (0.4, 8.0), (0.05, 0.4)])
+def test_the_leg_swings_on_its_lever_as_a_mass_on_springs(turned_rad: float, cam_rad_s: float) -> None:
+    """On a level corner about where springs, weight and lever balance, with the root of (k + K)/I as frequency.
+
+    However slowly the motor turns the cam.
+    """
+    given = parts(cam_rad_s=cam_rad_s)
     release = _Release(arc(0.0), given)
     begin, release.rate = release.wind, 0.02
     stop = round(turned_rad / release.step)
@@ -38,9 +41,9 @@ def test_the_leg_swings_on_its_lever_as_a_mass_on_springs(turned_rad: float) -> 
     torque = spring.stiffness_nm_per_rad * (begin + spring.preload_rad) + weight
     assert held * (WIND_RAD - begin) == pytest.approx(torque), "in balance"
     frequency = math.sqrt((held + spring.stiffness_nm_per_rad) / inertia)
-    phase = frequency * turned_rad / 8.0
+    phase = frequency * turned_rad / cam_rad_s
     assert release.at == stop
-    assert release.speed == 8.0
+    assert release.speed == pytest.approx(cam_rad_s)
     assert release.wind - begin == pytest.approx(0.02 / frequency * math.sin(phase), abs=0.05 * 0.02 / frequency)
     assert release.rate == pytest.approx(0.02 * math.cos(phase), abs=0.05 * 0.02)
 
@@ -103,6 +106,21 @@ def test_what_the_corner_pushes_turns_the_rotor_too() -> None:
     assert alone.kick_nm == 0.0
 
 
+@pytest.mark.parametrize("with_rotor", [False, True])
+def test_the_corner_pushes_the_rollers_mass_until_the_rotor_turns_too(with_rotor: bool) -> None:
+    """Cam and gear alone have no kick, and the roller's own mass at the corner's slope beside them."""
+    given = parts(cam_rad_s=0.5, roller_kg_m2=built("best-ga").release.parts[1].gear_kg_m2 / 4.0)
+    release = _Release(arc(0.2, 0.001), given)
+    release.leg_inertia = 1e9 * release.leg_inertia
+    release.inertia = given.cam_kg_m2 + given.gear_kg_m2 + (1e-7 if with_rotor else 0.0)
+    torque = given.held_nm_per_rad * (WIND_RAD - release.wind)
+    release._push_to(10)
+    moved = release.inertia + (0.0 if with_rotor else 0.2**2 * given.roller_kg_m2)
+    work = 0.2 * torque * 10 * release.step
+    assert 0.5 * moved * (release.speed**2 - 0.5**2) == pytest.approx(work, rel=1e-2)
+    assert (release.kick_nm > 0.0) == with_rotor
+
+
 def test_masses_that_join_keep_their_momentum_and_wind_up_what_is_between_them() -> None:
     """What they lose in speed is in the train's spring at its largest torque: T²/(2·k)."""
     given = parts(cam_rad_s=1.0)
@@ -120,7 +138,8 @@ def test_masses_that_join_keep_their_momentum_and_wind_up_what_is_between_them()
 def test_at_first_the_leg_goes_on_as_the_lift_turns_it(slope: float) -> None:
     """By the corner's slope where it begins, at the motor's speed; the lever is bent as in balance."""
     given = parts(cam_rad_s=3.0)
-    release = _Release(arc(-slope), given)
+    rounded = arc(-slope)
+    release = _Release(replace(rounded, slope=rounded.slope - 2.0 * rounded.cam_rad), given)
     assert release.rate == pytest.approx(3.0 * slope)
     assert release.wind == given.held_rad(WIND_RAD)
     assert (release.speed, release.inertia) == (3.0, given.cam_kg_m2)
@@ -141,14 +160,32 @@ def test_a_play_is_counted_from_where_the_corner_first_drives_the_cam() -> None:
 @pytest.mark.parametrize(("rate", "left"), [(0.7, 0.0), (-0.7, -0.7)])
 def test_what_a_rebound_gives_the_leg_is_lost(monkeypatch: pytest.MonkeyPatch, rate: float, left: float) -> None:
     """The roller leaves the corner with the leg on its way up, or down."""
-    release = _Release(arc(0.2), parts())
+    release, times = _Release(arc(0.2), parts()), []
 
     def thrown(stop: int) -> None:
         release.at, release.touches, release.rate = stop, False, rate
+        times.append(release.at)
 
     monkeypatch.setattr(release, "_push_to", thrown)
     release._push_off(0)
     assert release.rate == left
+    assert times == [400], "once, to the corner's end"
+
+
+@pytest.mark.parametrize("steps", [0, 1, 7])
+def test_after_a_rebound_the_release_goes_on_from_where_it_was_and_at_least_by_a_step(
+    monkeypatch: pytest.MonkeyPatch, steps: int
+) -> None:
+    """A roller that leaves the corner again and again comes to its end all the same."""
+    release, begun = _Release(arc(0.2), parts()), []
+
+    def thrown(stop: int) -> None:
+        begun.append(release.at)
+        release.at, release.touches = min(release.at + steps, stop), False
+
+    monkeypatch.setattr(release, "_push_to", thrown)
+    release._push_off(300)
+    assert begun == list(range(0, 400, max(steps, 1)))
 
 
 def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:
@@ -160,6 +197,12 @@ def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:
     inertia = float(given.leg.at(np.array(rolled.wind_rad))[0])
     swing = 0.5 * inertia * rolled.wind_rad_s**2
     assert rolled.kept_j == pytest.approx(given.spring.stored_j(-rolled.wind_rad) + swing)
+    release = _Release(corner, given)
+    release.run()
+    assert release.blow_nm != release.kick_nm
+    assert (rolled.blow_nm, rolled.kick_nm) == (release.blow_nm, release.kick_nm)
+    assert (rolled.wind_rad, rolled.wind_rad_s) == (release.wind, release.rate)
+    assert rolled.held_j == given.spring.stored_j(-given.held_rad(float(corner.wind_rad.max())))
 
 
 @pytest.mark.parametrize(("impact_nm", "met_nm", "kick_nm"), [(5.0, 0.1, 5.0), (5.0, 9.0, 9.0)])
@@ -168,11 +211,52 @@ def test_the_larger_of_a_cams_impact_and_of_what_it_meets_later_is_the_kick(
 ) -> None:
     """The gear strikes the rotor, and the corner, still below the roller, pushes cam and gear on to it."""
     monkeypatch.setattr(rolling, "largest_torques_nm", lambda *_: (1.0, impact_nm))
-    monkeypatch.setattr(_Release, "_join", lambda self, inertia: met_nm)
+    joined: list[float] = []
+    monkeypatch.setattr(_Release, "_join", lambda self, inertia: joined.append(inertia) or met_nm)
     monkeypatch.setattr(_Release, "_push_off", lambda self, end: None)
-    release = _Release(arc(0.1), parts(play_rad=0.1, backlash_rad=0.05))
+    given = parts(play_rad=0.1, backlash_rad=0.05)
+    release = _Release(arc(0.1), given)
     release.run()
     assert (release.blow_nm, release.kick_nm) == (1.0, kick_nm)
+    assert joined == [given.gear_kg_m2, given.rotor_kg_m2]
+
+
+@pytest.mark.parametrize(
+    ("play_rad", "backlash_rad", "stops_rad", "pushed"),
+    [(0.1, 0.05, [0.1, 0.15], True), (0.1, 9.0, [0.1, 0.5], False), (0.0, 0.05, [0.05], True), (0.0, 9.0, [0.5], True)],
+)
+def test_gear_and_rotor_join_where_play_and_backlash_end(
+    monkeypatch: pytest.MonkeyPatch, play_rad: float, backlash_rad: float, stops_rad: list[float], pushed: bool
+) -> None:
+    """On a corner of 0.5 rad; whom a rigid key pushes, or the corner still, is what it meets at the rotor."""
+    given = parts(play_rad=play_rad, backlash_rad=backlash_rad)
+    release, stops, ends = _Release(arc(0.1), given), [], []
+    monkeypatch.setattr(rolling, "largest_torques_nm", lambda *_: (0.5, 0.25))
+    monkeypatch.setattr(release, "_push_to", stops.append)
+    monkeypatch.setattr(release, "_push_off", ends.append)
+    monkeypatch.setattr(release, "_join", lambda inertia: 2.0)
+    release.run()
+    assert [release.corner.cam_rad[stop] for stop in stops] == pytest.approx(stops_rad, abs=1.01 * release.step)
+    assert ends == (stops[-1:] if pushed else [])
+    assert release.kick_nm == (2.0 if pushed else 0.25)
+    assert release.blow_nm == (0.5 if play_rad else 0.0)
+    assert release.inertia == given.cam_kg_m2 + (0.0 if play_rad else given.gear_kg_m2)
+
+
+@pytest.mark.parametrize("below", [False, True])
+def test_a_leg_that_falls_to_the_corner_has_what_the_springs_and_itself_had(below: bool) -> None:
+    """It is bent by nothing then; a leg that is already below the corner's place bends its lever by what it is."""
+    release = _Release(arc(0.2), parts())
+    at, rate = 250, -1.5
+    here = float(release.corner.wind_rad[at])
+    release.wind, release.rate, release.touches = here - 0.01 if below else here + 0.05, rate, False
+    begin, spring = release.wind, release.parts.spring
+    release._fall_to(at)
+    lost = spring.stored_j(-begin) - spring.stored_j(-here)
+    assert (release.at, release.touches) == (at, True)
+    assert release.wind == min(begin, here)
+    assert release.rate == pytest.approx(-math.sqrt(max(rate**2 + 2.0 * lost / float(release.leg_inertia[at]), 0.0)))
+    assert (lost < 0.0) == below
 
 
 def test_an_impact_is_that_of_the_cams_speed_against_a_motor_that_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.documented import documented_bases
 from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
-from jumpcad.drive.spring import inner_fibre
+from jumpcad.drive.spring import BASIS, inner_fibre, torsion_spring
 from jumpcad.drive.spring_choice import _smallest_arms, synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
@@ -238,3 +239,18 @@ def test_the_smallest_coil_of_a_wire_is_at_one_of_its_limits(name, preload_deg):
         ]  # fmt: skip
         assert min(room) == pytest.approx(0.0, abs=1e-5)
     assert found
+
+
+def test_a_made_spring_that_is_stressed_too_much_asks_for_a_softer_design():
+    """One from stock has its own stiffness, and asks for another."""
+    for stock, asked in (("", "lower stiffness_nmm_per_deg or compression_ratio"), ("own", "another bought.spring")):
+        made = spring_of("kenan-2.0")[1]
+        on_leg, pins = springs_on_leg(load_design("kenan-2.0")), (made.plate_pin_rad, made.leg_pin_rad)
+        (finding,) = torsion_spring(made.arms, made.turns, on_leg, made.tensile_mpa, WIRE, LIMITS, pins, stock).findings
+        assert (finding.value, finding.limit) == pytest.approx((made.stress_mpa, made.allowable_mpa))
+        assert asked in finding.remedy
+        assert ("stiffness_nmm_per_deg" in finding.remedy) == (stock == "")
+
+
+def test_formulas_and_limits_are_those_of_the_reference():
+    assert documented_bases(BASIS) == BASIS

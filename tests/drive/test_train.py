@@ -7,6 +7,7 @@ import re
 
 import pytest
 from support.built import built, geared
+from support.documented import documented_bases
 from support.limits import LP6, default_limits
 
 from jumpcad.catalogue import load_catalogue
@@ -14,7 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.drive import train as train_module
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.drive.train import synthesise_train
+from jumpcad.drive.train import BASIS, synthesise_train
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
@@ -157,6 +158,18 @@ def test_springs_that_are_too_soft_for_a_motor_are_to_be_stiffer():
         synthesise_train(soft, MOTORS, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0, cam_speed_max_rad_s=0.1))
 
 
+@pytest.mark.parametrize(("share", "remedy"), [(0.87, "raise"), (0.93, "lower"), (1.08, "lower"), (1.2, "lower")])
+def test_a_motor_is_strong_enough_if_it_turns_the_cam_through_the_losses_of_a_pair(share, remedy):
+    """Nine tenths of what it may give: stiffer springs or a slower motor help up to there, else softer or stronger."""
+    law, motor = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]
+    allowed = min(LIMITS.stall_share * motor.stall_torque_nm, LIMITS.torque_max_nm)
+    times = share * allowed / (law.peak_torque_nm / LIMITS.cam_efficiency)
+    other = dataclasses.replace(law, stiffness_nm_per_rad=times * law.stiffness_nm_per_rad)
+    nothing_fits = dataclasses.replace(LIMITS, cam_gear_tip_max_mm=5.0)
+    with pytest.raises(CannotBuildError, match=f": {remedy} stiffness_nmm_per_deg"):
+        synthesise_train(other, [motor], nothing_fits)
+
+
 def test_a_train_that_misses_a_limit_is_passed_over(monkeypatch):
     """Whatever comes first as the lightest: here teeth that break, or a motor that is too fast or too weak."""
     law, motor = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]
@@ -178,3 +191,7 @@ def test_the_gear_that_needs_room_beside_the_cam_is_the_cams_own():
         train = robot.layout.drive.train
         (room,) = (finding for finding in train.findings if finding.name == "cam_gear_room")
         assert room.value == pytest.approx(train.stages[-1].wheel.tip_radius_mm)
+
+
+def test_formulas_and_limits_are_those_of_the_reference():
+    assert documented_bases(BASIS) == BASIS

@@ -38,6 +38,13 @@ def test_a_motor_winds_at_the_nominal_voltage_and_must_manage_with_an_empty_batt
     assert bench.driven(motor) is bench.weakest(motor) is motor
 
 
+def test_an_idlers_wheel_passes_beside_the_spacers_of_the_cams_axle() -> None:
+    """Tubes of 6.4 mm, and 0.8 mm as between all that does not touch; a motor is as high as an N20, 12 mm."""
+    limits = default_limits().train
+    assert limits.axle_mm == pytest.approx(6.4 / 2.0 + 0.8)
+    assert limits.motor_distance_min_mm == load_catalogue().motors["n20-298"].height_mm
+
+
 def test_modules_are_those_of_iso_54() -> None:
     """Its first series: 1, 1.25, 1.5, 2, 2.5, 3."""
     assert set(default_limits().train.modules_mm) <= {1.0, 1.25, 1.5, 2.0, 2.5, 3.0}

@@ -27,6 +27,9 @@ def test_a_diode_lies_behind_a_regulator_alone() -> None:
     """A controller that the battery feeds itself has none, whatever the workshop names."""
     regulated, bare = chosen_parts(with_parts()), chosen_parts(with_parts(regulator=""))
     assert regulated.boards.keys() == {"controller", "driver", "regulator"}
+    assert {role: one.name for role, one in regulated.boards.items()} == {
+        role: getattr(with_parts().bought, role) for role in ("controller", "driver", "regulator")
+    }
     assert regulated.diode is not None
     assert regulated.diode.name == with_parts().bought.diode
     assert bare.boards.keys() == {"controller", "driver"}

@@ -124,6 +124,17 @@ def test_the_driver_turns_the_motor_and_the_controller_the_driver(kit: str) -> N
         assert reached(pin, wires(wiring)) == inputs | {pin}
 
 
+def test_of_several_outputs_of_a_driver_one_is_wired_to_each_pole() -> None:
+    """A driver for two motors has two pins for each; the motor's are the first ones."""
+    chosen = parts("light-1s")
+    twice = {f"second {pin}": able for pin, able in chosen.driver.pins.items() if {"motor+", "motor-"} & set(able)}
+    assert len(twice) >= 2
+    double = replace(chosen, driver=chosen.driver.model_copy(update={"pins": {**chosen.driver.pins, **twice}}))
+    nets = {net.name: list(map(str, net.terminals)) for net in wiring_of(double, {}).nets}
+    for pole in ("motor+", "motor-"):
+        assert nets[pole] == [f"driver {chosen.driver.with_function(pole)[0]}", f"motor {pole[-1]}"]
+
+
 def test_without_a_divider_a_volt_is_a_volt() -> None:
     chosen = parts("light-1s")
     bare = replace(chosen, controller=chosen.controller.model_copy(update={"adc_max_v": None}))
@@ -170,6 +181,18 @@ def test_no_sensor_and_no_supply_are_pulled_up() -> None:
     assert _pull_up_ohm(replace(chosen, components=others)) is None
     dark = chosen.controller.model_copy(update={"logic_v": None})
     assert _pull_up_ohm(replace(chosen, controller=dark)) is None
+
+
+def test_a_controller_that_supplies_nothing_reads_the_contact_by_its_own_pull_up() -> None:
+    """Nothing else is joined to pin and contact, and there is no net of its supply."""
+    chosen = parts("light-1s")
+    dark = replace(chosen, controller=chosen.controller.model_copy(update={"logic_v": None}))
+    wiring = wiring_of(dark, {})
+    nets = {net.name: {str(terminal) for terminal in net.terminals} for net in wiring.nets}
+    assert "logic supply" not in nets
+    assert nets["ready"] == {f"controller {wiring.pins['ready']}", "sensor NC"}
+    assert wiring.pull_up_ohm is None
+    assert "pull-up resistor" not in wiring.resistors
 
 
 def test_a_contact_without_a_least_current_has_the_largest_pull_up() -> None:

@@ -121,3 +121,18 @@ def test_the_share_of_pwm_gives_the_mean_voltage_through_the_drivers_diodes(name
         current = max(0.0, current + (volts - ohm * current) / (2e-4 * ohm) * step_s)
         charge += current * step_s if number >= 30 * period else 0.0
     assert charge / (10 * period * step_s) * ohm == pytest.approx(supply.duty(motor, 0.196) * 8.4, rel=0.005)
+
+
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_a_supply_is_the_battery_behind_the_drivers_resistance(kit: str) -> None:
+    """In series; 3.6 J of every milliampere-hour at the nominal voltage."""
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump())
+    chosen = chosen_parts(shop.model_copy(update={"bought": bought}))
+    supply, battery = supply_of(chosen), chosen.battery
+    assert (battery.ohm > 0.0, chosen.driver.resistance_ohm > 0.0) == (True, True)
+    assert supply.ohm == pytest.approx(battery.ohm + chosen.driver.resistance_ohm)
+    assert (supply.empty_v, supply.nominal_v, supply.full_v) == (
+        battery.range_v[0], battery.voltage_v, battery.range_v[1],
+    )  # fmt: skip
+    assert supply.usable_j == pytest.approx(3.6 * battery.capacity_mah * battery.voltage_v)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.documented import documented_bases
 from support.places import DATA
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, load_design
@@ -181,3 +182,7 @@ def test_both_steps_are_among_the_findings(name: str) -> None:
     assert set(found) == set(BASIS) - {"winding"}, "it takes the place of `loop`"
     assert found["loop"] == geometry_findings(robot.design)[0]
     assert found["too_weak"] == statics_findings(robot)[1]
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

@@ -77,14 +77,17 @@ def test_inertia_in_flight_is_what_is_left_without_momenta(name: str) -> None:
 
 
 @pytest.mark.parametrize("rates", [(30.0, 0.0), (0.0, 12.0), (-25.0, 9.0)])
-@pytest.mark.parametrize(("name", "end", "slim"), [("kenan-2.0", 0, 1.0), ("best-bo", 1, 1.0), ("best-ga", 1, 30.0)])
+@pytest.mark.parametrize(
+    ("name", "end", "slim"), [("kenan-2.0", 0, 1.0), ("best-bo", 1, 1.0), ("best-ga", 1, 30.0), ("best-ga", 0, 1000.0)]
+)
 def test_push_off_obeys_the_principle_of_virtual_power(
     name: str, end: int, slim: float, rates: tuple[float, float]
 ) -> None:
     """The bodies' accelerations, times how they move by each coordinate, are the power of springs and weight.
 
     The accelerations are those of places a moment before and after, while the foot rolls on one end's sphere. What all
-    of them need from below is the ground's force. With inertias 30 times as large the turning of the links counts too.
+    of them need from below is the ground's force. With inertias 30 or 1000 times as large the turning of the links
+    counts too.
     """
     robot = built(name)
     bodies = {key: replace(body, inertia_kg_m2=slim * body.inertia_kg_m2) for key, body in robot.bodies.items()}
@@ -140,6 +143,7 @@ def test_a_foot_that_comes_down_flat_keeps_the_momentum_of_the_leg() -> None:
     """The ground's blow has no moment about the leg's joint: 2·w + 0.6·v before is 2·w after, and the foot stands."""
     chain, robot = Rocking(), built("kenan-2.0")
     flight._push_off(chain, robot.bodies["foot"].contacts)  # type: ignore[arg-type]
+    assert chain.seen[0] == (0.0, 0.0, 0.0, 0.0), "it begins at rest"
     assert chain.pivots[0].endswith("toe"), "the nose lifts off"
     assert "front_eye" in chain.pivots, "whether the toes would lift off is tried too"
     seen = np.array(chain.seen)
@@ -166,6 +170,20 @@ def test_the_end_of_the_foot_that_would_need_tension_lifts_off(foot_nm: float, s
     assert lifted.leg_rad >= 0.01
     assert stays in lifted.pivot.name
     assert np.sign(lifted.foot_rad) == turned
+
+
+def test_a_foot_that_presses_on_both_ends_stays_flat() -> None:
+    """On its toes the nose would come down, on its nose the toes: the leg turns by 1 N·m over its own inertia alone."""
+
+    class Standing(Rocking):
+        def equations(self, state: flight._State) -> flight._Equations:
+            return super().equations(state)._replace(foot_nm=0.5 if "toe" in state.pivot.name else 0.1)
+
+    chain = Standing()
+    chain.leg = np.array([0.0, 0.01])
+    end = flight._push_off(chain, built("kenan-2.0").bodies["foot"].contacts)  # type: ignore[arg-type]
+    assert (end.foot_rad, end.foot_rad_s) == (0.0, 0.0)
+    assert end.leg_rad == pytest.approx(end.leg_rad_s**2 / (2.0 * 0.5))
 
 
 def test_a_robot_that_stays_on_the_ground_stops_with_its_legs_travel() -> None:

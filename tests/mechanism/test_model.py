@@ -8,7 +8,17 @@ import pytest
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism, Spring, five_bar
+from jumpcad.mechanism.model import (
+    BODY,
+    FOOT,
+    FRONT_LINK,
+    MAIN_LEG,
+    Body,
+    ContactSphere,
+    Mechanism,
+    Spring,
+    five_bar,
+)
 
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"]
 
@@ -23,6 +33,8 @@ def test_joints_are_a_tree_from_the_body_to_the_foot(mechanism: Mechanism) -> No
         (BODY, MAIN_LEG), (BODY, FRONT_LINK), (MAIN_LEG, FOOT),
     ]  # fmt: skip
     assert [mechanism.joint(name).name for name in ("leg", "front", "ankle")] == ["leg", "front", "ankle"]
+    assert {joint.velocity_rad_s for joint in mechanism.joints} == {100.0}  # PyBullet's own limit
+    assert [joint.effort_nm for joint in mechanism.joints[1:]] == [0.0, 0.0]  # nothing drives them
 
 
 def test_pivots_are_as_far_apart_as_the_links_are_long(mechanism: Mechanism) -> None:
@@ -95,3 +107,14 @@ def test_the_energy_of_springs_is_their_torque_over_the_angle(preload_rad: float
         assert spring.stored_j(begin) == pytest.approx(float(energy), abs=1e-8)
     assert spring.energy_j == pytest.approx(spring.stored_j(-0.8))
     assert spring.peak_torque_nm == spring.torque_nm(-0.8) == pytest.approx(1.5 * (0.8 + preload_rad))
+
+
+def test_a_body_with_a_sphere_of_the_foot_rubs_as_the_foot() -> None:
+    """Whatever else may touch the ground; one without spheres is as the body is."""
+    sole, side = (ContactSphere(name, np.zeros(3), 0.001, name) for name in ("foot", "body"))
+
+    def surface(*contacts: ContactSphere) -> str:
+        return Body("x", 0.1, np.zeros(3), np.eye(3), contacts).surface
+
+    assert surface(sole) == surface(sole, side) == surface(side, sole) == "foot"
+    assert surface(side) == surface(side, side) == surface() == "body"

@@ -7,12 +7,13 @@ from functools import lru_cache
 import numpy as np
 import pytest
 from manifold3d import CrossSection
+from support.documented import documented_bases
 from support.fits import with_fits_apart
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check, constraint_findings, leg_bar
-from jumpcad.checks.leg_bar import _socket, leg_bar_findings
+from jumpcad.checks.leg_bar import BASIS, _socket, leg_bar_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
@@ -297,3 +298,7 @@ def test_two_walls_are_between_a_bars_ends_and_the_holes_beside_them(leg: str) -
         bar = next(item for item in found.hardware if item.name == name)
         low, high = bar.look.copy().apply_transform(bar.T_body_part).bounds[:, 0]
         assert (low, high) == pytest.approx((place.floor_mm + 0.2, place.far_floor_mm - 0.2), abs=1e-3)
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

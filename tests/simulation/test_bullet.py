@@ -1,6 +1,7 @@
 """The PyBullet back end: it holds the robot that it was given."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -16,10 +17,11 @@ from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.bullet import BulletWorld
+from jumpcad.simulation.bullet import BulletEngine, BulletWorld
 from jumpcad.simulation.bullet_robot import LINKS
 from jumpcad.simulation.engines import engine_named
-from jumpcad.simulation.mechanics import Mechanics
+from jumpcad.simulation.mechanics import Mechanics, loaded_state
+from jumpcad.simulation.run import Run
 from jumpcad.strength.pin_friction import pin_torque_nm
 
 pytest.importorskip("pybullet")
@@ -50,6 +52,16 @@ def test_a_run_that_blows_up_is_rejected_and_leaves_no_trace(kenan: Robot, monke
     assert jump.trajectory is not None
     assert np.isfinite(jump.trajectory.position_m).all()
     assert simulate(kenan).ballistic_range_m == before.ballistic_range_m
+
+
+@pytest.mark.parametrize("key", ["com_m", "velocity_m_s"])
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_one_number_that_is_none_is_a_robot_blown_up(kenan: Robot, key: str, value: float) -> None:
+    whole = loaded_state(kenan)
+    broken = getattr(whole, key).copy()
+    broken[2, 1] = value
+    for state, blown in ((whole, False), (replace(whole, **{key: broken}), True)):
+        assert BulletWorld.blown_up(SimpleNamespace(state=lambda state=state: state)) == blown  # type: ignore[arg-type]
 
 
 def test_slip_takes_the_contacts_force_times_the_foots_velocity_there() -> None:
@@ -283,3 +295,57 @@ def test_pybullet_is_told_how_long_steps_are_and_when_its_solver_may_end(
         "fixedTimeStep": 0.0004, "numSolverIterations": 77, "solverResidualThreshold": 3e-6, "numSubSteps": 0,
         "physicsClientId": client,
     }  # fmt: skip
+
+
+@pytest.fixture
+def other() -> Iterator[BulletEngine]:
+    """An engine whose client is not the first, which PyBullet's functions take where none is named."""
+    bullet = pytest.importorskip("pybullet")
+    first, engine = bullet.connect(bullet.DIRECT), BulletEngine()
+    yield engine
+    for client in (engine._client, first):
+        bullet.disconnect(physicsClientId=client)
+
+
+def test_bullet_runs_alike_in_another_client_and_leaves_the_first_alone(kenan: Robot, other: BulletEngine) -> None:
+    """A robot that slips on the way: friction, bounce, drag, damping and contacts all have a part."""
+    bullet, robot = pytest.importorskip("pybullet"), let_go(kenan)
+    settings = Settings(
+        ground_friction=0.35, restitution=0.3, drag_per_s=0.5, joint_damping_nms_per_rad=1e-4, joint_friction_nm=0.002,
+        gravity_m_s2=8.0, dt_s=0.0005,
+    )  # fmt: skip
+
+    def run(engine: BulletEngine) -> Run:
+        with engine.world(robot, settings) as world:
+            run = Run(world, robot, settings)
+            run.go()
+        return run
+
+    usual, first = run(engine_named("pybullet")), bullet.getNumBodies(physicsClientId=0)
+    elsewhere = run(other)
+    assert other._client != 0
+    assert bullet.getNumBodies(physicsClientId=0) == first
+    assert bullet.getNumBodies(physicsClientId=other._client) == 1  # the ground
+    assert elsewhere.takeoff == usual.takeoff
+    assert usual.takeoff is not None
+    assert usual.takeoff.energy.slip_j > 0.0
+
+
+def test_joints_turn_faster_than_bullets_own_limit_of_100_rad_s(other: BulletEngine) -> None:
+    """Let go with the leg at 150 rad/s, it goes on so."""
+    robot = let_go(capsule_robot(load_design("best-ga")), leg_rad_s=150.0)
+    with other.world(robot, Settings()) as world:
+        before = world.state()
+        world.advance(5)
+        after = world.state()
+    assert after.leg_rad - before.leg_rad == pytest.approx(150.0 * 5 * Settings().dt_s, rel=0.1)
+
+
+def test_every_link_is_seen_as_one_small_box(kenan: Robot, other: BulletEngine) -> None:
+    """One that Bullet makes of the contacts' spheres costs more than the whole robot."""
+    bullet = pytest.importorskip("pybullet")
+    with other.world(kenan, Settings()) as world:
+        seen = bullet.getVisualShapeData(world.robot_id, physicsClientId=other._client)
+    assert [shape[1] for shape in seen] == [-1, 0, 1, 2]
+    assert {shape[2] for shape in seen} == {bullet.GEOM_BOX}
+    assert np.array([shape[3] for shape in seen]) == pytest.approx(0.002)

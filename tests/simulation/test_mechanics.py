@@ -117,6 +117,20 @@ def test_ballistics_from_level_ground_is_the_textbook_range() -> None:
     assert flight.range_m == pytest.approx(speed**2 * math.sin(2 * angle) / 9.81)
 
 
+@pytest.mark.parametrize(("up_m_s", "lift_m"), [(0.5, -0.1), (1.4, -0.1), (1.4007142, -0.1), (0.5, -0.02), (2.0, -0.1)])
+def test_who_leaves_lower_than_it_started_flies_to_that_height_or_to_its_highest_point(
+    up_m_s: float, lift_m: float
+) -> None:
+    """√(2·g·0.1 m) = 1.4007 m/s are needed to come back to it."""
+    gravity, start = 9.81, np.array([0.1, 0.2, 0.3])
+    flight = ballistics(start, start + np.array([0.05, 0.0, lift_m]), np.array([1.2, 0.0, up_m_s]), gravity)
+    apex_s, fallen_m = up_m_s / gravity, lift_m + up_m_s**2 / (2.0 * gravity)
+    assert flight.rise_m == pytest.approx(fallen_m)
+    falls_s = math.sqrt(2.0 * fallen_m / gravity) if fallen_m > 0.0 else 0.0
+    assert flight.range_m == pytest.approx(0.05 + 1.2 * (apex_s + falls_s))
+    assert flight.speed_m_s == pytest.approx(math.hypot(1.2, up_m_s))
+
+
 def test_principal_axes_are_proper_and_give_the_tensor_back(lopsided: Robot) -> None:
     for tensor in [body.inertia_kg_m2 for body in lopsided.bodies.values()]:
         moments, axes = principal_axes(tensor)
@@ -161,3 +175,20 @@ def test_a_standing_robot_is_no_distance_from_the_ground(lopsided: Robot) -> Non
     assert mechanics.clearance_m(state) == pytest.approx(0.0, abs=1e-6)
     raised = replace(state, com_m=state.com_m + np.array([0.0, 0.0, 0.01]))
     assert mechanics.clearance_m(raised) == pytest.approx(0.01, abs=1e-6)
+
+
+@pytest.mark.parametrize("turn_deg", [-70.0, 25.0, 160.0])
+def test_a_robot_that_lies_is_as_far_from_the_ground_as_its_lowest_sphere(lopsided: Robot, turn_deg: float) -> None:
+    """Turned about y as a whole: whichever body's sphere is lowest then, centre less radius."""
+    with engine_named("planar").world(lopsided, Settings()) as world:
+        state = world.state()
+    turn, mechanics = Rotation.from_euler("y", turn_deg, degrees=True).as_matrix(), Mechanics(lopsided, 9.81)
+    lying = replace(state, com_m=state.com_m @ turn.T + [0.0, 0.0, 0.3], rotation=turn @ state.rotation)
+    origins = dict(zip(BODY_NAMES, mechanics.frame_positions_m(state), strict=True))
+    poses, low = frames(lopsided), []
+    for name, body in lopsided.bodies.items():
+        np.testing.assert_allclose(origins[name], poses[name][:3, 3], atol=1e-9)
+        for contact in body.contacts:
+            centre = poses[name] @ [*contact.centre_m, 1.0]
+            low.append(0.3 + float((turn @ centre[:3])[2]) - contact.radius_m)
+    assert mechanics.clearance_m(lying) == pytest.approx(min(low))

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.commands import exit_code_of
+from support.documented import documented_bases
 from support.flights import Flight
 from support.machines import one_sided
 
@@ -17,7 +18,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation import planar_kernel as kernel
-from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld
+from jumpcad.simulation.planar import BASIS, PlanarEngine, PlanarRun, PlanarWorld
 from jumpcad.simulation.planar_state import PlanarMotion
 
 FINE = load_settings("fine")
@@ -183,6 +184,31 @@ def test_a_body_that_comes_down_is_said(flights: list[Flight]) -> None:
     assert "body_contact" not in [one.name for one in run.findings()]
 
 
+@pytest.mark.parametrize("dt_s", [0.001, 0.00025])
+def test_the_compiled_push_off_is_that_of_every_run(kenan: Robot, monkeypatch: pytest.MonkeyPatch, dt_s: float) -> None:
+    """In the air for 4 ms, within 60 ms of spent springs, audited every 8 ms, for as long as the settings allow."""
+    given: list[tuple[object, ...]] = []
+    push_off = kernel.push_off
+    monkeypatch.setattr(kernel, "push_off", lambda *arguments: given.append(arguments) or push_off(*arguments))
+    world = PlanarWorld(kenan, Settings(dt_s=dt_s, max_time_s=1.5, takeoff_clearance_m=0.002))
+    world.push_off()
+    assert given == [(world.model, world.moment, dt_s, 0.004, 0.002, 0.060, 1.5, round(0.008 / dt_s))]
+
+
+def test_what_the_push_off_gained_counts_as_a_share_of_the_springs(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A tenth of their energy more than at release, somewhere on the way; the run is then not sound."""
+    push_off = PlanarWorld.push_off
+    more_j = 0.1 * kenan.spring.energy_j
+    monkeypatch.setattr(PlanarWorld, "push_off", lambda world: push_off(world)._replace(worst_gain_j=more_j))
+    with PlanarEngine().world(kenan, Settings()) as world:
+        run = PlanarRun(world, kenan, Settings())
+        run.go()
+    assert run.worst_energy_ratio == pytest.approx(1.1)
+    assert run.takeoff is None
+
+
 @pytest.mark.parametrize(
     ("key", "value"),
     [("restitution", 0.5), ("rolling_friction_m", 0.01), ("drag_per_s", 0.1), ("published_quantities", True)],
@@ -231,3 +257,7 @@ def test_a_robot_is_carried_by_nose_by_toes_or_by_its_belly(
     contact = SimpleNamespace(first_ns=first, second_ns=second)
     world = SimpleNamespace(moment=SimpleNamespace(contact=contact, belly_gap_m=belly_gap_m))
     assert PlanarWorld.loaded(world) == loaded  # type: ignore[arg-type]
+
+
+def test_formulas_and_limits_are_those_of_the_reference() -> None:
+    assert documented_bases(BASIS) == BASIS

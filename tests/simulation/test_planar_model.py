@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.machines import machine, rubbing
 
-from jumpcad.mechanism.model import Stop
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, ContactSphere, Stop
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.planar_model import planar_model
+from jumpcad.strength.pin_friction import pin_torque_nm
 
 
 def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
@@ -51,3 +53,53 @@ def test_left_and_right_do_not_count(lopsided: Robot) -> None:
         simulate(robot, engine="planar").ballistic_range_m for robot in (lopsided, replace(lopsided, bodies=bodies))
     ]
     assert ranges[0] == ranges[1]
+
+
+def test_links_bodies_and_springs_are_those_of_the_robot_in_metres(lopsided: Robot) -> None:
+    """A loop of 100 mm legs, bodies by their names; springs that only push and are loaded at rest already."""
+    robot = machine(lopsided)
+    model, design, spring = planar_model(robot, Settings()), robot.design, robot.spring
+    assert (model.l1_m, model.l2_m) == pytest.approx((np.linalg.norm(robot.joint("front").origin_m) * 2.0, 0.1))
+    assert (model.l3_m, model.l4_m) == pytest.approx((robot.loop.point_a_m[0], robot.loop.point_b_m[0]))
+    assert model.rest_rad == pytest.approx(robot.joint("leg").rest_angle_rad)
+    assert math.degrees(model.rest_rad) == pytest.approx(design.rest_angle_deg)
+    assert model.total_kg == pytest.approx(sum(model.mass_kg))
+    for index, name in enumerate(BODY_NAMES):
+        body = robot.bodies[name]
+        assert (model.mass_kg[index], model.inertia_kg_m2[index]) == (body.mass_kg, body.inertia_kg_m2[1, 1])
+        assert (model.com_m[index].real, model.com_m[index].imag) == (body.com_m[0], body.com_m[2])
+    assert (model.stiffness_nm_per_rad, model.preload_rad) == (spring.stiffness_nm_per_rad, math.radians(3.0))
+    assert model.one_sided_spring
+    assert not planar_model(lopsided, Settings()).one_sided_spring
+
+
+@pytest.mark.parametrize("pin_forces", [False, True])
+def test_pins_rub_with_a_torque_at_the_leg_or_with_their_forces_and_not_with_both(
+    kenan: Robot, pin_forces: bool
+) -> None:
+    radii = (0.0015, 0.002, 0.0025, 0.003)
+    robot, settings = rubbing(kenan, pin=0.2, pin_radius_m=radii), Settings(joint_friction_nm=0.004)
+    model = planar_model(robot, settings, pin_forces)
+    torque = pin_torque_nm(robot, 0.2)
+    assert torque > 1e-4
+    assert model.joint_friction_nm == 0.004
+    assert model.pins_nm == (0.0 if pin_forces else pytest.approx(torque))
+    assert model.pin_friction_m == pytest.approx([0.2 * radius if pin_forces else 0.0 for radius in radii])
+
+
+def test_spheres_of_both_sides_are_one_and_those_of_another_place_or_radius_are_not(kenan: Robot) -> None:
+    """Toes on the left and the right; a larger sphere about the same centre is there too."""
+
+    def sphere(x: float, y: float, radius: float) -> ContactSphere:
+        return ContactSphere(f"{x} {y} {radius}", np.array([x, y, -0.01]), radius, "foot")
+
+    toes = (sphere(-0.05, 0.02, 0.002), sphere(-0.05, -0.02, 0.002), sphere(0.04, 0.0, 0.002), sphere(0.04, 0.0, 0.003))
+    bodies = {name: replace(kenan.bodies[name], contacts=()) for name in BODY_NAMES}
+    bodies |= {
+        FOOT: replace(kenan.bodies[FOOT], contacts=toes),
+        BODY: replace(kenan.bodies[BODY], contacts=(sphere(0.1, 0.0, 0.005),)),
+    }
+    model = planar_model(replace(kenan, bodies=bodies), Settings())
+    assert model.sole_m == (-0.05 - 0.01j, 0.04 - 0.01j, 0.04 - 0.01j)
+    assert model.sole_radius_m == (0.002, 0.002, 0.003)
+    assert (model.belly_m, model.belly_radius_m) == ((0.1 - 0.01j,), (0.005,))

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from jumpcad.findings import Finding
-from jumpcad.strength.growth import POWERS, Growth
+from jumpcad.strength.growth import POWERS, Growth, grown_mm, in_hundredths
 
 
 def test_a_weak_section_grows_by_what_it_lacks_at_most_by_a_tenth() -> None:
@@ -60,3 +60,9 @@ def test_what_is_known_to_fall_with_a_power_of_its_section_is_met_at_once(name: 
     assert Growth().more([weak(1.15)]).stop == pytest.approx(1.1)
     fallen = {(name, "stop"): (1.0, 1.05 * 1.2)}  # with a power of 1
     assert Growth(stop=1.2).leap([weak(1.05)], fallen).stop == pytest.approx(1.2 * 1.002 * 1.05)
+
+
+def test_what_does_not_grow_keeps_its_size_and_the_rest_is_rounded_up_to_hundredths() -> None:
+    assert grown_mm(4.0037, 1.0) == 4.0037
+    assert grown_mm(4.0037, 1.3) == 5.21  # 5.20481
+    assert (in_hundredths(5.2), in_hundredths(5.2 + 1e-9), in_hundredths(5.2001)) == (5.2, 5.2, 5.21)

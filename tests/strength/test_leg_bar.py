@@ -6,9 +6,17 @@ import numpy as np
 import pytest
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.strength.leg_bar import Socket, bar_shear_mpa, bar_sideways_mpa
+from jumpcad.strength.leg_bar import (
+    Socket,
+    bar_bending_mpa,
+    bar_shear_mpa,
+    bar_sideways_mpa,
+    bent_energy_nmm,
+    buckling_n,
+)
 
 STRIP = load_catalogue().bars["carbon-strip-3x6"]
+TUBE = load_catalogue().bars["carbon-tube-6x4"]
 
 
 @pytest.mark.parametrize("times", [1.0, 1.5, 2.0, 4.0, 10.0])
@@ -52,3 +60,38 @@ def test_a_sockets_floor_bears_the_moment_beside_the_bars_room_and_its_glue_the_
     pull, twist = 90.0 / (18.0 * 30.0), 60.0 / (18.0 * 30.0 * 1.5)
     assert socket.bond_mpa(90.0, 0.0) == pytest.approx(pull)
     assert socket.bond_mpa(90.0, 60.0) == pytest.approx(math.hypot(pull, twist))
+
+
+def test_a_tube_is_bent_sheared_and_twisted_as_its_rings_are() -> None:
+    """By integration over the radius: M·R/I + F/A, T·R/J. Across, V·Q/(I·b) in its middle is a little under 2·V/A."""
+    r = np.linspace(2.0, 3.0, 100_001)
+    area, polar = (float(np.trapezoid(2.0 * math.pi * r**power, r)) for power in (1, 3))
+    assert bar_bending_mpa(TUBE, 500.0, 0.0) == pytest.approx(500.0 * 3.0 / (polar / 2.0), rel=1e-6)
+    assert bar_bending_mpa(TUBE, 500.0, 90.0) == pytest.approx(500.0 * 3.0 / (polar / 2.0) + 90.0 / area, rel=1e-6)
+    assert bar_sideways_mpa(TUBE, 500.0) == pytest.approx(bar_bending_mpa(TUBE, 500.0, 0.0))
+    twisted = bar_shear_mpa(TUBE, 0.0, 70.0)
+    assert twisted == pytest.approx(70.0 * 3.0 / polar, rel=1e-6)
+    half = float(np.trapezoid(2.0 * r**2, r))  # first moment of the half ring
+    across = 90.0 * half / (polar / 2.0 * 2.0 * (3.0 - 2.0))
+    assert across < bar_shear_mpa(TUBE, 90.0, 0.0) == pytest.approx(2.0 * 90.0 / area, rel=1e-6)
+    assert bar_shear_mpa(TUBE, 90.0, 0.0) < 1.05 * across
+    assert bar_shear_mpa(TUBE, 90.0, 70.0) == pytest.approx(bar_shear_mpa(TUBE, 90.0, 0.0) + twisted)
+
+
+def test_a_strip_is_bent_along_its_height_and_sheared_by_a_parabola() -> None:
+    """6·M/(b·h²) + F/(b·h); in the middle 1.5 times the mean. It buckles across its thinner side."""
+    assert bar_bending_mpa(STRIP, 450.0, -0.0) == pytest.approx(6.0 * 450.0 / (3.0 * 36.0))
+    assert bar_bending_mpa(STRIP, 0.0, 90.0) == pytest.approx(90.0 / 18.0)
+    assert bar_shear_mpa(STRIP, 90.0, 0.0) == pytest.approx(1.5 * 90.0 / 18.0)
+    flat = STRIP.model_copy(update={"width_mm": 6.0, "height_mm": 3.0})
+    by_hand = math.pi**2 * STRIP.modulus_mpa * (6.0 * 27.0 / 12.0) / 80.0**2
+    assert buckling_n(STRIP, 80.0) == buckling_n(flat, 80.0) == pytest.approx(by_hand)
+
+
+def test_a_cantilever_takes_the_energy_of_its_tips_way() -> None:
+    """F²·l³/(6·E·I); of one that is stiff but for its outer half, an eighth of it."""
+    even = np.full(2001, 3e5)
+    whole = (450.0 / 90.0) ** 2 * 90.0**3 / (6.0 * 3e5)
+    assert bent_energy_nmm(even, 450.0, 90.0) == pytest.approx(whole, rel=1e-5)
+    stiff = np.where(np.linspace(0.0, 1.0, 2001) < 0.5, 1e15, even)
+    assert bent_energy_nmm(stiff, 450.0, 90.0) == pytest.approx(whole / 8.0, rel=5e-3)

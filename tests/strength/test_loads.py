@@ -9,13 +9,17 @@ import pytest
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.settings import Settings
+from jumpcad.simulation.planar import PlanarWorld
 from jumpcad.strength.loads import (
     POSITIONS,
     MovingMass,
     landing_force_n,
     push_off,
     rail_moment_nmm,
+    rail_twist_nmm,
     reflected_share,
     toe_load_n,
     toe_moment_nmm,
@@ -31,6 +35,8 @@ def test_forces_and_torques_on_the_body_balance(c_coef: float) -> None:
     design = load_design("best-ga").model_copy(update={"c_coef": c_coef, "compression_ratio": 0.3})
     forces = push_off(Linkage(design), BODY)
     assert forces.residual_n.max() < 0.001 * np.linalg.norm(forces.ground_n, axis=1).max()
+    stands = forces.residual_n[forces.ground_n[:, 1] > 0.0]
+    assert len(np.unique(stands)) == len(stands) > 5  # each position has its own
 
 
 def test_parallel_legs_swing_the_body_like_a_pendulum() -> None:
@@ -53,6 +59,24 @@ def test_parallel_legs_swing_the_body_like_a_pendulum() -> None:
     assert np.count_nonzero(stands) > 5
     assert along[stands] == pytest.approx((torque / design.l2_mm)[stands], abs=0.02)
     assert inward[stands] == pytest.approx((centripetal - weight * np.sin(angle))[stands], abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["best-ga", "best-bo"])
+@pytest.mark.parametrize("gyration_mm", [25.0, 42.0, 90.0])
+def test_the_ground_pushes_as_in_an_engine_whose_links_weigh_nothing(name: str, gyration_mm: float) -> None:
+    """At release, from a standstill; the legs are not parallel, so that the body turns."""
+    mass = MovingMass(0.1, np.array([4.0, 17.0]), gyration_mm)
+    plain = capsule_robot(load_design(name))
+    light = {key: replace(body, mass_kg=1e-9, inertia_kg_m2=1e-15 * np.eye(3)) for key, body in plain.bodies.items()}
+    com, inertia = np.array([0.004, 0.0, 0.017]), 0.1 * (gyration_mm / 1000.0) ** 2 * np.eye(3)
+    body = replace(light["body"], mass_kg=0.1, com_m=com, inertia_kg_m2=inertia)
+    settings = Settings(dt_s=1e-5, joint_damping_nms_per_rad=0.0, foot_friction=50.0)
+    world = PlanarWorld(replace(plain, bodies=light | {"body": body}), settings)
+    world.advance(20)
+    contact = world.moment.contact
+    along, up = push_off(plain.linkage, mass).ground_n[0]
+    assert (contact.first_ns + contact.second_ns) / 1e-5 == pytest.approx(up, rel=0.02)
+    assert contact.along_ns / 1e-5 == pytest.approx(along, rel=0.02)
 
 
 def test_leg_carries_the_springs_torque_to_the_ankle() -> None:
@@ -143,6 +167,9 @@ def test_toes_and_rails_balance_about_the_ankle() -> None:
     design = Design(**{**load_design("kenan-2.0").model_dump(), "ground_link_angle_deg": 60.0})
     assert 2.0 * rail_moment_nmm(design, 10.0) == pytest.approx(10.0 * design.l5_mm * 0.5)
     assert toe_moment_nmm(design, 10.0) == pytest.approx(5.0 * design.l5_mm)
+    aside_mm = design.l5_mm * math.sqrt(0.75)  # of a tip; a rail 5.5 mm beside the middle is twisted by what is beyond
+    assert rail_twist_nmm(design, 10.0, 5.5) == pytest.approx(5.0 * (aside_mm - 5.5))
+    assert rail_twist_nmm(design, 10.0, aside_mm + 1.0) == 0.0
 
 
 def test_nothing_bears_after_the_robot_has_left_the_ground() -> None:

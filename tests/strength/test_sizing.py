@@ -243,3 +243,21 @@ def test_toes_and_rails_bear_the_ground_under_the_pads(pad: str, angle_deg: floa
         assert height > bending + 0.1
         assert shear == pytest.approx(45.0 / 2.0, rel=2e-3)
     assert sizes.ground_mm == pytest.approx(ground)
+
+
+def test_hollow_toes_and_rails_stand_upright_on_their_layers() -> None:
+    """Three lines of 0.45 mm at their sides, 0.9 mm of layers below and above, a fifth of solid plastic within.
+
+    Wide enough for a core: M·h/(2·I) of what is left is the stress that links may have, to a hundredth of a millimetre.
+    """
+    shop = load_workshop()
+    linkage = Linkage(load_design("best-bo").model_copy(update={"ground_link_angle_deg": 16.0}))
+    assert (shop.process.perimeters, shop.process.line_width_mm, shop.process.infill) == (3, 0.45, 0.4)
+    sizes, length = sections(linkage, shop), linkage.design.l5_mm
+    tips = 1.15 * toe_load_n(push_off(linkage, TYPICAL_BODY), linkage.design, sizes.foot_depth_mm).max()
+    behind = length * math.cos(math.radians(linkage.design.ground_link_angle_deg))
+    for width, height, arm in ((7.0, sizes.toe_root_mm, length), (4.0, sizes.rail_root_mm, behind)):
+        core = (width - 2.7) * (height - 1.8) ** 3
+        second = (width * height**3 - 0.8 * core) / 12.0
+        assert core > 0.0
+        assert tips / 2.0 * arm * height / 2.0 / second == pytest.approx(15.0 / LOADS, rel=5e-3)

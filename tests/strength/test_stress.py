@@ -20,6 +20,7 @@ from jumpcad.strength.stress import (
     tapered_stress_mpa,
     tip_stiffness_n_per_mm,
     tube_shear_mpa,
+    twisted_height_mm,
 )
 from jumpcad.workshop import load_workshop
 
@@ -148,6 +149,15 @@ def test_a_bar_in_torsion_by_the_handbook() -> None:
     """Shigley 3-40: T/(b·c²)·(3 + 1.8·c/b), whichever side is the longer."""
     assert bar_shear_mpa(100.0, 4.0, 8.0) == pytest.approx(100.0 / (8.0 * 16.0) * 3.9)
     assert bar_shear_mpa(100.0, 8.0, 4.0) == pytest.approx(100.0 / (8.0 * 16.0) * 3.9)
+
+
+@pytest.mark.parametrize("torque_nmm", [1.0, 60.0, 230.0, 235.0, 300.0, 4000.0])
+def test_a_bar_that_is_as_high_as_a_torque_asks_is_twisted_as_much_as_allowed(torque_nmm: float) -> None:
+    """Lower than wide, about square (S·a³/4.8 = 231 N·mm) and higher; the stress is the handbook's."""
+    height = twisted_height_mm(torque_nmm, 4.0, 17.33)
+    assert (height > 4.0) == (torque_nmm > 231.1)
+    assert bar_shear_mpa(torque_nmm, 4.0, height) == pytest.approx(17.33)
+    assert twisted_height_mm(0.0, 4.0, 17.33) == 0.0
 
 
 def test_the_tip_of_a_uniform_cantilever_gives_way_by_the_handbook() -> None:

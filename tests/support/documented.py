@@ -1,12 +1,15 @@
-"""What docs/reference/workshop.md tells users to write: keys of a table and the ranges of their numbers."""
+"""What docs/reference tells users: keys of a workshop's tables, ranges of their numbers, formulas of the checks."""
 
 import re
+from collections.abc import Iterable
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
+from jumpcad.findings import Basis
 from support.places import ROOT
 
+BLOCK = re.compile(r"^### `([^`]+)`\n\n- \*\*Formula\*\*: (.*)\n- \*\*Source\*\*: (.*)$", re.M)
 ROW = re.compile(r"\| `(\w+)` \| [^|]*\| (?:`auto` or )?(whole, )?(?:(\d+) numbers, each )?(\S+) to (\S+) \|")
 BEYOND = 1e-6
 
@@ -64,3 +67,10 @@ def wrongly_taken(table: str, model: type[BaseModel]) -> list[str]:
         )
         wrong += [f"{table}.{one.key} = {value}" for value, allowed in one.tries() if taken(adapter, value) != allowed]
     return wrong
+
+
+def documented_bases(names: Iterable[str]) -> dict[str, Basis]:
+    """Return formula and source of findings by their names, as docs/reference/checks.md has them."""
+    page = (ROOT / "docs" / "reference" / "checks.md").read_text(encoding="utf-8")
+    bases = {name: Basis(formula, source) for name, formula, source in BLOCK.findall(page)}
+    return {name: bases[name] for name in names}
