@@ -91,5 +91,5 @@ def test_the_right_plate_stays_clear_of_the_rollers_screw() -> None:
     """
     by_screw = stack(gears=(5.0, 5.0), motor=20.0, screw=20.0)
     assert by_screw.roller_screw == (pytest.approx(-11.5), pytest.approx(8.5))
-    assert by_screw.right_plate[1] <= -11.5 - 0.3 - GAP_MM + 1e-9
+    assert by_screw.right_plate[1] == pytest.approx(-11.5 - 0.3 - GAP_MM)
     assert by_screw.motor[0] - by_screw.right_plate[1] > 0.5  # nearer for the motor alone

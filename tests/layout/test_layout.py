@@ -18,6 +18,7 @@ from jumpcad.dimensions import CLEAR_MM, GAP_MM, TRAY_MM
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
+from jumpcad.layout import drive_places
 from jumpcad.layout import layout as layout_module
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout, moving_obstacles
@@ -393,6 +394,64 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
     for name, more in zip(names[2:], (set(), train, {"sensor"}, {"electronics"}, {"standoff"}, set()), strict=True):
         things |= more
         assert given[name] == things, name
+
+
+def test_beside_the_leg_half_a_millimetre_is_kept_and_elsewhere_the_usual_clearance(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Rest stop and pin's hole are close to what moves; the pin's way crosses from the leg's side through the plate."""
+    seen: dict[str, dict[str, Obstacle]] = {}
+    for name, place in (("stop_place", 0), ("pin_hole", 1), ("train_places", 0)):
+        make = getattr(layout_module, name)
+
+        def kept(*asked: Any, name: str = name, make: Any = make, place: int = place) -> Any:
+            seen[name] = {one.name: one for one in asked[place]}
+            return make(*asked)
+
+        monkeypatch.setattr(layout_module, name, kept)
+    layout = plan_again(plans()["kenan-2.0"])
+    sections, lateral, coil = layout.sections, layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
+    bare = {"left spring": coil, "right spring": coil, "front link": sections.eye_radius_mm}
+    bare |= {"lever": sections.lever_root_mm / 2.0}
+    for name, gap in (("stop_place", 0.5), ("pin_hole", 0.5), ("train_places", 0.8)):
+        found = {one: seen[name][one].radius_mm for one in bare}
+        assert found == pytest.approx({one: radius + gap for one, radius in bare.items()}), name
+    way = seen["train_places"]["way of the leg's pin"]
+    assert way.y_mm == (lateral.leg[1], lateral.left_plate[1])
+    assert way.radius_mm == layout.pin_hole.pad_mm / 2.0
+
+
+def test_what_is_kept_free_of_the_leg_reaches_as_far_as_its_stops_pad_gives() -> None:
+    """From loaded springs to 3° beyond the stop's angle; on the stop springs that are wound at rest are less so."""
+    layout = plans()["best-bo"]
+    leg = next(one for one in moving_obstacles(layout) if one.name == "main leg")
+    for wind in (layout.design.compression_rad, -layout.stop.angle_rad - math.radians(3.0)):
+        ankle = in_body(built("best-bo"), MAIN_LEG, wind, np.array([[layout.design.l2_mm, 0.0]]))
+        assert np.hypot(*(leg.points_mm - ankle).T).min() < 0.01
+    spring = replace(layout.drive.spring, preload_rad=0.5)
+    wound = replace(layout, drive=replace(layout.drive, spring=spring))
+    assert wound.stop_preload_rad == pytest.approx(0.5 - layout.stop.angle_rad)
+
+
+def test_the_motors_room_has_the_ears_of_its_cap(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ears of 7.5 mm beyond walls of 1.6 mm with 0.3 mm of play: while its place is found, and for what comes after."""
+    tried, taken = list[float](), list[Obstacle]()
+    find, trays = drive_places.best_place, layout_module.tray_place
+
+    def noted(what: str, obstacles: list[Obstacle], places: np.ndarray, half: tuple[float, float], *others: Any) -> int:
+        tried.extend([half[1]] if what == "motor" else [])
+        return find(what, obstacles, places, half, *others)
+
+    monkeypatch.setattr(drive_places, "best_place", noted)
+    monkeypatch.setattr(
+        layout_module, "tray_place", lambda things, *others: taken.extend(things) or trays(things, *others)
+    )
+    layout = plan_again(plans()["kenan-2.0"], cap_ear_mm=7.5)
+    reach = layout.drive.train.motor.height_mm / 2.0 + 1.6 + 0.3 + 7.5
+    (box,) = (one for one in taken if one.name == "motor")
+    along = np.array([-math.sin(layout.motor_angle_rad), math.cos(layout.motor_angle_rad)])
+    assert tried == pytest.approx([reach] * len(tried))
+    assert np.abs((box.points_mm - layout.motor_mm) @ along).max() + box.radius_mm == pytest.approx(reach)
 
 
 @pytest.mark.parametrize("axle_mm", [2.0, 3.0])

@@ -85,6 +85,27 @@ def test_the_right_plate_is_open_behind_the_motors_terminals(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_motors_socket_has_a_floor_under_it_and_a_sliding_fit_around_it(name: str) -> None:
+    """The floor keeps 1 mm of the case's end on every side of its window; walls end 0.2 mm before the motor does."""
+    robot = built(name)
+    layout, motor, (rear, front) = robot.layout, robot.layout.drive.train.motor, robot.layout.lateral.motor
+    half = np.array([motor.width_mm, motor.height_mm]) / 2.0
+    box = shapely.affinity.rotate(shapely.box(*-half, *half), layout.motor_angle_rad, (0.0, 0.0), use_radians=True)
+    case = shapely.affinity.translate(box, *layout.motor_mm)
+    mesh = placed(robot, "body_plate_right")
+    for y in (rear + 0.05, (rear + front) / 2.0, front - 0.25):
+        walls = region(cut(mesh, y))
+        assert walls.distance(case) == pytest.approx(robot.workshop.fits.sliding_mm, abs=0.01), y
+        assert case.buffer(1.5, join_style="mitre").difference(case.buffer(0.21, join_style="mitre")).difference(
+            walls
+        ).area == pytest.approx(0.0, abs=0.05)
+    floor = region(cut(mesh, rear - 0.05)).intersection(case)
+    window = case.buffer(-1.0, join_style="mitre")
+    assert floor.symmetric_difference(case.difference(window)).area < 0.05
+    assert mesh.bounds[1, 1] == pytest.approx(front - 0.2, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_no_tab_of_a_tray_stands_in_the_opening_for_usb(name: str) -> None:
     """What of the printed trays is in the right plate's thickness lies beside the opening; three tabs hold there."""
     robot = built(name)

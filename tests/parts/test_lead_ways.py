@@ -171,6 +171,7 @@ def test_the_batterys_leads_go_from_its_front_end_around_the_trays_to_the_plug(r
         low, high = item.look.copy().apply_transform(item.T_body_part).bounds
         assert end == pytest.approx([high[0], (low[1] + high[1]) / 2.0, (low[2] + high[2]) / 2.0], abs=0.02), name
     assert np.ptp(way[1:4, 0]) == 0.0
+    assert (np.count_nonzero(np.abs(np.diff(way, axis=0)) > 1e-9, axis=1) <= 1).all()  # one way at a time
     assert way[1, 0] > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
 
 

@@ -11,7 +11,8 @@ from support.built import built, cut, placed, region
 from jumpcad.building import build
 from jumpcad.design import Design
 from jumpcad.parts.fittings import fitting_pads
-from jumpcad.parts.plate_outline import _apart, _pads, blank_of, tray_slots
+from jumpcad.parts.part import Face
+from jumpcad.parts.plate_outline import _apart, _pads, blank_of, outline, tray_slots
 from jumpcad.parts.sensor import plate_pad
 from jumpcad.solids.outline import rectangle
 from jumpcad.workshop import load_workshop
@@ -33,6 +34,29 @@ def test_ears_as_wide_as_the_axles_seat_lead_from_the_leg_to_the_stop(name: str,
     stop = shapely.Point(*layout.stop.tab_mm).buffer(2.0 + 2.5 - 0.05)
     ear = shapely.union_all([*base, stop]).convex_hull
     assert ear.difference(filled).area < 1e-3
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_an_ear_is_the_hull_of_what_it_holds_and_fills_no_other_pocket(side: Face) -> None:
+    """The leg's seat, 16 mm of the pivots' line, the stop's slot with 2.5 mm around it, at the left the pin's hole."""
+    layout = built("kenan-2.0").layout
+    blank, stop, pin, seat = blank_of(layout, 0.8), layout.stop, layout.pin_hole, layout.axle_mm / 2.0 + 3.0
+    ends = [layout.hub_mm + np.array([x, z]) for x in (0.0, 16.0) for z in (-seat, seat)]
+    slot = [stop.tab_mm + a * 3.0 * stop.along + b * 2.5 * stop.behind for a in (-1, 1) for b in (-1, 1)]
+    held = [shapely.Point(*layout.hub_mm).buffer(seat, 64), shapely.MultiPoint(ends)]
+    held.append(shapely.MultiPoint(slot).convex_hull.buffer(2.0, 64))
+    if side == "left":
+        held.append(shapely.LineString(pin.places_mm).buffer(pin.pad_mm / 2.0, 64))
+    ear = shapely.union_all(held).convex_hull
+    whole, found = (
+        shapely.union_all([shapely.Polygon(contour) for contour in one.to_polygons()])
+        for one in (blank.hull, blank.hull + outline(layout, blank, side))
+    )
+    assert found.symmetric_difference(whole.union(ear)).area < 0.5
+    pockets = shapely.union_all([shapely.Polygon(contour) for contour in blank.pockets.to_polygons()])
+    lost = blank.hull - outline(layout, blank, side)
+    opened = shapely.union_all([shapely.Polygon(contour) for contour in lost.to_polygons()])
+    assert opened.symmetric_difference(pockets.difference(ear)).area < 0.5
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
