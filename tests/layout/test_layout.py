@@ -409,7 +409,10 @@ def test_beside_the_leg_half_a_millimetre_is_kept_and_elsewhere_the_usual_cleara
             return make(*asked)
 
         monkeypatch.setattr(layout_module, name, kept)
-    layout = plan_again(plans()["kenan-2.0"])
+    gaps, angle = list[float](), layout_module.stop_angle_rad
+    monkeypatch.setattr(layout_module, "stop_angle_rad", lambda *asked: gaps.append(asked[3]) or angle(*asked))
+    layout = plan_again(plans()["kenan-2.0"], reserve_mm=0.25)
+    assert gaps[-1] == 0.75  # of leg and front link, with the reserve
     sections, lateral, coil = layout.sections, layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
     bare = {"left spring": coil, "right spring": coil, "front link": sections.eye_radius_mm}
     bare |= {"lever": sections.lever_root_mm / 2.0}
