@@ -17,15 +17,17 @@ from support.elsewhere import environment
 from support.places import ROOT
 
 from jumpcad.building import build
-from jumpcad.building.assembly import _contacts, _friction, _printed, _sensor_needs, layout_of
+from jumpcad.building.assembly import _contacts, _friction, _printed, _sensor_needs, assembled, layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.mechanism.flight import leg_blow
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Friction
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.stl import write_stl
+from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 
@@ -169,6 +171,30 @@ def test_the_leg_goes_from_loaded_springs_into_its_stop_as_far_as_it_gives(name:
     assert robot.stop_blow is not None
     assert robot.stop_blow.give_rad > 0.0
     assert leg.upper_rad == pytest.approx(robot.stop.angle_rad + robot.stop_blow.give_rad)
+
+
+def test_springs_stop_and_roller_of_a_robot_are_those_of_its_drive_and_layout() -> None:
+    """Springs wound by 4° at rest: at release k·(wind + 4°), the most that the leg's joint is turned with.
+
+    The pad's stiffness about the leg's joint is that along the impact times its distance from it squared.
+    """
+    shop = changed(spring={"preload_deg": 4.0})
+    robot = assembled(KENAN, shop, "", Growth())
+    layout, wound = robot.layout, robot.design.compression_rad + math.radians(4.0)
+    assert layout.drive.spring.preload_rad == robot.spring.preload_rad == math.radians(4.0)
+    assert robot.joint("leg").effort_nm == pytest.approx(robot.design.stiffness_nm_per_rad * wound)
+    assert robot.roller_off is not None
+    assert robot.roller_off is robot.release.off
+    assert robot.stop is robot.stop_blow.stop
+    assert robot.stop.angle_rad == layout.stop.angle_rad
+    pad = 1000.0 * layout.stop.pad_n_per_mm(layout.sections.thickness_mm)
+    assert robot.stop.stiffness_nm_per_rad == pytest.approx(pad * (layout.stop.radius_mm / 1000.0) ** 2)
+    blow = leg_blow(robot.bodies, robot.linkage, robot.spring, layout.stop.angle_rad)
+    assert robot.stop_blow.energy_j == pytest.approx(blow.energy_j, rel=1e-4)
+    # what the pad absorbs, by its stiffness: a spring's energy at the greatest deflection
+    give = robot.stop_blow.give_rad
+    assert robot.stop.stiffness_nm_per_rad * give**2 / 2.0 == pytest.approx(robot.stop_blow.energy_j, rel=1e-3)
+    assert robot.stop_blow.give_mm == pytest.approx(give * layout.stop.radius_mm, rel=1e-3)
 
 
 def test_the_foot_lies_flat_when_the_body_is_tilted_by_beta() -> None:
