@@ -27,6 +27,7 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.stl import write_stl
+from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -311,6 +312,14 @@ def test_stop_plates_and_toes_are_those_of_the_workshops_body() -> None:
     for low, high in (layout.lateral.left_plate, layout.lateral.right_plate):
         assert high - low == pytest.approx(wanted["plate_mm"])
     assert layout.toe_half_width_mm == 65.0
+    assert not layout.toes_apart
+    wide, holes = layout_of(KENAN, changed(body={"toe_half_width_mm": 170.0}, bought={"retention": "nuts"}))
+    assert wide.toes_apart  # 340 mm from side to side
+    assert wide.retention == "nuts"
+    # its pin's head passes the left plate with a loose fit, 0.3 mm all around; ears beside a counterbore of 4 mm
+    shop = load_workshop()
+    assert wide.pin_hole.diameter_mm == pytest.approx(pin_head_mm(shop.catalogue, shop.bought) + 2.0 * 0.3)
+    assert wide.cap_ear_mm == pytest.approx(4.0 + 2.0 * holes.fits.wall_min_mm)
 
 
 def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
@@ -395,6 +404,16 @@ def test_spacers_keep_the_front_link_and_the_cam_where_they_are(name: str) -> No
     gaps = [right[0] - low, link[0] - right[1], left[0] - link[1], high - left[1], cam[0] - spacer[1]]
     assert gaps == pytest.approx(5 * [0.25], abs=1e-3)
     assert spacer[0] == pytest.approx(low, abs=1e-3)
+
+
+@pytest.mark.parametrize("which", ["one pair", "two pairs"])
+def test_spacers_are_on_their_axles(which: str) -> None:
+    robot = built("kenan-2.0") if which == "one pair" else geared()
+    spacers = [part.name for part in robot.parts if "_spacer_" in part.name]
+    assert len(spacers) == (3 if which == "one pair" else 5)
+    for name in spacers:
+        middle = placed(robot, name).bounds.mean(axis=0)[[0, 2]]
+        assert middle == pytest.approx(robot.layout.axles[name.split("_")[0]], abs=1e-3), name
 
 
 def test_spacers_of_the_idler_have_as_much_play_to_either_side() -> None:

@@ -424,6 +424,34 @@ def test_beside_the_leg_half_a_millimetre_is_kept_and_elsewhere_the_usual_cleara
     assert way.radius_mm == layout.pin_hole.pad_mm / 2.0
 
 
+def test_what_is_placed_knows_axles_pivots_and_motor_by_their_places(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The sensor keeps off the seats of axles and springs' pin and off the motor's shaft; trays reach from the leg's
+    axle on, standoffs from behind the cam's to ahead of the front one; the plates are as far apart as boards are wide.
+    """
+    seen: dict[str, tuple[Any, ...]] = {}
+    for name in ("sensor_place", "tray_place", "standoff_places", "pin_hole", "lateral_stack"):
+        make = getattr(layout_module, name)
+
+        def kept(*asked: Any, name: str = name, make: Any = make) -> Any:
+            seen[name] = asked
+            return make(*asked)
+
+        monkeypatch.setattr(layout_module, name, kept)
+    layout = plan_again(plans()["geared"], leg_pin_hole_mm=5.3)
+    _, drive, _, axis, seats, motor, axle_mm, _ = seen["sensor_place"]
+    assert drive is layout.drive
+    assert {name: place.tolist() for name, place in seats.items()} == {
+        name: place.tolist() for name, place in (layout.axles | {"spring": layout.spring_pin_mm}).items()
+    }
+    assert (axis.tolist(), motor.tolist(), axle_mm) == (layout.cam_axis_mm.tolist(), layout.motor_mm.tolist(), 3.0)
+    assert seen["tray_place"][2] == pytest.approx(layout.design.l1_mm)
+    _, axis, front, *_ = seen["standoff_places"]
+    assert (axis.tolist(), front.tolist()) == (layout.cam_axis_mm.tolist(), layout.front_mm.tolist())
+    assert seen["pin_hole"][-3:] == (layout.leg_pin_mm, 5.3, 3.0)
+    assert layout.pin_hole.diameter_mm == 5.3
+    assert seen["lateral_stack"][-2] == layout.electronics.width_mm
+
+
 def test_what_is_kept_free_of_the_leg_reaches_as_far_as_its_stops_pad_gives() -> None:
     """From loaded springs to 3° beyond the stop's angle; on the stop springs that are wound at rest are less so."""
     layout = plans()["best-bo"]
