@@ -104,8 +104,11 @@ def test_a_cam_gear_must_clear_the_hub() -> None:
     require_gear_room([axle], HUB + np.array([0.0, 30.0]), 26.0, (0.0, 5.0))
     far = disc("front axle", HUB + np.array([90.0, 0.0]), 4.0, EVERYWHERE)
     for things in ([axle], [axle, far], [far, axle]):
-        with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"):
+        with pytest.raises(
+            CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"
+        ) as refused:
             require_gear_room(things, HUB + np.array([0.0, 30.0]), 27.0, (0.0, 5.0))
+        assert (refused.value.limit, refused.value.margin) == ("gear_room", pytest.approx(-1.0))
 
 
 @pytest.mark.parametrize("stages", [1, 2])

@@ -10,7 +10,7 @@ from manifold3d import Manifold, OpType
 from jumpcad.building import build
 from jumpcad.checks.interference import interference_findings, pieces_of
 from jumpcad.design import load_design
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.parts.axles import Place, _clevis, _clip, _screwed, require_retention
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
@@ -223,6 +223,15 @@ def test_a_clevis_pin_that_is_just_long_enough_is_taken(more_mm: float, longer_m
         half = (length - 0.4 - pin.cotter_mm / 2.0 - pin.end_mm + more_mm) / 2.0
         found, _ = _clevis(Place("ankle_pin", "foot", np.zeros(2), (-half, half)), 3.0, catalogue)
         assert found.article.startswith(f"clevis pin B 3 x {length + longer_mm:g} ISO")
+
+
+def test_faces_too_far_apart_for_every_clevis_pin_are_refused_with_what_misses() -> None:
+    catalogue = load_workshop().catalogue
+    pin = catalogue.clevis_pin_for(3.0)
+    half = (pin.lengths_mm[-1] - 0.4 - pin.cotter_mm / 2.0 - pin.end_mm + 0.3) / 2.0
+    with pytest.raises(CannotBuildError, match=rf"of {pin.lengths_mm[-1] + 0.3:.1f} mm for the ankle pin") as refused:
+        list(_clevis(Place("ankle_pin", "foot", np.zeros(2), (-half, half)), 3.0, catalogue))
+    assert (refused.value.limit, refused.value.margin) == ("clevis_pin", pytest.approx(-0.3))
 
 
 @pytest.mark.parametrize(("more_mm", "longer_mm"), [(0.0, 0), (-0.01, 0), (0.01, 1)])

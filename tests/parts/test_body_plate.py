@@ -12,12 +12,12 @@ from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, measured
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.drive.socket import window_mm
-from jumpcad.parts.body_plate import _drawing, plates
+from jumpcad.parts.body_plate import _drawing, _spring_boss, plates
 from jumpcad.parts.engraving import ENGRAVING_MM, TEXT_HEIGHTS_MM
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
 from jumpcad.robot import Robot
-from jumpcad.solids.outline import rectangle
+from jumpcad.solids.outline import disc, rectangle
 from jumpcad.solids.text import engravable, text
 from jumpcad.workshop import load_workshop
 
@@ -190,6 +190,37 @@ def test_the_springs_pin_stands_in_a_boss_of_the_right_plate(kenan: Robot) -> No
     wall = layout.spring_pin_mm + np.array([0.0, 1.7 + 0.9])
     ends, _, _ = beside.ray.intersects_location([[wall[0], plate[0] - 1.0, wall[1]]], [[0.0, 1.0, 0.0]])
     assert ends[:, 1].max() == pytest.approx(plate[1] + 4.0, abs=1e-3)
+
+
+def test_the_springs_pins_boss_leaves_the_motors_socket_free(kenan: Robot) -> None:
+    """A ring of 2 mm around the pin but for what the socket beside it takes."""
+    layout, holes = kenan.layout, HoleSizes.of(kenan.workshop, kenan.layout.hub_bearing)
+    x, z = layout.spring_pin_mm
+    beside = rectangle((20.0, 20.0), (x + 10.0, z))
+    low, high, region = _spring_boss(layout, holes, 2.0, beside)
+    assert (low, high) == (2.0, 2.0 + layout.spring_boss_mm)
+    assert (region ^ beside).area() < 1e-6
+    assert region.area() == pytest.approx(math.pi / 8.0 * (7.0**2 - RUNNING**2), rel=0.01)
+
+
+@pytest.mark.parametrize(("retention", "closed"), [("plates", True), ("nuts", False), ("clips", False)])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_bores_are_closed_outside_where_plates_keep_the_axles(
+    kenan: Robot, retention: str, closed: bool, side: Face
+) -> None:
+    """By four layers of 0.2 mm; nuts and clips are outside the plates, whose seat of the leg's axle is not thicker."""
+    layout = replace(kenan.layout, retention=retention)
+    left, right = plates(layout, HoleSizes.of(kenan.workshop, layout.hub_bearing), "")
+    drawing, plate = (left, layout.lateral.left_plate) if side == "left" else (right, layout.lateral.right_plate)
+    at = np.linalg.inv(drawing.placements[0].T_body_part)
+    thick = plate[1] - plate[0]
+    outside, inside, seat = drawing.shape.regions_at(np.array([0.75, 0.85, thick + 0.6]))
+    for x, z in (*layout.axles.values(), layout.spring_pin_mm):
+        pin = disc(3.0, (at @ [x, 0.0, z, 1.0])[:2])
+        assert (inside ^ pin).area() < 1e-6
+        assert (outside ^ pin).area() == pytest.approx(pin.area() if closed else 0.0, abs=1e-6)
+    ring = disc(6.0, (at @ [layout.hub_mm[0], 0.0, layout.hub_mm[1], 1.0])[:2])
+    assert ((seat ^ ring).area() > 1.0) == closed
 
 
 def test_a_spring_close_to_the_plate_leaves_no_boss() -> None:

@@ -282,6 +282,9 @@ def test_lugs_stand_on_soles_of_1_mm_behind_and_ahead_of_both_eyes(name: str) ->
         sole = shapely.box(x - 1.6 * depth, -depth, x + ahead * depth, 1.0 - depth)
         lug = shapely.union_all([shapely.Point(x, 0.0).buffer(depth - 0.02, 64), sole]).convex_hull
         assert lug.difference(filled).area < 0.1
+        outline = shapely.union_all([shapely.Point(x, 0.0).buffer(depth, 64), sole]).convex_hull
+        (found,) = map(shapely.Polygon, foot_part._lug(depth, x, ahead * depth).to_polygons())
+        assert found.symmetric_difference(outline).area < 0.1
     high_x = filled.bounds[2]
     assert high_x == pytest.approx(length + depth, abs=0.02)
 

@@ -243,6 +243,11 @@ def test_the_sensors_case_lies_in_the_plate_where_the_layout_says(name: str) -> 
         tip = screw.look.copy().apply_transform(screw.T_body_part).bounds[0, 1]
         assert robot.layout.lateral.inside[1] < tip <= robot.layout.lateral.outside[1] - 1.6 + 1e-6
     part = felt.needs.part
+    # its long side is a tangent of the track about the cam's axis
+    away = item.look.copy().apply_transform(item.T_body_part).vertices[:, ::2] - felt.place_mm
+    outwards = (felt.place_mm - robot.layout.cam_axis_mm) / felt.radius_mm
+    assert np.ptp(away @ outwards) == pytest.approx(part.width_mm, abs=2e-3)
+    assert np.ptp(away @ [-outwards[1], outwards[0]]) == pytest.approx(part.length_mm, abs=2e-3)
     corners = item.look.vertices
     sizes = np.ptp(corners, axis=0)
     assert sorted(sizes)[1:] == pytest.approx(sorted([part.length_mm, felt.needs.travel.total_mm]), abs=2e-3)
