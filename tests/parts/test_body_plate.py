@@ -12,10 +12,13 @@ from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, measured
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.drive.socket import window_mm
-from jumpcad.parts.body_plate import _drawing, _spring_boss, plates
-from jumpcad.parts.engraving import ENGRAVING_MM, TEXT_HEIGHTS_MM
+from jumpcad.parts import body_plate
+from jumpcad.parts.body_plate import _drawing, _openings, _spring_boss, plates
+from jumpcad.parts.engraving import TEXT_HEIGHTS_MM
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
+from jumpcad.parts.plate_outline import pin_hole
+from jumpcad.parts.sensor import plate_pad
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import disc, rectangle
 from jumpcad.solids.text import engravable, text
@@ -27,7 +30,7 @@ def engraved_mm2(name: str, label: str) -> dict[str, float]:
     plain, named = (build(load_design(name), name=label) for label in ("", label))
 
     def areas(robot: Robot) -> dict[str, float]:
-        height = np.array([0.98 * ENGRAVING_MM])
+        height = np.array([0.48])  # letters are 0.5 mm deep
         plates = [part for part in robot.parts if "plate" in part.name]
         return {part.name: part.drawing.shape.regions_at(height)[0].area() for part in plates}
 
@@ -50,6 +53,21 @@ def test_the_motors_shaft_and_the_sensors_switch_pass_the_left_plate(name: str) 
         assert plate.intersection(opened).area < 1e-3, y
         assert plate.intersection(shaft.buffer(0.5)).area > 0.5, y
         assert plate.intersection(opened.buffer(0.5)).area > 5.0, y
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_legs_pin_goes_in_through_the_left_plate_alone(name: str) -> None:
+    """A slot as wide as the hole from where the pin is at rest to where it is at the stop; 2 mm of plate around it."""
+    robot = built(name)
+    layout = robot.layout
+    way = shapely.LineString([layout.pin_hole.rest_mm, layout.pin_hole.stop_mm])
+    left = region(cut(placed(robot, "body_plate_left"), sum(layout.lateral.left_plate) / 2.0))
+    slot = way.buffer(layout.pin_hole.diameter_mm / 2.0, 64)
+    assert left.intersection(slot.buffer(-0.02)).area < 1e-3
+    assert slot.buffer(1.98).difference(slot.buffer(0.03)).difference(left).area < 0.01
+    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
+    whole = pin_hole(layout, layout.pin_hole.diameter_mm)
+    assert (_openings(layout, holes, "right") ^ whole).area() < 0.5 * whole.area()
 
 
 def test_a_thicker_shaft_has_a_wider_hole() -> None:
@@ -225,6 +243,20 @@ def test_bores_are_closed_outside_where_plates_keep_the_axles(
 
 def test_a_spring_close_to_the_plate_leaves_no_boss() -> None:
     assert built("best-bo").layout.spring_boss_mm == 0.0
+
+
+def test_letters_are_half_a_millimetre_deep_and_not_under_the_sensors_mount(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    layout, covered = kenan.layout, []
+    holes, draw = HoleSizes.of(kenan.workshop, layout.hub_bearing), body_plate._drawing
+    monkeypatch.setattr(body_plate, "_drawing", lambda *given: covered.append(given[6:]) or draw(*given))
+    for plate in plates(layout, holes, "label"):
+        outside, inside = plate.shape.regions_at([0.48, 0.52])
+        assert (inside - outside).area() == pytest.approx(text(f"label {plate.name[11].upper()}", 4.5).area(), rel=1e-6)
+    (left, right), pad = covered, plate_pad(layout.sensor)
+    assert (left[0] ^ pad).area() == pytest.approx(pad.area())
+    assert right == ()
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

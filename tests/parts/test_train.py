@@ -301,9 +301,12 @@ def test_web_holes_inside_the_sensors_track_leave_it_a_wall_too() -> None:
     assert min(one.min() for one in outside) == pytest.approx(31.6, abs=0.01)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo", "two pairs"])
 def test_the_sensors_land_rises_in_layers_from_the_bottom_of_its_groove_to_the_gears_face(name: str) -> None:
-    layout = built(name).layout
+    layout = (geared() if name == "two pairs" else built(name)).layout
+    if name == "two pairs":  # the first pair may be thinner than the cam gear's
+        cam, (y0, y1) = layout.lateral.gears
+        layout = replace(layout, lateral=replace(layout.lateral, gears=(cam, (y0, y1 - 1.0))))
     sensor, (low, face) = layout.sensor, layout.lateral.gears[0]
     assert sensor is not None
     track = _track(layout, sensor)
@@ -427,6 +430,13 @@ def test_an_idlers_small_teeth_reach_through_the_cam_gear_from_its_wheel_on() ->
         section = region(cut(mesh, y)).bounds
         assert (section[2] - section[0]) / 2.0 == pytest.approx(gear.tip_radius_mm, rel=0.03), y
     assert cam_high < motor_low
+
+
+def test_the_cams_jaws_reach_through_the_cam_gear() -> None:
+    """From the roller's plane to the gear's left face, with one pair of gears or two."""
+    for robot in robots().values():
+        lateral = robot.layout.lateral
+        assert placed(robot, "cam").bounds[:, 1] == pytest.approx([lateral.cam[0], lateral.gears[0][1]], abs=1e-3)
 
 
 def test_an_idlers_small_teeth_stand_on_solid_material_3_mm_wider() -> None:

@@ -157,6 +157,23 @@ def test_what_holds_the_boards_lies_on_them_and_under_them(name: str) -> None:
     assert all(one[1, 0] < other[0, 0] for one, other in itertools.pairwise(wires))
 
 
+def test_resistors_lie_on_their_seats_the_nearest_to_the_controller_first() -> None:
+    """As they come; a robot with more of them than seats has the others in its wires."""
+    robot = built("kenan-2.0")
+    layout, (x, z) = robot.layout, robot.layout.tray_mm
+    boxes = [
+        item.look.copy().apply_transform(item.T_body_part).bounds
+        for item in robot.hardware
+        if item.name.startswith(("wiring_resistor", "wiring_diode"))
+    ]
+    seats = layout.electronics.small_seats(layout.lateral.inside)
+    assert 0 < len(boxes) <= len(seats)
+    for (low, high), seat in zip(boxes, seats, strict=False):
+        assert (low + high)[:2] / 2.0 == pytest.approx([x + seat.x_mm, seat.y_mm], abs=2e-3)
+        assert low[2] == pytest.approx(z + seat.bottom_mm, abs=2e-3)
+        assert high - low == pytest.approx(seat.size_mm, abs=2e-3)
+
+
 @pytest.mark.parametrize(("role", "outwards"), [("sensor", 1.0), ("motor", -1.0)])
 def test_ties_of_leads_lie_on_the_plates_across_their_slots(role: str, outwards: float) -> None:
     """5 mm above the hole's middle, from slot to slot, 5.2 mm apart; outside the plate, 1.1 mm thick."""
