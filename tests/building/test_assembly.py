@@ -16,11 +16,12 @@ from support.built import LONG_TOES, body_in_plane, built, design, geared, place
 from support.elsewhere import environment
 from support.places import ROOT
 
-from jumpcad.building import build
+from jumpcad.building import assembly, build
 from jumpcad.building.assembly import _contacts, _friction, _printed, _sensor_needs, assembled, layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.mechanism.flight import leg_blow
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Friction
@@ -295,6 +296,39 @@ def test_an_unknown_motor_is_a_wrong_request() -> None:
     assert caught.value.exit_code == 2
 
 
+def test_screws_as_axles_have_one_size_and_a_thinner_one_is_no_way_out() -> None:
+    """M3, before anything is said of the spacers around a thicker axle."""
+    with pytest.raises(JumpcadError, match=r'^bought.axle_mm = 6: bought.retention = "nuts" .*: make it 3, or choose'):
+        layout_of(KENAN, changed(bought={"axle_mm": 6.0, "leg_bearing": "", "retention": "nuts"}))
+
+
+def test_springs_for_a_free_direction_of_their_pin_are_tried_as_long_as_there_is_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[tuple[float, ...]] = []
+    free = [(0.9, 1.2), (1.2,), ()]
+
+    def laid_out(_design: Design, _workshop: Workshop, _growth: Growth, directions: tuple[float, ...]) -> None:
+        asked.append(directions)
+        raise NoPinRoomError("no room for the spring pin: lower stiffness_nmm_per_deg", free[len(asked) - 1])
+
+    monkeypatch.setattr(assembly, "_laid_out", laid_out)
+    with pytest.raises(NoPinRoomError, match="lower stiffness_nmm_per_deg"):
+        layout_of(KENAN, changed())
+    assert asked == [PLATE_PINS_RAD, (0.9, 1.2), (1.2,)]
+    asked.clear()
+    with pytest.raises(NoPinRoomError, match=r"bought\.spring"):  # springs from stock are of one stiffness
+        layout_of(KENAN, changed(bought={"spring": "any"}))
+
+
+def test_plates_grow_by_their_own_factor_and_boards_keep_their_places() -> None:
+    usual, shop = built("kenan-2.0").layout, load_workshop()
+    grown, _ = layout_of(KENAN, shop, Growth(plate=1.25))
+    assert np.ptp(grown.lateral.left_plate) == pytest.approx(1.25 * np.ptp(usual.lateral.left_plate), abs=0.01)
+    for role, board in grown.electronics.boards.items():
+        assert board.name == getattr(shop.bought, role)
+
+
 def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     """Spacers of 6.4 mm with 0.2 mm of play and walls of 0.8 mm hold axles of 4.4 mm."""
     with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
@@ -390,6 +424,8 @@ def test_the_sensors_place_knows_the_workshops_errors_and_how_far_the_cam_runs_o
     late = changed(seats={"sensor_stop_s": 0.08})
     slower = _sensor_needs(late, chosen_parts(late), robot.layout.drive)
     assert slower.stop_rad == pytest.approx(0.08 / seats.sensor_stop_s * needs.stop_rad, rel=1e-4)
+    thick = changed(process={"first_layer_mm": 0.3, "layer_height_mm": 0.15})
+    assert _sensor_needs(thick, chosen_parts(thick), robot.layout.drive).layer_mm == 0.15
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

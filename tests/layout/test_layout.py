@@ -310,6 +310,10 @@ def test_what_moves_occupies_its_share_across_the_robot() -> None:
         assert found["cam gear"].y_mm == lateral.gears[0]
         assert found["pinion"].y_mm == lateral.gears[-1]
         assert found["pinion"].points_mm.tolist() == [layout.motor_mm.tolist()]
+        for one in ("cam", "cam's dog", "cam gear"):
+            assert found[one].points_mm.tolist() == [layout.cam_axis_mm.tolist()]
+        for one in idler:
+            assert found[one].points_mm.tolist() == [layout.idler_mm.tolist()]
         assert found["pinion"].radius_mm == layout.drive.train.stages[0].pinion.tip_radius_mm
         assert found["front link"].radius_mm == layout.sections.eye_radius_mm  # without a clearance
 
