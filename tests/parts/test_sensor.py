@@ -156,7 +156,8 @@ def test_the_shortest_screw_that_holds_goes_through_the_ear_and_four_threads() -
 def test_the_plates_pad_under_the_mount_reaches_2_mm_beyond_the_opening(robot: Robot, more_mm: float) -> None:
     """And as far as the mount with its ears, along the switch's long side and across; a margin is added all around."""
     sensor = robot.layout.sensor
-    contours = [shapely.Polygon(contour) for contour in plate_pad(sensor, more_mm).to_polygons()]
+    pad = plate_pad(sensor, more_mm) if more_mm else plate_pad(sensor)
+    contours = [shapely.Polygon(contour) for contour in pad.to_polygons()]
     low_x, low_y, high_x, high_y = along(robot, shapely.union_all(contours)).bounds
     wide = max(sensor.half_mm[1], sensor.case_mm[1] / 2.0 + 0.4 + 2.0) + more_mm
     assert (-low_x, high_x) == pytest.approx([sensor.half_mm[0] + more_mm] * 2, abs=2e-3)

@@ -341,6 +341,17 @@ def test_cross_screws_go_through_the_toe_into_the_stub() -> None:
             assert overlap[1].min() < along.min() <= inside - 4.0
 
 
+def test_what_there_is_several_of_is_counted_from_one(robot: Robot) -> None:
+    counted: dict[str, list[int]] = {}
+    for item in robot.hardware:
+        if found := re.fullmatch(r"(.*?)_(\d+)(_screw_left|_screw_right)?", item.name):
+            counted.setdefault(found[1] + (found[3] or ""), []).append(int(found[2]))
+    assert {"standoff", "standoff_screw_left", "sensor_screw", "cap_screw", "hub_bearing"} < counted.keys()
+    assert ("toe_left_screw" in counted) == robot.layout.toes_apart
+    for name, numbers in counted.items():
+        assert numbers == list(range(1, len(numbers) + 1)), name
+
+
 def test_small_steel_weighs_what_the_catalogue_says(assembled_robot: Robot) -> None:
     catalogue = load_catalogue()
     expected = {"roller_nut": catalogue.nuts["M3 nyloc"].mass_g, "roller_washer": catalogue.washers["M3"].mass_g}

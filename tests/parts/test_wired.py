@@ -26,6 +26,19 @@ def test_what_has_its_place_is_not_weighed_among_the_wires_too(name: str) -> Non
     assert names.count("wiring_sensor") == (robot.layout.sensor is None)
 
 
+def test_what_has_no_place_hangs_in_its_wires() -> None:
+    """A switch that is not behind the plate, a sensor that is not over the cam gear."""
+    robot, catalogue = built("kenan-2.0"), load_catalogue()
+    layout, bought = robot.layout, robot.workshop.bought
+    for changed, hanging in (
+        ({"fittings": replace(layout.fittings, switch_mm=None)}, {"wiring_switch"}),
+        ({"fittings": replace(layout.fittings, usb_mm=None)}, set()),
+        ({"sensor": None}, {"wiring_sensor"}),
+    ):
+        names = {item.name for item in electronics(replace(layout, **changed), catalogue, bought)}
+        assert names & {"wiring_switch", "wiring_sensor", "wiring_plug", "wiring_capacitor"} == hanging
+
+
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_battery_and_boards_lie_between_the_stops_of_their_trays(name: str) -> None:
     """The battery's ends are less than a millimetre from them; every stop of the upper tray stands along a board."""
