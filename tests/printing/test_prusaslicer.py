@@ -93,9 +93,20 @@ def test_a_part_lies_in_the_middle_of_the_bed_and_a_plate_as_it_is(stand_in, tmp
 
 
 def test_gcode_without_remarks_is_another_programs(stand_in, tmp_path):
-    stand_in(writing("G1 X1 E1\n"))
-    with pytest.raises(JumpcadError, match=r"without its usual remarks for leg\.stl"):
+    lines = GCODE.splitlines(keepends=True)
+    for without in (("filament_diameter",), ("printing time",), ("filament_diameter", "printing time")):
+        stand_in(writing("".join(line for line in lines if not any(word in line for word in without))))
+        with pytest.raises(JumpcadError, match=r"without its usual remarks for leg\.stl"):
+            sliced(tmp_path)
+
+
+def test_letters_of_another_encoding_are_no_fault(stand_in, tmp_path):
+    """In what the slicer says, such as a folder's name, and in what it writes."""
+    stand_in("printf '\\377 is empty\\n'; exit 1")
+    with pytest.raises(CannotBuildError, match=r"refused leg\.stl: . is empty"):
         sliced(tmp_path)
+    stand_in(f"{writing(GCODE)}\nprintf '; \\377 = 1\\n' >> \"$2\"")
+    assert sliced(tmp_path).time_s == 3723.0
 
 
 def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):
