@@ -38,6 +38,9 @@ def test_the_sum_of_the_left_side() -> None:
     assert lateral.cam == (4.5, 8.5)
     assert lateral.gears == (pytest.approx((11.15, 16.15)),)
     assert lateral.left_plate == pytest.approx((16.65, 19.05))
+    right = lateral.right_plate
+    assert lateral.plates_mm == pytest.approx((17.85, right[1] - 1.2))  # of 2.4 mm
+    assert right[1] - right[0] == pytest.approx(2.4)
     thicker = stack(spring=13.0)  # the coil, 0.5 to 13.5 mm beside the leg, now is what the gear must clear
     assert thicker.gears == (pytest.approx((18.0, 23.0)),)
     two = stack(gears=(5.0, 4.0))
