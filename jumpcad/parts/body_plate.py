@@ -25,7 +25,8 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     """Return the left plate, at the side of the gears, and the right one with the socket that holds the motor.
 
     The socket has a floor at the motor's rear end, open in the middle for terminals and wires, and ends a little below
-    the motor's front: the cap clamps the motor between the floor and itself.
+    the motor's front: the cap clamps the motor between the floor and itself. What closes the bores outside, and bosses,
+    have no thickness in a robot without them.
 
     Without a name nothing is engraved; letters that the engraving's font lacks are left out.
     """
@@ -40,8 +41,8 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     covered = union([])
     if layout.sensor is not None:
         shaft, covered = shaft + plate_opening(layout.sensor, holes), plate_pad(layout.sensor)
-    slabs = [(y0, y1 - floor, common - shaft), *_floor(y1 - floor, y1, closed - shaft)]
-    slabs += _boss(layout, holes, y0 - layout.boss_mm, y0)
+    slabs = [(y0, y1 - floor, common - shaft), (y1 - floor, y1, closed - shaft)]
+    slabs.append(_boss(layout, holes, y0 - layout.boss_mm, y0))
     words = name and f"{label} L".strip()
     left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
@@ -53,8 +54,8 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     taps = union(hole(holes.fits.m2_tap_mm, place) for place in ear_places(layout))
     around = socket_outline(layout) - taps
     seat, rim = lateral.motor[0], lateral.motor[1] - MOTOR_CLAMP_MM
-    slabs = [(y0 + floor, y1, common - window), *_floor(y0, y0 + floor, closed - window)]
-    bosses = _boss(layout, holes, y1, y1 + layout.boss_mm) + _spring_boss(layout, holes, y1, cavity + taps)
+    slabs = [(y0 + floor, y1, common - window), (y0, y0 + floor, closed - window)]
+    bosses = [_boss(layout, holes, y1, y1 + layout.boss_mm), _spring_boss(layout, holes, y1, cavity + taps)]
     levels = sorted({y1, seat, rim, *(top for _, top, _ in bosses)})
     for low, high in itertools.pairwise(levels):
         socket = around - (window if high <= seat else cavity)
@@ -80,23 +81,15 @@ def _bores(layout: Layout, holes: HoleSizes) -> Region:
     return union(hole(holes.running(layout.axle_mm), place) for place in (*layout.axles.values(), layout.spring_pin_mm))
 
 
-def _floor(y0: float, y1: float, region: Region) -> list[tuple[float, float, Region]]:
-    """Return the layers that close the bores on the outside, if there are any."""
-    return [(y0, y1, region)] if y1 > y0 else []
+def _boss(layout: Layout, holes: HoleSizes, y0: float, y1: float) -> tuple[float, float, Region]:
+    """Return the longer seat of the leg's axle, inside."""
+    return y0, y1, ring(layout.spring_bore_room_mm, holes.running(layout.axle_mm), layout.hub_mm)
 
 
-def _boss(layout: Layout, holes: HoleSizes, y0: float, y1: float) -> list[tuple[float, float, Region]]:
-    """Return the longer seat of the leg's axle, inside, if there is one."""
-    bore = holes.running(layout.axle_mm)
-    return [(y0, y1, ring(layout.spring_bore_room_mm, bore, layout.hub_mm))] if y1 > y0 else []
-
-
-def _spring_boss(layout: Layout, holes: HoleSizes, y0: float, socket: Region) -> list[tuple[float, float, Region]]:
-    """Return the right plate's boss in which the springs' pin stands, inside, if there is one: beside a socket."""
-    if layout.spring_boss_mm == 0.0:
-        return []
+def _spring_boss(layout: Layout, holes: HoleSizes, y0: float, socket: Region) -> tuple[float, float, Region]:
+    """Return the right plate's boss in which the springs' pin stands, inside, beside a socket."""
     region = ring(layout.spring_boss_outer_mm, holes.running(layout.axle_mm), tuple(layout.spring_pin_mm))
-    return [(y0, y0 + layout.spring_boss_mm, region - socket)]
+    return y0, y0 + layout.spring_boss_mm, region - socket
 
 
 def _drawing(

@@ -16,16 +16,20 @@ from support.built import LONG_TOES, body_in_plane, built, design, geared, place
 from support.elsewhere import environment
 from support.places import ROOT
 
-from jumpcad.building import build
-from jumpcad.building.assembly import _contacts, _friction, _printed, _sensor_needs, layout_of
+from jumpcad.building import assembly, build
+from jumpcad.building.assembly import _contacts, _friction, _printed, _sensor_needs, assembled, layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
+from jumpcad.mechanism.flight import leg_blow
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Friction
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.stl import write_stl
+from jumpcad.strength.axles import pin_head_mm
+from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 
@@ -171,6 +175,30 @@ def test_the_leg_goes_from_loaded_springs_into_its_stop_as_far_as_it_gives(name:
     assert leg.upper_rad == pytest.approx(robot.stop.angle_rad + robot.stop_blow.give_rad)
 
 
+def test_springs_stop_and_roller_of_a_robot_are_those_of_its_drive_and_layout() -> None:
+    """Springs wound by 4° at rest: at release k·(wind + 4°), the most that the leg's joint is turned with.
+
+    The pad's stiffness about the leg's joint is that along the impact times its distance from it squared.
+    """
+    shop = changed(spring={"preload_deg": 4.0})
+    robot = assembled(KENAN, shop, "", Growth())
+    layout, wound = robot.layout, robot.design.compression_rad + math.radians(4.0)
+    assert layout.drive.spring.preload_rad == robot.spring.preload_rad == math.radians(4.0)
+    assert robot.joint("leg").effort_nm == pytest.approx(robot.design.stiffness_nm_per_rad * wound)
+    assert robot.roller_off is not None
+    assert robot.roller_off is robot.release.off
+    assert robot.stop is robot.stop_blow.stop
+    assert robot.stop.angle_rad == layout.stop.angle_rad
+    pad = 1000.0 * layout.stop.pad_n_per_mm(layout.sections.thickness_mm)
+    assert robot.stop.stiffness_nm_per_rad == pytest.approx(pad * (layout.stop.radius_mm / 1000.0) ** 2)
+    blow = leg_blow(robot.bodies, robot.linkage, robot.spring, layout.stop.angle_rad)
+    assert robot.stop_blow.energy_j == pytest.approx(blow.energy_j, rel=1e-4)
+    # what the pad absorbs, by its stiffness: a spring's energy at the greatest deflection
+    give = robot.stop_blow.give_rad
+    assert robot.stop.stiffness_nm_per_rad * give**2 / 2.0 == pytest.approx(robot.stop_blow.energy_j, rel=1e-3)
+    assert robot.stop_blow.give_mm == pytest.approx(give * layout.stop.radius_mm, rel=1e-3)
+
+
 def test_the_foot_lies_flat_when_the_body_is_tilted_by_beta() -> None:
     robot = built(LONG_TOES)
     along_foot = body_in_plane(robot, FOOT, 0.0)[:2, 0]
@@ -268,6 +296,39 @@ def test_an_unknown_motor_is_a_wrong_request() -> None:
     assert caught.value.exit_code == 2
 
 
+def test_screws_as_axles_have_one_size_and_a_thinner_one_is_no_way_out() -> None:
+    """M3, before anything is said of the spacers around a thicker axle."""
+    with pytest.raises(JumpcadError, match=r'^bought.axle_mm = 6: bought.retention = "nuts" .*: make it 3, or choose'):
+        layout_of(KENAN, changed(bought={"axle_mm": 6.0, "leg_bearing": "", "retention": "nuts"}))
+
+
+def test_springs_for_a_free_direction_of_their_pin_are_tried_as_long_as_there_is_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[tuple[float, ...]] = []
+    free = [(0.9, 1.2), (1.2,), ()]
+
+    def laid_out(_design: Design, _workshop: Workshop, _growth: Growth, directions: tuple[float, ...]) -> None:
+        asked.append(directions)
+        raise NoPinRoomError("no room for the spring pin: lower stiffness_nmm_per_deg", free[len(asked) - 1])
+
+    monkeypatch.setattr(assembly, "_laid_out", laid_out)
+    with pytest.raises(NoPinRoomError, match="lower stiffness_nmm_per_deg"):
+        layout_of(KENAN, changed())
+    assert asked == [PLATE_PINS_RAD, (0.9, 1.2), (1.2,)]
+    asked.clear()
+    with pytest.raises(NoPinRoomError, match=r"bought\.spring"):  # springs from stock are of one stiffness
+        layout_of(KENAN, changed(bought={"spring": "any"}))
+
+
+def test_plates_grow_by_their_own_factor_and_boards_keep_their_places() -> None:
+    usual, shop = built("kenan-2.0").layout, load_workshop()
+    grown, _ = layout_of(KENAN, shop, Growth(plate=1.25))
+    assert np.ptp(grown.lateral.left_plate) == pytest.approx(1.25 * np.ptp(usual.lateral.left_plate), abs=0.01)
+    for role, board in grown.electronics.boards.items():
+        assert board.name == getattr(shop.bought, role)
+
+
 def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     """Spacers of 6.4 mm with 0.2 mm of play and walls of 0.8 mm hold axles of 4.4 mm."""
     with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
@@ -285,6 +346,14 @@ def test_stop_plates_and_toes_are_those_of_the_workshops_body() -> None:
     for low, high in (layout.lateral.left_plate, layout.lateral.right_plate):
         assert high - low == pytest.approx(wanted["plate_mm"])
     assert layout.toe_half_width_mm == 65.0
+    assert not layout.toes_apart
+    wide, holes = layout_of(KENAN, changed(body={"toe_half_width_mm": 170.0}, bought={"retention": "nuts"}))
+    assert wide.toes_apart  # 340 mm from side to side
+    assert wide.retention == "nuts"
+    # its pin's head passes the left plate with a loose fit, 0.3 mm all around; ears beside a counterbore of 4 mm
+    shop = load_workshop()
+    assert wide.pin_hole.diameter_mm == pytest.approx(pin_head_mm(shop.catalogue, shop.bought) + 2.0 * 0.3)
+    assert wide.cap_ear_mm == pytest.approx(4.0 + 2.0 * holes.fits.wall_min_mm)
 
 
 def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
@@ -355,6 +424,8 @@ def test_the_sensors_place_knows_the_workshops_errors_and_how_far_the_cam_runs_o
     late = changed(seats={"sensor_stop_s": 0.08})
     slower = _sensor_needs(late, chosen_parts(late), robot.layout.drive)
     assert slower.stop_rad == pytest.approx(0.08 / seats.sensor_stop_s * needs.stop_rad, rel=1e-4)
+    thick = changed(process={"first_layer_mm": 0.3, "layer_height_mm": 0.15})
+    assert _sensor_needs(thick, chosen_parts(thick), robot.layout.drive).layer_mm == 0.15
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -369,6 +440,16 @@ def test_spacers_keep_the_front_link_and_the_cam_where_they_are(name: str) -> No
     gaps = [right[0] - low, link[0] - right[1], left[0] - link[1], high - left[1], cam[0] - spacer[1]]
     assert gaps == pytest.approx(5 * [0.25], abs=1e-3)
     assert spacer[0] == pytest.approx(low, abs=1e-3)
+
+
+@pytest.mark.parametrize("which", ["one pair", "two pairs"])
+def test_spacers_are_on_their_axles(which: str) -> None:
+    robot = built("kenan-2.0") if which == "one pair" else geared()
+    spacers = [part.name for part in robot.parts if "_spacer_" in part.name]
+    assert len(spacers) == (3 if which == "one pair" else 5)
+    for name in spacers:
+        middle = placed(robot, name).bounds.mean(axis=0)[[0, 2]]
+        assert middle == pytest.approx(robot.layout.axles[name.split("_")[0]], abs=1e-3), name
 
 
 def test_spacers_of_the_idler_have_as_much_play_to_either_side() -> None:

@@ -129,8 +129,9 @@ def test_the_hub_keeps_a_wall_and_a_gap_off_the_spacer_on_the_cams_axle() -> Non
         if fits:
             _require_hub_room(tried)
         else:
-            with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit"):
+            with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit") as refused:
                 _require_hub_room(tried)
+            assert (refused.value.limit, refused.value.margin) == ("leg_bearing", pytest.approx(-0.01))
 
 
 def test_the_hub_keeps_the_thinnest_wall_off_the_rollers_screw() -> None:
@@ -147,8 +148,9 @@ def test_the_hub_keeps_the_thinnest_wall_off_the_rollers_screw() -> None:
         if fits_in:
             _require_hub_room(tried)
         else:
-            with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit"):
+            with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit") as refused:
                 _require_hub_room(tried)
+            assert (refused.value.limit, refused.value.margin) == ("leg_bearing", pytest.approx(-0.01))
 
 
 def test_the_leg_falls_by_springs_with_the_preload_of_the_workshop(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -49,15 +49,15 @@ def test_the_spring_pin_is_where_the_springs_want_it() -> None:
 
 
 def test_where_something_stands_other_directions_are_named_the_nearest_first() -> None:
-    cam = disc("cam", HUB + 14.0 * np.array([math.cos(math.radians(40)), math.sin(math.radians(40))]), 6.0, EVERYWHERE)
-    with pytest.raises(NoPinRoomError, match=r"no room for the spring pin: .* beside the cam: lower stiff") as refused:
-        spring_pin_place([cam], HUB, spring_with(14.0), INSIDE)
-    assert len(refused.value.free_rad) > 5
-    off = [abs(math.degrees(angle) - 40.0) for angle in refused.value.free_rad]
-    assert off == sorted(off)
-    for angle in refused.value.free_rad:
-        place = HUB + 14.0 * np.array([math.cos(angle), math.sin(angle)])
-        assert math.dist(place, cam.points_mm[0]) >= 6.0 + 1.5 - 1e-6
+    """Every 5° from 20° to 130°, to either side of 40°; a post takes what is nearer than its and the pin's radius."""
+    for radius, free in ((1.0, [25, 55, 20, *range(60, 131, 5)]), (6.0, [*range(75, 131, 5)])):
+        place = HUB + 14.0 * np.array([math.cos(math.radians(40)), math.sin(math.radians(40))])
+        cam = disc("cam", place, radius, EVERYWHERE)
+        with pytest.raises(NoPinRoomError, match=r"no room for the spring pin: .* beside the cam: lower st") as refused:
+            spring_pin_place([cam], HUB, spring_with(14.0), INSIDE)
+        assert np.degrees(refused.value.free_rad) == pytest.approx(free)
+        off = 28.0 * np.sin(np.radians(np.abs(np.arange(20, 131, 5) - 40)) / 2.0)
+        assert len(free) == (off >= radius + 1.5).sum()
 
 
 def test_a_gap_of_a_few_degrees_is_enough_for_the_spring_pin() -> None:
@@ -104,8 +104,11 @@ def test_a_cam_gear_must_clear_the_hub() -> None:
     require_gear_room([axle], HUB + np.array([0.0, 30.0]), 26.0, (0.0, 5.0))
     far = disc("front axle", HUB + np.array([90.0, 0.0]), 4.0, EVERYWHERE)
     for things in ([axle], [axle, far], [far, axle]):
-        with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"):
+        with pytest.raises(
+            CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"
+        ) as refused:
             require_gear_room(things, HUB + np.array([0.0, 30.0]), 27.0, (0.0, 5.0))
+        assert (refused.value.limit, refused.value.margin) == ("gear_room", pytest.approx(-1.0))
 
 
 @pytest.mark.parametrize("stages", [1, 2])

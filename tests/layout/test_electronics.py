@@ -130,6 +130,41 @@ def test_resistors_lie_two_by_two_apart_from_each_other_and_from_ties_and_boards
     assert away == sorted(away)
 
 
+@pytest.mark.parametrize("half_mm", [16.0, 19.3, 23.0, 30.0])
+@pytest.mark.parametrize("regulator", [None, "s7v7f5"])
+def test_no_more_resistors_have_room_between_the_boards(half_mm: float, regulator: str | None) -> None:
+    """On a raster of 0.5 mm from the tray's edge, the next pair begins as soon as 6.3 mm and 0.2 mm beside are free.
+
+    From the lowest place on each is taken that meets no tie of the two boards and no pair below; of these the ones that
+    meet capacitor or plug are left out.
+    """
+    parts = CATALOGUE.components
+    full = replace(
+        CARRIED, regulator=None if regulator is None else CATALOGUE.boards[regulator],
+        plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"],
+    )  # fmt: skip
+    inside = (-half_mm, half_mm)
+    seats, ties = full.seats(inside), full.tie_slots(inside)
+    taken = [(y - 2.0, y + 2.0) for role in ("controller", "driver") for _, y, _ in ties[role][:1]]
+    x = seats["controller"].x_mm + full.controller.width_mm / 2.0 + 0.2 + 1.8 + 0.4
+    starts, start = [], 1.0 - half_mm
+    while start + 6.7 <= half_mm - 1.0 + 1e-9:
+        if all(start >= high - 1e-9 or start + 6.7 <= low + 1e-9 for low, high in taken):
+            taken.append((start, start + 6.7))
+            starts.append(start)
+        start += 0.5
+    beside = [seats[role] for role in ("capacitor", "plug")]
+    expected = [
+        start + 3.35 for start in starts
+        if all(abs(seat.x_mm - x) >= seat.size_mm[0] / 2.0 + 2.3
+               or abs(seat.y_mm - start - 3.35) >= (seat.size_mm[1] + 6.7) / 2.0 for seat in beside)
+    ]  # fmt: skip
+    small = full.small_seats(inside)
+    assert sorted({round(seat.y_mm, 6) for seat in small}) == pytest.approx(expected)
+    assert sorted({round(seat.x_mm, 6) for seat in small}) == pytest.approx([x - 1.15, x + 1.15])
+    assert len(small) == 2 * len(expected)
+
+
 def test_the_balance_lead_has_its_tie_between_the_stop_and_the_trays_end() -> None:
     """1.6 mm of tray before and behind the slots of 4 mm, beyond a stop of 1.2 mm that is 0.5 mm from the battery.
 

@@ -119,6 +119,21 @@ def test_5_mm_behind_the_switch_are_for_its_wires(behind_mm: float, stays: bool)
     assert np.array_equal(moved.switch_mm, free.switch_mm) == stays
 
 
+@pytest.mark.parametrize("away_mm", [-20.0, -1.0, 0.1, 1.0])
+@pytest.mark.parametrize("opening", ["left_mm", "right_mm", "switch_mm"])
+def test_openings_keep_off_what_stands_beside_their_own_plate_inside_and_outside(opening: str, away_mm: float) -> None:
+    """A post of half a millimetre beside either face of a plate, but not one amid the robot beside the other plate."""
+    layout = built("kenan-2.0").layout
+    given = (layout.lateral, layout.electronics, layout.tray_mm, layout.fittings.switch, [], 4.5)
+    free, (low, high) = fittings_of([], *given), layout.lateral.inside
+    inwards, face = (-1.0, high) if opening == "left_mm" else (1.0, low)
+    at = face - inwards * away_mm
+    post = disc("post", getattr(free, opening), 1.0, (min(at, at + 0.5), max(at, at + 0.5)))
+    moved = fittings_of([post], *given)
+    stays = np.array_equal(getattr(moved, opening), getattr(free, opening))
+    assert stays == (away_mm == -20.0)
+
+
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_openings_of_the_right_plate_are_as_near_to_the_boards_as_the_usb_plug_lets_them(name: str) -> None:
     """On a raster of 2 mm about the boards' middle, the nearest place with 0.4 mm to the rooms of the others.

@@ -38,6 +38,9 @@ def test_the_sum_of_the_left_side() -> None:
     assert lateral.cam == (4.5, 8.5)
     assert lateral.gears == (pytest.approx((11.15, 16.15)),)
     assert lateral.left_plate == pytest.approx((16.65, 19.05))
+    right = lateral.right_plate
+    assert lateral.plates_mm == pytest.approx((17.85, right[1] - 1.2))  # of 2.4 mm
+    assert right[1] - right[0] == pytest.approx(2.4)
     thicker = stack(spring=13.0)  # the coil, 0.5 to 13.5 mm beside the leg, now is what the gear must clear
     assert thicker.gears == (pytest.approx((18.0, 23.0)),)
     two = stack(gears=(5.0, 4.0))
@@ -91,5 +94,5 @@ def test_the_right_plate_stays_clear_of_the_rollers_screw() -> None:
     """
     by_screw = stack(gears=(5.0, 5.0), motor=20.0, screw=20.0)
     assert by_screw.roller_screw == (pytest.approx(-11.5), pytest.approx(8.5))
-    assert by_screw.right_plate[1] <= -11.5 - 0.3 - GAP_MM + 1e-9
+    assert by_screw.right_plate[1] == pytest.approx(-11.5 - 0.3 - GAP_MM)
     assert by_screw.motor[0] - by_screw.right_plate[1] > 0.5  # nearer for the motor alone

@@ -18,6 +18,7 @@ from jumpcad.dimensions import CLEAR_MM, GAP_MM, TRAY_MM
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
+from jumpcad.layout import drive_places
 from jumpcad.layout import layout as layout_module
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout, moving_obstacles
@@ -309,6 +310,10 @@ def test_what_moves_occupies_its_share_across_the_robot() -> None:
         assert found["cam gear"].y_mm == lateral.gears[0]
         assert found["pinion"].y_mm == lateral.gears[-1]
         assert found["pinion"].points_mm.tolist() == [layout.motor_mm.tolist()]
+        for one in ("cam", "cam's dog", "cam gear"):
+            assert found[one].points_mm.tolist() == [layout.cam_axis_mm.tolist()]
+        for one in idler:
+            assert found[one].points_mm.tolist() == [layout.idler_mm.tolist()]
         assert found["pinion"].radius_mm == layout.drive.train.stages[0].pinion.tip_radius_mm
         assert found["front link"].radius_mm == layout.sections.eye_radius_mm  # without a clearance
 
@@ -393,6 +398,95 @@ def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pyte
     for name, more in zip(names[2:], (set(), train, {"sensor"}, {"electronics"}, {"standoff"}, set()), strict=True):
         things |= more
         assert given[name] == things, name
+
+
+def test_beside_the_leg_half_a_millimetre_is_kept_and_elsewhere_the_usual_clearance(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Rest stop and pin's hole are close to what moves; the pin's way crosses from the leg's side through the plate."""
+    seen: dict[str, dict[str, Obstacle]] = {}
+    for name, place in (("stop_place", 0), ("pin_hole", 1), ("train_places", 0)):
+        make = getattr(layout_module, name)
+
+        def kept(*asked: Any, name: str = name, make: Any = make, place: int = place) -> Any:
+            seen[name] = {one.name: one for one in asked[place]}
+            return make(*asked)
+
+        monkeypatch.setattr(layout_module, name, kept)
+    gaps, angle = list[float](), layout_module.stop_angle_rad
+    monkeypatch.setattr(layout_module, "stop_angle_rad", lambda *asked: gaps.append(asked[3]) or angle(*asked))
+    layout = plan_again(plans()["kenan-2.0"], reserve_mm=0.25)
+    assert gaps[-1] == 0.75  # of leg and front link, with the reserve
+    sections, lateral, coil = layout.sections, layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
+    bare = {"left spring": coil, "right spring": coil, "front link": sections.eye_radius_mm}
+    bare |= {"lever": sections.lever_root_mm / 2.0}
+    for name, gap in (("stop_place", 0.5), ("pin_hole", 0.5), ("train_places", 0.8)):
+        found = {one: seen[name][one].radius_mm for one in bare}
+        assert found == pytest.approx({one: radius + gap for one, radius in bare.items()}), name
+    way = seen["train_places"]["way of the leg's pin"]
+    assert way.y_mm == (lateral.leg[1], lateral.left_plate[1])
+    assert way.radius_mm == layout.pin_hole.pad_mm / 2.0
+
+
+def test_what_is_placed_knows_axles_pivots_and_motor_by_their_places(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The sensor keeps off the seats of axles and springs' pin and off the motor's shaft; trays reach from the leg's
+    axle on, standoffs from behind the cam's to ahead of the front one; the plates are as far apart as boards are wide.
+    """
+    seen: dict[str, tuple[Any, ...]] = {}
+    for name in ("sensor_place", "tray_place", "standoff_places", "pin_hole", "lateral_stack"):
+        make = getattr(layout_module, name)
+
+        def kept(*asked: Any, name: str = name, make: Any = make) -> Any:
+            seen[name] = asked
+            return make(*asked)
+
+        monkeypatch.setattr(layout_module, name, kept)
+    layout = plan_again(plans()["geared"], leg_pin_hole_mm=5.3)
+    _, drive, _, axis, seats, motor, axle_mm, _ = seen["sensor_place"]
+    assert drive is layout.drive
+    assert {name: place.tolist() for name, place in seats.items()} == {
+        name: place.tolist() for name, place in (layout.axles | {"spring": layout.spring_pin_mm}).items()
+    }
+    assert (axis.tolist(), motor.tolist(), axle_mm) == (layout.cam_axis_mm.tolist(), layout.motor_mm.tolist(), 3.0)
+    assert seen["tray_place"][2] == pytest.approx(layout.design.l1_mm)
+    _, axis, front, *_ = seen["standoff_places"]
+    assert (axis.tolist(), front.tolist()) == (layout.cam_axis_mm.tolist(), layout.front_mm.tolist())
+    assert seen["pin_hole"][-3:] == (layout.leg_pin_mm, 5.3, 3.0)
+    assert layout.pin_hole.diameter_mm == 5.3
+    assert seen["lateral_stack"][-2] == layout.electronics.width_mm
+
+
+def test_what_is_kept_free_of_the_leg_reaches_as_far_as_its_stops_pad_gives() -> None:
+    """From loaded springs to 3° beyond the stop's angle; on the stop springs that are wound at rest are less so."""
+    layout = plans()["best-bo"]
+    leg = next(one for one in moving_obstacles(layout) if one.name == "main leg")
+    for wind in (layout.design.compression_rad, -layout.stop.angle_rad - math.radians(3.0)):
+        ankle = in_body(built("best-bo"), MAIN_LEG, wind, np.array([[layout.design.l2_mm, 0.0]]))
+        assert np.hypot(*(leg.points_mm - ankle).T).min() < 0.01
+    spring = replace(layout.drive.spring, preload_rad=0.5)
+    wound = replace(layout, drive=replace(layout.drive, spring=spring))
+    assert wound.stop_preload_rad == pytest.approx(0.5 - layout.stop.angle_rad)
+
+
+def test_the_motors_room_has_the_ears_of_its_cap(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ears of 7.5 mm beyond walls of 1.6 mm with 0.3 mm of play: while its place is found, and for what comes after."""
+    tried, taken = list[float](), list[Obstacle]()
+    find, trays = drive_places.best_place, layout_module.tray_place
+
+    def noted(what: str, obstacles: list[Obstacle], places: np.ndarray, half: tuple[float, float], *others: Any) -> int:
+        tried.extend([half[1]] if what == "motor" else [])
+        return find(what, obstacles, places, half, *others)
+
+    monkeypatch.setattr(drive_places, "best_place", noted)
+    monkeypatch.setattr(
+        layout_module, "tray_place", lambda things, *others: taken.extend(things) or trays(things, *others)
+    )
+    layout = plan_again(plans()["kenan-2.0"], cap_ear_mm=7.5)
+    reach = layout.drive.train.motor.height_mm / 2.0 + 1.6 + 0.3 + 7.5
+    (box,) = (one for one in taken if one.name == "motor")
+    along = np.array([-math.sin(layout.motor_angle_rad), math.cos(layout.motor_angle_rad)])
+    assert tried == pytest.approx([reach] * len(tried))
+    assert np.abs((box.points_mm - layout.motor_mm) @ along).max() + box.radius_mm == pytest.approx(reach)
 
 
 @pytest.mark.parametrize("axle_mm", [2.0, 3.0])

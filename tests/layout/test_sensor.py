@@ -9,6 +9,7 @@ from support.built import built, geared
 
 from jumpcad.dimensions import GAP_MM
 from jumpcad.errors import CannotBuildError
+from jumpcad.layout.room import Obstacle, disc
 from jumpcad.layout.sensor import SensorPlace, middle_mm, sensor_obstacle, sensor_place, track_mm
 from jumpcad.robot import Robot
 
@@ -157,6 +158,42 @@ def test_the_switch_is_12_mm_from_the_cams_axis_where_it_can_and_nearest_to_wher
     ring = layout.cam_axis_mm + found.radius_mm * np.column_stack([np.cos(turns), np.sin(turns)])
     nearest = np.hypot(*(ring - [0.0, 14.0]).T).min()
     assert math.dist(found.place_mm, (0.0, 14.0)) == pytest.approx(nearest, abs=1e-5)
+
+
+def test_where_no_direction_is_free_at_12_mm_the_track_is_as_near_to_that_as_it_can(robot: Robot) -> None:
+    """A fence around the mount, or a post inside, leaves it one of the track's other radii: least, middle or greatest.
+
+    At a radius r the mount's corners are farthest from the cam's axis; where the fence leaves none, the room that it
+    lacks is told of the wanted radius.
+    """
+    layout, needs = robot.layout, robot.layout.sensor.needs
+    free, (long, wide) = placed_with(robot), robot.layout.sensor.half_mm
+    half = needs.travel.pin_mm / 2.0 + needs.along_mm + 0.3
+    low = layout.drive.dog.outer_mm / 2.0 + 1.6 + half
+    high = layout.drive.train.stages[-1].wheel.root_radius_mm - 1.6 - half
+    turns = np.radians(np.arange(0.0, 360.0, 0.25))
+    around = np.column_stack([np.cos(turns), np.sin(turns)])
+
+    def placed(obstacles: list[Obstacle]) -> SensorPlace:
+        far, lateral, axis = np.array([900.0, 900.0]), layout.lateral, layout.cam_axis_mm
+        return sensor_place(obstacles, layout.drive, lateral, axis, {}, far, layout.axle_mm, needs)
+
+    def fenced(reach_mm: float) -> SensorPlace:
+        beside = (layout.lateral.gears[0][1], layout.lateral.left_plate[0])
+        return placed([Obstacle("fence", layout.cam_axis_mm + (reach_mm + 30.0) * around, 30.0, beside)])
+
+    tried = sorted({low, (low + high) / 2.0, high, free.radius_mm}, key=lambda radius: abs(radius - free.radius_mm))
+    for radius in tried:
+        corner = math.hypot(radius + wide, long)
+        smaller = [one for one in tried if math.hypot(one + wide, long) <= corner + 1e-6]
+        assert fenced(corner + 0.02).radius_mm == pytest.approx(smaller[0], abs=1e-3)
+        post = disc("post", layout.cam_axis_mm, radius - wide - 0.02, (layout.lateral.left_plate[0], 900.0))
+        larger = next(one for one in tried if one > radius - 1e-3)
+        assert placed([post]).radius_mm == pytest.approx(larger, abs=1e-3)
+    with pytest.raises(CannotBuildError, match="beside the fence") as refused:
+        fenced(math.hypot(low + wide, long) - 0.5)
+    lacking = math.hypot(free.radius_mm + wide, long) - math.hypot(low + wide, long) + 0.5
+    assert refused.value.margin == pytest.approx(-lacking, abs=0.02)
 
 
 def test_a_motors_shaft_in_the_plate_keeps_the_switch_off(robot: Robot) -> None:

@@ -156,6 +156,20 @@ def test_a_gap_that_leg_and_front_link_have_moves_no_stop_and_one_that_they_lack
         stop_angle_rad(*given, wanted, apart + 0.01)
 
 
+@pytest.mark.parametrize(("closes_deg", "stop_deg"), [(12.1, 9.0), (10.3, 7.0), (7.6, 4.5), (6.2, 3.0)])
+def test_the_stop_is_nearer_to_rest_by_half_degrees_until_the_loop_closes(
+    robot: Robot, closes_deg: float, stop_deg: float
+) -> None:
+    """From 9° on, with 3° more for the pad; at 3° at least."""
+
+    class Short(Linkage):
+        def diagonal_mm(self, leg_rad: float) -> np.ndarray:
+            return np.asarray(self.l3 + self.l4 + (leg_rad - math.radians(closes_deg)) * 10.0)
+
+    found = stop_angle_rad(Short(robot.design), robot.layout.sections, math.radians(9.0), -50.0)
+    assert math.degrees(found) == pytest.approx(stop_deg)
+
+
 def test_links_that_are_too_short_beyond_the_least_stop_are_refused(robot: Robot) -> None:
     """At 3°, and 3° more for the pad, the ankle is no farther from the front pivot than foot and front link reach."""
     linkage, sections = robot.linkage, robot.layout.sections

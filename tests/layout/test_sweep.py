@@ -107,6 +107,16 @@ def test_upright_legs_are_nearest_where_the_foot_holds_them() -> None:
     assert apart == pytest.approx(design.l4_mm - 14.0, abs=0.02)
 
 
+@pytest.mark.parametrize(("root_mm", "tip_mm"), [(30.0, 6.0), (8.0, 30.0)])
+def test_upright_legs_that_taper_are_nearest_where_the_thicker_end_is(root_mm: float, tip_mm: float) -> None:
+    """Parallel, a body's or a foot's length apart: half of the leg there, and the front link's eye."""
+    robot = built("kenan-2.0")
+    design = robot.design.model_copy(update={"rest_angle_deg": 90.0, "compression_ratio": 0.02})
+    sizes = {"leg_root_mm": root_mm, "leg_tip_mm": tip_mm, "front_mm": 6.0, "eye_radius_mm": 4.0}
+    apart = legs_apart_mm(Linkage(design), replace(robot.layout.sections, **sizes))
+    assert apart == pytest.approx(design.l1_mm - max(root_mm, tip_mm) / 2.0 - 4.0, abs=0.05)
+
+
 @pytest.mark.parametrize("name", [*NAMES, "kenan-1.0", "best-ga"])
 def test_the_gap_between_the_legs_is_shapelys(name: str) -> None:
     """Tapered leg and straight link with round eyes, at many more positions than the layout checks."""

@@ -86,6 +86,13 @@ def test_standoffs_are_wanted_at_the_boards_front_and_between_cam_and_boards() -
         assert second == pytest.approx([(cam[0] + tray[0]) / 2.0, max(top, cam[1])], abs=2.0)
 
 
+def test_standoffs_follow_trays_that_lie_far_ahead_of_the_front_pivot() -> None:
+    tray, front, cam = np.array([160.0, 2.0]), np.array([40.0, 0.0]), np.array([-20.0, 5.0])
+    first, _ = standoff_places([], cam, front, CARRIED, tray, INSIDE)
+    wanted = [tray[0] + CARRIED.length_mm / 2.0, tray[1] + CARRIED.height_mm + 3.2 + 0.5]
+    assert first == pytest.approx(wanted, abs=1.0 + 1e-6)
+
+
 @pytest.mark.parametrize(("aside_mm", "high_mm", "over"), [(40.0, 36.0, False), (40.0, 30.0, True)])
 def test_a_millimetre_up_costs_trays_as_much_as_1_2_mm_along(aside_mm: float, high_mm: float, over: bool) -> None:
     """Before a wall that reaches in from the front they stand 40 mm farther back, or on top of it."""

@@ -10,8 +10,8 @@ from manifold3d import Manifold, OpType
 from jumpcad.building import build
 from jumpcad.checks.interference import interference_findings, pieces_of
 from jumpcad.design import load_design
-from jumpcad.errors import JumpcadError
-from jumpcad.parts.axles import Place, _clevis, _clip, require_retention
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.parts.axles import Place, _clevis, _clip, _screwed, require_retention
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
@@ -223,6 +223,28 @@ def test_a_clevis_pin_that_is_just_long_enough_is_taken(more_mm: float, longer_m
         half = (length - 0.4 - pin.cotter_mm / 2.0 - pin.end_mm + more_mm) / 2.0
         found, _ = _clevis(Place("ankle_pin", "foot", np.zeros(2), (-half, half)), 3.0, catalogue)
         assert found.article.startswith(f"clevis pin B 3 x {length + longer_mm:g} ISO")
+
+
+def test_faces_too_far_apart_for_every_clevis_pin_are_refused_with_what_misses() -> None:
+    catalogue = load_workshop().catalogue
+    pin = catalogue.clevis_pin_for(3.0)
+    half = (pin.lengths_mm[-1] - 0.4 - pin.cotter_mm / 2.0 - pin.end_mm + 0.3) / 2.0
+    with pytest.raises(CannotBuildError, match=rf"of {pin.lengths_mm[-1] + 0.3:.1f} mm for the ankle pin") as refused:
+        list(_clevis(Place("ankle_pin", "foot", np.zeros(2), (-half, half)), 3.0, catalogue))
+    assert (refused.value.limit, refused.value.margin) == ("clevis_pin", pytest.approx(-0.3))
+
+
+@pytest.mark.parametrize(("more_mm", "longer_mm"), [(0.0, 0), (-0.01, 0), (0.01, 1)])
+def test_a_screw_that_is_just_long_enough_is_taken_as_an_axle(more_mm: float, longer_mm: int) -> None:
+    """Both plates and all between them, 0.2 mm at either end, and a lock nut of 4 mm (DIN 985 M3), which it fills."""
+    catalogue = load_workshop().catalogue
+    lengths = sorted(catalogue.screws["M3 long"].lengths_mm)
+    for index, length in enumerate(lengths[:-1]):
+        half = (length - 0.4 - 4.0 + more_mm) / 2.0
+        screw, nut = _screwed(Place("leg_axle", "body", np.zeros(2), (-half, half)), catalogue)
+        assert screw.article == f"screw M3 x {lengths[index + longer_mm]:g} ISO 4762 - 12.9"
+        assert reach(screw)[1] - 3.0 == pytest.approx(half + 0.2)  # under its head
+        assert reach(nut) == pytest.approx([-half - 4.2, -half - 0.2])
 
 
 def test_axles_have_play_along_them_between_what_keeps_them(robot: Robot) -> None:

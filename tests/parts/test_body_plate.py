@@ -12,12 +12,15 @@ from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, measured
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.drive.socket import window_mm
-from jumpcad.parts.body_plate import _drawing, plates
-from jumpcad.parts.engraving import ENGRAVING_MM, TEXT_HEIGHTS_MM
+from jumpcad.parts import body_plate
+from jumpcad.parts.body_plate import _drawing, _openings, _spring_boss, plates
+from jumpcad.parts.engraving import TEXT_HEIGHTS_MM
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
+from jumpcad.parts.plate_outline import pin_hole
+from jumpcad.parts.sensor import plate_pad
 from jumpcad.robot import Robot
-from jumpcad.solids.outline import rectangle
+from jumpcad.solids.outline import disc, rectangle
 from jumpcad.solids.text import engravable, text
 from jumpcad.workshop import load_workshop
 
@@ -27,7 +30,7 @@ def engraved_mm2(name: str, label: str) -> dict[str, float]:
     plain, named = (build(load_design(name), name=label) for label in ("", label))
 
     def areas(robot: Robot) -> dict[str, float]:
-        height = np.array([0.98 * ENGRAVING_MM])
+        height = np.array([0.48])  # letters are 0.5 mm deep
         plates = [part for part in robot.parts if "plate" in part.name]
         return {part.name: part.drawing.shape.regions_at(height)[0].area() for part in plates}
 
@@ -50,6 +53,21 @@ def test_the_motors_shaft_and_the_sensors_switch_pass_the_left_plate(name: str) 
         assert plate.intersection(opened).area < 1e-3, y
         assert plate.intersection(shaft.buffer(0.5)).area > 0.5, y
         assert plate.intersection(opened.buffer(0.5)).area > 5.0, y
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_legs_pin_goes_in_through_the_left_plate_alone(name: str) -> None:
+    """A slot as wide as the hole from where the pin is at rest to where it is at the stop; 2 mm of plate around it."""
+    robot = built(name)
+    layout = robot.layout
+    way = shapely.LineString([layout.pin_hole.rest_mm, layout.pin_hole.stop_mm])
+    left = region(cut(placed(robot, "body_plate_left"), sum(layout.lateral.left_plate) / 2.0))
+    slot = way.buffer(layout.pin_hole.diameter_mm / 2.0, 64)
+    assert left.intersection(slot.buffer(-0.02)).area < 1e-3
+    assert slot.buffer(1.98).difference(slot.buffer(0.03)).difference(left).area < 0.01
+    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
+    whole = pin_hole(layout, layout.pin_hole.diameter_mm)
+    assert (_openings(layout, holes, "right") ^ whole).area() < 0.5 * whole.area()
 
 
 def test_a_thicker_shaft_has_a_wider_hole() -> None:
@@ -82,6 +100,27 @@ def test_the_right_plate_is_open_behind_the_motors_terminals(name: str) -> None:
     assert window.area > 10.0
     for y in (low + 0.5, (low + high) / 2.0, high - 0.1):
         assert region(cut(mesh, y)).intersection(window).area < 1e-3, y
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_motors_socket_has_a_floor_under_it_and_a_sliding_fit_around_it(name: str) -> None:
+    """The floor keeps 1 mm of the case's end on every side of its window; walls end 0.2 mm before the motor does."""
+    robot = built(name)
+    layout, motor, (rear, front) = robot.layout, robot.layout.drive.train.motor, robot.layout.lateral.motor
+    half = np.array([motor.width_mm, motor.height_mm]) / 2.0
+    box = shapely.affinity.rotate(shapely.box(*-half, *half), layout.motor_angle_rad, (0.0, 0.0), use_radians=True)
+    case = shapely.affinity.translate(box, *layout.motor_mm)
+    mesh = placed(robot, "body_plate_right")
+    for y in (rear + 0.05, (rear + front) / 2.0, front - 0.25):
+        walls = region(cut(mesh, y))
+        assert walls.distance(case) == pytest.approx(robot.workshop.fits.sliding_mm, abs=0.01), y
+        assert case.buffer(1.5, join_style="mitre").difference(case.buffer(0.21, join_style="mitre")).difference(
+            walls
+        ).area == pytest.approx(0.0, abs=0.05)
+    floor = region(cut(mesh, rear - 0.05)).intersection(case)
+    window = case.buffer(-1.0, join_style="mitre")
+    assert floor.symmetric_difference(case.difference(window)).area < 0.05
+    assert mesh.bounds[1, 1] == pytest.approx(front - 0.2, abs=1e-3)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -171,8 +210,53 @@ def test_the_springs_pin_stands_in_a_boss_of_the_right_plate(kenan: Robot) -> No
     assert ends[:, 1].max() == pytest.approx(plate[1] + 4.0, abs=1e-3)
 
 
+def test_the_springs_pins_boss_leaves_the_motors_socket_free(kenan: Robot) -> None:
+    """A ring of 2 mm around the pin but for what the socket beside it takes."""
+    layout, holes = kenan.layout, HoleSizes.of(kenan.workshop, kenan.layout.hub_bearing)
+    x, z = layout.spring_pin_mm
+    beside = rectangle((20.0, 20.0), (x + 10.0, z))
+    low, high, region = _spring_boss(layout, holes, 2.0, beside)
+    assert (low, high) == (2.0, 2.0 + layout.spring_boss_mm)
+    assert (region ^ beside).area() < 1e-6
+    assert region.area() == pytest.approx(math.pi / 8.0 * (7.0**2 - RUNNING**2), rel=0.01)
+
+
+@pytest.mark.parametrize(("retention", "closed"), [("plates", True), ("nuts", False), ("clips", False)])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_bores_are_closed_outside_where_plates_keep_the_axles(
+    kenan: Robot, retention: str, closed: bool, side: Face
+) -> None:
+    """By four layers of 0.2 mm; nuts and clips are outside the plates, whose seat of the leg's axle is not thicker."""
+    layout = replace(kenan.layout, retention=retention)
+    left, right = plates(layout, HoleSizes.of(kenan.workshop, layout.hub_bearing), "")
+    drawing, plate = (left, layout.lateral.left_plate) if side == "left" else (right, layout.lateral.right_plate)
+    at = np.linalg.inv(drawing.placements[0].T_body_part)
+    thick = plate[1] - plate[0]
+    outside, inside, seat = drawing.shape.regions_at(np.array([0.75, 0.85, thick + 0.6]))
+    for x, z in (*layout.axles.values(), layout.spring_pin_mm):
+        pin = disc(3.0, (at @ [x, 0.0, z, 1.0])[:2])
+        assert (inside ^ pin).area() < 1e-6
+        assert (outside ^ pin).area() == pytest.approx(pin.area() if closed else 0.0, abs=1e-6)
+    ring = disc(6.0, (at @ [layout.hub_mm[0], 0.0, layout.hub_mm[1], 1.0])[:2])
+    assert ((seat ^ ring).area() > 1.0) == closed
+
+
 def test_a_spring_close_to_the_plate_leaves_no_boss() -> None:
     assert built("best-bo").layout.spring_boss_mm == 0.0
+
+
+def test_letters_are_half_a_millimetre_deep_and_not_under_the_sensors_mount(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    layout, covered = kenan.layout, []
+    holes, draw = HoleSizes.of(kenan.workshop, layout.hub_bearing), body_plate._drawing
+    monkeypatch.setattr(body_plate, "_drawing", lambda *given: covered.append(given[6:]) or draw(*given))
+    for plate in plates(layout, holes, "label"):
+        outside, inside = plate.shape.regions_at([0.48, 0.52])
+        assert (inside - outside).area() == pytest.approx(text(f"label {plate.name[11].upper()}", 4.5).area(), rel=1e-6)
+    (left, right), pad = covered, plate_pad(layout.sensor)
+    assert (left[0] ^ pad).area() == pytest.approx(pad.area())
+    assert right == ()
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

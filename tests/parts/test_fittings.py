@@ -1,5 +1,7 @@
 """Openings of the plates for leads, switch and USB plug, as regions: sizes from data sheets, material around them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -55,6 +57,15 @@ def test_openings_are_as_large_as_what_passes_them(robot: Robot) -> None:
     m2_mm = robot.workshop.fits.m2_clearance_mm  # screws pass the plate and bite into the switch
     assert [size for _, size in screws] == [pytest.approx((m2_mm, m2_mm), abs=0.01)] * 2
     assert usb == (pytest.approx(tuple(fittings.usb_mm), abs=2e-3), pytest.approx(fittings.usb_size_mm, abs=2e-3))
+
+
+def test_the_right_plate_is_open_for_what_there_is(robot: Robot) -> None:
+    """Without a switch behind it no knob and no screws, without a socket no plug; leads pass it always."""
+    holes = HoleSizes.of(robot.workshop, None)
+    for missing, openings, pads in (({}, 7, 4), ({"switch_mm": None}, 4, 3), ({"usb_mm": None}, 6, 3)):
+        fittings = replace(robot.layout.fittings, **missing)
+        assert len(list(fitting_openings(fittings, holes, "right"))) == openings
+        assert len(list(fitting_pads(fittings, 0.0))) == pads
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

@@ -240,6 +240,16 @@ def test_the_webs_of_a_short_foot_join_unless_a_printable_opening_is_between_the
         assert second[:2] == pytest.approx((start, length / 2.0 + 6.0))
 
 
+def test_a_foots_webs_leave_openings_as_large_as_the_workshops_holes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And are no higher than its rails at the ankle."""
+    robot, asked, webs = built("kenan-2.0"), [], foot_part._webs
+    holes = HoleSizes.of(robot.workshop, robot.layout.hub_bearing)
+    holes = replace(holes, fits=holes.fits.model_copy(update={"hole_min_mm": 2.345}))
+    monkeypatch.setattr(foot_part, "_webs", lambda *given: asked.append(given[1:]) or webs(*given))
+    foot_part.foot(robot.layout, holes)
+    assert asked == [(robot.layout.sections.rail_root_mm, 2.345)]
+
+
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_a_foot_fits_the_bed_with_its_nose_tips_and_toes(name: str) -> None:
     """By the sizes of its outline: exactly so large a bed is enough, and one that is 0.1 mm smaller is not."""
@@ -272,6 +282,9 @@ def test_lugs_stand_on_soles_of_1_mm_behind_and_ahead_of_both_eyes(name: str) ->
         sole = shapely.box(x - 1.6 * depth, -depth, x + ahead * depth, 1.0 - depth)
         lug = shapely.union_all([shapely.Point(x, 0.0).buffer(depth - 0.02, 64), sole]).convex_hull
         assert lug.difference(filled).area < 0.1
+        outline = shapely.union_all([shapely.Point(x, 0.0).buffer(depth, 64), sole]).convex_hull
+        (found,) = map(shapely.Polygon, foot_part._lug(depth, x, ahead * depth).to_polygons())
+        assert found.symmetric_difference(outline).area < 0.1
     high_x = filled.bounds[2]
     assert high_x == pytest.approx(length + depth, abs=0.02)
 

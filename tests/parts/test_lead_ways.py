@@ -2,6 +2,7 @@
 
 import itertools
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -101,6 +102,10 @@ def test_of_two_gaps_a_lead_takes_the_one_nearer_to_where_it_starts() -> None:
     middles = [layout.tray_mm[0] + seats[role].x_mm for role in ("controller", "driver", "regulator")]
     back, front = gap_mm(layout, middles[0], middles[2]), gap_mm(layout, middles[2], middles[0])
     assert middles[0] < back < middles[1] < front < middles[2]
+    assert way_words(layout, "controller", "regulator").endswith("across between controller and driver")
+    assert way_words(layout, "regulator", "controller").endswith("across between driver and regulator")
+    beside = (middles[1] - 1.0, middles[1] + 3.0)  # over one board: half way
+    assert gap_mm(layout, *beside) == gap_mm(layout, *beside[::-1]) == pytest.approx(middles[1] + 1.0)
 
 
 def test_words_say_plate_hole_and_side(robot: Robot) -> None:
@@ -171,6 +176,7 @@ def test_the_batterys_leads_go_from_its_front_end_around_the_trays_to_the_plug(r
         low, high = item.look.copy().apply_transform(item.T_body_part).bounds
         assert end == pytest.approx([high[0], (low[1] + high[1]) / 2.0, (low[2] + high[2]) / 2.0], abs=0.02), name
     assert np.ptp(way[1:4, 0]) == 0.0
+    assert (np.count_nonzero(np.abs(np.diff(way, axis=0)) > 1e-9, axis=1) <= 1).all()  # one way at a time
     assert way[1, 0] > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
 
 
@@ -241,6 +247,16 @@ def test_leads_end_in_the_middle_of_their_part_within_its_height(robot: Robot) -
         assert (x, y) == pytest.approx(((low + high) / 2.0)[:2], abs=0.02), part
         assert low[2] < z < high[2], part
         assert others == []
+
+
+def test_a_switch_that_is_not_behind_the_plate_has_its_leads_at_the_controller() -> None:
+    """Whatever the plate is open for besides."""
+    layout = built("kenan-2.0").layout
+    hanging = replace(layout, fittings=replace(layout.fittings, switch_mm=None))
+    closed = replace(layout, fittings=replace(layout.fittings, usb_mm=None))
+    assert np.array(way_in(hanging, "switch")).tolist() == np.array(way_in(hanging, "controller")).tolist()
+    assert np.array(way_in(closed, "switch")).tolist() == np.array(way_in(layout, "switch")).tolist()
+    assert [plate_of(one, "switch") for one in (hanging, closed, layout)] == ["", "right", "right"]
 
 
 def test_leads_lie_2_mm_beside_the_plates_that_they_pass(robot: Robot) -> None:

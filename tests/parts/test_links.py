@@ -101,6 +101,10 @@ def test_the_leg_has_material_around_all_its_holes_and_a_flat_heel(robot: Robot)
         max(sections.eye_radius_mm, sections.leg_tip_mm / 2.0), abs=0.05
     )
     assert filled.exterior.distance(shapely.Point(*lever)) == pytest.approx(4.5, abs=0.05)
+    seat = layout.hub_bearing.outer_mm / 2.0 + robot.workshop.fits.press_mm + 2.0 * robot.workshop.fits.wall_mm
+    around = max(seat, sections.lever_root_mm / 2.0, sections.leg_root_mm / 2.0)
+    assert filled.exterior.distance(shapely.Point(0.0, 0.0)) == pytest.approx(around, abs=0.05)
+    assert filled.exterior.distance(shapely.Point(layout.leg_pin_mm, 0.0)) == pytest.approx(pin, abs=0.3)
     ends = [(0.0, 0.0, sections.lever_root_mm / 2.0), (*lever, 4.5)]
     arm = shapely.union_all([shapely.Point(x, z).buffer(radius - 0.02, 64) for x, z, radius in ends]).convex_hull
     assert arm.difference(filled).area < 1e-3

@@ -89,7 +89,7 @@ def test_the_switch_stands_in_its_mount_with_its_plunger_inwards(robot: Robot) -
     assert np.ptp(bounds[:, 1]) == pytest.approx(sensor.needs.travel.total_mm)
 
 
-@pytest.mark.parametrize("base_mm", [1.0, 1.999, 2.0, 2.4, 6.0])
+@pytest.mark.parametrize("base_mm", [0.5, 1.0, 1.999, 2.0, 2.4, 6.0])
 def test_the_mounts_ears_are_2_mm_high_however_far_the_base_stands_out(robot: Robot, base_mm: float) -> None:
     """A base that stands out less than the ears leaves them above its ceiling's underside, whole but for the window.
 
@@ -156,7 +156,8 @@ def test_the_shortest_screw_that_holds_goes_through_the_ear_and_four_threads() -
 def test_the_plates_pad_under_the_mount_reaches_2_mm_beyond_the_opening(robot: Robot, more_mm: float) -> None:
     """And as far as the mount with its ears, along the switch's long side and across; a margin is added all around."""
     sensor = robot.layout.sensor
-    contours = [shapely.Polygon(contour) for contour in plate_pad(sensor, more_mm).to_polygons()]
+    pad = plate_pad(sensor, more_mm) if more_mm else plate_pad(sensor)
+    contours = [shapely.Polygon(contour) for contour in pad.to_polygons()]
     low_x, low_y, high_x, high_y = along(robot, shapely.union_all(contours)).bounds
     wide = max(sensor.half_mm[1], sensor.case_mm[1] / 2.0 + 0.4 + 2.0) + more_mm
     assert (-low_x, high_x) == pytest.approx([sensor.half_mm[0] + more_mm] * 2, abs=2e-3)

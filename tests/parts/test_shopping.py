@@ -243,6 +243,11 @@ def test_the_sensors_case_lies_in_the_plate_where_the_layout_says(name: str) -> 
         tip = screw.look.copy().apply_transform(screw.T_body_part).bounds[0, 1]
         assert robot.layout.lateral.inside[1] < tip <= robot.layout.lateral.outside[1] - 1.6 + 1e-6
     part = felt.needs.part
+    # its long side is a tangent of the track about the cam's axis
+    away = item.look.copy().apply_transform(item.T_body_part).vertices[:, ::2] - felt.place_mm
+    outwards = (felt.place_mm - robot.layout.cam_axis_mm) / felt.radius_mm
+    assert np.ptp(away @ outwards) == pytest.approx(part.width_mm, abs=2e-3)
+    assert np.ptp(away @ [-outwards[1], outwards[0]]) == pytest.approx(part.length_mm, abs=2e-3)
     corners = item.look.vertices
     sizes = np.ptp(corners, axis=0)
     assert sorted(sizes)[1:] == pytest.approx(sorted([part.length_mm, felt.needs.travel.total_mm]), abs=2e-3)
@@ -334,6 +339,17 @@ def test_cross_screws_go_through_the_toe_into_the_stub() -> None:
             middle = (up.max() + up.min()) / 2.0 + robot.layout.sections.foot_depth_mm  # above the sole
             assert middle == pytest.approx(joint_height_mm(robot.layout, HoleSizes.of(robot.workshop, None)) / 2.0)
             assert overlap[1].min() < along.min() <= inside - 4.0
+
+
+def test_what_there_is_several_of_is_counted_from_one(robot: Robot) -> None:
+    counted: dict[str, list[int]] = {}
+    for item in robot.hardware:
+        if found := re.fullmatch(r"(.*?)_(\d+)(_screw_left|_screw_right)?", item.name):
+            counted.setdefault(found[1] + (found[3] or ""), []).append(int(found[2]))
+    assert {"standoff", "standoff_screw_left", "sensor_screw", "cap_screw", "hub_bearing"} < counted.keys()
+    assert ("toe_left_screw" in counted) == robot.layout.toes_apart
+    for name, numbers in counted.items():
+        assert numbers == list(range(1, len(numbers) + 1)), name
 
 
 def test_small_steel_weighs_what_the_catalogue_says(assembled_robot: Robot) -> None:

@@ -51,6 +51,17 @@ def at_hub(robot: Robot, name: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_bushing_reaches_from_the_leg_to_the_plates_seat(name: str, side: str) -> None:
+    """0.15 mm off either, also where the coil is as near to the plate as its seat around the leg's axle is high."""
+    robot = built(name)
+    sign = 1.0 if side == "left" else -1.0
+    bushing, plate = (sign * at_hub(robot, f"{one}_{side}") for one in ("spring_bushing", "body_plate"))
+    assert bushing.min() - placed(robot, "main_leg").bounds[1, 1] == pytest.approx(0.15, abs=1e-3)
+    assert plate.min() - bushing.max() == pytest.approx(0.15, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_the_rollers_screw_clears_the_cam_gear_with_all_play_against_it(name: str) -> None:
     """The leg goes left until a bushing meets the plate; the gear right, until cam and gear meet the cam's spacer."""
     robot = built(name)

@@ -205,16 +205,17 @@ def test_screws_pass_a_toe_from_side_to_side() -> None:
                 assert width_mm == pytest.approx(3.4, abs=0.02)
 
 
+@pytest.mark.parametrize("more_mm", [0.5, 20.0])
 @pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
-def test_bars_reach_straight_to_the_side(name: str) -> None:
+def test_bars_reach_straight_to_the_side(name: str, more_mm: float) -> None:
     """From the design's tips to half the width asked for, with the round end of a tip of 5 mm beyond."""
     robot = built(name)
     tip = np.array([toe_tip_mm(robot.design)[0], 0.0, 0.0])
-    layout = replace(robot.layout, toe_half_width_mm=toe_tip_mm(robot.design)[1] + 20.0)
+    layout = replace(robot.layout, toe_half_width_mm=toe_tip_mm(robot.design)[1] + more_mm)
     for toe in toes(layout):
         (bar,) = _bar(layout, toe)
         ends = [toe.pose_mm @ [*end, 0.0, 1.0] for end in (bar.root_mm, bar.tip_mm)]
-        for end, away in zip(ends, (0.0, 20.0), strict=True):
+        for end, away in zip(ends, (0.0, more_mm), strict=True):
             beside = toe.sign * np.array([0.0, toe_tip_mm(robot.design)[1] + away, 0.0])
             np.testing.assert_allclose(end[:3], tip + beside, atol=1e-6)
         assert bar.bounds_mm[:, 2] == pytest.approx([0.0, layout.sections.toe_tip_height_mm])

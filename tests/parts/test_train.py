@@ -301,9 +301,12 @@ def test_web_holes_inside_the_sensors_track_leave_it_a_wall_too() -> None:
     assert min(one.min() for one in outside) == pytest.approx(31.6, abs=0.01)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo", "two pairs"])
 def test_the_sensors_land_rises_in_layers_from_the_bottom_of_its_groove_to_the_gears_face(name: str) -> None:
-    layout = built(name).layout
+    layout = (geared() if name == "two pairs" else built(name)).layout
+    if name == "two pairs":  # the first pair may be thinner than the cam gear's
+        cam, (y0, y1) = layout.lateral.gears
+        layout = replace(layout, lateral=replace(layout.lateral, gears=(cam, (y0, y1 - 1.0))))
     sensor, (low, face) = layout.sensor, layout.lateral.gears[0]
     assert sensor is not None
     track = _track(layout, sensor)
@@ -314,6 +317,13 @@ def test_the_sensors_land_rises_in_layers_from_the_bottom_of_its_groove_to_the_g
     assert levels[-1][1] == pytest.approx(face - low)
     assert [top for _, top in levels[:-1]] == pytest.approx([bottom for bottom, _ in levels[1:]])
     assert [top - bottom for bottom, top in levels] == pytest.approx([sensor.needs.layer_mm] * len(levels))
+    # both ramps rise at 45°, a layer's step as wide as they are in its middle; where the switch operates they are as
+    # far from the drop as `ready_rad` and `open_rad` say
+    above = [(bottom + top) / 2.0 - levels[0][0] - (sensor.depth_mm - sensor.press_mm) for bottom, top in levels]
+    drop = sensor.direction_rad + layout.drive.cam.law.lift_rad
+    begins, ends = zip(*(step[2:] for step in track.steps), strict=True)
+    assert begins == pytest.approx([drop - sensor.ready_rad + high / sensor.radius_mm for high in above])
+    assert ends == pytest.approx([drop + sensor.open_rad - high / sensor.radius_mm for high in above])
 
 
 def test_the_sensors_land_is_one_piece_with_a_gear_whose_web_has_holes() -> None:
@@ -420,6 +430,23 @@ def test_an_idlers_small_teeth_reach_through_the_cam_gear_from_its_wheel_on() ->
         section = region(cut(mesh, y)).bounds
         assert (section[2] - section[0]) / 2.0 == pytest.approx(gear.tip_radius_mm, rel=0.03), y
     assert cam_high < motor_low
+
+
+def test_the_cams_jaws_reach_through_the_cam_gear() -> None:
+    """From the roller's plane to the gear's left face, with one pair of gears or two."""
+    for robot in robots().values():
+        lateral = robot.layout.lateral
+        assert placed(robot, "cam").bounds[:, 1] == pytest.approx([lateral.cam[0], lateral.gears[0][1]], abs=1e-3)
+
+
+def test_an_idlers_small_teeth_stand_on_solid_material_3_mm_wider() -> None:
+    """In the wheel below them nothing is open but the bore."""
+    robot = geared()
+    layout, pinion = robot.layout, robot.layout.drive.train.stages[-1].pinion
+    wheel = region(cut(placed(robot, "idler"), sum(layout.lateral.gears[-1]) / 2.0))
+    axis = shapely.Point(*layout.idler_mm)
+    solid = axis.buffer(pinion.tip_radius_mm + 2.95, 64) - axis.buffer(layout.axle_mm / 2.0 + 0.25)
+    assert solid.difference(wheel).area < 1e-3
 
 
 def test_the_cam_gears_hub_reaches_to_a_tenth_of_a_millimetre_from_the_plate_or_is_flush_beside_a_spacer() -> None:

@@ -168,6 +168,23 @@ def test_the_window_under_a_short_battery_ends_a_millimetre_before_its_stops(len
     assert high.bounds[0] - window.bounds[2] == pytest.approx(1.0, abs=2e-3)
 
 
+@pytest.mark.parametrize("battery", ["lipo-2s-180", "lipo-1s-300"])
+@pytest.mark.parametrize("length_mm", [60.0, 90.0])
+def test_the_window_under_a_long_battery_ends_5_mm_before_the_trays_end(battery: str, length_mm: float) -> None:
+    """In the middle under the battery; with a balance lead ahead of it, the tray ends nearer behind it."""
+    layout, catalogue = built("kenan-2.0").layout, load_workshop().catalogue
+    long = catalogue.batteries[battery].model_copy(update={"length_mm": length_mm})
+    electronics = replace(layout.electronics, battery=long)
+    lower = trays(replace(layout, electronics=electronics), HoleSizes.of(load_workshop(), None))[0]
+    rings = [shapely.Polygon(ring) for ring in lower.shape.regions_at(np.array([0.8]))[0].to_polygons()]
+    floor, *openings = sorted(rings, key=lambda one: -one.area)
+    middle = electronics.seats(layout.lateral.inside)["battery"].x_mm
+    assert (middle < -1.0) == electronics.balanced
+    ahead, behind = openings[0].bounds[2] - middle, middle - openings[0].bounds[0]
+    assert ahead == pytest.approx(behind, abs=2e-3)
+    assert openings[0].bounds[0] - floor.bounds[0] == pytest.approx(5.0, abs=2e-3)
+
+
 def test_rims_and_stops_are_as_thick_as_the_thinnest_wall_that_prints() -> None:
     """Three lines of a nozzle of 0.4 mm, 1.2 mm, or what a workshop asks for."""
     shop = load_workshop()

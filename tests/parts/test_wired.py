@@ -26,6 +26,19 @@ def test_what_has_its_place_is_not_weighed_among_the_wires_too(name: str) -> Non
     assert names.count("wiring_sensor") == (robot.layout.sensor is None)
 
 
+def test_what_has_no_place_hangs_in_its_wires() -> None:
+    """A switch that is not behind the plate, a sensor that is not over the cam gear."""
+    robot, catalogue = built("kenan-2.0"), load_catalogue()
+    layout, bought = robot.layout, robot.workshop.bought
+    for changed, hanging in (
+        ({"fittings": replace(layout.fittings, switch_mm=None)}, {"wiring_switch"}),
+        ({"fittings": replace(layout.fittings, usb_mm=None)}, set()),
+        ({"sensor": None}, {"wiring_sensor"}),
+    ):
+        names = {item.name for item in electronics(replace(layout, **changed), catalogue, bought)}
+        assert names & {"wiring_switch", "wiring_sensor", "wiring_plug", "wiring_capacitor"} == hanging
+
+
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_battery_and_boards_lie_between_the_stops_of_their_trays(name: str) -> None:
     """The battery's ends are less than a millimetre from them; every stop of the upper tray stands along a board."""
@@ -155,6 +168,23 @@ def test_what_holds_the_boards_lies_on_them_and_under_them(name: str) -> None:
         )
         assert wire[:, 1].mean() == pytest.approx(sum(robot.layout.lateral.inside) / 2.0, abs=2e-3)
     assert all(one[1, 0] < other[0, 0] for one, other in itertools.pairwise(wires))
+
+
+def test_resistors_lie_on_their_seats_the_nearest_to_the_controller_first() -> None:
+    """As they come; a robot with more of them than seats has the others in its wires."""
+    robot = built("kenan-2.0")
+    layout, (x, z) = robot.layout, robot.layout.tray_mm
+    boxes = [
+        item.look.copy().apply_transform(item.T_body_part).bounds
+        for item in robot.hardware
+        if item.name.startswith(("wiring_resistor", "wiring_diode"))
+    ]
+    seats = layout.electronics.small_seats(layout.lateral.inside)
+    assert 0 < len(boxes) <= len(seats)
+    for (low, high), seat in zip(boxes, seats, strict=False):
+        assert (low + high)[:2] / 2.0 == pytest.approx([x + seat.x_mm, seat.y_mm], abs=2e-3)
+        assert low[2] == pytest.approx(z + seat.bottom_mm, abs=2e-3)
+        assert high - low == pytest.approx(seat.size_mm, abs=2e-3)
 
 
 @pytest.mark.parametrize(("role", "outwards"), [("sensor", 1.0), ("motor", -1.0)])

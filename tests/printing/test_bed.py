@@ -51,8 +51,10 @@ def test_a_part_of_the_beds_size_fits():
 def test_a_part_too_tall_or_too_long_is_refused_with_its_size():
     for size in ((50.0, 50.0, 101.0), (260.0, 20.0, 10.0)):
         bounds = np.array([np.zeros(3), size])
-        with pytest.raises(CannotBuildError, match=rf"part leg of {size[0]:.1f}×.*180\.0×120\.0×100\.0 mm"):
+        with pytest.raises(CannotBuildError, match=rf"part leg of {size[0]:.1f}×.*180\.0×120\.0×100\.0 mm") as refused:
             require_bed("leg", bounds, lambda: bounds[:, :2], BED)  # noqa: B023
+        assert refused.value.margin == pytest.approx(fit_to_bed(bounds, lambda: bounds[:, :2], BED).margin_mm)  # noqa: B023
+        assert refused.value.margin < 0.0
 
 
 @pytest.mark.parametrize(("long", "turn_deg"), [(230.0, 0.0), (230.0, 90.0), (222.0, 20.0), (260.0, 70.0)])

@@ -128,6 +128,13 @@ def test_parts_are_turned_by_a_right_angle_as_needed():
     assert len(plate.items) == 2
 
 
+def test_parts_are_turned_by_one_right_angle_at_most():
+    """What has more room on the bed when it is turned lies as it stands where only so it fits beside another."""
+    (plate,) = packed([box("large", (80, 80, 5)), box("slim", (10, 60, 5))], (100.0, 85.0, 50.0), 5.0)
+    for item in plate.items:
+        assert item.T_bed_part[:3, :3].tolist() == np.eye(3).tolist()
+
+
 @pytest.mark.parametrize("mirrored", [1.0, -1.0])
 def test_a_long_part_without_symmetry_is_turned_the_way_that_fits(mirrored):
     """A right triangle of 280 x 80 mm fits a bed of 250 x 210 mm only askew, and turned the other way it does not."""

@@ -6,7 +6,7 @@ import pytest
 
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing import prusaslicer
-from jumpcad.printing.prusaslicer import slice_part, slicer_program, slicer_settings, slicer_version
+from jumpcad.printing.prusaslicer import slice_part, slice_plate, slicer_program, slicer_settings, slicer_version
 from jumpcad.workshop import load_workshop
 
 WORKSHOP = load_workshop("default")
@@ -77,10 +77,36 @@ def test_grams_and_time_are_those_of_the_gcode(stand_in, tmp_path):
     assert found.ignored["perimeters"] == (str(WORKSHOP.process.perimeters), "99")
 
 
+def test_a_part_lies_in_the_middle_of_the_bed_and_a_plate_as_it_is(stand_in, tmp_path):
+    """PrusaSlicer's `--center` and `--dont-arrange`; the model comes last, with the settings in the file to load."""
+    stand_in(f'echo "$@" > {tmp_path}/asked; cat "$(echo "$@" | sed "s/.*--load //; s/ .*//")" > {tmp_path}/settings\n'
+             + writing(GCODE))  # fmt: skip
+    printer = WORKSHOP.printer.model_copy(update={"bed_mm": (250.0, 210.0, 200.0)})
+    for slice_it, place in ((slice_part, "--center 125,105 "), (slice_plate, "--dont-arrange ")):
+        slice_it(tmp_path / "leg.stl", printer, WORKSHOP.process, MATERIAL)
+        asked = (tmp_path / "asked").read_text()
+        assert asked.startswith(f"--export-gcode {place}--load ")
+        assert asked.endswith(f" {tmp_path}/leg.stl\n")
+        settings = dict(line.split(" = ") for line in (tmp_path / "settings").read_text().splitlines())
+        assert settings["bed_shape"] == "0x0,250x0,250x210,0x210"
+        assert settings.keys() == slicer_settings(printer, WORKSHOP.process, MATERIAL).keys()
+
+
 def test_gcode_without_remarks_is_another_programs(stand_in, tmp_path):
-    stand_in(writing("G1 X1 E1\n"))
-    with pytest.raises(JumpcadError, match=r"without its usual remarks for leg\.stl"):
+    lines = GCODE.splitlines(keepends=True)
+    for without in (("filament_diameter",), ("printing time",), ("filament_diameter", "printing time")):
+        stand_in(writing("".join(line for line in lines if not any(word in line for word in without))))
+        with pytest.raises(JumpcadError, match=r"without its usual remarks for leg\.stl"):
+            sliced(tmp_path)
+
+
+def test_letters_of_another_encoding_are_no_fault(stand_in, tmp_path):
+    """In what the slicer says, such as a folder's name, and in what it writes."""
+    stand_in("printf '\\377 is empty\\n'; exit 1")
+    with pytest.raises(CannotBuildError, match=r"refused leg\.stl: . is empty"):
         sliced(tmp_path)
+    stand_in(f"{writing(GCODE)}\nprintf '; \\377 = 1\\n' >> \"$2\"")
+    assert sliced(tmp_path).time_s == 3723.0
 
 
 def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):

@@ -46,6 +46,15 @@ def test_a_cone_has_no_jumps_and_short_odd_runs():
     assert all((run.end - run.first) % 2 == 1 and run.end - run.first <= min(ALIKE_LAYERS, 3) for run in inner)
 
 
+@pytest.mark.parametrize(("top_layers", "most"), [(1, 1), (2, 1), (3, 3), (4, 3), (5, 5), (9, 5)])
+def test_runs_of_what_changes_are_odd_and_no_longer_than_a_top_nor_than_five_layers(top_layers, most):
+    area = disc_moments(np.linspace(9.0, 8.0, 60))
+    runs = runs_of(area, [], PROCESS.model_copy(update={"top_layers": top_layers}))
+    inner = [run.end - run.first for run in runs if run.first >= 2 and run.end < 60 - top_layers]
+    assert max(inner) == most
+    assert all(length % 2 for length in inner)
+
+
 def test_a_cone_that_ends_in_a_plate_jumps_there():
     radii = np.concatenate([np.linspace(9.0, 8.0, 20), np.full(10, 14.0)])
     which = np.concatenate([np.arange(20), np.full(10, 20)])

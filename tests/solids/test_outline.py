@@ -75,8 +75,10 @@ def test_a_ring_has_both_diameters():
 def test_impossible_sizes_are_refused():
     with pytest.raises(JumpcadError, match="diameter of 0 mm must be more than 0"):
         outline.disc(0.0)
-    with pytest.raises(JumpcadError, match=r"D-bore of 3 mm cannot be 3\.2 mm"):
-        outline.d_bore(3.0, 3.2)
+    for across in (3.2, 3.0, 1.49):  # a flat beyond the shaft, or past its middle
+        with pytest.raises(JumpcadError, match=rf"D-bore of 3 mm cannot be {across:g} mm"):
+            outline.d_bore(3.0, across)
+    assert outline.d_bore(3.0, 1.51).area() == pytest.approx(math.pi * 1.5**2 / 2.0, rel=0.01)
 
 
 def test_regions_made_alike_have_one_key():
