@@ -98,7 +98,7 @@ def test_gazebo_has_the_springs_and_the_floor(package: dict[str, ET.Element]) ->
 
 
 def test_joints_are_those_of_the_urdf(package: dict[str, ET.Element]) -> None:
-    """Axes, limits, friction and damping."""
+    """Axes, limits, friction and damping; how far and how hard the driven leg is wound is looked at below."""
     theirs = {one.get("name"): one for one in ET.fromstring(write_urdf(built("kenan-2.0"))).findall("joint")}
     ours = {one.get("name"): one for one in package["links.xacro"].findall("joint")}
     assert ours.keys() - theirs.keys() == {"base"}
@@ -106,12 +106,24 @@ def test_joints_are_those_of_the_urdf(package: dict[str, ET.Element]) -> None:
         for tag in ("origin", "axis", "limit", "dynamics"):
             one, other = ours[name].find(tag).attrib, joint.find(tag).attrib
             assert one.keys() == other.keys()
-            for key in other:
+            for key in other.keys() - ({"lower", "effort"} if name == "leg" else set()):
                 values = [np.array(found[key].split(), dtype=float) for found in (one, other)]
                 np.testing.assert_allclose(*values, rtol=1e-6, atol=1e-9, err_msg=f"{name} {tag} {key}")
         assert [ours[name].find(end).attrib for end in ("parent", "child")] == [
             joint.find(end).attrib for end in ("parent", "child")
         ]
+
+
+def test_the_controller_holds_the_leg_where_its_springs_are_loaded(package: dict[str, ET.Element]) -> None:
+    """ros2_control and Gazebo clip a torque to the joint's effort; what is more than the springs' needs a limit."""
+    robot = built("kenan-2.0")
+    (limit,) = (one.find("limit") for one in package["links.xacro"].findall("joint") if one.get("name") == "leg")
+    pages = files()["README.md"] + files()["controllers.yaml"]
+    held = [float(found) for found in re.findall(r"[ \[]-(\d+\.\d+)", pages)]
+    assert len(held) == 2
+    for torque in held:
+        assert robot.spring.peak_torque_nm < torque <= float(limit.get("effort"))
+    assert float(limit.get("lower")) == pytest.approx(-robot.spring.wind_rad)
 
 
 def test_a_joint_that_mimics_has_slope_and_offset_of_its_line() -> None:
