@@ -58,11 +58,13 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     model = model_name(robot.name)
     package = f"{model}_description"
     folder, visible, mimics = f"ros2/{package}", visuals(robot), mimicked(robot)
+    rest = standing(robot, 0.0)
     words = {
         "PACKAGE": package,
         "MODEL": model,
         "NAME": robot.name,
-        "HEIGHT_M": f"{standing(robot, 0.0).body_position_m[2]:.4f}",
+        "HEIGHT_M": f"{rest.body_position_m[2]:.4f}",
+        "PITCH_RAD": f"{rest.body_pitch_rad:z.4f}",
         "HOLD": f"{_hold_nm(robot):g}",
         **{f"{name.upper()}_DEG": _degrees(mimic.error_rad) for name, mimic in mimics.items()},
     }
