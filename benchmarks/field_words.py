@@ -113,7 +113,7 @@ WORDS = {
     "takeoff_speed_m_s": "of the centre of mass",
     "takeoff_angle_deg": "of its velocity above the ground",
     "takeoff_time_s": "from release to the last contact",
-    "touchdown_distance_m": "of the centre of mass at first contact; with `--flight`",
+    "touchdown_distance_m": "of the body, half way between its two axles, at first contact; with `--flight`",
     "forward_j": "kinetic energy of the centre of mass, along x",
     "upward_j": "the same, upwards",
     "internal_j": "kinetic energy of the bodies about it",

@@ -84,12 +84,17 @@ def _of_distances(series: tuple[Jumps, ...]) -> Iterator[str]:
 
 
 def _of_heights(series: tuple[Jumps, ...], standing_m: float) -> Iterator[str]:
-    """Yield a rise that is too large for the absolute height."""
+    """Yield an absolute height below that from which a robot jumps, and a rise that is too large for one."""
     rise, absolute = (
         [value / 1000.0 for one in series if one.height_of == kind for value in one.height_mm]
         for kind in ("rise", "absolute")
     )
-    if rise and absolute and np.mean(rise) + standing_m > np.mean(absolute) + HEIGHTS_M:
+    if absolute and np.mean(absolute) <= standing_m:
+        yield (
+            f"jumps.height_mm: an absolute height of {1000.0 * np.mean(absolute):.4g} is not above the "
+            f"{1000.0 * standing_m:.0f} mm of the centre of mass before the jump: is it a rise?"
+        )
+    elif rise and absolute and np.mean(rise) + standing_m > np.mean(absolute) + HEIGHTS_M:
         yield (
             f"jumps.height_mm: a rise of {1000.0 * np.mean(rise):g} is {1000.0 * (np.mean(rise) + standing_m):.0f} mm "
             f"above the floor, and the absolute height is {1000.0 * np.mean(absolute):g}: is one the other?"

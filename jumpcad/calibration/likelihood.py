@@ -6,7 +6,7 @@ to one robot (mass, floor, travel after landing). A length of which it is unknow
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,10 +14,11 @@ import numpy as np
 from scipy.special import gammaln
 
 from jumpcad.calibration import priors
-from jumpcad.calibration.measurements import DISTANCES, HEIGHTS
+from jumpcad.calibration.measurements import DISTANCES, HEIGHTS, lengths
 from jumpcad.calibration.priors import Prior
 from jumpcad.calibration.subject import Subject
 from jumpcad.calibration.surface import JumpAt
+from jumpcad.calibration.video import TakeoffSeen
 from jumpcad.transforms import Array
 
 JUMP_SHARE = 0.08
@@ -183,29 +184,35 @@ def energy_per_mass(subject: Subject, values: dict[str, Array]) -> Array:
 
 
 def data_of(subject: Subject) -> list[Datum]:
-    """Return the data from a robot's jumps and videos; a series of jumps is one datum, its geometric mean."""
-    found = []
-    for series in subject.measured.jumps:
-        for what, of, values in (
-            ("distance", series.distance_of, series.distance_mm),
-            ("height", series.height_of, series.height_mm),
-        ):
-            if values and of is not None:
-                mean = math.exp(float(np.mean(np.log(values)))) / 1000.0
-                count = series.jumps or len(values)
-                found.append(Datum(subject.name, what, of, mean, count, JUMP_SHARE, MODEL_SHARE))
-        if series.battery_j:
-            mean = float(np.mean(series.battery_j))
-            found.append(Datum(subject.name, "battery", "battery", mean, 1, 0.0, ENERGY_SHARE))
-    for video, seen in zip(subject.measured.videos, subject.seen, strict=True):
-        shows_body = video.point == "body"
-        share = BODY_SPEED_SHARE if shows_body else MODEL_SHARE
-        speed_error = math.hypot(share, seen.speed_error_m_s / seen.speed_m_s)
-        angle_error = math.hypot(BODY_ANGLE_DEG if shows_body else ANGLE_DEG, seen.angle_error_deg)
-        # Speed goes with the root of the energy, so half the scatter of range.
-        found.append(Datum(subject.name, "speed", video.point, seen.speed_m_s, 1, JUMP_SHARE / 2.0, speed_error))
-        found.append(Datum(subject.name, "angle", video.point, seen.angle_deg, 1, 0.0, angle_error, relative=False))
+    """Return the data from a robot's jumps and videos.
+
+    What was measured in the same way is one datum, in however many series or videos, since its error is that of one
+    model: lengths and speeds are geometric means.
+    """
+    name, measured = subject.name, subject.measured
+    found = [
+        Datum(name, one.what, one.of, one.mean_mm / 1000.0, one.count, JUMP_SHARE, MODEL_SHARE)
+        for one in lengths(measured.jumps)
+    ]
+    if battery_j := [value for series in measured.jumps for value in series.battery_j]:
+        found.append(Datum(name, "battery", "battery", float(np.mean(battery_j)), 1, 0.0, ENERGY_SHARE))
+    for point in dict.fromkeys(video.point for video in measured.videos):
+        alike = [seen for video, seen in zip(measured.videos, subject.seen, strict=True) if video.point == point]
+        found.extend(_seen_data(name, point, alike))
     return found
+
+
+def _seen_data(name: str, point: str, seen: Sequence[TakeoffSeen]) -> Iterator[Datum]:
+    """Yield speed and angle of the take-offs that videos of one point show."""
+    share, angle_deg = (BODY_SPEED_SHARE, BODY_ANGLE_DEG) if point == "body" else (MODEL_SHARE, ANGLE_DEG)
+    count = len(seen)
+    speed = math.exp(sum(math.log(one.speed_m_s) for one in seen) / count)
+    speed_error = math.hypot(share, *(one.speed_error_m_s / one.speed_m_s / count for one in seen))
+    angle_error = math.hypot(angle_deg, *(one.angle_error_deg / count for one in seen))
+    # Speed goes with the root of the energy, so half the scatter of range.
+    yield Datum(name, "speed", point, speed, count, JUMP_SHARE / 2.0, speed_error)
+    angle = sum(one.angle_deg for one in seen) / count
+    yield Datum(name, "angle", point, angle, count, 0.0, angle_error, relative=False)
 
 
 def _log_density(datum: Datum, value: Array, deviation: Array) -> Array:

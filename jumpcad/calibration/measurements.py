@@ -4,7 +4,9 @@ Every length says what was measured, because ways of measuring differ by more th
 keeps all possibilities, a missing key is an error. Contradictory values are rejected, with what to add or change.
 """
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -68,6 +70,16 @@ class Jumps(TomlTable):
     jumps: Annotated[int, Field(ge=1, le=1000)] | None = None
 
 
+@dataclass(frozen=True)
+class Length:
+    """A `distance` or a `height` (mm), of what is measured (`DistanceOf`, `HeightOf`), as the mean of `count` jumps."""
+
+    what: str
+    of: str
+    mean_mm: float
+    count: int
+
+
 class Video(TomlTable):
     """A CSV file with points of one flight, t (s), x and z (m), after take-off and before touchdown; which point."""
 
@@ -102,6 +114,28 @@ class Measurements(Record):
             yield ("mass", "robot_error_g"), self.mass.robot_error_g, "is the error of nothing: give robot_g too"
         for series in self.jumps:
             yield from _unsaid(series)
+
+
+def lengths(jumps: Sequence[Jumps]) -> list[Length]:
+    """Return the mean of each kind of length over all series: they have the model's error in common.
+
+    Each series of an `unknown` length stays apart, since it may be of another kind.
+    """
+    found: dict[tuple[str, str, int], list[tuple[float, int]]] = {}
+    for number, series in enumerate(jumps):
+        for what, of, values in (
+            ("distance", series.distance_of, series.distance_mm),
+            ("height", series.height_of, series.height_mm),
+        ):
+            if values and of is not None:
+                kind = what, of, number if of == "unknown" else 0
+                mean = sum(map(math.log, values)) / len(values)
+                found.setdefault(kind, []).append((mean, series.jumps or len(values)))
+    return [
+        Length(what, of, math.exp(sum(mean * count for mean, count in alike) / number), number)
+        for (what, of, _), alike in found.items()
+        if (number := sum(count for _, count in alike))
+    ]
 
 
 def _unsaid(series: Jumps) -> Iterator[Contradiction]:

@@ -19,7 +19,7 @@ from jumpcad.calibration.likelihood import (
     predict,
 )
 from jumpcad.calibration.priors import QUANTILES
-from jumpcad.calibration.subject import load_subject, renamed, require_each_once
+from jumpcad.calibration.subject import load_subject, renamed, require_each_once, require_pairs
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array
 
@@ -125,15 +125,17 @@ def calibrate(files: Sequence[str | Path], seed: int = 0) -> CalibrationPosterio
     Raises
     ------
     JumpcadError
-        If a file is named twice, a measurement contradicts another or the robot, its unit or its method is not clear,
-        there is too little to calibrate on, or emcee is not installed.
+        If a file is named twice, a measurement contradicts another or the robot, robots that share springs have them of
+        two rates, a unit or method is not clear, there is too little to calibrate on, or emcee is not installed.
     CannotBuildError
         If a design cannot be built.
     """
     if not files:
         raise JumpcadError("no measurements: name at least one file, or the template kenan-1.0")
     require_each_once(files)
-    return sampled(CalibrationModel(renamed([load_subject(file) for file in files])), seed)
+    subjects = renamed([load_subject(file) for file in files])
+    require_pairs(subjects)
+    return sampled(CalibrationModel(subjects), seed)
 
 
 def sampled(

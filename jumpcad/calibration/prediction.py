@@ -78,12 +78,17 @@ class Prediction:
 
 
 def predicted_jump(posterior: CalibrationPosterior, subject: Subject, seed: int = 0) -> Prediction:
-    """Return the predicted jump of a robot that was not calibrated on; its own measured jumps are not used."""
+    """Return the predicted jump of a robot that was not calibrated on; its own measured jumps are not used.
+
+    Its springs are those of a calibrated robot where its measurements name their pair, never by a robot's equal name.
+    """
     generator = np.random.default_rng([seed, 1])
     draws = len(posterior.z)
     values = dict(posterior.values)
+    shares_springs = subject.measured.spring.pair is not None
     for one in CalibrationModel([subject]).parameters:
-        own = one.key.endswith(f":{subject.name}") and not one.key.startswith("rate:")
+        of_springs = one.key == f"rate:{subject.pair}"
+        own = not shares_springs if of_springs else one.key.endswith(f":{subject.name}")
         if own or one.key not in values:
             values[one.key] = one.prior.at(generator.standard_normal(draws))
     return Prediction(subject, values, generator)

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.calibration.posterior import CalibrationPosterior
+from jumpcad.calibration.priors import WEIGHED_SHARE
 from jumpcad.files import to_toml
 from jumpcad.files.outputs import sealed
 
@@ -32,9 +33,18 @@ def settings_toml(posterior: CalibrationPosterior) -> str:
 
 
 def elsewhere(posterior: CalibrationPosterior) -> Iterator[str]:
-    """Yield where what a calibration found of one robot is to be written: its tested floor, its springs' rate."""
+    """Yield where what was found of one robot is to be written: its parts, weight, tested floor, springs' rate."""
     for subject in posterior.model.subjects:
-        name, robot = subject.name, subject.robot
+        name, robot, weighed = subject.name, subject.robot, subject.measured.mass
+        if weighed.parts_g:
+            parts = ", ".join(f"{part} = {grams:g}" for part, grams in weighed.parts_g.items())
+            yield f"{name}, in its workshop: [mass.weighed_g] {parts}"
+        factor, model_g = float(np.median(posterior.values[f"mass:{name}"])), 1000.0 * robot.mass_kg
+        if weighed.robot_g is not None and abs(factor - 1.0) > WEIGHED_SHARE:
+            yield (
+                f"{name}, in its workshop: [mass.weighed_g] of its parts, which are to be weighed one by one: it has "
+                f"{factor * model_g:.4g} g, by the model {model_g:.4g} g"
+            )
         if subject.floor.shape == "lognormal":
             key = "friction" if robot.workshop.ground.pad else "bare_friction"
             yield f"{name}, in its workshop: [ground] {key} = {np.median(posterior.values[f'floor:{name}']):.2f}"

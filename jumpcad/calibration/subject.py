@@ -4,19 +4,21 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 
 from jumpcad.building import build
 from jumpcad.calibration.contradictions import contradictions
-from jumpcad.calibration.measurements import Measurements, load_measurements
+from jumpcad.calibration.measurements import Measurements, lengths, load_measurements
 from jumpcad.calibration.priors import FLOOR, Prior, modelled_mass, tested_floor, weighed_mass
 from jumpcad.calibration.surface import Surface, surface_of
 from jumpcad.calibration.video import TakeoffSeen, read_points, seen_takeoff
 from jumpcad.design import load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
@@ -39,6 +41,8 @@ UNITS = {
 """The factor by which a mistake changes a value, and the question that the error asks."""
 LARGEST_FACTOR = {"mass": 2.5, "part": 5.0, "rate": 1.8, "length": 5.0, "energy": 5.0}
 """By which a value may be larger or smaller than the model's."""
+SAME_RATE_SHARE, RATE_DEVIATIONS = 0.01, 3.0
+"""By which the rates of one pair of springs may differ, by design, and measured (standard deviations)."""
 MOST_ENERGY_SHARE = 1.1
 """Largest energy of a jump over that of the springs; above 1 because both have errors."""
 
@@ -139,11 +143,10 @@ def load_subject(name_or_path: str | Path) -> Subject:
     design = load_design(_beside(path, measured.design))
     workshop = load_workshop(_beside(path, measured.workshop))
     name = Path(measured.design).stem
-    robot = build(design, _with_weights(workshop, measured.mass.parts_g), name)
+    robot = build(design, workshop, name)
     if measured.mass.parts_g:
-        modelled = {part.name: 1000.0 * part.mass.mass_kg for part in build(design, workshop, name).parts}
-        for part, grams in measured.mass.parts_g.items():
-            _require_unit(str(path), f"mass.parts_g.{part}", grams, modelled[part], "g", "part")
+        _require_parts(measured.mass.parts_g, robot, str(path))
+        robot = build(design, _with_weights(workshop, measured.mass.parts_g), name)
     files = [path.parent / video.points for video in measured.videos]
     seen = tuple(seen_takeoff(read_points(file), str(file)) for file in files)
     subject = Subject(path.stem, measured, robot, seen)
@@ -183,6 +186,17 @@ def _with_weights(workshop: Workshop, parts_g: dict[str, float]) -> Workshop:
     return workshop.model_copy(update={"mass": mass}).revalidated()
 
 
+def _require_parts(parts_g: dict[str, float], robot: Robot, source: str) -> None:
+    """Reject weights of parts that the robot, by its model, does not have, or has with another mass by far."""
+    modelled = {part.name: 1000.0 * part.mass.mass_kg for part in robot.parts}
+    for part, grams in parts_g.items():
+        key = f"mass.parts_g.{part}"
+        if part not in modelled:
+            near, known = did_you_mean(part, modelled), ", ".join(modelled)
+            raise JumpcadError(f"{source}: {key}: no such part{near}; the robot has {known}")
+        _require_unit(source, key, grams, modelled[part], "g", "part")
+
+
 def _require_plausible(subject: Subject, source: str) -> None:
     """Reject values in a wrong unit, and energies that contradict each other (`JumpcadError`)."""
     measured, robot = subject.measured, subject.robot
@@ -207,7 +221,7 @@ def _require_plausible(subject: Subject, source: str) -> None:
                     f"{source}: jumps.battery_j = {value:g}: the springs alone hold {robot.spring.energy_j:.3g} J: "
                     "measure voltage times current from the start of the winding to the release"
                 )
-        _require_energy(subject, series.distance_of, series.height_of, series.distance_mm, series.height_mm, source)
+    _require_energy(subject, source)
     for contradiction in contradictions(measured, subject.standing_m, weight_n):
         raise JumpcadError(f"{source}: {contradiction}")
 
@@ -222,35 +236,57 @@ def _require_unit(source: str, key: str, value: float, expected: float, unit: st
     raise JumpcadError(f"{source}: {key} = {value:g}: the model has {expected:.3g} {unit}:{asked} give it in {unit}")
 
 
-def _require_energy(
-    subject: Subject,
-    distance_of: str | None,
-    height_of: str | None,
-    distances_mm: tuple[float, ...],
-    heights_mm: tuple[float, ...],
-    source: str,
-) -> None:
+def _require_energy(subject: Subject, source: str) -> None:
     """Reject a flight that needs more energy than the springs have, if range and rise are both measured.
 
     A robot that was not weighed may be as light as the lightest that is believed. A parabola of range R and rise h,
     from take-off to the same height, needs m·g·(h + R²/16h).
     """
     measured = subject.measured
-    known = distance_of in ("centre-of-mass", "first-touchdown") and height_of == "rise"
-    if not (known and distances_mm and heights_mm):
-        return
+    means = {(one.what, one.of): one.mean_mm / 1000.0 for one in lengths(measured.jumps)}
+    rise = means.get(("height", "rise"))
     weighed = measured.mass.robot_g
     mass_g = 1000.0 * subject.robot.mass_kg / LARGEST_FACTOR["mass"] if weighed is None else weighed
-    distance, rise = float(np.mean(distances_mm)) / 1000.0, float(np.mean(heights_mm)) / 1000.0
-    needed = mass_g / 1000.0 * GRAVITY_M_S2 * (rise + distance**2 / (16.0 * rise))
     held = subject.robot.spring.energy_j * subject.rate.first
-    if needed > MOST_ENERGY_SHARE * held:
-        of, measure = ("", "measure") if weighed else (" (not weighed)", "weigh the robot, measure")
-        raise JumpcadError(
-            f"{source}: jumps.height_mm = {1000.0 * rise:g} with distance_mm = {1000.0 * distance:g}: takes "
-            f"{needed:.3g} J for {mass_g:.3g} g{of}, and the springs hold {held:.3g} J: {measure} the springs' "
-            "rate, or say what distance and height are of"
-        )
+    for of in ("centre-of-mass", "first-touchdown"):
+        distance = means.get(("distance", of))
+        if rise is None or distance is None:
+            continue
+        needed = mass_g / 1000.0 * GRAVITY_M_S2 * (rise + distance**2 / (16.0 * rise))
+        if needed > MOST_ENERGY_SHARE * held:
+            what, measure = ("", "measure") if weighed else (" (not weighed)", "weigh the robot, measure")
+            raise JumpcadError(
+                f"{source}: jumps.height_mm = {1000.0 * rise:.4g} with distance_mm = {1000.0 * distance:.4g}: takes "
+                f"{needed:.3g} J for {mass_g:.3g} g{what}, and the springs hold {held:.3g} J: {measure} the springs' "
+                "rate, or say what distance and height are of"
+            )
+
+
+def require_pairs(subjects: Sequence[Subject]) -> None:
+    """Require that robots with the same pair of springs have springs of one rate, by design and as measured.
+
+    Raises
+    ------
+    JumpcadError
+        If they have not: the rate that is calibrated is the pair's.
+    """
+    for one, other in combinations(subjects, 2):
+        if one.pair != other.pair:
+            continue
+        rates = one.rate_nmm_per_deg, other.rate_nmm_per_deg
+        apart = SAME_RATE_SHARE * max(rates)
+        springs = one.measured.spring, other.measured.spring
+        first, second = (spring.both_nmm_per_deg for spring in springs)
+        if first is not None and second is not None and abs(rates[1] - rates[0]) <= apart:
+            rates = first, second
+            errors = [rate * spring.error_share for rate, spring in zip(rates, springs, strict=True)]
+            apart = RATE_DEVIATIONS * math.hypot(*errors)
+        if abs(rates[1] - rates[0]) > apart:
+            raise JumpcadError(
+                f"{other.name}: spring.pair = {other.pair}: its springs have {rates[1]:.3g} N·mm/° together, those of "
+                f"{one.name} {rates[0]:.3g}: give both designs the stiffness of the springs that they share, or each "
+                "robot a pair of its own"
+            )
 
 
 def renamed(subjects: list[Subject]) -> list[Subject]:

@@ -40,7 +40,7 @@ def calibrate(
     from jumpcad.calibration import calibrate as run
     from jumpcad.calibration import elsewhere, load_subject, predicted_jump, settings_toml
     from jumpcad.calibration.plots import PICTURES
-    from jumpcad.calibration.subject import renamed, require_each_once
+    from jumpcad.calibration.subject import renamed, require_each_once, require_pairs
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
 
     require_apart({"--output": output, "--plots": plots}, {f"measurements {name}": name for name in files})
@@ -49,10 +49,13 @@ def calibrate(
     if plots:
         require_pictures(plots, PICTURES, force)
     require_each_once([*files, *(predict or ())])
-    others = renamed([load_subject(name) for name in predict or ()])
+    others = [load_subject(name) for name in predict or ()]
     with status("simulating the robots, sampling the posterior …"):
         posterior = run(files, seed)
-        predictions = [predicted_jump(posterior, other, seed) for other in others]
+        known = posterior.model.subjects
+        robots = renamed([*known, *others])  # no robot has the name of another
+        require_pairs(robots)
+        predictions = [predicted_jump(posterior, other, seed) for other in robots[len(known) :]]
         document = _document(posterior, seed) | {
             "predictions": {
                 one.subject.name: {"jumps_share": one.jumps_share, **one.quantiles(), "beside": one.beside()}

@@ -16,7 +16,7 @@ from jumpcad.exporters.collision import Capsule, body_box, capsules
 from jumpcad.exporters.mjcf_scene import HOLD
 from jumpcad.exporters.sdf import write_config, write_sdf
 from jumpcad.exporters.urdf import add_joint, add_link
-from jumpcad.exporters.xml import add, document, shorten
+from jumpcad.exporters.xml import add, document, shorten, written
 from jumpcad.files import templates_folder
 from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.mechanism.poses import standing
@@ -58,12 +58,14 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     model = model_name(robot.name)
     package = f"{model}_description"
     folder, visible, mimics = f"ros2/{package}", visuals(robot), mimicked(robot)
+    rest = standing(robot, 0.0)
     words = {
         "PACKAGE": package,
         "MODEL": model,
         "NAME": robot.name,
-        "HEIGHT_M": f"{standing(robot, 0.0).body_position_m[2]:.4f}",
-        "HOLD": f"{HOLD * robot.spring.peak_torque_nm:.3f}",
+        "HEIGHT_M": f"{rest.body_position_m[2]:.4f}",
+        "PITCH_RAD": f"{rest.body_pitch_rad:z.4f}",
+        "HOLD": f"{_hold_nm(robot):g}",
         **{f"{name.upper()}_DEG": _degrees(mimic.error_rad) for name, mimic in mimics.items()},
     }
     for name, path in TEMPLATES.items():
@@ -77,6 +79,11 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     yield f"{folder}/urdf/gazebo.xacro", _gazebo(robot)
     yield f"{folder}/models/{model}/model.config", write_config(robot.name, "model.sdf")
     yield f"{folder}/models/{model}/model.sdf", write_sdf(robot, visible, meshes=f"../../{MESHES}")
+
+
+def _hold_nm(mechanism: Mechanism) -> float:
+    """Return the torque that holds the loaded leg against its lower limit, as the package's pages state it."""
+    return float(f"{HOLD * mechanism.spring.peak_torque_nm:.4g}")
 
 
 def model_name(name: str) -> str:
@@ -130,12 +137,20 @@ def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], me
         add(add(collision, "geometry"), "box", size=box.high_m - box.low_m)
     for joint in robot.joints:
         node = add_joint(root, joint, robot, Settings())
+        if joint.name == robot.spring.joint:
+            _driven(next(node.iter("limit")), robot)
         if joint.name in mimics:
             mimic = mimics[joint.name]
             follows = add(node, "xacro:if", value="$(arg mimic)")
             add(follows, "mimic", joint=robot.spring.joint, multiplier=mimic.slope, offset=mimic.offset_rad)
     shorten(root)
     return document(root)
+
+
+def _driven(limit: ET.Element, robot: Robot) -> None:
+    """Let the leg turn no farther than its springs are wound, and its controller hold it there."""
+    for name, value in (("lower", -robot.spring.wind_rad), ("effort", _hold_nm(robot))):
+        limit.set(name, written(value))
 
 
 def _cylinder(link: ET.Element, name: str, capsule: Capsule) -> None:

@@ -10,7 +10,7 @@ from launch.substitutions import Command
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
-HEIGHT_M = "@HEIGHT_M@"  # of base_link, springs at rest
+HEIGHT_M, PITCH_RAD = "@HEIGHT_M@", "@PITCH_RAD@"  # of base_link, springs at rest
 
 
 def generate_launch_description():
@@ -38,7 +38,7 @@ def generate_launch_description():
             Node(
                 package="ros_gz_sim",
                 executable="create",
-                arguments=["-topic", "robot_description", "-z", HEIGHT_M],
+                arguments=["-topic", "robot_description", "-z", HEIGHT_M, "-P", PITCH_RAD],
             ),
             Node(
                 package="ros_gz_bridge",

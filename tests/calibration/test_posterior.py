@@ -74,7 +74,10 @@ def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: Calibra
 
 
 def test_a_calibration_is_of_each_robot_that_is_named_and_drawn_by_its_seed(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, made in (("load_subject", lambda name: SimpleNamespace(name=name)), ("CalibrationModel", list)):
+    for name, made in (
+        ("load_subject", lambda name: SimpleNamespace(name=name, pair=name)),
+        ("CalibrationModel", list),
+    ):
         monkeypatch.setattr(module, name, made)
     monkeypatch.setattr(module, "sampled", lambda model, seed=0: ([subject.name for subject in model], seed))
     assert module.calibrate(["kenan-1.0", "kenan-2.0"], 7) == (["kenan-1.0", "kenan-2.0"], 7)

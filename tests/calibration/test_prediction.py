@@ -54,6 +54,13 @@ def test_springs_that_robots_share_are_those_of_the_calibration(
     assert rate.predicted == pytest.approx(subject.rate_nmm_per_deg * np.median(shared))
 
 
+def test_a_robot_of_the_same_name_has_springs_of_its_own(posterior: CalibrationPosterior, subject: Subject) -> None:
+    """As two files measured.toml in two folders: a rate on the scale of 0.8 times the model's is believed."""
+    rate = {"rate_nmm_per_deg": 0.8 * subject.rate_nmm_per_deg, "springs": 2}
+    found = predicted_jump(posterior, subject.remeasured(Measurements(**SAID, jumps=JUMPS, spring=rate)))
+    assert np.median(found.values["rate:kenan-2.0"]) == pytest.approx(0.8, abs=0.01)
+
+
 def test_what_stays_open_is_drawn_by_the_seed(posterior: CalibrationPosterior, subject: Subject) -> None:
     other = twin(subject, jumps=JUMPS, mass={"robot_g": 103.0})
     draws = [predicted_jump(posterior, other, seed).values["floor:twin"].tolist() for seed in (0, 0, 1)]
@@ -104,8 +111,10 @@ def test_settings_are_read_back(posterior: CalibrationPosterior, tmp_path: Any) 
 
 
 def test_what_is_no_setting_is_told_with_its_place(posterior: CalibrationPosterior) -> None:
-    """The floor on which the robot slips at 38°, and the design's stiffness times what was found."""
-    floor, rate = elsewhere(posterior)
+    """The weight on the scale, the floor on which it slips at 38°, the design's stiffness times what was found."""
+    weight, floor, rate = elsewhere(posterior)
+    assert weight.startswith("kenan-2.0, in its workshop: [mass.weighed_g] of its parts")
+    assert float(weight.split(" it has ")[1].split()[0]) == pytest.approx(103.0, rel=5e-3)
     subject, found = posterior.model.subjects[0], posterior.values
     key = "friction" if subject.robot.workshop.ground.pad else "bare_friction"
     assert floor.startswith(f"kenan-2.0, in its workshop: [ground] {key} = ")

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pytest
 
 from jumpcad.calibration.settings_file import DIGITS, SAVED, elsewhere, settings_toml
 
@@ -12,8 +13,11 @@ from jumpcad.calibration.settings_file import DIGITS, SAVED, elsewhere, settings
 def posterior(*shapes: str, **more: Any) -> Any:
     """Return a made-up posterior of robots whose floors have priors of these shapes."""
     ramp = np.linspace(0.0, 1.0, 991)
-    values = {"spring_efficiency": 0.8 + 0.2 * ramp**2, "pin_friction": 0.4 - 0.3 * ramp, "floor:k0": 0.5 + 0.4 * ramp}
-    subjects = [SimpleNamespace(name=f"k{n}", floor=SimpleNamespace(shape=shape)) for n, shape in enumerate(shapes)]
+    values = {f"mass:k{n}": np.full(991, 0.9) for n in range(len(shapes))}
+    values |= {"spring_efficiency": 0.8 + 0.2 * ramp**2, "pin_friction": 0.4 - 0.3 * ramp, "floor:k0": 0.5 + 0.4 * ramp}
+    unweighed = SimpleNamespace(mass=SimpleNamespace(robot_g=None, parts_g={}))
+    subjects = [SimpleNamespace(name=f"k{n}", floor=SimpleNamespace(shape=shape), measured=unweighed)
+                for n, shape in enumerate(shapes)]  # fmt: skip
     return SimpleNamespace(model=SimpleNamespace(subjects=subjects), values=values | more, z=np.zeros((991, 3)))
 
 
@@ -41,12 +45,27 @@ def test_what_is_found_of_a_robot_is_told_for_the_place_where_it_stands() -> Non
     for subject, pad, spring in zip(told.model.subjects, ("rubber", "rubber", ""), (None, stock, None), strict=True):
         subject.pair = "ours"
         shop = SimpleNamespace(ground=SimpleNamespace(pad=pad), stock_spring=spring)
-        subject.robot = SimpleNamespace(workshop=shop, design=SimpleNamespace(stiffness_nmm_per_deg=20.0))
+        subject.robot = SimpleNamespace(workshop=shop, design=SimpleNamespace(stiffness_nmm_per_deg=20.0), mass_kg=0.12)
     assert list(elsewhere(told)) == [
         "k0, in its workshop: [ground] friction = 0.70", "k0, in its design: stiffness_nmm_per_deg = 25",
         "k1, in [springs.9271K619]: rate_nmm_per_deg = 10",
         "k2, in its workshop: [ground] bare_friction = 0.30", "k2, in its design: stiffness_nmm_per_deg = 25",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(("factor", "told"), [(0.9, True), (1.011, True), (0.991, False)])
+def test_a_robot_that_weighs_something_else_is_told_to_be_weighed_in_parts(factor: float, told: bool) -> None:
+    """No setting stands for a weight, and a scale is right within a hundredth."""
+    found = posterior("uniform", **{"mass:k0": np.full(991, factor), "rate:k0": np.ones(991)})
+    (subject,) = found.model.subjects
+    subject.measured = SimpleNamespace(mass=SimpleNamespace(robot_g=108.0, parts_g={"foot": 8.0, "cam": 2.25}))
+    shop, design = SimpleNamespace(stock_spring=None), SimpleNamespace(stiffness_nmm_per_deg=20.0)
+    subject.pair, subject.robot = "k0", SimpleNamespace(workshop=shop, design=design, mass_kg=0.12)
+    parts, *weight, _ = elsewhere(found)
+    assert parts == "k0, in its workshop: [mass.weighed_g] foot = 8, cam = 2.25"
+    assert len(weight) == told
+    if told:
+        assert weight[0].endswith(f"weighed one by one: it has {120.0 * factor:.4g} g, by the model 120 g")
 
 
 def test_robots_and_drive_are_told_in_the_heading() -> None:

@@ -22,9 +22,11 @@ from jumpcad.calibration.subject import (
     load_subject,
     renamed,
     require_each_once,
+    require_pairs,
 )
 from jumpcad.errors import JumpcadError
 from jumpcad.files import templates_folder
+from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump
@@ -60,7 +62,11 @@ JUMP = '[[jumps]]\ndistance_of = "centre-of-mass"\nheight_of = "rise"\n'
             JUMP + "distance_mm = [900.0]\nheight_mm = [300.0]",
             r"takes 0.21\d? J for 4\d.\d g \(not weighed\), and the springs hold 0.133 J: weigh the robot, measure",
         ),
-        ("[mass.parts_g]\nwing = 3.0", r"mass.weighed_g.wing: no such part"),
+        ("[mass.parts_g]\nwing = 3.0", r"mine.toml: mass.parts_g.wing: no such part; the robot has main_leg, "),
+        (
+            "[mass.parts_g]\ncam_spacer_left = 0.5",  # that of other robots
+            r"mass.parts_g.cam_spacer_left: no such part \(did you mean cam_spacer_right\?\)",
+        ),
         ("[mass.parts_g]\nmain_leg = 47.0", r"parts_g.main_leg = 47: the model has \d\.\d+ g: a digit too many\?"),
         ("[floor]\nslope_deg = [0.6]", r"slope_deg = 0.6: is a friction of 0.0105: give the slope's angle in degrees"),
         ("[floor]\npull_n = [0.3]\nslope_deg = [45.0]", r"one of 1.00: one floor has one friction"),
@@ -75,6 +81,14 @@ JUMP = '[[jumps]]\ndistance_of = "centre-of-mass"\nheight_of = "rise"\n'
         (
             HIGH + "height_mm = [150.0]\n" + HIGH.replace("rise", "absolute") + "height_mm = [120.0]",
             r"a rise of 150 is 2\d\d mm above the floor, and the absolute height is 120",
+        ),
+        (
+            "[mass]\nrobot_g = 103.0\n" + FAR + "distance_mm = [350.0]\n" + HIGH + "height_mm = [150.0]",
+            r"height_mm = 150 with distance_mm = 350: takes 0.203 J for 103 g, and the springs hold 0.133 J: measure",
+        ),
+        (
+            HIGH.replace("rise", "absolute") + "height_mm = [75.0]",
+            r"an absolute height of 75 is not above the 8\d mm of the centre of mass before the jump: is it a rise\?",
         ),
         ('[[videos]]\npoints = "no.csv"\npoint = "body"', r"no.csv: no such file"),
     ],
@@ -249,18 +263,53 @@ def test_a_flight_may_need_a_tenth_more_than_the_springs_hold(
     said = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
     mass = {"robot_g": 1000.0 * subject.robot.mass_kg} if weighed else {}
     robot = subject.remeasured(Measurements(**said, mass=mass))
-    given = (100.0,), (flight_needs(robot, share, weighed),), "mine.toml"
+    high = flight_needs(robot, share, weighed)
+
+    def flown(distance_of: str, height_of: str, **more: Any) -> Subject:
+        far = {"distance_mm": (100.0,), "distance_of": distance_of}
+        jumps = (far | {"height_mm": (high,), "height_of": height_of},)
+        return subject.remeasured(Measurements(**said, mass=mass, jumps=jumps, **more))
+
     for what in ("centre-of-mass", "first-touchdown"):
         if refused:
             with pytest.raises(JumpcadError, match="and the springs hold"):
-                _require_energy(robot, what, "rise", *given)
+                _require_energy(flown(what, "rise"), "mine.toml")
         else:
-            _require_energy(robot, what, "rise", *given)
+            _require_energy(flown(what, "rise"), "mine.toml")
     rate = {"rate_nmm_per_deg": 1.25 * subject.rate_nmm_per_deg, "springs": 2}
-    stiff = subject.remeasured(Measurements(**said, mass=mass, spring=rate))  # which hold a quarter more
-    _require_energy(stiff, "first-touchdown", "rise", *given)
-    _require_energy(robot, "resting-place", "rise", *given)
-    _require_energy(robot, "first-touchdown", "absolute", *given)
+    _require_energy(flown("first-touchdown", "rise", spring=rate), "mine.toml")  # these hold a quarter more
+    _require_energy(flown("resting-place", "rise"), "mine.toml")
+    _require_energy(flown("first-touchdown", "absolute"), "mine.toml")
+
+
+@pytest.mark.parametrize(
+    ("softer", "one", "other", "said"),
+    [
+        (0.0, None, None, None),
+        (0.005, 9.2, 9.9, None),
+        (0.05, None, None, "have 8.74 N·mm/° together, those of kenan-2.0 9.2: give both designs"),
+        (0.0, 9.2, 7.0, "have 7 N·mm/° together, those of kenan-2.0 9.2"),
+    ],
+)
+def test_springs_that_two_robots_share_have_one_rate(
+    subject: Subject, softer: float, one: float | None, other: float | None, said: str | None
+) -> None:
+    """By design within a hundredth, and on the scale within three of its deviations, of 3 % each."""
+
+    def robot(pair: str | None, rate: float | None) -> Subject:
+        spring = {} if pair is None else {"pair": pair}
+        measured = {} if rate is None else {"rate_nmm_per_deg": rate, "springs": 2}
+        return subject.remeasured(Measurements(design="kenan-2.0", source="a test", release="dog",
+                                               spring=spring | measured))  # fmt: skip
+
+    soft = replace(robot("ours", other), name="soft", robot=with_spring_factor(subject.robot, 1.0 - softer))
+    robots = [robot("ours", one), soft]
+    if said is None:
+        require_pairs(robots)
+    else:
+        with pytest.raises(JumpcadError, match=f"soft: spring.pair = ours: its springs {said}"):
+            require_pairs(robots)
+    require_pairs([robots[0], replace(soft, measured=robot(None, other).measured)])
 
 
 def test_a_robot_measured_again_has_the_takeoffs_that_were_seen_then(subject: Subject) -> None:

@@ -110,12 +110,19 @@ def test_the_posterior_and_what_it_predicts_are_drawn_by_one_seed(run: Run, monk
         asked.append(given)
         raise JumpcadError("enough")
 
-    other = SimpleNamespace(name="other")
-    monkeypatch.setattr("jumpcad.calibration.calibrate", lambda files, seed=0: (files, seed))
+    one, other = SimpleNamespace(name="one", pair="one"), SimpleNamespace(name="other", pair="other")
+    given = SimpleNamespace(model=SimpleNamespace(subjects=[one]))
+
+    def calibrated(files: list[str], seed: int = 0) -> SimpleNamespace:
+        given.of = files, seed
+        return given
+
+    monkeypatch.setattr("jumpcad.calibration.calibrate", calibrated)
     monkeypatch.setattr("jumpcad.calibration.load_subject", lambda _: other)
     monkeypatch.setattr("jumpcad.calibration.predicted_jump", predicting)
     assert run("calibrate", "kenan-2.0", "--predict", "kenan-1.0", "--seed", 7)[2] == "jumpcad: enough\n"
-    assert asked == [((["kenan-2.0"], 7), other, 7)]
+    assert asked == [(given, other, 7)]
+    assert given.of == (["kenan-2.0"], 7)
 
 
 def test_an_output_over_the_measurements(run: Run, tmp_path: Path) -> None:

@@ -98,7 +98,7 @@ def test_gazebo_has_the_springs_and_the_floor(package: dict[str, ET.Element]) ->
 
 
 def test_joints_are_those_of_the_urdf(package: dict[str, ET.Element]) -> None:
-    """Axes, limits, friction and damping."""
+    """Axes, limits, friction and damping; how far and how hard the driven leg is wound is looked at below."""
     theirs = {one.get("name"): one for one in ET.fromstring(write_urdf(built("kenan-2.0"))).findall("joint")}
     ours = {one.get("name"): one for one in package["links.xacro"].findall("joint")}
     assert ours.keys() - theirs.keys() == {"base"}
@@ -106,12 +106,24 @@ def test_joints_are_those_of_the_urdf(package: dict[str, ET.Element]) -> None:
         for tag in ("origin", "axis", "limit", "dynamics"):
             one, other = ours[name].find(tag).attrib, joint.find(tag).attrib
             assert one.keys() == other.keys()
-            for key in other:
+            for key in other.keys() - ({"lower", "effort"} if name == "leg" else set()):
                 values = [np.array(found[key].split(), dtype=float) for found in (one, other)]
                 np.testing.assert_allclose(*values, rtol=1e-6, atol=1e-9, err_msg=f"{name} {tag} {key}")
         assert [ours[name].find(end).attrib for end in ("parent", "child")] == [
             joint.find(end).attrib for end in ("parent", "child")
         ]
+
+
+def test_the_controller_holds_the_leg_where_its_springs_are_loaded(package: dict[str, ET.Element]) -> None:
+    """ros2_control and Gazebo clip a torque to the joint's effort; what is more than the springs' needs a limit."""
+    robot = built("kenan-2.0")
+    (limit,) = (one.find("limit") for one in package["links.xacro"].findall("joint") if one.get("name") == "leg")
+    pages = files()["README.md"] + files()["controllers.yaml"]
+    held = [float(found) for found in re.findall(r"[ \[]-(\d+\.\d+)", pages)]
+    assert len(held) == 2
+    for torque in held:
+        assert robot.spring.peak_torque_nm < torque <= float(limit.get("effort"))
+    assert float(limit.get("lower")) == pytest.approx(-robot.spring.wind_rad)
 
 
 def test_a_joint_that_mimics_has_slope_and_offset_of_its_line() -> None:
@@ -174,6 +186,21 @@ def test_every_link_shows_the_parts_of_its_body_where_they_are(package: dict[str
         assert float(links[name].find("inertial/mass").get("value")) == pytest.approx(body.mass_kg)
 
 
+def test_in_gazebo_a_robot_is_put_on_its_foot() -> None:
+    """Whose sole is level where the body is turned by the pitch at rest, and the joints are at 0 (a tenth of a mm)."""
+    robot = built("best-printable")
+    (launch,) = (text for path, text in ros2_files(robot) if path.endswith("gazebo.launch.py"))
+    ((height, pitch),) = re.findall(r'HEIGHT_M, PITCH_RAD = "(.*)", "(.*)"', launch)
+    assert '"-z", HEIGHT_M, "-P", PITCH_RAD]' in launch
+    angles = {joint.name: joint.rest_angle_rad for joint in robot.joints}
+    foot_rad = float(pitch) + angles["leg"] + angles["ankle"]  # about y, as the joints turn
+    assert foot_rad == pytest.approx(0.0, abs=1e-4)
+    hip = Rotation.from_euler("y", float(pitch)).apply(robot.joint("leg").origin_m)
+    leg = Rotation.from_euler("y", float(pitch) + angles["leg"]).apply(robot.joint("ankle").origin_m)
+    lowest = min(point.centre_m[2] - point.radius_m for point in robot.bodies["foot"].contacts)
+    assert float(height) + hip[2] + leg[2] + lowest == pytest.approx(0.0, abs=1e-4)
+
+
 def test_texts_have_the_robots_height_and_a_torque_that_holds_its_loaded_springs() -> None:
     """The springs pull with stiffness times loaded angle (and preload); a hold of up to twice that is no snap."""
     robot, texts = built("kenan-2.0"), {name: text for name, text in files().items() if isinstance(text, str)}
@@ -182,7 +209,8 @@ def test_texts_have_the_robots_height_and_a_torque_that_holds_its_loaded_springs
         found = re.findall(r"-(\d+\.\d+) N.m|\[-(\d+\.\d+)\]", texts[name])
         assert found
         assert all(1.02 * peak < float("".join(one)) < 2.0 * peak for one in found), name
-    (height,) = re.findall(r'HEIGHT_M = "(.*)"', texts["gazebo.launch.py"])
+    ((height, pitch),) = re.findall(r'HEIGHT_M, PITCH_RAD = "(.*)", "(.*)"', texts["gazebo.launch.py"])
+    assert pitch == "0.0000"  # its links are parallel
     rest = standing(robot, 0.0)
     assert float(height) == pytest.approx(rest.body_position_m[2], abs=5.1e-5)
     right = dict(re.findall(r"(\d+\.\d+)° and (\d+\.\d+)°", texts["README.md"]))
