@@ -10,7 +10,7 @@ import pytest
 from support.built import built
 from support.machines import one_sided
 
-from jumpcad.exporters.collision import capsules
+from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.exporters.mjcf_scene import readme
 from jumpcad.mechanism.model import BODY, FOOT
@@ -189,3 +189,22 @@ def test_what_is_seen_hangs_on_its_body_in_its_colour(robot: Robot) -> None:
         assert paints[expected[shape.name][2]] == pytest.approx([*shape.colour, 1.0])
     (visual,) = (one for one in root.iter("default") if one.get("class") == "visual")
     assert visual.find("geom").attrib == {"type": "mesh", "contype": "0", "conaffinity": "0", "group": "2"}
+
+
+def test_the_box_about_the_body_is_that_of_the_collision_shapes(robot: Robot) -> None:
+    """As MuJoCo reads it: middle and half the sides of the one box, for what is seen of the robot; without, none."""
+    seen = visuals(robot)
+    root = ET.fromstring(write_robot(robot, seen))
+    for node in [root.find("asset"), *root.iter("body")]:
+        for one in [*node.findall("mesh"), *(geom for geom in node.findall("geom") if geom.get("class") == "visual")]:
+            node.remove(one)  # no files are read here
+    model = mujoco.MjModel.from_xml_string(ET.tostring(root, encoding="unicode"))
+    kinds = [mujoco.mjtGeom(int(kind)) for kind in model.geom_type]
+    assert kinds.count(mujoco.mjtGeom.mjGEOM_BOX) == 1
+    box, whole = model.geom("body_collision"), body_box(robot, seen)
+    assert whole is not None
+    assert kinds[box.id] == mujoco.mjtGeom.mjGEOM_BOX
+    assert model.body(box.bodyid[0]).name == BODY
+    assert box.pos - box.size == pytest.approx(whole.low_m, abs=1e-6)
+    assert box.pos + box.size == pytest.approx(whole.high_m, abs=1e-6)
+    assert box.group[0] == 3
