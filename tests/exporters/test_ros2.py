@@ -58,6 +58,65 @@ def test_arguments_have_their_defaults(package: dict[str, ET.Element]) -> None:
     assert plugins == {"if": "gz_ros2_control/GazeboSimSystem", "unless": "mock_components/GenericSystem"}
 
 
+def expanded(package: dict[str, ET.Element], given: dict[str, str]) -> ET.Element:
+    """Return the document that xacro makes of the package: files included, arguments put in, conditions followed."""
+    whole = ET.Element("robot")
+    top = next(root for name, root in package.items() if name.endswith(".urdf.xacro"))
+    words = {one.get("name"): one.get("default", "") for one in top if one.tag.endswith("arg")} | given
+
+    def said(text: str | None) -> str:
+        return re.sub(r"\$\(arg (\w+)\)", lambda found: words[found[1]] or "", text or "")
+
+    def take(node: ET.Element, into: ET.Element) -> None:
+        for one in node:
+            kind = one.tag.removeprefix("{http://www.ros.org/wiki/xacro}")
+            if kind == "include":
+                take(package[one.attrib["filename"]], into)
+            elif kind in ("if", "unless"):
+                if said(one.attrib["value"]) == {"if": "true", "unless": "false"}[kind]:
+                    take(one, into)
+            elif kind == one.tag:
+                made = ET.SubElement(into, kind, {key: said(value) for key, value in one.attrib.items()})
+                made.text = said(one.text)
+                take(one, made)
+
+    take(top, whole)
+    return whole
+
+
+@pytest.mark.parametrize("gazebo", ["true", "false"])
+@pytest.mark.parametrize("mimic", ["true", "false"])
+def test_the_whole_is_a_tree_on_a_base_without_mass_and_in_gazebo_alone_has_its_plugin(
+    package: dict[str, ET.Element], gazebo: str, mimic: str
+) -> None:
+    """`base_link` as the root and the body fixed to it; every shape has a name of its own."""
+    root = expanded(package, {"gazebo": gazebo, "mimic": mimic, "controllers": "c.yaml"})
+    joints = {
+        one.attrib["name"]: [one.attrib["type"], *(one.find(end).attrib["link"] for end in ("parent", "child"))]
+        for one in root.findall("joint")
+    }
+    assert joints["base"] == ["fixed", "base_link", "body"]
+    assert {kind for name, (kind, *_) in joints.items() if name != "base"} == {"revolute"}
+    links, children = [one.attrib["name"] for one in root.findall("link")], [child for *_, child in joints.values()]
+    assert sorted(links) == sorted(["base_link", *children])
+    assert len({*links}) == len(links)
+    for link in root.findall("link"):
+        for tag in ("visual", "collision"):
+            names = [one.attrib["name"] for one in link.findall(tag)]
+            assert len({*names}) == len(names)
+    assert sorted(one.attrib["name"] for one in root.find("ros2_control").findall("joint")) == ["ankle", "front", "leg"]
+    assert {one.attrib["name"] for one in root.findall("joint") if one.find("mimic") is not None} == (
+        {"front", "ankle"} if mimic == "true" else set()
+    )
+    inside = [one.text for one in root.findall("ros2_control/hardware/plugin")]
+    assert inside == ["gz_ros2_control/GazeboSimSystem" if gazebo == "true" else "mock_components/GenericSystem"]
+    plugins = [(one.attrib, one.findtext("parameters")) for one in root.findall("gazebo/plugin")]
+    expected = {"filename": "gz_ros2_control-system", "name": "gz_ros2_control::GazeboSimROS2ControlPlugin"}
+    assert plugins == ([(expected, "c.yaml")] if gazebo == "true" else [])
+    system = root.find("ros2_control").attrib
+    assert system == {"name": "jumper", "type": "system"}
+
+
 def test_the_leg_alone_is_driven(package: dict[str, ET.Element]) -> None:
     joints = package["ros2_control.xacro"].findall("ros2_control/joint")
     driven = {one.get("name"): [command.get("name") for command in one.findall("command_interface")] for one in joints}
@@ -137,7 +196,8 @@ def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.E
 
 
 @pytest.mark.parametrize(
-    ("name", "model"), [("Kenan-2.0", "kenan_2_0"), ("2nd", "robot_2nd"), ("--", "robot"), ("a__b", "a_b")]
+    ("name", "model"),
+    [("Kenan-2.0", "kenan_2_0"), ("2nd", "robot_2nd"), ("--", "robot"), ("a__b", "a_b"), ("r2d2", "r2d2"), ("X", "x")],
 )
 def test_names_are_those_that_ros_allows(name: str, model: str) -> None:
     """REP 144: lower case, digits, single underscores, a letter first."""
