@@ -12,7 +12,7 @@ from support.fits import with_fits_apart
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.joints import joint_pieces
-from jumpcad.coupon.pieces import Piece, _holder, coupon_holes, pieces, pinion, series_of
+from jumpcad.coupon.pieces import Piece, _holder, _offsets, coupon_holes, pieces, pinion, series_of
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
 from jumpcad.solids.stl import write_stl
@@ -158,6 +158,21 @@ def test_series_reach_beyond_the_fits_on_both_sides() -> None:
         assert np.ptp(np.diff(steps.axle_mm)) == pytest.approx(0.0, abs=1e-9)
     tight = series_of(coupon_holes(changed("fits", backlash_circumferential_mm=0.0)))
     assert tight.backlash_mm == (0.0, 0.05, 0.1)
+
+
+@pytest.mark.parametrize("span", range(41))
+def test_a_wide_series_has_twice_the_steps_so_that_fifteen_reach(span: int) -> None:
+    """Steps of 0.05 mm, or 0.10, or 0.20: as few doublings as three rows of five allow, two steps past either fit."""
+    for low in (-0.3, 0.1, 0.12):
+        high = low + 0.05 * span
+        steps = np.array(_offsets(low, high))
+        (step,) = {round(float(one), 6) for one in np.diff(steps)}
+        assert step in (0.05, 0.1, 0.2)
+        assert len(steps) <= 15
+        assert step == 0.05 or round((high - low) / (step / 2.0)) + 5 > 15
+        assert steps / step == pytest.approx(np.round(steps / step))
+        assert abs(steps[2] - low) <= step / 2.0 + 1e-9
+        assert abs(steps[-3] - high) <= step + 1e-9
 
 
 def test_pinions_keep_their_tips_whatever_the_backlash() -> None:
