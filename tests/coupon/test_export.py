@@ -85,6 +85,7 @@ def test_the_guides_hole_for_the_axle_and_its_force_on_a_floor_are_read_as_they_
     assert "two pieces of its 3 mm rod" in text
     said = re.search(r"as strong as the workshop says breaks at (\d+) N", text)
     assert said is not None
+    assert f"# floor_n = {said[1]}\n" in _template(workshop, coupon_holes(workshop))
     for less, weaker in ((0, False), (2, True)):
         reading = f"[joints]\nfloor_n = {int(said[1]) - less}"
         found = measured_workshop(Readings.from_data(tomllib.loads(reading), "r.toml", reading), workshop)

@@ -97,6 +97,21 @@ def test_a_row_s_letter_stands_beside_the_middle_of_its_holes() -> None:
         assert np.ptp(letter[:, 1]) == pytest.approx(5.0, abs=0.1)
 
 
+@pytest.mark.parametrize("material", ["PETG", "PLA"])
+def test_a_gauge_has_its_materials_name_at_its_back(material: str) -> None:
+    """Whole, 5 mm high, 3 mm from both edges, above all else that is engraved."""
+    solid = reread(PIECES[f"gauge_{material}"])
+    left, _, _, _, back, _ = solid.bounding_box()
+    cut = (solid.slice(1.5) - solid.slice(2.8)) ^ CrossSection.square((100.0, 9.0)).translate((left, back - 9.0))
+    word = text(material, 5.0)
+    letters = np.concatenate([polygon for polygon in contours(cut)[0] if np.ptp(polygon[:, 1]) > 4.0])
+    shift = letters.min(axis=0) - word.bounds()[:2]
+    assert (word.translate(tuple(shift)) ^ cut).area() == pytest.approx(word.area(), rel=0.01)
+    assert cut.area() == pytest.approx(word.area(), rel=0.01)
+    assert letters[:, 0].min() - left == pytest.approx(3.0, abs=0.7)  # with a letter's own room
+    assert back - letters[:, 1].max() == pytest.approx(3.0, abs=0.2)
+
+
 def test_pegs_can_be_measured() -> None:
     pegs, _ = contours(reread(PIECES["gauge_PETG"]).slice(7.0))
     spans = sorted((float(p[:, 0].min()), float(np.ptp(p[:, 0]))) for p in pegs)
