@@ -12,6 +12,7 @@ from jumpcad.building import build
 from jumpcad.bundle import expected as module
 from jumpcad.bundle.expected import _near_stop, expected, filled
 from jumpcad.bundle.firmware import numbers
+from jumpcad.bundle.operation import by_button, cable
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
@@ -56,6 +57,10 @@ def test_a_bench_supply_feeds_the_controller_only_if_its_own_button_starts_it(
     controller = chosen.controller.model_copy(update={"button": button})
     monkeypatch.setattr(module, "chosen_parts", lambda _: replace(chosen, controller=controller))
     words = expected(robot, [])
+    assert (words["cable"], words["wind_by"], words["jump_by"]) == (
+        cable(controller), by_button("wind", controller), by_button("jump", controller)
+    )  # fmt: skip
+    assert words["jump_by"].startswith("Press" if button else "Type")
     assert words["boards_read"].startswith(read)
     assert (figure(words, "boards_ma") > 20.0) == (button is not None)
 

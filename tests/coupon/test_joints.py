@@ -111,7 +111,9 @@ def test_openings_are_what_they_hold_with_the_engraved_offset_on_every_side(piec
     for name, sizes in expected.items():
         found = holes_of(pieces[name].shape.solid().slice(1.5))
         assert found == [pytest.approx(size, abs=0.01) for size in sizes], name
-    assert pieces["seat"].mesh.bounds[1, 2] >= bearing.width_mm
+    for one in (bearing, *shop.catalogue.bearings.values()):  # deep enough for it, and no thinner than the gauge
+        seat = joints._seats(one, coupon_holes(shop))
+        assert seat.bounds_mm[:, 2].tolist() == [0.0, max(3.0, one.width_mm)]
     assert np.ptp(pieces["tray_tab"].mesh.bounds, axis=0) == pytest.approx([10.0, 30.0, 1.6])
     assert holes_of(pieces["axle_floor"].shape.solid().slice(0.75)) == []  # 0.8 mm close a plate's bore
 
