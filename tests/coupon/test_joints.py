@@ -124,6 +124,7 @@ def test_jaws_slide_in_pockets_that_are_15_degrees_longer(pieces: dict[str, Piec
     assert jaws.area() == pytest.approx(math.pi / 4.0 * (14.0**2 - 8.0**2) * 80.0 / 360.0, rel=0.01)
     assert base.bounds() == pytest.approx((-9.0, -9.0, 9.0, 9.0), abs=0.01)
     assert (jaws - base).area() == pytest.approx(0.0, abs=1e-3)
+    assert (jaws.rotate(180.0) - jaws).area() == pytest.approx(0.0, abs=1e-3)  # one opposite to the other
     running = 3.0 + 2.0 * load_workshop().fits.sliding_mm
     for step in steps_mm(load_workshop().fits.sliding_mm):
         disc = pieces[f"dog_pockets_{joints._number(step)}"].shape.solid().slice(2.0)
