@@ -79,7 +79,7 @@ def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any
     assert model.tendon_limited[tendon] == 1
     assert at_key(model, "wound").ten_length[tendon] == pytest.approx(-wind)  # it is as long as the joint's angle
     latch = model.equality("latch")
-    assert latch.data[:2].tolist() == pytest.approx([-wind, 0.0])
+    assert latch.data[:5].tolist() == pytest.approx([-wind, 0.0, 0.0, 0.0, 0.0])
     assert latch.active0[0] == 0
     assert model.equality("loop").active0[0] == 1
     pushing = mujoco.MjModel.from_xml_string(write_robot(one_sided(robot)))
