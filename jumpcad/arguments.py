@@ -122,7 +122,8 @@ def _is_instance(value: Any, kind: type) -> bool:
     if isinstance(value, str | bytes) and kind in (Sequence, Iterable):  # else each of its letters would be an item
         return False
     if getattr(kind, "_is_protocol", False):
-        return all(hasattr(type(value), name) for name in vars(kind) if name == "__call__" or not name.startswith("_"))
+        named = all(hasattr(type(value), name) for name in vars(kind) if not name.startswith("_"))
+        return named and (callable(value) or "__call__" not in vars(kind))
     return isinstance(value, kind)
 
 

@@ -40,6 +40,20 @@ def test_each_choice_for_a_bundle_is_that_of_its_writer(
         assert written[0][other] == written[1][other]
 
 
+def test_a_bundle_without_choices_has_pictures_alone_and_keeps_what_a_user_changed(
+    small_robot: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """STEP files, a ROS package and the loss of edited files are asked for."""
+    written, signature = [], inspect.signature(api.export_robot)
+    monkeypatch.setattr(api, "export_robot", lambda *values: written.append(signature.bind(*values).arguments))
+    jumpcad.export(small_robot, "folder")
+    (given,) = written
+    chosen = {"pictures": True, "step": False, "force": False, "ros2": False}
+    assert {key: given[key] for key in chosen} == chosen
+    assert given["folder"] == "folder"
+    assert {key: one.default for key, one in signature.parameters.items() if key in chosen} == chosen
+
+
 def test_a_robot_jumps_in_the_engine_and_with_the_settings_that_are_asked_for() -> None:
     robot, moon = jumpcad.capsule_robot(jumpcad.load_design("kenan-2.0")), jumpcad.Settings(gravity_m_s2=1.62)
     here, there = (jumpcad.simulate(robot, settings, "planar") for settings in (None, moon))

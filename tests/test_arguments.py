@@ -4,7 +4,7 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import pytest
@@ -110,6 +110,52 @@ def test_all_that_annotations_allow_passes() -> None:
         told(1, 1)
     with pytest.raises(JumpcadError, match=r"told\(\) takes True or False as loud, not 'yes' \(str\)"):
         told(1, None, "yes")
+
+
+def test_what_a_function_or_method_does_is_asked_of_an_object_not_its_class_s_name() -> None:
+    """A protocol's own methods, and whether it can be called; what Python gives to every class does not count."""
+
+    class Model(Protocol):
+        def __call__(self, design: str) -> float: ...
+
+        def named(self) -> str: ...
+
+        def weighed(self) -> float: ...
+
+    class Whole:
+        def __call__(self, design: str) -> float:
+            return float(design)
+
+        def named(self) -> str:
+            return "whole"
+
+        def weighed(self) -> float:
+            return 1.0
+
+    class Silent:
+        named, weighed = Whole.named, Whole.weighed
+
+    class Weightless:
+        named, __call__ = Whole.named, Whole.__call__
+
+    @typed
+    def judged(model: Model) -> float:
+        return model("2.5")
+
+    assert judged(Whole()) == 2.5
+    for wrong in (Silent(), Weightless(), float, lambda design: 1.0, 2.5):
+        with pytest.raises(JumpcadError, match=r"judged\(\) takes a Model, not "):
+            judged(wrong)  # type: ignore[arg-type]
+
+
+def test_a_function_that_takes_any_names_beside_its_own_is_given_them() -> None:
+    @typed
+    def noted(count: int, **more: Any) -> dict[str, Any]:
+        return {"count": count} | more
+
+    assert noted(1, colour="red") == {"count": 1, "colour": "red"}
+    with pytest.raises(JumpcadError, match=r"noted\(\) takes .* as count, not 'red' \(str\)"):
+        noted("red", colour=1)  # type: ignore[arg-type]
 
 
 def test_a_design_is_built_where_a_robot_is_wanted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -114,12 +114,20 @@ def test_the_leads_drawing_has_every_number_of_the_table_in_its_colour(robot: Ro
 
 
 def test_drawn_leads_pass_the_plates_but_do_not_run_in_them(robot: Robot) -> None:
-    """A lead of AWG 28 in silicone is 1.2 mm thick: no corner of its line is nearer to a plate's face."""
+    """A lead of AWG 28 in silicone is 1.2 mm thick: no corner of its line is nearer to a plate's face.
+
+    Those of sensor and motor pass one plate, once and square to it; the others none.
+    """
     lateral = robot.layout.lateral
     for lead in leads_of(robot):
+        passed = 0
         for low, high in (lateral.left_plate, lateral.right_plate):
             y = lead.points_mm[:, 1]
             assert ((y < low - 0.6) | (y > high + 0.6)).all(), (lead.number, lead.parts)
+            (through,) = np.nonzero(np.diff(y > high))
+            passed += len(through)
+            assert np.diff(lead.points_mm, axis=0)[through][:, ::2] == pytest.approx(0.0), (lead.number, lead.parts)
+        assert passed == len({"sensor", "motor"} & set(lead.parts)), (lead.number, lead.parts)
 
 
 def test_drawn_leads_of_a_plate_turn_a_millimetre_apart_inside_of_it(robot: Robot) -> None:

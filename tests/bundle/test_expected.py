@@ -10,8 +10,9 @@ from support.built import built, geared, part, placed
 
 from jumpcad.building import build
 from jumpcad.bundle import expected as module
-from jumpcad.bundle.expected import _near_stop, expected, filled
+from jumpcad.bundle.expected import _near_stop, _prong_mm, expected, filled
 from jumpcad.bundle.firmware import numbers
+from jumpcad.bundle.operation import by_button, cable
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
@@ -56,6 +57,10 @@ def test_a_bench_supply_feeds_the_controller_only_if_its_own_button_starts_it(
     controller = chosen.controller.model_copy(update={"button": button})
     monkeypatch.setattr(module, "chosen_parts", lambda _: replace(chosen, controller=controller))
     words = expected(robot, [])
+    assert (words["cable"], words["wind_by"], words["jump_by"]) == (
+        cable(controller), by_button("wind", controller), by_button("jump", controller)
+    )  # fmt: skip
+    assert words["jump_by"].startswith("Press" if button else "Type")
     assert words["boards_read"].startswith(read)
     assert (figure(words, "boards_ma") > 20.0) == (button is not None)
 
@@ -124,6 +129,34 @@ def test_slack_is_never_said_to_be_less_than_it_is() -> None:
     """0.4° and 2.2° are 1° and 3° at most; 3° stays 3° where its last digit is lost on the way from radians."""
     assert "slack, for up to 1° with springs as ordered, for up to 3° with" in _near_stop(0.4, 2.2)
     assert "slack, for up to 3° with springs as ordered" in _near_stop(math.degrees(math.radians(3.0)), 13.0)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("across", "along", "out", "prong"),
+    [(20.0, 0.0, 1.0, 6.0), (8.1, 0.0, 1.0, 3.5), (8.4, 4.9, 1.0, 3.5), (8.1, 5.1, 1.0, 6.0), (5.0, 0.0, 1.0, 3.0),
+     (8.1, 0.0, -3.0, 6.0)],
+)  # fmt: skip
+def test_the_block_stops_half_a_millimetre_before_what_stands_beside_the_window(
+    across: float, along: float, out: float, prong: float, sign: float
+) -> None:
+    """An N20's window is 8 x 10 mm; the block is 9 mm long, with 3 to 6 mm on either side, in halves of a millimetre.
+
+    The thing is 2 mm wide and long, `across` and `along` from the window's middle, outside of the plate.
+    """
+    robot = built("kenan-2.0")
+    layout, item = robot.layout, next(one for one in robot.hardware if one.body == "body")
+    corners = np.array([[x, y, z] for x in (across, across + 2.0) for y in (0.0, out) for z in (along, along + 2.0)])
+    turn = layout.motor_angle_rad
+    cos, sin = sign * math.cos(turn), sign * math.sin(turn)
+    points = np.column_stack([
+        layout.motor_mm[0] + cos * corners[:, 0] - sin * corners[:, 2],
+        layout.lateral.right_plate[0] - corners[:, 1],
+        layout.motor_mm[1] + sin * corners[:, 0] + cos * corners[:, 2],
+    ])  # fmt: skip
+    thing = replace(item, T_body_part=np.eye(4))
+    vars(thing)["look"] = SimpleNamespace(vertices=points)  # the mesh that is seen
+    assert _prong_mm(replace(robot, hardware=(thing,))) == prong
 
 
 def test_sizes_are_those_of_the_parts() -> None:

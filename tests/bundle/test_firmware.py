@@ -10,6 +10,15 @@ from support.decimals import decimals
 
 from jumpcad.building import build
 from jumpcad.bundle.firmware import WORDS, _filled, firmware_files, numbers, release_share, start_v
+from jumpcad.bundle.operation import (
+    bootloader,
+    by_button,
+    cable,
+    charging,
+    charging_loaded,
+    stops_the_motor,
+    to_stop,
+)
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
@@ -133,6 +142,32 @@ def test_the_notes_say_what_the_sensors_contact_does(level: int, does: str) -> N
     (own,) = (text for path, text in firmware_files(robot) if path.endswith("README.md"))
     does = "opens" if numbers(robot)["READY_LEVEL"] else "closes"
     assert f"The sensor's contact {does} when it is pressed" in own
+
+
+@pytest.mark.parametrize("button", [True, False])
+def test_the_notes_are_for_the_controller(robot: Robot, button: bool) -> None:
+    """Its name, its image among MicroPython's downloads, its button or commands in its place, and its charger."""
+    shop, name = robot.workshop, robot.workshop.bought.controller
+    if not button:
+        bare = {"button": "", "micropython": "", "description": "A board of mine"}
+        board = shop.catalogue.boards[name].model_copy(update=bare)
+        shop = shop.model_copy(update={"boards": shop.boards | {name: board}})
+    robot = replace(robot, workshop=shop)
+    chosen = chosen_parts(robot.workshop)
+    assert bool(chosen.controller.button) == button
+    (text,) = (text for path, text in firmware_files(robot) if path.endswith("README.md"))
+    words = " ".join(text.split())
+    said = "XIAO" if button else "A board of mine"
+    assert re.search(rf"For the .*{said}.*, in MicroPython\.", words.partition("1. On")[0])
+    image = chosen.controller.micropython if button else "look for the board's name or its chip"
+    assert image
+    assert f"micropython.org/download ({image});" in words
+    for told in (
+        bootloader(chosen.controller), cable(chosen.controller), by_button("wind", chosen.controller),
+        by_button("jump", chosen.controller), to_stop(chosen), stops_the_motor(chosen), charging(chosen),
+        charging_loaded(chosen),
+    ):  # fmt: skip
+        assert told in words
 
 
 def test_the_notes_have_the_numbers_of_the_program(robot: Robot) -> None:

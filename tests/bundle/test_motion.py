@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from support.built import built, geared
 from support.decimals import decimals
 
-from jumpcad.bundle.motion import SHOWN_S, PhasePose, _times, motion
+from jumpcad.bundle.motion import SHOWN_S, PhasePose, _seven, _times, motion
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.simulation import Settings, simulate
@@ -149,3 +149,16 @@ def test_the_flight_is_shown_to_its_last_moment() -> None:
         cut = {name: value[:count] for name, value in vars(jump.trajectory).items() if name != "body_names"}
         found = motion(robot, replace(jump.trajectory, **cut), jump.takeoff_time_s)
         assert found["time_s"][-1] == pytest.approx(cut["time_s"][-1], abs=1e-4)
+
+
+def test_a_pose_is_a_place_and_a_quaternion_whose_last_number_is_not_negative() -> None:
+    """Either sign is the same turn; of half a turn and more, and about any axis, the shorter way is written."""
+    for axis in ([0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [1.0, 1.0, -1.0]):
+        for degrees in range(0, 360, 15):
+            turn = Rotation.from_rotvec(np.radians(degrees) * np.array(axis) / np.linalg.norm(axis))
+            pose = np.eye(4)
+            pose[:3, :3], pose[:3, 3] = turn.as_matrix(), [0.1, -0.2, 0.3]
+            *place, x, y, z, w = _seven(pose)
+            assert place == [0.1, -0.2, 0.3]
+            assert w >= 0.0
+            np.testing.assert_allclose(Rotation.from_quat([x, y, z, w]).as_matrix(), turn.as_matrix(), atol=1e-4)

@@ -29,7 +29,8 @@ def test_the_release_is_said_in_degrees_and_newton_metres(name: str) -> None:
     assert {key: value for key, value in facts.items() if key in expected} == pytest.approx(expected, abs=5.1e-7)
     assert facts["window_deg"] == pytest.approx([DEGREES * angle for angle in release.window_rad], abs=5.1e-7)
     assert set(facts) == {*expected, "window_deg", "assumed"}
-    assert decimals(facts["gear_ratio"]) <= 9  # of which the reflected inertia is computed
+    assert facts["gear_ratio"] == pytest.approx(release.gear_ratio, abs=5.1e-10)  # gives the reflected inertia
+    assert decimals(facts["gear_ratio"]) <= 9
     long = {key for key, value in facts.items() if decimals(value) > 6}
     assert long <= {"gear_ratio", "assumed"}
     assert len(facts["assumed"]) == len(release.parts) == 2

@@ -39,6 +39,15 @@ def test_arms_are_tangents_of_the_coil_at_the_ordered_angle(name: str) -> None:
         # beside the arms, wherever these point
         assert min(one.dxf.insert.x for one in words) > radii[1] + spring.arm_length_mm
         assert any("N·mm/°" in one.dxf.text for one in words)
+        assert {one.dxf.insert.x for one in words} == {words[0].dxf.insert.x}
+        assert {one.dxf.height for one in words} == {2.0}
+        assert np.diff([one.dxf.insert.y for one in words]) == pytest.approx(-3.5)  # lines below each other
+        assert {one.dxf.layer for one in words} == {"TEXT"}
+        widths = [line.dxf.const_width for line in space.query("LWPOLYLINE")]
+        assert widths == pytest.approx([spring.wire_mm, spring.wire_mm, 0.0])
+        assert {tuple(circle.dxf.center) for circle in space.query("CIRCLE")} == {(0.0, 0.0, 0.0)}
+        assert {circle.dxf.layer for circle in space.query("CIRCLE")} == {"WIRE"}
+        assert 2.0 * radii[0] == pytest.approx(spring.inside_diameter_mm)
     assert list(drawings) == ["order/spring-right-hand.dxf", "order/spring-left-hand.dxf"]
     # seen along its axis a right-hand coil goes away clockwise; loading winds it further, as DXF has y up
     assert turns == [-1.0, 1.0]

@@ -52,6 +52,20 @@ def test_the_wire_bears_what_is_in_reserve_for_stress_and_for_nothing_else(robot
     assert allowable_mpa(other) == pytest.approx(1.2 * robot.layout.drive.spring.allowable_mpa)
 
 
+@pytest.mark.parametrize(
+    ("angle", "said"),
+    [(30.0, "30.0° apart"), (0.6, "0.6° apart"), (-0.6, "crossed by 0.6°"), (-25.0, "crossed by 25.0°")],
+)
+def test_loaded_arms_are_apart_until_they_are_parallel_and_crossed_beyond(angle: float, said: str) -> None:
+    """Relaxed arms stand apart by half a turn, less the part of a turn beyond whole ones."""
+    robot = built("kenan-2.0")
+    drive = robot.layout.drive
+    free = angle + math.degrees(drive.spring.wound_rad)
+    spring = replace(drive.spring, turns=4.0 + (180.0 - free) % 360.0 / 360.0)
+    turned = replace(robot, layout=replace(robot.layout, drive=replace(drive, spring=spring)))
+    assert loaded_arms(turned) == said
+
+
 def test_loaded_arms_have_closed_by_the_springs_angle(robot: Robot) -> None:
     """180° less the part of a turn beyond whole ones, less what the leg winds."""
     spring = robot.layout.drive.spring

@@ -1,5 +1,9 @@
 """Two folders are exchanged, or nothing is done."""
 
+import ctypes
+import os
+import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -29,3 +33,27 @@ def test_names_are_relative_to_the_working_directory(tmp_path: Path, monkeypatch
     monkeypatch.chdir(tmp_path / "here")
     assert exchanged(Path("one"), Path("other")) == whole
     assert Path("one/other").exists() == whole
+
+
+@pytest.mark.skipif(not os.access("/dev/shm", os.W_OK), reason="no folder in memory, as Linux has it")
+def test_in_linux_memory_two_folders_change_places() -> None:
+    """A tmpfs, which can exchange two since Linux 3.15."""
+    with tempfile.TemporaryDirectory(dir="/dev/shm") as folder:
+        for name in ("one", "other"):
+            (Path(folder) / name / name).mkdir(parents=True)
+        assert exchanged(Path(folder) / "one", Path(folder) / "other")
+        assert (Path(folder) / "one" / "other").is_dir()
+        assert (Path(folder) / "other" / "one").is_dir()
+
+
+def test_where_the_system_cannot_exchange_nothing_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another system, or a C library that does not know the call."""
+    for name in ("one", "other"):
+        (tmp_path / name / name).mkdir(parents=True)
+    with monkeypatch.context() as patch:
+        patch.setattr(ctypes, "CDLL", lambda _: object())
+        assert not exchanged(tmp_path / "one", tmp_path / "other")
+    with monkeypatch.context() as patch:
+        patch.setattr(sys, "platform", "darwin")
+        assert not exchanged(tmp_path / "one", tmp_path / "other")
+    assert (tmp_path / "one" / "one").is_dir()

@@ -97,3 +97,10 @@ def test_a_battery_has_as_many_cells_as_its_voltage_says_and_one_at_least(volts:
     """3.7 V of lithium polymer, 3.2 V of iron phosphate; a single cell of any other kind is one."""
     battery = load_catalogue().batteries["lipo-2s-180"].model_copy(update={"voltage_v": volts})
     assert battery.cells == cells
+
+
+def test_of_the_shipped_small_parts_the_diode_alone_drops_a_voltage() -> None:
+    """A Schottky diode has about 0.3 V; a contact, a plug or a capacitor that says nothing of it has none."""
+    drops = {name: one.drop_v for name, one in load_catalogue().components.items() if one.drop_v}
+    assert list(drops.values()) == [0.3]
+    assert [load_catalogue().components[name].kind for name in drops] == ["diode"]

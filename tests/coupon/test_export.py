@@ -58,6 +58,40 @@ def test_the_guide_names_the_material_in_which_each_piece_is_printed(role: str) 
     assert f"gears in {roles['gears']}" in _guide(workshop, holes)
 
 
+@pytest.mark.parametrize(("bearing", "needed"), [(None, ["MR63", "683"]), ("623", ["623"]), ("", [])])
+def test_the_guide_asks_for_the_bearings_that_go_into_gauges_and_seats(bearing: str | None, needed: list[str]) -> None:
+    """ISO 15 dimension series: the lightest two with a bore of 3 mm, the one that the workshop allows, or none."""
+    workshop = load_workshop()
+    if bearing is not None:
+        workshop = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"leg_bearing": bearing})})
+    holes = coupon_holes(workshop)
+    text = _guide(workshop, holes)
+    (asked,) = re.findall(r"\(its own axles will do\); (.*)the gear motor; an M2", text)
+    assert re.findall(r"\w*\d{3}\w*|MR\d+", asked) == needed
+    assert asked.startswith(("", "the bearing ", "the bearings ")[len(needed)])
+    row = re.search(r"- \*\*B\*\*, (.*?)[,:]", text)
+    assert row is not None
+    assert row[1] == (f"the bearing {needed[0]}" if needed else "left out")
+    seat = re.search(r"- \*\*seat\*\* \(\w+\), (.*?)[,:]", text)
+    assert seat is not None
+    assert seat[1] == (f"the bearing {needed[1]}" if needed[1:] else "left out")
+
+
+def test_the_guides_hole_for_the_axle_and_its_force_on_a_floor_are_read_as_they_are_said() -> None:
+    """`.10` is 0.10 mm a side of 3 mm; the force named is no sign of a weak floor, and one a newton smaller is."""
+    workshop = load_workshop()
+    text = _guide(workshop, coupon_holes(workshop))
+    assert "`.10` is a hole of 3.2 mm for the axle" in text
+    assert "two pieces of its 3 mm rod" in text
+    said = re.search(r"as strong as the workshop says breaks at (\d+) N", text)
+    assert said is not None
+    assert f"# floor_n = {said[1]}\n" in _template(workshop, coupon_holes(workshop))
+    for less, weaker in ((0, False), (2, True)):
+        reading = f"[joints]\nfloor_n = {int(said[1]) - less}"
+        found = measured_workshop(Readings.from_data(tomllib.loads(reading), "r.toml", reading), workshop)
+        assert (found.materials != workshop.materials) == weaker
+
+
 def test_the_file_for_readings_has_every_fit_of_the_workshop_and_is_read_as_it_stands() -> None:
     """With the # of all lines removed nothing changes, but what holes without a fit need: twice the press fit."""
     workshop = with_fits_apart(load_workshop("fine"))

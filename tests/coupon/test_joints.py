@@ -111,7 +111,9 @@ def test_openings_are_what_they_hold_with_the_engraved_offset_on_every_side(piec
     for name, sizes in expected.items():
         found = holes_of(pieces[name].shape.solid().slice(1.5))
         assert found == [pytest.approx(size, abs=0.01) for size in sizes], name
-    assert pieces["seat"].mesh.bounds[1, 2] >= bearing.width_mm
+    for one in (bearing, *shop.catalogue.bearings.values()):  # deep enough for it, and no thinner than the gauge
+        seat = joints._seats(one, coupon_holes(shop))
+        assert seat.bounds_mm[:, 2].tolist() == [0.0, max(3.0, one.width_mm)]
     assert np.ptp(pieces["tray_tab"].mesh.bounds, axis=0) == pytest.approx([10.0, 30.0, 1.6])
     assert holes_of(pieces["axle_floor"].shape.solid().slice(0.75)) == []  # 0.8 mm close a plate's bore
 
@@ -122,6 +124,7 @@ def test_jaws_slide_in_pockets_that_are_15_degrees_longer(pieces: dict[str, Piec
     assert jaws.area() == pytest.approx(math.pi / 4.0 * (14.0**2 - 8.0**2) * 80.0 / 360.0, rel=0.01)
     assert base.bounds() == pytest.approx((-9.0, -9.0, 9.0, 9.0), abs=0.01)
     assert (jaws - base).area() == pytest.approx(0.0, abs=1e-3)
+    assert (jaws.rotate(180.0) - jaws).area() == pytest.approx(0.0, abs=1e-3)  # one opposite to the other
     running = 3.0 + 2.0 * load_workshop().fits.sliding_mm
     for step in steps_mm(load_workshop().fits.sliding_mm):
         disc = pieces[f"dog_pockets_{joints._number(step)}"].shape.solid().slice(2.0)

@@ -12,7 +12,7 @@ from support.fits import with_fits_apart
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.joints import joint_pieces
-from jumpcad.coupon.pieces import Piece, _holder, coupon_holes, pieces, pinion, series_of
+from jumpcad.coupon.pieces import Piece, _holder, _offsets, coupon_holes, pieces, pinion, series_of
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
 from jumpcad.solids.stl import write_stl
@@ -97,6 +97,21 @@ def test_a_row_s_letter_stands_beside_the_middle_of_its_holes() -> None:
         assert np.ptp(letter[:, 1]) == pytest.approx(5.0, abs=0.1)
 
 
+@pytest.mark.parametrize("material", ["PETG", "PLA"])
+def test_a_gauge_has_its_materials_name_at_its_back(material: str) -> None:
+    """Whole, 5 mm high, 3 mm from both edges, above all else that is engraved."""
+    solid = reread(PIECES[f"gauge_{material}"])
+    left, _, _, _, back, _ = solid.bounding_box()
+    cut = (solid.slice(1.5) - solid.slice(2.8)) ^ CrossSection.square((100.0, 9.0)).translate((left, back - 9.0))
+    word = text(material, 5.0)
+    letters = np.concatenate([polygon for polygon in contours(cut)[0] if np.ptp(polygon[:, 1]) > 4.0])
+    shift = letters.min(axis=0) - word.bounds()[:2]
+    assert (word.translate(tuple(shift)) ^ cut).area() == pytest.approx(word.area(), rel=0.01)
+    assert cut.area() == pytest.approx(word.area(), rel=0.01)
+    assert letters[:, 0].min() - left == pytest.approx(3.0, abs=0.7)  # with a letter's own room
+    assert back - letters[:, 1].max() == pytest.approx(3.0, abs=0.2)
+
+
 def test_pegs_can_be_measured() -> None:
     pegs, _ = contours(reread(PIECES["gauge_PETG"]).slice(7.0))
     spans = sorted((float(p[:, 0].min()), float(np.ptp(p[:, 0]))) for p in pegs)
@@ -158,6 +173,21 @@ def test_series_reach_beyond_the_fits_on_both_sides() -> None:
         assert np.ptp(np.diff(steps.axle_mm)) == pytest.approx(0.0, abs=1e-9)
     tight = series_of(coupon_holes(changed("fits", backlash_circumferential_mm=0.0)))
     assert tight.backlash_mm == (0.0, 0.05, 0.1)
+
+
+@pytest.mark.parametrize("span", range(41))
+def test_a_wide_series_has_twice_the_steps_so_that_fifteen_reach(span: int) -> None:
+    """Steps of 0.05 mm, or 0.10, or 0.20: as few doublings as three rows of five allow, two steps past either fit."""
+    for low in (-0.3, 0.1, 0.12):
+        high = low + 0.05 * span
+        steps = np.array(_offsets(low, high))
+        (step,) = {round(float(one), 6) for one in np.diff(steps)}
+        assert step in (0.05, 0.1, 0.2)
+        assert len(steps) <= 15
+        assert step == 0.05 or round((high - low) / (step / 2.0)) + 5 > 15
+        assert steps / step == pytest.approx(np.round(steps / step))
+        assert abs(steps[2] - low) <= step / 2.0 + 1e-9
+        assert abs(steps[-3] - high) <= step + 1e-9
 
 
 def test_pinions_keep_their_tips_whatever_the_backlash() -> None:

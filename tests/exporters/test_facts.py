@@ -88,7 +88,7 @@ def test_sdf_has_every_body_with_its_inertia_spheres_and_friction(robot: Robot, 
         spheres = {one.get("name"): one for one in link.findall("collision")}
         for contact in body.contacts:
             one = spheres[contact.name]
-            assert numbers(one.findtext("pose"))[:3] == pytest.approx(contact.centre_m, abs=1e-7)
+            assert numbers(one.findtext("pose")) == pytest.approx([*contact.centre_m, 0.0, 0.0, 0.0], abs=1e-7)
             assert float(one.findtext("geometry/sphere/radius")) == pytest.approx(contact.radius_m)
             for direction in ("mu", "mu2"):
                 found = float(one.findtext(f"surface/friction/ode/{direction}"))
@@ -120,6 +120,10 @@ def test_hinges_have_their_places_limits_and_losses(robot: Robot, urdf: ET.Eleme
         assert float(other.findtext("axis/dynamics/damping")) == pytest.approx(0.00045)
 
 
+def test_descriptions_have_the_robots_name(robot: Robot, urdf: ET.Element, sdf: ET.Element) -> None:
+    assert urdf.get("name") == sdf.get("name") == robot.name
+
+
 def test_the_stop_is_critically_damped_in_sdf(robot: Robot, sdf: ET.Element) -> None:
     """Stiffness k and 2·sqrt(k·I) about the leg's joint; other hinges have none."""
     stop = robot.stop
@@ -143,6 +147,7 @@ def test_visible_meshes_stand_where_the_parts_are(robot: Robot, urdf: ET.Element
         assert one.find("geometry/mesh").get("scale") == other.findtext("geometry/mesh/scale") == "0.001 0.001 0.001"
         assert one.find("geometry/mesh").get("filename").endswith(f"/{shape.mesh_name}.stl")
         assert numbers(one.find("material/color").get("rgba")) == pytest.approx((*shape.colour, 1.0))
+        assert one.find("material").get("name") == f"{shape.name}_colour"  # URDF asks for one of its own
         assert numbers(other.findtext("material/diffuse")) == pytest.approx((*shape.colour, 1.0))
 
 

@@ -117,6 +117,63 @@ def test_mujoco_slides_spins_and_rolls_as_the_settings_say() -> None:
         assert row[2:] == pytest.approx([0.8 * 0.003, 0.8 * 0.001, 0.8 * 0.001])
 
 
+@pytest.mark.parametrize(("spinning", "rolling"), [(0.003, 0.0), (0.0, 0.001), (0.0, 0.0)])
+def test_a_contact_that_only_spins_or_rolls_has_both_frictions(spinning: float, rolling: float) -> None:
+    """MuJoCo leaves out what a contact of three dimensions has not."""
+    settings = Settings(ground_friction=0.8, rolling_friction_m=rolling, spinning_friction_m=spinning)
+    mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
+    model = mujoco.MjModel.from_xml_string(write_mjcf(robot, settings))
+    assert set(model.pair_dim) == {6 if spinning or rolling else 3}
+    assert model.pair_friction[0][2:] == pytest.approx([0.8 * spinning, 0.8 * rolling, 0.8 * rolling])
+
+
+@pytest.mark.parametrize(("asked", "made"), [(10, 50), (50, 50), (60, 60), (100, 100), (200, 200)])
+def test_the_solver_takes_as_many_steps_as_the_settings_say_and_fifty_at_least(asked: int, made: int) -> None:
+    """It ends earlier where it has converged, to 1e-12."""
+    mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
+    model = mujoco.MjModel.from_xml_string(write_mjcf(robot, Settings(solver_iterations=asked)))
+    assert model.opt.iterations == made
+    assert model.opt.tolerance == 1e-12
+    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    assert model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+    assert model.opt.impratio == 100.0  # a sticking foot must not creep
+    assert model.names.split(b"\0", 1)[0].decode() == robot.name
+
+
+def test_spheres_lie_where_the_robot_touches_the_ground_and_touch_it_alone() -> None:
+    """Each is paired with the floor; without pairs nothing would touch anything."""
+    mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")
+    model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
+    ground, spheres = model.geom("ground"), []
+    assert mujoco.mjtGeom(int(ground.type[0])) == mujoco.mjtGeom.mjGEOM_PLANE
+    for name, body in robot.bodies.items():
+        for contact in body.contacts:
+            sphere = model.geom(f"{name}_{contact.name}_contact")
+            assert mujoco.mjtGeom(int(sphere.type[0])) == mujoco.mjtGeom.mjGEOM_SPHERE
+            assert model.body(sphere.bodyid[0]).name == name
+            assert sphere.pos == pytest.approx(contact.centre_m, abs=1e-9)
+            assert sphere.size[0] == pytest.approx(contact.radius_m)
+            spheres.append(sphere.id)
+    assert sorted(spheres) == sorted(set(range(model.ngeom)) - {ground.id})
+    pairs = list(zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True))
+    assert sorted(pairs) == sorted((ground.id, sphere) for sphere in spheres)
+    assert not np.any(model.geom_contype[:, None] & model.geom_conaffinity)
+
+
+def test_loop_and_friction_are_held_hard_and_contacts_from_nothing_on() -> None:
+    """`solimp`: from 0.99 to 0.9999 within 0.1 mm or rad; of contacts from 0 to 0.95."""
+    mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")
+    model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
+    leg = model.joint(robot.spring.joint)
+    for impedance in (
+        model.eq_solimp[model.equality("loop").id],
+        model.jnt_solimp[leg.id],
+        model.dof_solimp[leg.dofadr[0]],
+    ):
+        assert impedance == pytest.approx([0.99, 0.9999, 0.0001, 0.5, 2.0])
+    assert model.pair_solimp == pytest.approx(np.tile([0.0, 0.95, 0.0001, 0.5, 1.0], (model.npair, 1)))
+
+
 def test_mujoco_reads_angles_in_radians() -> None:
     """The leg's range, from loaded springs to its stop; the angle at which springs that also pull are relaxed."""
     mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")

@@ -10,9 +10,9 @@ import pytest
 from support.built import built
 from support.machines import one_sided
 
-from jumpcad.exporters.collision import capsules
+from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.mjcf_robot import write_robot
-from jumpcad.exporters.mjcf_scene import readme
+from jumpcad.exporters.mjcf_scene import readme, write_scene
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
@@ -63,6 +63,11 @@ def test_the_last_key_is_the_moment_at_which_the_roller_leaves_the_cam(robot: Ro
         assert data.joint(joint).qpos[0] == pytest.approx(release.joint_rad[joint], abs=1e-9)
         assert data.joint(joint).qvel[0] == pytest.approx(release.joint_rad_s[joint], rel=1e-9)
     assert data.ctrl.tolist() == [0.0]
+    speeds = np.zeros(6)
+    mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, data.body(FOOT).id, speeds, 0)
+    assert speeds == pytest.approx(np.zeros(6), abs=1e-5)  # the foot still stands, while all else turns and moves
+    mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, data.body(BODY).id, speeds, 0)
+    assert np.hypot(*speeds[[3, 5]]) > 0.01
     assert mujoco.MjModel.from_xml_string(write_robot(replace(robot, roller_off=None))).nkey == 2
 
 
@@ -74,7 +79,7 @@ def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any
     assert model.tendon_limited[tendon] == 1
     assert at_key(model, "wound").ten_length[tendon] == pytest.approx(-wind)  # it is as long as the joint's angle
     latch = model.equality("latch")
-    assert latch.data[:2].tolist() == pytest.approx([-wind, 0.0])
+    assert latch.data[:5].tolist() == pytest.approx([-wind, 0.0, 0.0, 0.0, 0.0])
     assert latch.active0[0] == 0
     assert model.equality("loop").active0[0] == 1
     pushing = mujoco.MjModel.from_xml_string(write_robot(one_sided(robot)))
@@ -119,6 +124,45 @@ def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: A
     assert count == model.ngeom
 
 
+def test_collisions_and_limits_are_as_stiff_as_the_time_step_allows(model: Any) -> None:
+    """`solref` of two time steps; constraints are hard from 0.99 on, contacts begin with nothing."""
+    soft, hard = [2.0 * model.opt.timestep, 1.0], [0.99, 0.9999, 0.0001, 0.5, 2.0]
+    assert model.geom_solref == pytest.approx(np.tile(soft, (model.ngeom, 1)))
+    assert model.geom_solimp == pytest.approx(np.tile([0.0, 0.95, 0.0001, 0.5, 1.0], (model.ngeom, 1)))
+    wound = model.tendon("wound").id
+    for solref, solimp in (
+        (model.tendon_solref_lim[wound], model.tendon_solimp_lim[wound]),
+        *(
+            (model.eq_solref[model.equality(one).id], model.eq_solimp[model.equality(one).id])
+            for one in ("loop", "latch")
+        ),
+    ):
+        assert solref == pytest.approx(soft)
+        assert solimp == pytest.approx(hard)
+
+
+def test_in_its_scene_the_robot_stands_on_the_floor_alone(robot: Robot) -> None:
+    """A plane through the world's origin, up; the robot touches it with its foot and rests there."""
+    scene, alone = write_scene(robot), write_robot(robot)
+    model = mujoco.MjModel.from_xml_string(scene, {f"{robot.name}.xml": alone.encode()})
+    floor = model.geom("floor")
+    assert mujoco.mjtGeom(int(floor.type[0])) == mujoco.mjtGeom.mjGEOM_PLANE
+    assert (floor.pos.tolist(), floor.quat.tolist()) == ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0])
+    assert floor.bodyid[0] == 0
+    data = at_key(model, "home")
+    start = data.body(BODY).xpos.copy()
+    for _ in range(400):  # in which it would fall by 49 mm
+        mujoco.mj_step(model, data)
+    assert data.body(BODY).xpos == pytest.approx(start, abs=0.001)
+    assert data.ncon > 0
+    for contact in data.contact:
+        assert floor.id in contact.geom
+        (other,) = set(contact.geom.tolist()) - {floor.id}
+        assert model.body(model.geom_bodyid[other]).name == FOOT
+    names = [one.split(b"\0", 1)[0].decode() for one in (model.names, mujoco.MjModel.from_xml_string(alone).names)]
+    assert names == [f"{robot.name} scene", robot.name]
+
+
 def test_bodies_do_not_touch_each_other(model: Any) -> None:
     """Of six pairs three have a joint in common, and the others are excluded: nothing but a scene is touched."""
     assert model.nexclude == 3
@@ -137,6 +181,7 @@ def test_sensors_are_on_the_body_the_joints_and_under_the_foot(robot: Robot, mod
     for contact in touching:
         site = model.site(contact.name)
         assert site.size[0] == pytest.approx(1.2 * contact.radius_m)
+        assert site.group[0] == 5  # as MuJoCo Menagerie has it: not drawn unless asked for
         assert site.pos == pytest.approx(contact.centre_m, abs=1e-9)
     data = at_key(model, "wound")
     moment = sum(
@@ -189,3 +234,22 @@ def test_what_is_seen_hangs_on_its_body_in_its_colour(robot: Robot) -> None:
         assert paints[expected[shape.name][2]] == pytest.approx([*shape.colour, 1.0])
     (visual,) = (one for one in root.iter("default") if one.get("class") == "visual")
     assert visual.find("geom").attrib == {"type": "mesh", "contype": "0", "conaffinity": "0", "group": "2"}
+
+
+def test_the_box_about_the_body_is_that_of_the_collision_shapes(robot: Robot) -> None:
+    """As MuJoCo reads it: middle and half the sides of the one box, for what is seen of the robot; without, none."""
+    seen = visuals(robot)
+    root = ET.fromstring(write_robot(robot, seen))
+    for node in [root.find("asset"), *root.iter("body")]:
+        for one in [*node.findall("mesh"), *(geom for geom in node.findall("geom") if geom.get("class") == "visual")]:
+            node.remove(one)  # no files are read here
+    model = mujoco.MjModel.from_xml_string(ET.tostring(root, encoding="unicode"))
+    kinds = [mujoco.mjtGeom(int(kind)) for kind in model.geom_type]
+    assert kinds.count(mujoco.mjtGeom.mjGEOM_BOX) == 1
+    box, whole = model.geom("body_collision"), body_box(robot, seen)
+    assert whole is not None
+    assert kinds[box.id] == mujoco.mjtGeom.mjGEOM_BOX
+    assert model.body(box.bodyid[0]).name == BODY
+    assert box.pos - box.size == pytest.approx(whole.low_m, abs=1e-6)
+    assert box.pos + box.size == pytest.approx(whole.high_m, abs=1e-6)
+    assert box.group[0] == 3

@@ -135,6 +135,7 @@ def test_the_same_plate_gives_the_same_bytes_without_a_date(plate):
     assert data == write_threemf(plate, SETTINGS, PICTURE)
     with zipfile.ZipFile(io.BytesIO(data)) as package:
         assert {entry.date_time for entry in package.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+        assert {entry.external_attr >> 16 for entry in package.infolist()} == {0o644}  # unpacked, all may read them
         assert not re.search(rb"20\d\d-\d\d-\d\d", package.read("3D/3dmodel.model"))
 
 

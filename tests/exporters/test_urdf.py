@@ -12,7 +12,7 @@ from support.loaded import loaded_range_m
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.exporters.urdf import urdf_files, write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES, FOOT
 from jumpcad.robot import Robot
@@ -139,3 +139,19 @@ def test_what_is_seen_hangs_on_the_link_that_it_moves_with() -> None:
     root = ET.fromstring(write_urdf(robot, visuals(robot)))
     seen = {visual.get("name"): link.get("name") for link in root.iter("link") for visual in link.iter("visual")}
     assert seen == {shape.name: shape.body for shape in visuals(robot)}
+
+
+def test_mujoco_loads_the_files_with_the_mass_of_the_root_and_what_is_seen(small_robot: Robot) -> None:
+    """Meshes lie in a folder beside the URDF, which would drop them, and the body, unless it is told not to."""
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed (pip install mujoco)")
+    files = {path.removeprefix("urdf/"): content for path, content in urdf_files(small_robot)}
+    assert {f"{small_robot.name}.urdf", f"{small_robot.name}.loop.json"} <= files.keys()
+    meshes = {path: content for path, content in files.items() if path.startswith("meshes/")}
+    assert set(files) - set(meshes) == {f"{small_robot.name}.urdf", f"{small_robot.name}.loop.json"}
+    model = mujoco.MjModel.from_xml_string(files[f"{small_robot.name}.urdf"], meshes)
+    for name, body in small_robot.bodies.items():
+        assert model.body(name).mass[0] == pytest.approx(body.mass_kg)
+    seen = visuals(small_robot)
+    assert set(meshes) == {f"meshes/{shape.mesh_name}.stl" for shape in seen}
+    spheres = sum(len(body.contacts) for body in small_robot.bodies.values())
+    assert model.ngeom == len(seen) + spheres

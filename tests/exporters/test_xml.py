@@ -11,7 +11,7 @@ from jumpcad.bundle.page import write_report
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import write_urdf
-from jumpcad.exporters.xml import add, allowed, document, rpy, shorten, written
+from jumpcad.exporters.xml import add, allowed, document, rpy, shorten, written, wxyz
 from jumpcad.files.names import NAME
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
@@ -34,6 +34,31 @@ def test_what_no_parser_reads_is_not_written(letter: str) -> None:
     with pytest.raises(JumpcadError, match=rf"U\+{ord(letter):04X}") as caught:
         document(root)
     assert str(caught.value).isprintable()
+
+
+@pytest.mark.parametrize(
+    ("before", "after"), [("", ""), ("a", "b"), ("x" + "a" * 20, "b" * 20 + "x"), ("long " * 50, " text" * 50)]
+)
+def test_what_cannot_be_written_is_told_with_twenty_letters_around_it(before: str, after: str) -> None:
+    with pytest.raises(JumpcadError) as caught:
+        allowed(f"{before}\x01{after}")
+    assert str(caught.value).startswith(repr(f"{before[-20:]}\x01{after[:20]}") + ": XML cannot hold")
+
+
+def test_a_document_says_its_encoding_first_and_ends_with_its_last_line() -> None:
+    root = ET.Element("a")
+    add(root, "b")
+    assert document(root) == '<?xml version="1.0" encoding="utf-8"?>\n<a>\n  <b />\n</a>\n'
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("angle_deg", [0.0, 30.0, 90.0, -90.0, 170.0])
+def test_a_quaternion_has_the_cosine_of_half_the_angle_first(axis: int, angle_deg: float) -> None:
+    """And then the axis times its sine; either sign is the same turn."""
+    half = np.radians(angle_deg) / 2.0
+    expected = np.array([np.cos(half), *(np.sin(half) * np.eye(3)[axis])])
+    found = wxyz(_about(axis, 2.0 * half))
+    assert found * np.sign(found[0]) == pytest.approx(expected, abs=1e-12)
 
 
 def test_surrogates_are_refused() -> None:

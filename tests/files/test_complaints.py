@@ -11,7 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     did_you_mean,
 )
-from jumpcad.files.complaints import shown
+from jumpcad.files.complaints import place, shown
 from jumpcad.workshop import load_workshop
 
 
@@ -29,6 +29,13 @@ def complaint(tmp_path: Path, text: str) -> str:
         Printer.from_toml(file)
     assert "\n" not in str(caught.value)
     return str(caught.value).replace(f"{tmp_path}{os.sep}", "")
+
+
+@pytest.mark.parametrize(
+    ("key", "said"), [("a", "own.toml:1"), ("b.c", "own.toml:4"), ("b.d", "own.toml"), ("", "own.toml")]
+)
+def test_the_place_of_a_key_is_its_line_or_the_file_alone(key: str, said: str) -> None:
+    assert place("own.toml", "a = 1\n\n[b]\nc = 2\n", key) == said
 
 
 def test_value_out_of_range_is_named_with_its_line(tmp_path: Path) -> None:

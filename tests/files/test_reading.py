@@ -78,12 +78,20 @@ def test_a_file_that_grows_is_not_read_in_half(tmp_path: Path, monkeypatch: pyte
         ("[" * 21 + "]" * 21, "nested deeper"),
         ("9" * 6000, "not valid JSON"),
         ("{", "not valid JSON"),
+        (r'{"a": ["\ud83d"]}', "half of a character"),
+        (r'{"\udc00": 1}', "half of a character"),
     ],
 )
 def test_json_that_is_none(tmp_path: Path, text: str, reason: str) -> None:
     (tmp_path / "a.json").write_text(text)
     with pytest.raises(JumpcadError, match=reason):
         read_json(tmp_path / "a.json")
+
+
+def test_a_character_of_two_halves_is_whole(tmp_path: Path) -> None:
+    """JSON writes what is beyond 16 bits as a pair of surrogates (RFC 8259, 7)."""
+    (tmp_path / "a.json").write_text(r'["\ud83d\ude80", "\u00e4"]')
+    assert read_json(tmp_path / "a.json") == ["\U0001f680", "ä"]
 
 
 def test_broken_toml_is_named_with_its_place(tmp_path: Path) -> None:

@@ -35,6 +35,13 @@ def test_a_record_that_was_changed_behind_its_back_is_found_out() -> None:
         wrong.revalidated()
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_value_of_another_kind_is_told_once_without_a_warning_beside_it() -> None:
+    wrong = Printer(name="x", bed=Bed(width_mm=1.0)).model_copy(update={"nozzle_mm": "wide"})
+    with pytest.raises(JumpcadError, match=r"^nozzle_mm = 'wide': must be a valid number"):
+        wrong.revalidated()
+
+
 class Span(Record):
     """Two ends, in order."""
 

@@ -9,7 +9,7 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
-from jumpcad.bundle.lead_lines import leads_of
+from jumpcad.bundle.lead_lines import _outer, leads_of
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
@@ -178,6 +178,9 @@ def test_the_batterys_leads_go_from_its_front_end_around_the_trays_to_the_plug(r
     assert np.ptp(way[1:4, 0]) == 0.0
     assert (np.count_nonzero(np.abs(np.diff(way, axis=0)) > 1e-9, axis=1) <= 1).all()  # one way at a time
     assert way[1, 0] > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
+    drawn = [lead.points_mm - way for lead in leads_of(robot) if set(lead.parts) == {"battery", "plug"}]
+    aside = [[[0.0, y, 0.0]] * 5 for y in (-0.5, 0.5)]  # two leads, a millimetre apart
+    assert np.array(drawn) == pytest.approx(np.array(aside))
 
 
 def test_leads_lie_side_by_side_about_the_middle_of_their_part(robot: Robot) -> None:
@@ -191,6 +194,21 @@ def test_leads_lie_side_by_side_about_the_middle_of_their_part(robot: Robot) -> 
         seat = robot.layout.electronics.seats(robot.layout.lateral.inside).get(part)
         if seat is not None:  # 1.5 mm from the edges of what they are soldered to
             assert (np.ptp(ends, axis=0)[:2] <= np.array(seat.size_mm[:2]) - 3.0 + 1e-6).all(), part
+
+
+@pytest.mark.parametrize("count", [2, 5, 40])
+def test_few_leads_are_a_millimetre_apart_and_many_fill_their_part(count: int) -> None:
+    """Forty are spread evenly, from 1.5 mm off the one edge to 1.5 mm off the other, along and across."""
+    layout = built("kenan-2.0").layout
+    for part in ("driver", "controller"):
+        (middle,) = outer_way(layout, part)
+        ends = np.concatenate([_outer(layout, part, at - (count - 1) / 2.0, count, 1) for at in range(count)])
+        reach = np.array(layout.electronics.seats(layout.lateral.inside)[part].size_mm[:2]) - 3.0
+        expected = reach if count == 40 else np.full(2, count - 1.0)
+        assert np.ptp(ends, axis=0) == pytest.approx([*expected, 0.0])
+        assert np.diff(ends, axis=0) == pytest.approx(np.tile([*expected / (count - 1), 0.0], (count - 1, 1)))
+        assert ends.mean(axis=0) == pytest.approx(middle)
+    assert _outer(layout, "driver", 0.0, 1, 1) == pytest.approx(outer_way(layout, "driver")[0][None])
 
 
 def test_inside_a_lead_runs_along_the_plate_at_the_height_of_its_hole(robot: Robot) -> None:

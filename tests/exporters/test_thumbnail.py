@@ -1,0 +1,51 @@
+"""The thumbnail of a print plate: the whole bed, and on it the parts where they are printed, in their colour."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from jumpcad.coupon.pieces import Piece
+from jumpcad.exporters.thumbnail import thumbnail
+from jumpcad.printing.plates import packed
+from jumpcad.solids.outline import rectangle
+from jumpcad.solids.stack import Stack
+
+BED_MM = (240.0, 130.0, 180.0)
+
+
+def seen(*sides_mm: float, bed_mm: tuple[float, float, float] = BED_MM) -> tuple[np.ndarray, np.ndarray]:
+    """Return where a picture of flat square parts shows anything, and where it shows parts: not grey."""
+    flat = [Stack.of([(0.0, 1.0, rectangle((side, side)))]) for side in sides_mm]
+    parts = [Piece(f"part_{number}", "PLA", shape) for number, shape in enumerate(flat)]
+    (plate,) = packed(parts, bed_mm, 5.0)
+    image = Image.open(io.BytesIO(thumbnail(plate, bed_mm)))
+    assert image.format == "PNG"
+    assert image.size == (256, 256)
+    pixels = np.asarray(image.convert("RGB"), dtype=float)
+    return (np.abs(pixels - pixels[0, 0]).max(axis=2) > 8.0), np.ptp(pixels, axis=2) > 40.0
+
+
+def test_the_whole_bed_is_in_the_picture_and_fills_it() -> None:
+    shown, _ = seen(20.0)
+    rows, columns = np.nonzero(shown)
+    for places in (rows, columns):
+        assert places.min() > 0
+        assert places.max() < 255
+    assert max(np.ptp(rows), np.ptp(columns)) > 0.8 * 256
+
+
+def test_a_part_takes_as_much_of_the_bed_as_it_covers() -> None:
+    """Of a bed of 240 x 130 mm a square of 60 mm covers an eighth, eight of 50 mm two thirds; none hangs over."""
+    for sides in ([60.0], [50.0] * 8):
+        shown, parts = seen(*sides)
+        assert parts.sum() / shown.sum() == pytest.approx(np.square(sides).sum() / (240.0 * 130.0), rel=0.2)
+        bed, on = (np.argwhere(where) for where in (shown & ~parts, parts))
+        assert (bed.min(axis=0) < on.min(axis=0)).all()
+        assert (bed.max(axis=0) > on.max(axis=0)).all()
+
+
+def test_the_same_plate_gives_the_same_picture() -> None:
+    one, other = seen(30.0, 20.0), seen(30.0, 20.0)
+    assert all((a == b).all() for a, b in zip(one, other, strict=True))
