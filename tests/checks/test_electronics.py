@@ -278,7 +278,7 @@ def like(kind: str, of: str, figures: str) -> str:
     return f'[bought]\n{kind} = "own"\n[{table}.own]\nlike = "{of}"\nsource = "x"\n{figures}'
 
 
-HIGH = like("battery", "lipo-1s-300", "voltage_v = 120.0\nempty_v = 110.0\nfull_v = 135.0")
+HIGH = like("battery", "lipo-1s-300", "voltage_v = 120.0\nempty_v = 110.0\nfull_v = 135.0\ncapacity_mah = 10.0")
 """A battery whose voltage nothing here bears."""
 BLOCKED = '[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298-mp"\nsource = "x"\nstall_current_a = 6.0'
 """A motor of 1 ohm, which draws 2.8 A when blocked."""
