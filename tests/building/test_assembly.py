@@ -119,6 +119,13 @@ def test_weights_that_nothing_has_are_refused_in_python_too(grams: float) -> Non
         build(load_design("kenan-2.0"), changed)
 
 
+@pytest.mark.parametrize("share", [1e-3, 1e3])
+def test_a_weight_in_kilograms_or_milligrams_is_refused(share: float) -> None:
+    (foot,) = (part for part in built("kenan-2.0").parts if part.name == "foot")
+    with pytest.raises(JumpcadError, match=r"weighed_g\.foot = .*: as drawn it weighs about 8\.5 g: is it in grams"):
+        build(load_design("kenan-2.0"), weighed(foot=share * 1000.0 * foot.mass_kg))
+
+
 def test_weights_of_one_robot_do_not_hinder_another() -> None:
     """Whatever part some robot has may be weighed; robots without it are built as if it were not."""
     names = {part.name for robot in (geared(), built(LONG_TOES)) for part in robot.parts}
