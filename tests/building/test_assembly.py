@@ -270,7 +270,7 @@ def test_what_cannot_be_built_is_refused_with_value_and_remedy(case: str) -> Non
 
 
 def test_an_unknown_motor_is_a_wrong_request() -> None:
-    with pytest.raises(JumpcadError, match=r"no motor 'n20-99' in the catalogue .*did you mean") as caught:
+    with pytest.raises(JumpcadError, match=r"'n20-99': is no motor in the catalogue.*did you mean") as caught:
         build(KENAN, changed(bought={"motors": ("n20-99",)}))
     assert caught.value.exit_code == 2
 
