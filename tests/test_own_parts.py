@@ -2,6 +2,7 @@
 
 import filecmp
 import json
+import math
 import re
 from collections.abc import Callable
 from itertools import chain
@@ -94,7 +95,8 @@ def boards(length: float, width: float) -> Tables:
 
 def bearing(place: str, bore: float, outer: float, width: float) -> Tables:
     """Return a workshop with a bearing of a size in the hub (`leg_bearing`) or for the roller (`roller`)."""
-    size = {"bore_mm": bore, "outer_mm": outer, "width_mm": width}
+    grams = 0.6 * 7.85e-3 * math.pi / 4.0 * abs(outer**2 - bore**2) * width  # of a ring of steel, six tenths
+    size = {"bore_mm": bore, "outer_mm": outer, "width_mm": width, "mass_g": round(grams, 2)}
     return {"bought": {place: "own"}, "bearings.own": {"like": "623", "source": "test", **size}}
 
 

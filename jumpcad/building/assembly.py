@@ -40,6 +40,8 @@ from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
+WEIGHED_OFF = 20.0
+"""By how much a printed part may be heavier or lighter than as drawn; judgement: kilograms are 1000 times off."""
 NOT_IN_EVERY_ROBOT = (
     "idler",
     "cam_spacer_left",
@@ -271,6 +273,11 @@ def _printed(drawing: Drawing, workshop: Workshop) -> Part:
     mass = mass_properties(drawing.shape, material.density_g_cm3, workshop.process, nozzle, model)
     weighed = workshop.mass.weighed_g.get(drawing.name)
     if weighed is not None:
+        grams = 1000.0 * mass.mass_kg
+        if not grams / WEIGHED_OFF <= weighed <= grams * WEIGHED_OFF:
+            raise JumpcadError(
+                f"mass.weighed_g.{drawing.name} = {weighed:g}: as drawn it weighs about {grams:.2g} g: is it in grams?"
+            )
         return Part(drawing, material_name, mass.scaled_to(weighed / 1000.0), "weighed")
     return Part(drawing, material_name, mass, model)
 

@@ -6,14 +6,24 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from jumpcad.catalogue.articles import Article, Confidence, Length, Mass, Positive, Side, Source, Volts
+from jumpcad.catalogue.articles import (
+    STEEL_G_CM3,
+    Article,
+    Confidence,
+    Length,
+    Mass,
+    Positive,
+    Side,
+    Source,
+    Volts,
+)
 from jumpcad.files import Contradiction, TomlTable
 from jumpcad.files.names import Name, OptionalName, Text
 
-STEEL_G_CM3 = 7.85
-"""Density of steel (EN 1991-1-1, table A.4: 77 to 78.5 kN/m³)."""
 CELL_V = (3.3, 3.7, 4.2)
 """One lithium polymer cell: empty under light load, nominal, full; the usual figures of makers."""
+PACK_WH_KG = (20.0, 500.0)
+"""Energy of a lithium pack by its mass, with leads and plug; judgement: 80 to 265 Wh/kg are usual."""
 DEAD_CELL_V = 3.0
 """One lithium polymer cell at rest, below which it is spoiled; practice."""
 CELL_OHM = 0.15
@@ -128,7 +138,7 @@ class Battery(Article):
         return self.charge_ma or self.capacity_mah
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield voltages that are not in the order empty, nominal, full, or that lithium polymer cells do not have."""
+        """Yield voltages out of their order, or that lithium polymer cells do not have, and an energy that none has."""
         empty, full = self.range_v
         if not empty < self.voltage_v < full:
             reason = f"must lie between empty_v = {empty:g} and full_v = {full:g}"
@@ -140,6 +150,11 @@ class Battery(Article):
             yield ("full_v",), full, reason
         if empty < dead - ROUND_OFF_V:
             yield ("empty_v",), empty, f"must be at least {dead:g}: below, {cells} would be spoiled"
+        least, most = PACK_WH_KG
+        held = self.capacity_mah * self.voltage_v / self.mass_g  # mW·h/g, which is W·h/kg
+        if not least <= held <= most:
+            reason = f"with {self.mass_g:g} g that is {held:.2g} Wh/kg, and lithium packs have {least:g} to {most:g}"
+            yield ("capacity_mah",), self.capacity_mah, f"{reason}: is it in mAh, and mass_g in g?"
 
 
 class Travel(TomlTable):

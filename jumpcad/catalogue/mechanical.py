@@ -1,15 +1,22 @@
 """Mechanical articles: ball bearings, torsion springs from stock, and pads."""
 
+import math
 from collections.abc import Iterator
 from typing import Annotated
 
 from pydantic import Field
 
-from jumpcad.catalogue.articles import Article, Length, Mass, Positive, Source
+from jumpcad.catalogue.articles import STEEL_G_CM3, Article, Length, Mass, Positive, Source
 from jumpcad.files import Contradiction
 
 RINGS_MM = 2.0
 """Least difference of outside diameter and bore of a bearing: that of the smallest of ISO 15, 1 x 3 mm."""
+HOLLOW = 0.1
+"""Least mass of a bearing over that of a ring of steel of its size; judgement: plastic 0.12, steel 0.6."""
+STEEL_MPA = 206000.0
+"""Young's modulus of spring steel (EN 13906-3)."""
+RATE_OFF = 3.0
+"""By how much a spring's rate may differ from that of its wire; judgement: bronze is half as stiff as steel."""
 TURNS_OFF = 0.1
 """By how much a spring's turns may differ from what its arms' angle says; judgement: makers round to a quarter."""
 GENT = 0.64
@@ -31,10 +38,15 @@ class Bearing(Article):
         return self.outer_mm - (10.0 - 8.2) / (10.0 - 3.0) * (self.outer_mm - self.bore_mm)
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield a bearing without room for its rings and balls."""
+        """Yield a bearing without room for its rings and balls, or whose mass is not that of its size."""
         if self.outer_mm < self.bore_mm + RINGS_MM:
             reason = f"must be at least bore_mm + {RINGS_MM:g} = {self.bore_mm + RINGS_MM:g}: rings and balls between"
             yield ("outer_mm",), self.outer_mm, reason
+            return
+        solid = STEEL_G_CM3 * math.pi / 4.0 * (self.outer_mm**2 - self.bore_mm**2) * self.width_mm / 1000.0
+        if not HOLLOW * solid <= self.mass_g <= solid:
+            reason = f"must be {HOLLOW * solid:.2g}…{solid:.2g} for its size: a ring of solid steel has {solid:.2g} g"
+            yield ("mass_g",), self.mass_g, reason
 
 
 class StockSpring(Article):
@@ -52,14 +64,26 @@ class StockSpring(Article):
     rate_nmm_per_deg: Positive
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield wire that is too thick for the inside diameter."""
+        """Yield wire too thick for the inside diameter, and an angle or a rate that turns and wire do not have."""
         if self.wire_mm >= self.inside_diameter_mm:
             reason = f"must be less than inside_diameter_mm = {self.inside_diameter_mm:g}"
             yield ("wire_mm",), self.wire_mm, reason
+        softest, stiffest = self._steel_rates
+        if not softest / RATE_OFF <= self.rate_nmm_per_deg <= stiffest * RATE_OFF:
+            reason = f"steel wire wound so has {softest:.2g} to {stiffest:.2g}, with and without its arms"
+            yield ("rate_nmm_per_deg",), self.rate_nmm_per_deg, f"{reason}: is it per degree, and of one spring?"
         if abs(self.wound_turns - self.turns) > TURNS_OFF:
             angle = (180.0 - 360.0 * self.turns) % 360.0
             reason = f"{self.turns:g} turns with tangent arms have {angle:.0f}° between them: correct one of the two"
             yield ("arm_angle_deg",), self.arm_angle_deg, reason
+
+    @property
+    def _steel_rates(self) -> tuple[float, float]:
+        """Rates (N·mm/°) of steel wire loaded at the arms' ends, and at the coil: E·d⁴/(64·D·n) (EN 13906-3)."""
+        mean = self.inside_diameter_mm + self.wire_mm
+        with_arms = self.turns + 2.0 * self.arm_length_mm / (3.0 * math.pi * mean)
+        rate = math.radians(STEEL_MPA * self.wire_mm**4 / (64.0 * mean))
+        return rate / with_arms, rate / self.turns
 
     @property
     def wound_turns(self) -> float:

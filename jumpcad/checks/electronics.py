@@ -1,5 +1,6 @@
 """The chain of voltages, the motor's current and torque when it is blocked, and the wiring."""
 
+import math
 from collections.abc import Iterator
 
 from jumpcad.checks import wiring
@@ -112,9 +113,9 @@ def _charging(chosen: Chosen) -> Iterator[Finding]:
 def _gearbox(robot: Robot, supply: Supply) -> Finding:
     """Return whether the blocked motor overloads its gearbox with a full battery under the firmware's PWM."""
     motor, allowed = robot.layout.drive.train.motor, robot.workshop.safety.motor_torque_max_nm
-    duty = supply.duty(motor, allowed)
+    percent = math.floor(1000.0 * supply.pwm(motor, allowed)) / 10.0
     torque = supply.driven(motor, supply.full_v, allowed).stall_torque_nm
-    cap = f", with PWM of at most {100.0 * duty:.0f} %, which the firmware keeps" if duty < 1.0 else ""
+    cap = f", with PWM of at most {percent:g} %, which the firmware keeps" if percent < 100.0 else ""
     return at_most(
         "gearbox_torque", torque, allowed, "N·m",
         f"{motor.name} stalls with {1000.0 * torque:.0f} mN·m on a full battery{cap}; {1000.0 * allowed:.0f} mN·m are "

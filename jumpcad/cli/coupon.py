@@ -1,11 +1,14 @@
 """`jumpcad coupon`: a fit gauge to print, and a workshop from its readings."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
+
+if TYPE_CHECKING:
+    from jumpcad.workshop import Workshop
 
 FOLDER = Path("exports/coupon")
 WORKSHOP = Path("my-workshop.toml")
@@ -49,8 +52,9 @@ def coupon(
     else:
         for key, change in facts["fits"].items():
             print(f"{key:<28} {change['before']:.3f} -> {change['after']:.3f}")
-        for name, change in facts["strengths"].items():
-            print(f"{name} strength_in_plane_mpa".ljust(28), f"{change['before']:.1f} -> {change['after']:.1f}")
+        for key in ("in_plane", "interlayer"):
+            for name, change in facts["strengths" if key == "in_plane" else "strengths_interlayer"].items():
+                print(f"{name} strength_{key}_mpa".ljust(28), f"{change['before']:.1f} -> {change['after']:.1f}")
         change = "with these values" if facts["fits"] or facts["strengths"] else "unchanged"
         print(f"{facts['workshop']}: {workshop} {change}")
 
@@ -79,9 +83,12 @@ def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[
     return {
         "workshop": str(output),
         "fits": {key: {"before": before[key], "after": value} for key, value in changed.items()},
-        "strengths": {
-            name: {"before": one.strength_in_plane_mpa, "after": found.materials[name].strength_in_plane_mpa}
-            for name, one in base.materials.items()
-            if found.materials[name] != one
-        },
+        "strengths": _lowered(base, found, "strength_in_plane_mpa"),
+        "strengths_interlayer": _lowered(base, found, "strength_interlayer_mpa"),
     }
+
+
+def _lowered(base: "Workshop", found: "Workshop", key: str) -> dict[str, dict[str, float]]:
+    """Return a strength before and after, of the materials in which it was changed."""
+    strengths = {name: (getattr(one, key), getattr(found.materials[name], key)) for name, one in base.materials.items()}
+    return {name: {"before": before, "after": after} for name, (before, after) in strengths.items() if before != after}

@@ -82,7 +82,7 @@ def _guide(workshop: Workshop, holes: HoleSizes) -> str:
         .format(
             materials=" and ".join(workshop.materials),
             gears=workshop.material_name("gears"),
-            axle=f"{holes.axle_mm:g}",
+            rods=_rods(workshop),
             example=f"{holes.axle_mm + 0.2:g}",
             bearing=bearing,
             needs_bearings=_bearings(workshop, holes),
@@ -94,6 +94,14 @@ def _guide(workshop: Workshop, holes: HoleSizes) -> str:
             floor_n=math.ceil(floor_breaks_n(workshop)),
         )
     )
+
+
+def _rods(workshop: Workshop) -> str:
+    """Return the rods that the holes are tried with, as part of a list."""
+    screws = workshop.bought.retention == "nuts"
+    rods = f"two pieces of {'' if screws else 'its '}{workshop.bought.axle_mm:g} mm rod, 30 mm long or longer"
+    own = "those of its order that try the fits; its axles are screws" if screws else "its own axles will do"
+    return f"{rods}, square and free of burrs ({own})"
 
 
 def _bearings(workshop: Workshop, holes: HoleSizes) -> str:

@@ -120,7 +120,8 @@ class Readings(Record):
 def measured_workshop(readings: Readings, workshop: Workshop, source: str = "readings") -> Workshop:
     """Return the workshop with the fits that were read from its coupon.
 
-    A floor that broke below its computed strength lowers the strength of the body's material; nothing else changes.
+    A floor that broke below its computed strength lowers the strength of the body's material, and that between its
+    layers to no more than it; nothing else changes.
 
     Parameters
     ----------
@@ -141,7 +142,8 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
         raise JumpcadError("; ".join(f"{source}: {complaint}" for complaint in wrong))
     fits = _fits(readings, workshop)
     if not fits and readings.joints.floor_n is None:
-        raise JumpcadError(f"{source}: no reading: fill in at least one, such as axle_press_mm under [gauge.PETG]")
+        gauge = next(iter(workshop.materials))
+        raise JumpcadError(f"{source}: no reading: fill in at least one, such as axle_press_mm under [gauge.{gauge}]")
     data = workshop.model_dump()
     if (force := readings.joints.floor_n) is not None:
         body = data["materials"][workshop.material_name("body")]
@@ -149,6 +151,7 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
         if strength_mpa < body["strength_in_plane_mpa"]:
             said = body["source"].rstrip(".")
             body["strength_in_plane_mpa"] = strength_mpa
+            body["strength_interlayer_mpa"] = min(body["strength_interlayer_mpa"], strength_mpa)
             body["source"] = f"{said}; strength in plane: a bore's floor broke at {force:g} N".removeprefix("; ")
     return Workshop.from_data(data | {"fits": data["fits"] | fits}, source)
 

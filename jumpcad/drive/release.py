@@ -224,6 +224,15 @@ def _kick_limit_nm(drive: Drive, limits: ReleaseLimits) -> float:
     return allowed
 
 
+def _told_apart(found: float, allowed: float) -> tuple[str, str]:
+    """Return both numbers, with as many decimals as tell them apart, two at most."""
+    for decimals in range(3):
+        told = f"{found:.{decimals}f}", f"{allowed:.{decimals}f}"
+        if told[0] != told[1]:
+            break
+    return told
+
+
 def _findings(
     drive: Drive,
     limits: ReleaseLimits,
@@ -252,8 +261,8 @@ def _findings(
         ),
         at_most(
             "release_window", needed, window, "°",
-            f"the cam may turn {needed:.0f}° past the end of its lift while the leg swings back; the roller's path is "
-            f"free up to {window:.0f}°",
+            "the cam may turn {}° past the end of its lift while the leg swings back; the roller's path is "
+            "free up to {}°".format(*_told_apart(needed, window)),
             "a slower or lighter motor, less release.play_deg, or a smaller bought.roller",
         ),
     )  # fmt: skip

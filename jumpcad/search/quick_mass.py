@@ -11,7 +11,7 @@ from functools import cache
 
 import numpy as np
 
-from jumpcad.catalogue.electrical import STEEL_G_CM3
+from jumpcad.catalogue.articles import STEEL_G_CM3
 from jumpcad.design import Design
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.electronics.chosen import chosen_parts

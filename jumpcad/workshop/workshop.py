@@ -162,6 +162,8 @@ class Workshop(Record):
         for role, name in self.roles.model_dump().items():
             if name not in self.materials:
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
+        for name, material in self.materials.items():
+            yield from _material_contradictions(name, material)
         yield from self._misfits()
         for kind in OWN_PARTS:
             yield from _own_contradictions(kind, getattr(self, kind))
@@ -188,6 +190,17 @@ def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Con
             yield (kind, key, "name"), part.name, "a part has its table's name: leave it out"
         for where, value, reason in part.contradictions():
             yield (kind, key, *where), value, reason
+
+
+def _material_contradictions(name: str, material: Material) -> Iterator[Contradiction]:
+    """Yield layers that hold each other better than they hold themselves, and a modulus that is not in MPa."""
+    strength, between = material.strength_in_plane_mpa, material.strength_interlayer_mpa
+    if between > strength:
+        reason = f"must be at most strength_in_plane_mpa = {strength:g}: no print is stronger between its layers"
+        yield ("materials", name, "strength_interlayer_mpa"), between, reason
+    if material.modulus_mpa < strength:
+        reason = f"must be at least strength_in_plane_mpa = {strength:g}, or it is rubber: is it in MPa?"
+        yield ("materials", name, "modulus_mpa"), material.modulus_mpa, reason
 
 
 def _release_contradictions(release: ReleaseTable) -> Iterator[Contradiction]:

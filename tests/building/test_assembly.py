@@ -123,6 +123,13 @@ def test_weights_that_nothing_has_are_refused_in_python_too(grams: float) -> Non
         build(load_design("kenan-2.0"), changed)
 
 
+@pytest.mark.parametrize("share", [1e-3, 1e3])
+def test_a_weight_in_kilograms_or_milligrams_is_refused(share: float) -> None:
+    (foot,) = (part for part in built("kenan-2.0").parts if part.name == "foot")
+    with pytest.raises(JumpcadError, match=r"weighed_g\.foot = .*: as drawn it weighs about 8\.5 g: is it in grams"):
+        build(load_design("kenan-2.0"), weighed(foot=share * 1000.0 * foot.mass_kg))
+
+
 def test_weights_of_one_robot_do_not_hinder_another() -> None:
     """Whatever part some robot has may be weighed; robots without it are built as if it were not."""
     names = {part.name for robot in (geared(), built(LONG_TOES)) for part in robot.parts}
@@ -291,7 +298,7 @@ def test_what_cannot_be_built_is_refused_with_value_and_remedy(case: str) -> Non
 
 
 def test_an_unknown_motor_is_a_wrong_request() -> None:
-    with pytest.raises(JumpcadError, match=r"no motor 'n20-99' in the catalogue .*did you mean") as caught:
+    with pytest.raises(JumpcadError, match=r"'n20-99': is no motor in the catalogue.*did you mean") as caught:
         build(KENAN, changed(bought={"motors": ("n20-99",)}))
     assert caught.value.exit_code == 2
 

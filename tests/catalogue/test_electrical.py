@@ -80,6 +80,17 @@ def test_a_battery_that_a_lipo_charger_would_overcharge_is_refused(
     assert [place for place, *_ in battery.contradictions()] == ([(refused,)] if refused else [])
 
 
+def test_a_battery_in_ampere_hours_or_kilograms_is_refused() -> None:
+    """Lithium packs hold 80 to 265 Wh/kg; 300 mAh of 3.7 V in 8 g are 139."""
+    battery = load_catalogue().batteries["lipo-1s-300"]
+    for key, value, refused in (
+        ("capacity_mah", 200.0, False), ("capacity_mah", 550.0, False), ("capacity_mah", 0.3, True),
+        ("capacity_mah", 3e5, True), ("mass_g", 6.0, False), ("mass_g", 0.008, True), ("mass_g", 80.0, True),
+    ):  # fmt: skip
+        found = battery.model_copy(update={key: value}).contradictions()
+        assert [place for place, *_ in found] == [("capacity_mah",)] * refused, (key, value)
+
+
 @pytest.mark.parametrize(("kind", "ranges"), [("motors", 16), ("batteries", 11), ("boards", 14)])
 def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
     assert len(documented_ranges(f"{kind}.NAME")) == ranges

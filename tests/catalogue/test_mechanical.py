@@ -1,5 +1,7 @@
 """Mechanical articles: the stiffness of rubber blocks, the turns of springs with tangent arms, room in a bearing."""
 
+import math
+
 import pytest
 from support.documented import documented_ranges, wrongly_taken
 
@@ -36,9 +38,32 @@ def test_a_bearing_has_room_for_its_balls() -> None:
     bearing = next(iter(load_catalogue().bearings.values()))
     thin = bearing.model_copy(update={"outer_mm": bearing.bore_mm + 1.0})
     assert [place for place, *_ in thin.contradictions()] == [("outer_mm",)]
-    least = bearing.model_copy(update={"bore_mm": 1.0, "outer_mm": 3.0})  # the smallest of ISO 15
+    least = bearing.model_copy(update={"bore_mm": 1.0, "outer_mm": 3.0, "mass_g": 0.12})  # the smallest of ISO 15
     assert not list(least.contradictions())
     assert list(least.model_copy(update={"outer_mm": 2.99}).contradictions())
+
+
+def test_a_bearing_weighs_less_than_a_ring_of_steel_of_its_size() -> None:
+    """That of a 623, of 3 to 10 mm and 4 mm wide: 7.85 mg/mm³ of pi/4·91·4 mm³ are 2.24 g; SKF gives 1.5 g."""
+    bearing = load_catalogue().bearings["623"]
+    for mass_g, refused in ((1.5, False), (2.24, False), (2.25, True), (0.25, False), (0.0016, True), (800.0, True)):
+        found = bearing.model_copy(update={"mass_g": mass_g}).contradictions()
+        assert [place for place, *_ in found] == [("mass_g",)] * refused, mass_g
+
+
+@pytest.mark.parametrize("name", ["9271K619", "9271K589"])
+def test_a_rate_per_radian_per_turn_or_in_newton_metres_is_refused(name: str) -> None:
+    """Of stock springs the maker's rate is that of their steel wire, E·d⁴/(64·D·n), within 10 %."""
+    spring = load_catalogue().springs[name]
+    mean = spring.inside_diameter_mm + spring.wire_mm
+    by_hand = 206000.0 * spring.wire_mm**4 / (64.0 * mean * spring.turns) * math.pi / 180.0
+    assert spring.rate_nmm_per_deg == pytest.approx(by_hand, rel=0.1)
+    assert not list(spring.contradictions())
+    for factor in (180.0 / math.pi, 360.0, 1e-3, 0.18 / math.pi, 1.0 / 9.81):
+        wrong = spring.model_copy(update={"rate_nmm_per_deg": factor * spring.rate_nmm_per_deg})
+        assert [place for place, *_ in wrong.contradictions()] == [("rate_nmm_per_deg",)], factor
+    bronze = spring.model_copy(update={"rate_nmm_per_deg": 110.0 / 206.0 * spring.rate_nmm_per_deg})
+    assert not list(bronze.contradictions())
 
 
 @pytest.mark.parametrize("scale", [0.5, 1.0, 2.0])
@@ -56,7 +81,7 @@ def test_turns_may_be_a_tenth_off_and_wire_is_thinner_than_the_coil_is_wide() ->
         found = spring.model_copy(update={"turns": turns}).contradictions()
         assert [place for place, *_ in found] == places
     for inside, places in ((spring.wire_mm, [("wire_mm",)]), (spring.wire_mm + 1e-6, [])):
-        found = spring.model_copy(update={"inside_diameter_mm": inside}).contradictions()
+        found = spring.model_copy(update={"inside_diameter_mm": inside, "rate_nmm_per_deg": 30.0}).contradictions()
         assert [place for place, *_ in found] == places
     pad = next(iter(load_catalogue().pads.values()))
     for most, places in ((pad.friction_min, []), (pad.friction_min - 1e-6, [("friction_max",)])):

@@ -11,7 +11,7 @@ WRONG = {
     "clearances out of order": ("[fits]\nsliding_mm = 0.05", r"must be at least fits.press_mm = 0.1, the tighter fit"),
     "no nozzle": ("[printer]\nnozzle_mm = 0", r"w.toml:2: printer.nozzle_mm = 0: must be at least 0.1"),
     "no bed": ("[printer]\nbed_mm = [0, 200, 200]", r"printer.bed_mm.0 = 0: must be at least 10"),
-    "unknown motor": ('[bought]\nmotors = ["n20-99"]', r"no motor 'n20-99' in the catalogue .*did you mean"),
+    "unknown motor": ('[bought]\nmotors = ["n20-99"]', r"n20-99.: is no motor in the catalogue: choose .*did you mean"),
     "negative backlash": ("[fits]\nbacklash_circumferential_mm = -0.2", r"= -0.2: must be at least 0"),
     "axle without bearing": ("[bought]\naxle_mm = 4", r"bought.axle_mm = 4: change one of them, or run the hub on its"),
     "axle without spacer": (

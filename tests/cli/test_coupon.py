@@ -62,7 +62,11 @@ def test_a_lowered_strength_is_told(run: Run) -> None:
     code, out, _ = run("coupon", "--measured", "r.toml", "-o", "w.toml")
     assert (code, out.splitlines()) == (
         0,
-        [f"PLA strength_in_plane_mpa    54.0 -> {lowered}", "w.toml: default with these values"],
+        [
+            f"PLA strength_in_plane_mpa    54.0 -> {lowered}",
+            f"PLA strength_interlayer_mpa  30.0 -> {lowered}",
+            "w.toml: default with these values",
+        ],
     )
     assert load_workshop(Path("w.toml")).materials["PLA"].strength_in_plane_mpa == float(lowered)
     Path("r.toml").write_text("[joints]\nfloor_n = 1000")

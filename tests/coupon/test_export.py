@@ -44,6 +44,16 @@ def test_readings_that_were_filled_in_are_not_lost(
     assert "0.1" in (folder / "readings.toml").read_text()
 
 
+@pytest.mark.parametrize("retention", ["plates", "clips", "nuts"])
+def test_axles_that_are_screws_are_no_rods_to_try_holes_with(retention: str) -> None:
+    """The shank of a screw M3 may have 2.86 mm (ISO 4762, h13), and its other half is thread."""
+    workshop = load_workshop()
+    workshop = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"retention": retention})})
+    said = _guide(workshop, coupon_holes(workshop))
+    assert "3 mm rod, 30 mm long or longer, square and free of burrs (" in said
+    assert ("its own axles will do" in said) == (retention != "nuts")
+
+
 @pytest.mark.parametrize("role", ["links", "body", "gears"])
 def test_the_guide_names_the_material_in_which_each_piece_is_printed(role: str) -> None:
     """One role in PLA, the others in PETG."""

@@ -103,6 +103,19 @@ def test_a_floor_as_strong_as_the_material_says_changes_nothing_and_a_weaker_one
     }
 
 
+@pytest.mark.parametrize(("floor_n", "between"), [(200.0, 30.0), (100.0, 23.0)])
+def test_layers_hold_each_other_no_better_than_a_floor_that_broke_holds_itself(floor_n: float, between: float) -> None:
+    """By hand: 100 N·√3 on pi·3·0.8 mm² are 23.0 MPa, below the 30 MPa of PLA between its layers; 200 N are 45.9."""
+    assert read(f"[joints]\nfloor_n = {floor_n}").materials["PLA"].strength_interlayer_mpa == between
+
+
+def test_a_reading_that_is_asked_for_is_of_a_material_that_the_workshop_prints() -> None:
+    roles = WORKSHOP.roles.model_copy(update={"links": "PLA", "gears": "PLA"})
+    shop = WORKSHOP.model_copy(update={"roles": roles, "materials": {"PLA": WORKSHOP.materials["PLA"]}})
+    with pytest.raises(JumpcadError, match=r"such as axle_press_mm under \[gauge\.PLA\]"):
+        read("axle_mm = 3", shop)
+
+
 @pytest.mark.parametrize("joint", ["dog", "socket", "tray"])
 def test_of_running_fits_the_widest_of_any_joint_counts(joint: str) -> None:
     """Each alone too: parts of one robot have one fit."""

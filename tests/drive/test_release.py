@@ -14,7 +14,7 @@ from jumpcad.building.limits import release_limits
 from jumpcad.building.releasing import release_of
 from jumpcad.drive import release as release_module
 from jumpcad.drive.corner import roll_over
-from jumpcad.drive.release import BASIS, Release, _kick_limit_nm
+from jumpcad.drive.release import BASIS, Release, _kick_limit_nm, _told_apart
 from jumpcad.drive.rolling import ReleaseParts, Rolled, _Release, roll
 from jumpcad.errors import JumpcadError
 from jumpcad.parts.holes import HoleSizes
@@ -236,6 +236,19 @@ def test_a_play_beyond_the_window_fails_its_check() -> None:
         JumpcadError, match=r"roller's fall, with the dog's play.*release\.play_deg|smaller bought.roller"
     ):
         build(load_design("kenan-2.0"), workshop(play_deg=60.0))
+
+
+@pytest.mark.parametrize(
+    ("found", "allowed", "told"),
+    [
+        (36.2, 38.1, ("36", "38")), (40.18, 39.94, ("40.2", "39.9")), (40.02, 39.98, ("40.02", "39.98")),
+        (40.0, 40.0, ("40.00", "40.00")),
+    ],
+)  # fmt: skip
+def test_a_missed_window_is_not_told_as_the_one_that_is_allowed(
+    found: float, allowed: float, told: tuple[str, str]
+) -> None:
+    assert _told_apart(found, allowed) == told
 
 
 @pytest.mark.parametrize("play_deg", [0.5, 5.0, 11.9])

@@ -77,7 +77,7 @@ inside_diameter_mm = 8.0
 turns = 4.5
 arm_angle_deg = 0.0
 arm_length_mm = 20.0
-rate_nmm_per_deg = 5.0
+rate_nmm_per_deg = 1.5
 [prices_eur]
 screw = 0.05
 [mass.weighed_g]

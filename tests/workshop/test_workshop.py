@@ -133,6 +133,16 @@ def test_what_does_not_go_together_is_told_from_just_beyond():
             assert ((table, key) in told) == refused, (table, key, value)
 
 
+def test_a_material_is_weakest_between_its_layers_and_its_modulus_is_in_megapascals():
+    """Data sheets give moduli in GPa: 2.5 of PLA, which is 2500 MPa."""
+    shop = load_workshop()
+    for key, inside, beyond in (("strength_interlayer_mpa", 54.0, 54.1), ("modulus_mpa", 54.0, 2.5)):
+        for value, places in ((inside, []), (beyond, [("materials", "PLA", key)])):
+            own = shop.materials["PLA"].model_copy(update={"strength_in_plane_mpa": 54.0, key: value})
+            found = shop.model_copy(update={"materials": {**shop.materials, "PLA": own}}).contradictions()
+            assert [place for place, *_ in found] == places
+
+
 def test_the_pads_that_a_stop_may_have_are_named():
     """Those of at least 1.5 mm, as the template says."""
     shop = load_workshop()
