@@ -149,6 +149,7 @@ WORDS = {
     "slicer": "version of PrusaSlicer",
     "asked": "value asked for",
     "used": "value that the slicer used",
+    "left_out": "plates of printed pads, which are not sliced",
     "grams": "mass, sliced",
     "modelled_grams": "mass of the model",
     "parts.time_s": "to print one alone",

@@ -78,6 +78,12 @@ class SlicedBundle:
     ignored: dict[str, tuple[str, str]]
 
     @property
+    def left_out(self) -> tuple[str, ...]:
+        """Files of plates that are not sliced: printed pads, of no material of the workshop."""
+        plates = (path for path in self.bundle.files if path.startswith("print/") and path.endswith(".3mf"))
+        return tuple(path for path in plates if not PLATE.fullmatch(path))
+
+    @property
     def weighed(self) -> Workshop:
         """The workshop with the sliced grams as the weighed masses of its parts, to 1 mg."""
         grams = self.workshop.mass.weighed_g | {part.name: round(part.grams, 3) for part in self.parts}

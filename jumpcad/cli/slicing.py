@@ -71,6 +71,7 @@ def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) 
         "ignored": {key: {"asked": asked, "used": used} for key, (asked, used) in found.ignored.items()},
         "parts": [vars(part) | {"difference": part.difference} for part in found.parts],
         "plates": [vars(plate) for plate in found.plates],
+        "left_out": list(found.left_out),
         "grams": sum(plate.grams for plate in found.plates),
         "time_s": sum(plate.time_s for plate in found.plates),
         "workshop": write_masses and str(write_masses),
@@ -101,6 +102,8 @@ def _print_sliced(found: "SlicedBundle") -> None:
     grams, seconds = sum(plate.grams for plate in found.plates), sum(plate.time_s for plate in found.plates)
     _print_table(("plate", "material", "g", "time"), [*plates, ("all", "", f"{grams:.2f}", duration(seconds))])
     print()
+    for path in found.left_out:
+        print(f"left out  {path}: printed pads, whose filament and settings the guide names")
     print(f"slicer    PrusaSlicer {found.version}")
     for key, (asked, used) in found.ignored.items():
         print(f"ignored   {key} = {asked}: the slicer used {used}")

@@ -32,6 +32,13 @@ def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
         assert part.modelled_grams == pytest.approx(1000.0 * drawn, rel=2e-3)
 
 
+def test_plates_of_printed_pads_are_left_out() -> None:
+    """They are of a filament that the workshop's slicer settings do not know."""
+    files = ("print/plate-1-PETG.3mf", "print/pads-1-tpu-2.3mf", "print/README.md", "stl/stop_pad.stl")
+    found = SlicedBundle(SimpleNamespace(files=files), "2.5.0", load_workshop(), True, (), (), {})
+    assert found.left_out == ("print/pads-1-tpu-2.3mf",)
+
+
 def test_a_model_that_is_a_tenth_heavier_says_so() -> None:
     part = SlicedPart("main_leg", "PETG", 1, grams=10.0, modelled_grams=11.0, time_s=600.0)
     assert part.difference == pytest.approx(0.10)

@@ -280,11 +280,14 @@ def test_a_part_that_is_heavier_than_the_model_by_a_twentieth_is_printed_so(caps
         name="foot", quantity=1, material="PETG", grams=10.5, modelled_grams=10.0, difference=0.05, time_s=60.0
     )
     plate = SimpleNamespace(name="plate-1-PETG", material="PETG", grams=10.5, time_s=60.0)
-    _print_sliced(SimpleNamespace(parts=(part,), plates=(plate,), version="2.5.0", ignored={}))
+    left_out = ("print/pads-1-TPU.3mf",)
+    found = SimpleNamespace(parts=(part,), plates=(plate,), version="2.5.0", ignored={}, left_out=left_out)
+    _print_sliced(found)  # type: ignore[arg-type]
     rows = [line.split() for line in capsys.readouterr().out.splitlines()]
     assert ["foot", "1", "PETG", "10.50", "10.00", "+5.0", "%", "0:01", "h"] in rows
     assert ["plate-1-PETG", "PETG", "10.50", "0:01", "h"] in rows
     assert ["all", "10.50", "0:01", "h"] in rows
+    assert ["left", "out", "print/pads-1-TPU.3mf:"] in [row[:3] for row in rows]
 
 
 def test_the_document_has_every_mass_and_time_under_its_name() -> None:
@@ -292,8 +295,9 @@ def test_the_document_has_every_mass_and_time_under_its_name() -> None:
     part = SlicedPart("foot", "PETG", 2, 10.0, 10.5, 60.0)
     plates = (SlicedPlate("one", "PETG", 21.5, 125.0), SlicedPlate("two", "PLA", 3.25, 40.0))
     found = SimpleNamespace(
-        version="2.5.0", ignored={"infill": ("0.2", "0.3")}, parts=(part,), plates=plates, billed=True
-    )
+        version="2.5.0", ignored={"infill": ("0.2", "0.3")}, parts=(part,), plates=plates, billed=True,
+        left_out=("print/pads-1-TPU.3mf",),
+    )  # fmt: skip
     assert slice_facts(Path("frog"), found, Path("w.toml")) == {  # type: ignore[arg-type]
         "bundle": "frog", "slicer": "2.5.0", "ignored": {"infill": {"asked": "0.2", "used": "0.3"}},
         "parts": [{
@@ -304,6 +308,7 @@ def test_the_document_has_every_mass_and_time_under_its_name() -> None:
             {"name": "one", "material": "PETG", "grams": 21.5, "time_s": 125.0},
             {"name": "two", "material": "PLA", "grams": 3.25, "time_s": 40.0},
         ],
+        "left_out": ["print/pads-1-TPU.3mf"],
         "grams": 24.75, "time_s": 165.0, "workshop": "w.toml", "written": True,
     }  # fmt: skip
     assert slice_facts(Path("frog"), found, None)["workshop"] is None  # type: ignore[arg-type]
