@@ -3,6 +3,8 @@
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from support.built import built
@@ -191,6 +193,17 @@ def test_a_thicker_axle_is_advised_only_where_it_can_be_bought(retention: str, n
     case = LoadCase(changed(built("kenan-2.0"), "bought", retention=retention, axle="silver-steel"))
     words = steel._stronger(case, name, 330.0, 300.0)
     assert words.partition("bought.axle_mm of ")[2].partition(" with")[0] == advised
+
+
+def test_the_thinnest_clip_that_is_enough_is_advised() -> None:
+    """Of clips for 2, 3, 4 and 5 mm: twice the stress needs 2·2^(1/3) = 2.52 mm, ten times 4.31 mm, 30 times more."""
+    bought = SimpleNamespace(retention="clips")
+    clips = {f"{size}": SimpleNamespace(shaft_mm=size) for size in (5.0, 3.0, 2.0, 4.0)}
+    shop = SimpleNamespace(bought=bought, catalogue=SimpleNamespace(clips=clips))
+    case: Any = SimpleNamespace(workshop=shop, bars={"leg_axle": SimpleNamespace(diameter_mm=2.0)})
+    for share, advised in ((2.0, "3"), (10.0, "5"), (30.0, "")):
+        words = steel._thicker(case, "leg_axle", share)
+        assert words.partition("bought.axle_mm of ")[2].partition(" with")[0] == advised
 
 
 def test_formulas_and_limits_are_those_of_the_reference() -> None:

@@ -112,6 +112,16 @@ def test_the_converter_sees_as_much_of_a_full_battery_as_it_bears(kit: str) -> N
 
 
 @pytest.mark.parametrize("kit", KITS)
+def test_a_divider_that_no_pin_reads_is_not_soldered(kit: str) -> None:
+    """The pins with a converter drive the motor here: no resistor of a divider is ordered, and no net has one."""
+    wiring = wiring_of(parts(kit), {"motor": "D1", "sleep": "D2"})
+    assert "battery" not in wiring.pins
+    assert wiring.upper_ohm is None
+    assert set(wiring.resistors) == {"pull-up resistor"}
+    assert {end.part for net in wiring.nets for end in net.terminals} & {"upper resistor", "lower resistor"} == set()
+
+
+@pytest.mark.parametrize("kit", KITS)
 def test_the_driver_turns_the_motor_and_the_controller_the_driver(kit: str) -> None:
     chosen = parts(kit)
     wiring = wiring_of(chosen, {})
