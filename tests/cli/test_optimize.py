@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 from jumpcad.cli import optimize
 from jumpcad.cli.commands import app
-from jumpcad.design import PARAMETERS, load_design
+from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search import study
@@ -42,7 +42,14 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
     assert winner.model_dump() == found["winner"]["design"] == found["candidates"][0]["design"]
     neighbours = [candidate["neighbours"] for candidate in found["candidates"]]
     assert neighbours == sorted(neighbours, reverse=True)
-    assert found["active_bounds"]
+    design, box = found["winner"]["design"], SEARCH_BOUNDS.items()
+    on_a_bound = {
+        (name, side)
+        for name, bound in box
+        for side, limit, end in zip(("lower", "upper"), (bound.lower, bound.upper), limits_of(name), strict=True)
+        if abs(design[name] - limit) <= 1e-3 * (bound.upper - bound.lower) and limit != end
+    }
+    assert {(one["name"], one["side"]) for one in found["active_bounds"]} == on_a_bound
     shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 48, "-o", "best.toml")
     assert "next: jumpcad build best.toml" in shown
     assert "evaluations: 36 for the search, 12 for the robust pick" in shown

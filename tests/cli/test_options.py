@@ -227,7 +227,7 @@ def test_a_calibration_s_seed_is_that_asked_for(run: Run, monkeypatch: pytest.Mo
 
     def calibrated(files: list[str], seed: int) -> SimpleNamespace:
         seen.append((files, seed))
-        return SimpleNamespace()
+        return SimpleNamespace(model=SimpleNamespace(subjects=[]))
 
     def predicted(_posterior: object, other: Any, seed: int) -> None:
         seen.append((other.name, seed))

@@ -58,7 +58,7 @@ def test_what_cannot_be_written_at_the_very_end_is_told_by_python() -> None:
 def test_threads_that_still_write_are_waited_for() -> None:
     later = "import sys, threading, time; threading.Thread(target=lambda: (time.sleep(0.3), print('later'))).start()"
     ended = called("program", "--version", before=later)
-    assert ended.stdout.splitlines()[1:] == ["later"]
+    assert "later" in ended.stdout.splitlines()
 
 
 def test_a_profile_of_the_program_is_printed() -> None:

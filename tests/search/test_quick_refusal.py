@@ -198,7 +198,8 @@ def test_efficiency_and_gravity_are_those_of_the_simulation():
 def with_battery(mass_g: float) -> Workshop:
     data = DEFAULT.model_dump(exclude_none=True)
     battery = DEFAULT.catalogue.batteries[DEFAULT.bought.battery].model_dump(exclude_none=True)
-    data["batteries"] = {"own": battery | {"mass_g": mass_g}}
+    held = battery["capacity_mah"] * mass_g / battery["mass_g"]
+    data["batteries"] = {"own": battery | {"mass_g": mass_g, "capacity_mah": held}}
     return Workshop(**data | {"bought": data["bought"] | {"battery": "own"}})
 
 
