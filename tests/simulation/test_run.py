@@ -451,6 +451,21 @@ def test_who_stays_on_the_ground_is_told_the_speed_that_leaves_it(
     assert finding.margin == pytest.approx(0.0 if enough else speed_m_s - needed)
 
 
+def test_the_speed_that_is_told_is_that_when_the_springs_are_spent(kenan: Mechanism) -> None:
+    """After 20 ms here, with 0.3 m/s; the robot slows down by 4 m/s² until it is given up, 60 ms later."""
+
+    class Slowing(Scripted):
+        def state(self) -> State:
+            state = super().state()
+            return replace(state, velocity_m_s=state.velocity_m_s * (0.38 - 4.0 * self.steps * DT_S))
+
+    with released(kenan) as start:
+        run = Run(Slowing(start, [], 1.0, opening_s=0.020), kenan, Settings(dt_s=DT_S))
+        run.go()
+    assert run.takeoff is None
+    assert run.standing().value == pytest.approx(0.3, abs=4.0 * 2.0 * DT_S)
+
+
 @pytest.mark.parametrize(
     ("up_m_s", "clear_m", "asked_m", "flies"),
     [
