@@ -1,5 +1,6 @@
 """`jumpcad explore`: views of the design space, before or instead of a search."""
 
+import math
 from collections import Counter
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
@@ -110,7 +111,9 @@ def explore(
     if view in ("pca", "importance"):
         total, run = samples, _sampled(view, samples, options.seed)
     else:
-        total = points * (space.dimension if view == "sweep" else points)
+        counts = {one.name: len(one.choices) or points for one in space.free}
+        axes = [counts.get(name.strip(), points) for name in over.split(",")]
+        total = sum(counts.values()) if view == "sweep" else math.prod(axes)
         run = _swept(centre, points) if view == "sweep" else _mapped(centre, over, points)
     with (
         options.pool() as pool,

@@ -16,6 +16,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.explore import Sweep
 from jumpcad.workshop import load_workshop
 
+CHOSEN = ("--choose", "stiffness_nmm_per_deg=20,25")
+
 
 def test_views_of_the_space(folder):
     views = {
@@ -45,12 +47,17 @@ def test_counts_have_ends_that_are_told(folder, option, least, most):
     ("view", "options", "designs"),
     [
         ("sweep", ("--points", 4), 3 * 4),
+        ("sweep", ("--points", 4, *CHOSEN), 2 * 4 + 2),
         ("feasibility", ("--points", 3), 3 * 3),
+        ("feasibility", ("--points", 3, "--over", "rest_angle_deg,stiffness_nmm_per_deg", *CHOSEN), 3 * 2),
         ("pca", ("--samples", 40), 40),
     ],
 )
 def test_the_designs_that_progress_expects_are_those_that_a_view_evaluates(folder, monkeypatch, view, options, designs):
-    """A sweep has its points for each free parameter, of which there are three, a map along each of its axes."""
+    """A sweep has its points for each free parameter, of which there are three, a map along each of its axes.
+
+    Where values are chosen, they are the points.
+    """
     expected, done = [], []
 
     @contextmanager
