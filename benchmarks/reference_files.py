@@ -6,6 +6,7 @@ import re
 import tempfile
 from collections import Counter
 from contextlib import redirect_stdout
+from dataclasses import asdict
 from inspect import getmodule
 from pathlib import Path
 from typing import Any
@@ -20,12 +21,16 @@ from jumpcad.calibration import posterior, surface
 from jumpcad.cli.commands import run
 from jumpcad.cli.slicing import slice_facts
 from jumpcad.exporters.registry import EXPORTERS
+from jumpcad.search.robust import ActiveBound
+from jumpcad.simulation import uncertain
 from jumpcad.workshop import load_workshop
 
-MAPPINGS = {"design", "importance", "margins", "readings", "refused", "sweeps"}
+MAPPINGS = {
+    "design", "deviation", "first_order", "importance", "interval", "margins", "readings", "refused", "sweeps",
+}  # fmt: skip
 """Fields that map names to like things, though their names look like fields."""
-WHOLE = {"identity"}
-"""Fields that are not taken apart."""
+WHOLE = {"engines", "evaluated", "identity"}
+"""Mappings that are not taken apart."""
 
 
 def files_and_json() -> str:
@@ -35,7 +40,10 @@ def files_and_json() -> str:
         manifest = json.loads((Path(folder) / "bundle" / "manifest.json").read_text(encoding="utf-8"))
         documents = {
             f"jumpcad build {EXAMPLE} --json": built,
-            f"jumpcad simulate {EXAMPLE} --json": _json("simulate", EXAMPLE),
+            f"jumpcad simulate {EXAMPLE} --uncertain --json": _uncertain_document(),
+            f"jumpcad simulate {EXAMPLE} --engine both --json": _json("simulate", EXAMPLE, "--engine", "both"),
+            f"jumpcad simulate {EXAMPLE} --published --json": _json("simulate", EXAMPLE, "--published"),
+            "jumpcad reproduce --json": _json("reproduce"),
             f"jumpcad check {EXAMPLE} --json": _json("check", EXAMPLE),
             "jumpcad verify BUNDLE --json": _json("verify", f"{folder}/bundle"),
             "jumpcad slice BUNDLE --json": _slice_document(Path(folder) / "bundle"),
@@ -60,8 +68,8 @@ def files_and_json() -> str:
         "Files and JSON", words,
         "## Files of a bundle", table(("path", "files"), lines),
         "## Formats", table(("exporter", "what it writes", ""), formats),
-        "## manifest.json", table(head, _meant(manifest)),
-        *(f"## {name}\n\n{table(head, _meant(data))}" for name, data in documents.items()),
+        "## manifest.json", table(head, _meant("manifest", manifest)),
+        *(f"## {name}\n\n{table(head, _meant(_command(name), data))}" for name, data in documents.items()),
     )  # fmt: skip
 
 
@@ -69,13 +77,20 @@ def _search_documents(folder: str) -> dict[str, Any]:
     """Return the documents of small searches of the capsule robot."""
     small = ("--model", "capsule", "--workers", "0")
     study = ("--study", f"{folder}/s.db")
-    found = _json("optimize", *small, "--evaluations", "12", "--seed", "0", *study, "-o", f"{folder}/w.toml")
+    found = _json("optimize", "ga", *small, "--evaluations", "24", "--seed", "0", *study, "-o", f"{folder}/w.toml")
+    found["active_bounds"] = [asdict(ActiveBound("c_coef", "lower", 0.8, 0.78, -0.1))]  # this search ends on none
     documents = {"jumpcad optimize --json": found, "jumpcad study F.db --json": _json("study", f"{folder}/s.db")}
     views = {"sweep": ("--points", "2"), "pca": ("--samples", "20"), "importance": ("--samples", "100"),
              "feasibility": ("--points", "2")}  # fmt: skip
     return documents | {
         f"jumpcad explore {view} --json": _json("explore", view, *small, *more) for view, more in views.items()
     }
+
+
+def _uncertain_document() -> Any:
+    """Return the document of a jump with few samples of what is uncertain."""
+    with patch.object(uncertain.uncertain_jump, "__defaults__", (0, 8)):
+        return _json("simulate", EXAMPLE, "--uncertain")
 
 
 def _slice_document(folder: Path) -> Any:
@@ -96,9 +111,14 @@ def _calibration_document() -> Any:
         return _json("calibrate", "kenan-1.0", "--predict", "kenan-2.0")
 
 
-def _meant(data: Any) -> list[tuple[str, str, str]]:
-    """Return path, type and meaning of all fields."""
-    return [(f"`{path}`", kind, meaning(path)) for path, kind in _fields(data)]
+def _command(heading: str) -> str:
+    """Return the last word of a command, before names and options: `pca` of `jumpcad explore pca --json`."""
+    return [word for word in heading.partition(" --")[0].split() if word.isalpha() and word.islower()][-1]
+
+
+def _meant(command: str, data: Any) -> list[tuple[str, str, str]]:
+    """Return path, type and meaning of all fields of a command's document."""
+    return [(f"`{path}`", kind, meaning(f"{command}.{path}")) for path, kind in _fields(data)]
 
 
 def _json(*arguments: str) -> Any:
@@ -135,7 +155,8 @@ def _fields(data: Any, prefix: str = "") -> list[tuple[str, str]]:
         deeper = (isinstance(value, dict) and value) or (
             isinstance(value, list) and value and isinstance(value[0], dict)
         )
-        rows |= dict(_fields(value, path)) if deeper and key not in WHOLE else {path: _type(value)}
+        whole = key in WHOLE and isinstance(value, dict)
+        rows |= dict(_fields(value, path)) if deeper and not whole else {path: _type(value)}
     return list(rows.items())
 
 

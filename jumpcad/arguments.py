@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import inspect
+import numbers
 import types
 import typing
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
@@ -56,7 +57,8 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
     """Return a function that checks its arguments against its annotations before it runs.
 
     Annotations are classes, `Any`, or classes joined by `|`, known in the function's own module. A `float` may be an
-    int, but no bool is a number. The items of sequences are checked too, those of mappings are not.
+    int, but no bool is a number. A number of another library, such as numpy's, becomes Python's. The items of sequences
+    are checked too, those of mappings are not.
 
     Raises
     ------
@@ -78,11 +80,13 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
             hint = did_you_mean(unknown[0], signature.parameters)
             raise JumpcadError(f"{title}() takes no {shown(unknown[0])}{hint}, only {_listed(signature)}")
         try:
-            given = signature.bind(*args, **kwargs).arguments
+            given = signature.bind(*args, **kwargs)
         except TypeError as error:
             raise JumpcadError(f"{title}{_shape(signature)}: {error}") from None
-        _require(title, given, kinds())
-        return function(*args, **kwargs)
+        for name in given.arguments.keys() & kinds().keys():
+            given.arguments[name] = _plain(given.arguments[name], kinds()[name])
+        _require(title, given.arguments, kinds())
+        return cast(Callable[..., R], function)(*given.args, **given.kwargs)
 
     return checked
 
@@ -108,6 +112,16 @@ def _require(title: str, given: Mapping[str, Any], kinds: Mapping[str, tuple[Kin
     for name, value in given.items():
         if name in kinds and (wrong := _misfit(value, kinds[name])):
             raise JumpcadError(f"{title}() takes {_refusal(name, kinds[name], value, wrong)}")
+
+
+def _plain(value: Any, kinds: Sequence[Kind]) -> Any:
+    """Return a number of another library as Python's where a number is taken; all else as it is."""
+    allowed = {kind.of for kind in kinds}
+    if isinstance(value, numbers.Integral) and not isinstance(value, int) and allowed & {int, float}:
+        return int(value)
+    if isinstance(value, numbers.Real) and not isinstance(value, int | float) and float in allowed:
+        return float(value)
+    return value
 
 
 def _misfit(value: Any, kinds: Sequence[Kind]) -> str:

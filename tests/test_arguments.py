@@ -223,6 +223,22 @@ def test_a_vector_may_be_of_any_numbers() -> None:
         assert jumpcad.Design.from_vector(kind([100, 1, 1, 1, 0.5, 60, 8, 40])).carrying_link_mm == 100.0
 
 
+def test_a_number_of_numpy_is_taken_as_python_s() -> None:
+    """As from `for seed in np.arange(3)`; what is no number, or no whole one, is refused as ever."""
+
+    @typed
+    def drawn(seed: int, share: float = 1.0, *more: Any) -> tuple[Any, ...]:
+        return seed, share, *more
+
+    taken = drawn(np.int64(3), np.float32(0.5), np.int64(4))
+    assert taken == (3, 0.5, 4)
+    assert [type(one) for one in taken] == [int, float, np.int64]
+    assert type(drawn(1, share=np.int32(2))[1]) is int
+    for odd in (np.float64(3.0), np.True_, np.array([3])):
+        with pytest.raises(JumpcadError, match=r"drawn\(\) takes a whole number as seed"):
+            drawn(odd)  # type: ignore[arg-type]
+
+
 def test_a_robot_without_parts_is_not_exported(tmp_path: Path) -> None:
     with pytest.raises(JumpcadError, match=r"takes a Robot or a Design, not <Mechanism"):
         jumpcad.export(CAPSULE, tmp_path / "out")

@@ -42,7 +42,10 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
     design, workshop = design.revalidated(), (workshop or load_workshop("default")).revalidated()
     refused = errors(geometry_findings(design))
     if refused:
-        raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")
+        first = refused[0]
+        raise CannotBuildError(
+            f"{first.name}: {first.message}: {first.remedy}", first.name, first.margin, unit=first.unit
+        )
     growth, uses = Growth(), dict[tuple[str, str], tuple[float, float]]()
     robot = assembled(design, workshop, name, growth)
     findings = constraint_findings(robot)

@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from jumpcad.cli.output import JsonFlag, console, print_json
-from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completion, note_template
+from jumpcad.cli.subjects import (
+    MaterialOption,
+    PrinterOption,
+    WorkshopOption,
+    completion,
+    name_of,
+    note_template,
+)
 from jumpcad.counting import counted
 
 if TYPE_CHECKING:
@@ -66,7 +73,7 @@ def check(
     note_template(design)
     if explain and basis_of(explain) is None:
         raise _unknown(explain)
-    robot = build(load_design(design), load_workshop(workshop or DEFAULT, printer, material))
+    robot = build(load_design(design), load_workshop(workshop or DEFAULT, printer, material), name_of(design))
     findings = sorted(check_robot(robot), key=_order)
     if explain:
         findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]

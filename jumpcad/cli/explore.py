@@ -1,5 +1,6 @@
 """`jumpcad explore`: views of the design space, before or instead of a search."""
 
+import math
 from collections import Counter
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
@@ -27,6 +28,8 @@ VIEWS = ("sweep", "pca", "importance", "feasibility")
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
 SAMPLES, POINTS, AROUND, OVER = 1000, 21, "best-bo", "rest_angle_deg,compression_ratio"
 """Defaults of the options."""
+SHOWN = 3
+"""Components of the elite that the text shows; JSON has all."""
 USED_BY = {
     "samples": ("pca", "importance"),
     "points": ("sweep", "feasibility"),
@@ -108,7 +111,9 @@ def explore(
     if view in ("pca", "importance"):
         total, run = samples, _sampled(view, samples, options.seed)
     else:
-        total = points * (space.dimension if view == "sweep" else points)
+        counts = {one.name: len(one.choices) or points for one in space.free}
+        axes = [counts.get(name.strip(), points) for name in over.split(",")]
+        total = sum(counts.values()) if view == "sweep" else math.prod(axes)
         run = _swept(centre, points) if view == "sweep" else _mapped(centre, over, points)
     with (
         options.pool() as pool,
@@ -142,6 +147,7 @@ def _swept(centre: "Design", points: int) -> View:
                     "value": one.names[int(value)] if one.names else value,
                     "score": trial.score,
                     "verdict": trial.evaluation.verdict,
+                    "reasons": trial.evaluation.reasons,
                 }
                 for value, trial in zip(one.values, one.trials, strict=True)
             ]
@@ -170,6 +176,7 @@ def _sampled(view: str, samples: int, seed: int) -> View:
             order = found.mean.argsort()[::-1]
             data = {
                 "importance": {found.names[i]: found.mean[i] for i in order},
+                "deviation": {found.names[i]: found.deviation[i] for i in order},
                 "r_squared": found.r_squared,
                 "designs": found.designs,
             }
@@ -184,12 +191,19 @@ def _sampled(view: str, samples: int, seed: int) -> View:
             return data, lines, {"importance": lambda: plots.importance(found)}
         best = elite(trials)
         views = {"sampled": components(evaluator, trials), "elite": components(evaluator, best)}
-        data, lines = {"note": UNIFORM_NOTE}, []
+        data = {"note": UNIFORM_NOTE, "parameters": views["elite"].names}
+        lines = ["share of the variance of each component:"]
         for name, view_of in views.items():
             data[name] = {"designs": view_of.designs, "shares": view_of.shares, "directions": view_of.directions}
             lines.append(
                 f"{name:8s} ({counted(view_of.designs, 'design')}): " + "  ".join(f"{s:.3f}" for s in view_of.shares)
             )
+        first = views["elite"].directions[:SHOWN]
+        lines.append(f"first {counted(len(first), 'component')} of the elite:")
+        lines += [
+            f"{name:24s}" + "  ".join(f"{part:+.3f}" for part in first[:, i])
+            for i, name in enumerate(views["elite"].names)
+        ]
         return data, [*lines, UNIFORM_NOTE], {"pca": lambda: plots.components(views)}
 
     return run

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from jumpcad.simulation import Jump, Settings
 
 TRAJECTORY_SUFFIXES = (".csv", ".json")
+DEFAULT_SETTINGS = "default"
 LINES = (
     ("ballistic range", "ballistic_range_m", "{:.4f} m"),
     ("rise of the centre of mass", "com_rise_m", "{:.4f} m"),
@@ -51,7 +52,7 @@ def simulate(
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
     workshop: WorkshopOption = None,
     engine: Annotated[str | None, typer.Option(help=engine_help())] = None,
-    settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
+    settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = DEFAULT_SETTINGS,
     flight: Annotated[bool, typer.Option("--flight", help="Simulate the flight up to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
     uncertain: Annotated[
@@ -79,6 +80,10 @@ def simulate(
         raise JumpcadError("--uncertain is for printed robots: leave --capsule and --published out")
     if published and (flight or trajectory):
         raise JumpcadError("--flight and --trajectory cannot apply to --published; leave them out")
+    if published and settings != DEFAULT_SETTINGS:
+        raise JumpcadError(f"--settings {settings}: --published has the study's own; leave one of them out")
+    if seed and not uncertain:
+        raise JumpcadError(f"--seed {seed}: is that of --uncertain alone; leave it out, or add --uncertain")
     require_apart({"--trajectory": trajectory}, {"the design": design, "--workshop": workshop, "--settings": settings})
     if trajectory:
         require_target(trajectory, TRAJECTORY_SUFFIXES, force)
@@ -86,7 +91,7 @@ def simulate(
     written = robot_from_file(design, workshop)
     subject = written.design if written else load_design(design)
     if published:
-        _published(subject, engine, as_json)
+        _published(subject, {"design": design, "model": "published"}, engine, as_json)
         return
     engines = _engines(engine)
     if trajectory and len(engines) > 1:
@@ -108,7 +113,7 @@ def simulate(
         raise typer.Exit(1)
 
 
-def _published(design: "Design", engine: str | None, as_json: bool) -> None:
+def _published(design: "Design", heading: dict[str, str], engine: str | None, as_json: bool) -> None:
     """Print the quantities of the published study, which a `Jump` does not have."""
     if engine not in (None, "pybullet"):
         raise JumpcadError(f"--engine {engine}: the published simulation exists in pybullet alone")
@@ -116,7 +121,7 @@ def _published(design: "Design", engine: str | None, as_json: bool) -> None:
 
     result = asdict(published.simulate(design))
     if as_json:
-        print_json({"model": "published", **result})
+        print_json(heading | result)
         return
     print(f"published distance  {result['distance_m']:.6f} m   where the body is at the first contact after 0.5 s")
     print(f"published height    {result['base_height_m']:.6f} m   the body's height above ground, not its rise")

@@ -103,8 +103,12 @@ def printed_robot(
                     f"{option} {value}: {subject} is a bundle, built in a workshop of its own; give a design"
                 )
         return build_robot(kept_design(bundle), kept_workshop(bundle), bundle.name)
-    name = Path(subject).name.removesuffix(".toml")
-    return build_robot(load_design(subject), load_workshop(workshop or DEFAULT, printer, material), name)
+    return build_robot(load_design(subject), load_workshop(workshop or DEFAULT, printer, material), name_of(subject))
+
+
+def name_of(subject: str) -> str:
+    """Return the name of the robot of a template or of a design file, which is engraved on it."""
+    return Path(subject).name.removesuffix(".toml")
 
 
 def design_file(subject: str) -> Path:

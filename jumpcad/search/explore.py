@@ -32,7 +32,7 @@ LEAST_R_SQUARED = 0.5
 
 UNIFORM_NOTE = (
     "Components of evenly sampled parameters are equal apart from chance: they say nothing about the robot. "
-    "Look at the components of the best tenth, and at the importance."
+    "Look at the components of the elite, the best designs that jump, and at the importance."
 )
 
 

@@ -28,6 +28,15 @@ def workshop(material: str = "PETG", figures: dict[str, float] | None = None, **
     return shop.model_copy(update={"materials": {**shop.materials, material: weaker}, "safety": safer})
 
 
+def test_a_loop_that_does_not_close_says_by_how_much_it_is_short() -> None:
+    """In figures as in words: 66.70 mm, for a front link of two and a half times the main leg."""
+    design = load_design("kenan-2.0").model_copy(update={"c_coef": 2.5})
+    with pytest.raises(CannotBuildError, match=r"66\.70 mm short of closing") as refused:
+        build(design)
+    assert (refused.value.limit, refused.value.unit) == ("loop", "mm")
+    assert refused.value.margin == pytest.approx(-66.70, abs=0.005)
+
+
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_what_was_sized_to_hold_does_not_grow(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     steps: set[str] = set()

@@ -10,9 +10,11 @@ from support.commands import Run
 from typer.testing import CliRunner
 
 from jumpcad import checks
+from jumpcad.checks.engraving import engraving_findings
 from jumpcad.cli import check as command
 from jumpcad.cli.check import TIGHT, margin_in_words
 from jumpcad.cli.commands import app
+from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import at_most, limit
 from jumpcad.workshop import load_workshop
@@ -198,6 +200,18 @@ def test_all_limits_of_a_kind_are_explained_together(monkeypatch: pytest.MonkeyP
         assert ([one["name"] for one in told["findings"]], result.exit_code) == (names, code)
         assert [one["use"] for one in told["findings"]] == [one.use for one in findings if one.name in names]
         assert (told["design"], told["workshop"]) == ("kenan-2.0", "default")
+
+
+def test_the_robot_that_is_checked_has_the_name_that_build_engraves(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """So that letters which its font lacks are found before they are missing on the plates."""
+    monkeypatch.setattr(checks, "CHECKS", (checks.Check(engraving_findings, {}),))
+    file = tmp_path / "漢字.toml"
+    file.write_text(load_design("kenan-2.0").to_toml(), encoding="utf-8")
+    result = CliRunner().invoke(app, ["check", str(file), "--json"])
+    found = {one["name"]: one["severity"] for one in json.loads(result.output)["findings"]}
+    assert (found["engraving"], result.exit_code) == ("warning", 0)
 
 
 @pytest.mark.usefixtures("inputs")

@@ -16,6 +16,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.explore import Sweep
 from jumpcad.workshop import load_workshop
 
+CHOSEN = ("--choose", "stiffness_nmm_per_deg=20,25")
+
 
 def test_views_of_the_space(folder):
     views = {
@@ -45,12 +47,17 @@ def test_counts_have_ends_that_are_told(folder, option, least, most):
     ("view", "options", "designs"),
     [
         ("sweep", ("--points", 4), 3 * 4),
+        ("sweep", ("--points", 4, *CHOSEN), 2 * 4 + 2),
         ("feasibility", ("--points", 3), 3 * 3),
+        ("feasibility", ("--points", 3, "--over", "rest_angle_deg,stiffness_nmm_per_deg", *CHOSEN), 3 * 2),
         ("pca", ("--samples", 40), 40),
     ],
 )
 def test_the_designs_that_progress_expects_are_those_that_a_view_evaluates(folder, monkeypatch, view, options, designs):
-    """A sweep has its points for each free parameter, of which there are three, a map along each of its axes."""
+    """A sweep has its points for each free parameter, of which there are three, a map along each of its axes.
+
+    Where values are chosen, they are the points.
+    """
     expected, done = [], []
 
     @contextmanager
@@ -118,6 +125,7 @@ def test_views_tell_in_json_what_they_looked_at(folder):
     for name in ("sampled", "elite"):
         assert sum(views[name]["shares"]) == pytest.approx(1.0)
         assert np.array(views[name]["directions"]).shape == (3, 3)
+    assert views["parameters"] == list(swept)
     shares = data("explore", "importance", *QUICK, *NARROW, "--samples", 80)["importance"]
     assert set(shares) == set(swept)
     assert list(shares.values()) == sorted(shares.values(), reverse=True)
@@ -154,7 +162,9 @@ def test_a_sweep_tells_the_least_and_the_largest_score_and_how_many_jump(monkeyp
     """Wherever along the parameter they are; choices that are names by them."""
 
     def trial(score):
-        return SimpleNamespace(score=score, evaluation=SimpleNamespace(verdict="tips" if score is None else "jump"))
+        """A robot that jumps may still be rejected by a limit."""
+        rejected = ("leg_strength",) if score is None else ()
+        return SimpleNamespace(score=score, evaluation=SimpleNamespace(verdict="jump", reasons=rejected))
 
     scores = [0.5, None, 2.25, 0.125, 1.0]
     sweeps = [
@@ -166,10 +176,27 @@ def test_a_sweep_tells_the_least_and_the_largest_score_and_how_many_jump(monkeyp
     first, second = data["sweeps"]["a"], data["sweeps"]["b"]
     assert [row["value"] for row in first] == [1.0, 2.0, 3.0, 4.0, 5.0]
     assert [row["score"] for row in first] == scores
-    assert [row["verdict"] for row in first] == ["jump", "tips", "jump", "jump", "jump"]
+    assert [row["verdict"] for row in first] == ["jump"] * 5
+    assert [row["reasons"] for row in first] == [(), ("leg_strength",), (), (), ()]
     assert [row["value"] for row in second] == ["one", "two"]
     assert [" ".join(line.split()) for line in lines] == [
         "a 0.1250 … 2.2500 feasible at 4 of 5 values", "b never feasible feasible at 0 of 2 values",
+    ]  # fmt: skip
+
+
+def test_components_say_whose_parts_they_are(monkeypatch):
+    """A column of the directions belongs to a parameter; the text shows three components of the best designs."""
+    directions = np.array([[0.6, 0.8, 0.0, 0.0], [-0.8, 0.6, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+    names, shares = ("a", "b", "c", "d"), np.array([0.5, 0.25, 0.125, 0.125])
+    found = SimpleNamespace(names=names, shares=shares, directions=directions, designs=20)
+    monkeypatch.setattr("jumpcad.search.explore.sample", lambda *given: ["one", "two", "three"])
+    monkeypatch.setattr("jumpcad.search.explore.elite", lambda trials: trials[:1])
+    monkeypatch.setattr("jumpcad.search.explore.components", lambda *given: found)
+    data, lines, _ = explore._sampled("pca", 30, 5)("evaluator")
+    assert data["parameters"] == names
+    assert [line.split() for line in lines[-5:-1]] == [
+        ["a", "+0.600", "-0.800", "+0.000"], ["b", "+0.800", "+0.600", "+0.000"], ["c", "+0.000", "+0.000", "+1.000"],
+        ["d", "+0.000", "+0.000", "+0.000"],
     ]  # fmt: skip
 
 
@@ -186,6 +213,7 @@ def test_importance_is_that_of_all_that_was_sampled_the_largest_first(monkeypatc
     data, lines, _ = explore._sampled("importance", 30, 5)("evaluator")
     assert asked == [("evaluator", 30, 5), ("evaluator", ["one", "two", "three"], 5)]
     assert list(data["importance"].items()) == [("b", 0.7), ("c", 0.4), ("a", 0.1)]
+    assert data["deviation"] == {"b": 0.02, "c": 0.03, "a": 0.01}
     assert [line.split()[:4] for line in lines[:3]] == [
         ["b", "0.700", "±", "0.020"], ["c", "0.400", "±", "0.030"], ["a", "0.100", "±", "0.010"],
     ]  # fmt: skip
