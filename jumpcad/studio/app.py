@@ -65,7 +65,7 @@ class Studio:
         self._wanted: Design | None = design
         self._ended = False
         self.workshop: Workshop = self._loaded(workshops[0])
-        self._chosen = workshops[0]
+        self._chosen = self._opened = workshops[0]
         self.stage.look_at(design)
         self._make_panel(workshops)
 
@@ -146,7 +146,7 @@ class Studio:
             self.number = before
             raise
         self.first, self.choice.value, self.trial.value = trial.design, STUDYS, number
-        self._chosen = STUDYS
+        self._chosen = self._opened = STUDYS
         self.point.content = self.points.to_text(number)
         if self.points.listed.get(self.best.value) != number:
             self.best.value = self.points.listed_as(number, BY_NUMBER)
@@ -230,6 +230,9 @@ class Studio:
             self.status.content = f"**not possible**: {error}"
 
     def _reset(self) -> str:
+        if self._chosen != self._opened:
+            self.workshop = self._loaded(self._opened)
+            self.choice.value = self._chosen = self._opened
         for key, value in self.first.model_dump().items():
             slider, (low, high) = self.sliders[key], slider_ends(key, value)
             slider.min, slider.max = min(slider.min, low), max(slider.max, high)

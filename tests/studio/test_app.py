@@ -332,6 +332,14 @@ def test_a_saved_design_says_with_which_workshop_it_is_the_robot(
     server.stop()
 
 
+def test_reset_brings_back_the_workshop_too(studio: Studio) -> None:
+    """Else the robot is another one than "at the start"."""
+    studio.choice.value = "fine"
+    studio._change_workshop()
+    assert studio._reset() == "as at the start"
+    assert (studio.choice.value, studio.workshop) == ("default", load_workshop())
+
+
 def test_a_workshop_that_cannot_be_used_is_not_named_as_the_one_in_use(studio: Studio) -> None:
     studio.choice.value = "fine"
     studio.workshop = load_workshop("fine")
