@@ -69,7 +69,7 @@ def violation(findings: Sequence[Finding]) -> str:
 def _list(findings: Sequence[Finding]) -> Iterator[str]:
     yield "<ul>"
     for finding in findings[:SHOWN]:
-        yield f'<li><b class="{finding.severity}">{escape(finding.name)}</b>, {escape(_used(finding))}: '
+        yield f'<li><b class="{finding.severity}">{escape(finding.name)}</b>, {escape(used(finding))}: '
         yield f"{escape(allowed(finding.message))}</li>"
     yield "</ul>"
 
@@ -87,7 +87,7 @@ def _groups(findings: Iterable[Finding]) -> tuple[list[Finding], list[Finding], 
 
 def ordered(findings: Iterable[Finding]) -> list[Finding]:
     """Return the violated limits, then the others; each from the highest use on, then what has no use."""
-    return sorted(findings, key=lambda one: (one.severity == "info", one.use is None, -_use(one), _used(one) != JUST))
+    return sorted(findings, key=lambda one: (one.severity == "info", one.use is None, -_use(one), used(one) != JUST))
 
 
 def _use(finding: Finding) -> float:
@@ -96,7 +96,7 @@ def _use(finding: Finding) -> float:
 
 def _open(findings: Iterable[Finding]) -> str:
     """Return the attribute that shows a group at once: where one of it is just kept."""
-    return ' open="open"' if any(_used(finding) == JUST for finding in findings) else ""
+    return ' open="open"' if any(used(finding) == JUST for finding in findings) else ""
 
 
 def _table(findings: Sequence[Finding]) -> Iterator[str]:
@@ -115,8 +115,8 @@ def _words(finding: Finding) -> str:
     return message if finding.severity == "info" else f"{finding.severity}: {message}<br />What to change: {remedy}"
 
 
-def _used(finding: Finding) -> str:
-    """Return how much of a limit is used, in words."""
+def used(finding: Finding) -> str:
+    """Return how much of a limit is used, in words; the margin of one without a share."""
     if finding.use is None:
         if 0.0 < abs(finding.margin) < AT_LIMIT:
             return JUST
@@ -130,9 +130,9 @@ def _used(finding: Finding) -> str:
 def _bar(finding: Finding) -> str:
     """Return the use as a bar and in words; where there is none, what is known, and why there is no share."""
     if finding.use is None:
-        return f"{escape(_used(finding))}<br /><small>{_why_no_share(finding)}</small>"
+        return f"{escape(used(finding))}<br /><small>{_why_no_share(finding)}</small>"
     width = 100.0 * min(finding.use, WIDEST) / WIDEST
-    return f'<span class="bar"><span style="width: {width:.1f}%"></span></span> {escape(_used(finding))}'
+    return f'<span class="bar"><span style="width: {width:.1f}%"></span></span> {escape(used(finding))}'
 
 
 def _why_no_share(finding: Finding) -> str:

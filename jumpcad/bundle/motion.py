@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from jumpcad.drive.motor import lift_s
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
@@ -68,17 +69,18 @@ def motion(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None)
 def _moments(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> Iterator[PhasePose]:
     """Yield the moments of all phases; the last pose of a phase is the first of the next."""
     drive = robot.layout.drive
-    law, speed = drive.cam.law, drive.train.cam_speed_rad_s
+    law, train = drive.cam.law, drive.train
     lift, whole = law.lift_rad, robot.spring.wind_rad
     for angle in np.linspace(0.0, lift, WINDING_MOMENTS).tolist():
         loaded = float(law.wind_rad(angle)) / law.compression_rad
-        yield PhasePose("winding", angle / speed, body_poses(robot, loaded), angle, angle)
+        time_s = lift_s(law, train.driven, train.ratio, train.efficiency, angle)
+        yield PhasePose("winding", time_s, body_poses(robot, loaded), angle, angle)
     if trajectory is None or robot.roller_off is None:
         return
     ahead = drive.cam.geometry.free_rad
     for share in np.linspace(0.0, 1.0, DROP_MOMENTS).tolist():
         leg = -whole + share * (robot.roller_off.leg_rad + whole)
-        time_s = share * robot.release.roll_over_rad / speed
+        time_s = share * robot.release.roll_over_rad / train.cam_speed_rad_s
         yield PhasePose("drop", time_s, body_poses(robot, -leg / whole), lift + share * (ahead - lift), lift)
     for moment, time_s in enumerate(trajectory.time_s.tolist()):
         flies = takeoff_s is not None and time_s > takeoff_s

@@ -51,10 +51,20 @@ def least_ratio(law: CamLaw, motor: Motor, limits: TrainLimits, pairs: int) -> f
 
 def winding_s(law: CamLaw, motor: Motor, ratio: float, efficiency: float) -> float:
     """Return the time of one turn of the cam (s): ramp, constant torque, and unloaded from release on."""
-    share = law.peak_torque_nm / (ratio * efficiency * motor.stall_torque_nm)
-    ramp = -math.log1p(-share) / share * law.ramp_rad
-    constant = (law.lift_rad - law.ramp_rad) / (1 - share)
-    return ratio / free_speed_rad_s(motor) * (ramp + constant + 2 * math.pi - law.lift_rad)
+    loaded = _unloaded_rad(law, motor, ratio * efficiency, law.lift_rad)
+    return ratio / free_speed_rad_s(motor) * (loaded + 2 * math.pi - law.lift_rad)
+
+
+def lift_s(law: CamLaw, motor: Motor, ratio: float, efficiency: float, cam_rad: float) -> float:
+    """Return the time from rest to an angle of the cam's lift (s), under the load of the springs."""
+    return ratio / free_speed_rad_s(motor) * _unloaded_rad(law, motor, ratio * efficiency, cam_rad)
+
+
+def _unloaded_rad(law: CamLaw, motor: Motor, gain: float, cam_rad: float) -> float:
+    """Return how far an unloaded cam turns while the loaded one turns to an angle of its lift: ramp, then constant."""
+    share = law.peak_torque_nm / (gain * motor.stall_torque_nm)
+    ramp_rad = min(cam_rad, law.ramp_rad)
+    return -math.log1p(-share * ramp_rad / law.ramp_rad) / share * law.ramp_rad + (cam_rad - ramp_rad) / (1 - share)
 
 
 def winding(law: CamLaw, motor: Motor, ratio: float, efficiency: float) -> Winding:

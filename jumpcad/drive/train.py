@@ -58,6 +58,8 @@ class GearTrain:
 
     Attributes
     ----------
+    motor, driven
+        As it is sold, and as it behaves at the battery's nominal voltage under load.
     ratio, efficiency
         Motor turns per cam turn; share of the motor's work that reaches the springs while they are loaded.
     wheel_torques_nm
@@ -72,6 +74,7 @@ class GearTrain:
     """
 
     motor: Motor
+    driven: Motor
     stages: tuple[GearPair, ...]
     ratio: float
     efficiency: float
@@ -128,10 +131,12 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     peak = law.peak_torque_nm / (ratio * efficiency)
     cam_speed = free_speed_rad_s(limits.fastest(motor)) / ratio
     torques = _wheel_torques_nm(law, stages, limits)
-    turn = winding(law, limits.driven(motor), ratio, efficiency)
+    driven = limits.driven(motor)
+    turn = winding(law, driven, ratio, efficiency)
     boards_j = limits.supply.boards_w * turn.seconds if limits.supply else 0.0
     return GearTrain(
         motor=motor,
+        driven=driven,
         stages=stages,
         ratio=ratio,
         efficiency=efficiency,

@@ -23,7 +23,9 @@ AGES = 5
 BEST_SHARE, BEST_LEAST = 0.05, 5
 """What is called the best designs: this share of those that jump, at least so many."""
 LITTLE = 0.01
-"""Gain of the last fifth of a search, as a share of the best score, below which going on promises little; judgement."""
+"""Gain of a search's last fifth, over the best score before, below which going on promises little; judgement."""
+EXPLORED = ("sample", "sweep")
+"""Phases of an exploration, whose order says nothing of what going on promises."""
 TOGETHER, APART = 0.1, 0.5
 """Shares of a range within which designs run together, and beyond which they spread; judgement."""
 LEFT, RIGHT, ROW = 16.0, 624.0, 54.0
@@ -37,9 +39,10 @@ def history(found: Known) -> Iterator[str]:
         return
     scores = np.array([np.nan if trial.score is None else trial.score for trial in trials])
     feasible = np.flatnonzero(np.isfinite(scores))
+    is_explored = all(trial.phase in EXPLORED for trial in trials)
     yield "<h2>History</h2>"
     yield "<p>Every design in the order in which it was tried; the line is the best score so far, and the ticks at "
-    yield f"the bottom are designs that were rejected. {_gain(scores)}</p>"
+    yield f"the bottom are designs that were rejected. {_gain(scores, is_explored)}</p>"
     if not len(feasible):
         return
     axes = Axes(scale([1.0, float(len(trials))], whole=True), scale(scores[feasible].tolist()))
@@ -66,21 +69,22 @@ def history(found: Known) -> Iterator[str]:
     )
 
 
-def _gain(scores: np.ndarray) -> str:
-    """Return when the best design was found, and what the last fifth of the search gained."""
+def _gain(scores: np.ndarray, is_explored: bool = False) -> str:
+    """Return when the best design was found, and what the last fifth of a search gained."""
     if not np.isfinite(scores).any():
         return "None jumps."
     number, best = int(np.nanargmax(scores)), float(np.nanmax(scores))
     said = f"The best is number {number + 1} of {len(scores)}."
     before = scores[: len(scores) - len(scores) // 5]
-    if len(scores) < 10 or not np.isfinite(before).any():
+    if is_explored or len(scores) < 10 or not np.isfinite(before).any():
         return said
-    gain = best - float(np.nanmax(before))
-    if gain <= 0.0:
+    last = float(np.nanmax(before))
+    if best <= last:
         return f"{said} The last fifth of the search found nothing better: going on promises little."
-    share = gain / abs(best) if best else 1.0
+    share = (best - last) / abs(last) if last else np.inf
     means = "going on promises little" if share < LITTLE else "going on may pay"
-    return f"{said} The last fifth of the search raised the best score by {100.0 * share:.1f} %: {means}."
+    rise = f"by {100.0 * share:.1f} %" if last else f"from 0 to {best:.4g}"
+    return f"{said} The last fifth of the search raised the best score {rise}: {means}."
 
 
 def slices(found: Known, shown: Sequence[Trial]) -> Iterator[str]:

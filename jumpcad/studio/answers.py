@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 from jumpcad.building import build
-from jumpcad.bundle.limits import ordered
+from jumpcad.bundle.limits import JUST, ordered, used
 from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.findings import Finding, errors
+from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.simulation import Jump, simulate
@@ -29,10 +29,13 @@ class Printed:
 
     @cached_property
     def findings(self) -> list[Finding]:
-        """Every limit, the violated ones first, then the tightest ones."""
+        """Every limit, the violated ones first, then those just kept that have no share, then the tightest ones."""
         if self.robot is None:
             return []
-        return [one for one in ordered(quick_findings(self.robot)) if one.severity != "info" or one.use is not None]
+        every = ordered(quick_findings(self.robot))
+        kept = [one for one in every if one.severity == "info"]
+        just = [one for one in kept if one.use is None and used(one) == JUST]
+        return [one for one in every if one.severity != "info"] + just + [one for one in kept if one.use is not None]
 
     def to_markdown(self, before: "Printed | None" = None) -> str:
         """Return figures and limits as tables in Markdown, with the differences of the figures from another robot's."""
@@ -44,9 +47,10 @@ class Printed:
             change = f" ({value - old[name][0]:+.1f})" if name in old and abs(value - old[name][0]) >= 0.05 else ""
             lines.append(f"| {name} | {value:.1f} {unit}{change} |")
         lines += ["", "| tightest limits | used |", "|:--|--:|"]
-        for finding in self.findings[: max(SHOWN, len(errors(self.findings)))]:
-            used = f"{100.0 * finding.use:.0f} %" if finding.use is not None else f"{finding.margin:.3g} {finding.unit}"
-            lines.append(f"| {'**' + finding.name + '**' if finding.severity != 'info' else finding.name} | {used} |")
+        violated = sum(finding.severity != "info" for finding in self.findings)
+        for finding in self.findings[: max(SHOWN, violated)]:
+            share = used(finding).removesuffix(" used").removeprefix("margin ")
+            lines.append(f"| {'**' + finding.name + '**' if finding.severity != 'info' else finding.name} | {share} |")
         return "\n".join(lines)
 
     def figures(self) -> dict[str, tuple[float, str]]:

@@ -1,17 +1,21 @@
 """The studio's page: sliders, figures, motion and the points of a study, on a viser server."""
 
 import itertools
+import shlex
 import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from jumpcad.bundle.export import export
+from jumpcad.bundle.limits import violation
 from jumpcad.bundle.viewer import parts_facts
+from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import is_sealed, require_free, sealed, write_atomically
 from jumpcad.robot import Robot
+from jumpcad.search.result import workshop_file
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
 from jumpcad.studio.inputs import slider_ends, slider_step, when_changed
 from jumpcad.studio.playback import Playback, playback
@@ -19,7 +23,7 @@ from jumpcad.studio.player import Player
 from jumpcad.studio.points import STUDYS, Points
 from jumpcad.studio.stage import StudioStage
 from jumpcad.studio.wrong_parts import wrong_parts
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import DEFAULT, Workshop, load_workshop
 
 BY_NUMBER = "by its number"
 """What the list of points says of one that is not in it."""
@@ -57,10 +61,11 @@ class Studio:
         self.server, self.stage = server, StudioStage(server, self._say_part)
         self.shown: Printed | None = None
         self.kept: Printed | None = None
-        self._newest = threading.Condition()
+        self._newest, self._building = threading.Condition(), threading.Lock()
         self._wanted: Design | None = design
         self._ended = False
         self.workshop: Workshop = self._loaded(workshops[0])
+        self._chosen = self._opened = workshops[0]
         self.stage.look_at(design)
         self._make_panel(workshops)
 
@@ -141,6 +146,7 @@ class Studio:
             self.number = before
             raise
         self.first, self.choice.value, self.trial.value = trial.design, STUDYS, number
+        self._chosen = self._opened = STUDYS
         self.point.content = self.points.to_text(number)
         if self.points.listed.get(self.best.value) != number:
             self.best.value = self.points.listed_as(number, BY_NUMBER)
@@ -207,9 +213,14 @@ class Studio:
             self.part.content = f"**{facts['label']}**: {facts['mass_g']:.2f} g, {facts['material']}{file}"
 
     def _change_workshop(self) -> str:
-        self.workshop = self._loaded(self.choice.value)
+        try:
+            self.workshop = self._loaded(self.choice.value)
+        except JumpcadError:
+            self.choice.value = self._chosen
+            raise
+        self._chosen = self.choice.value
         self._ask()
-        return f"workshop {self.choice.value}"
+        return f"workshop {self._chosen}"
 
     def _run_action(self, action: Callable[[], str]) -> None:
         """Run a button's action and show its result or its error."""
@@ -219,6 +230,9 @@ class Studio:
             self.status.content = f"**not possible**: {error}"
 
     def _reset(self) -> str:
+        if self._chosen != self._opened:
+            self.workshop = self._loaded(self._opened)
+            self.choice.value = self._chosen = self._opened
         for key, value in self.first.model_dump().items():
             slider, (low, high) = self.sliders[key], slider_ends(key, value)
             slider.min, slider.max = min(slider.min, low), max(slider.max, high)
@@ -236,16 +250,33 @@ class Studio:
         return "kept: figures show the difference to it"
 
     def _save(self) -> str:
+        """Save the design, and the workshop of a point beside it; say with which workshop the design is this robot."""
+        design, is_points = self.design, self._chosen == STUDYS and self.workshop != load_workshop()
         path, numbers = self.folder / f"{self.name}-studio.toml", itertools.count(2)
-        while path.exists() and not is_sealed(path):  # a person has changed it since
+        while any(file.exists() and not is_sealed(file) for file in (path, workshop_file(path))):  # changed since
             path = self.folder / f"{self.name}-studio-{next(numbers)}.toml"
-        require_free(path)
-        write_atomically(path, sealed(self.design.to_toml()))
-        return f"saved {path}"
+        texts = {path: design.to_toml()} | ({workshop_file(path): self.workshop.to_toml()} if is_points else {})
+        for file in texts:
+            require_free(file)
+        for file, text in texts.items():
+            write_atomically(file, sealed(text))
+        used = str(workshop_file(path)) if is_points else self._chosen
+        if used in (DEFAULT, STUDYS):
+            return f"saved {path}"
+        return f"saved {path}; this robot: `jumpcad build {shlex.quote(str(path))} --workshop {shlex.quote(used)}`"
 
     def _build(self) -> str:
-        found = printed_answer(self.design, self.workshop, self.name)
-        if found.robot is None:
-            raise JumpcadError(found.reason)
-        bundle = export(found.robot, self.folder / f"{self.name}-studio", pictures=True)
-        return f"built {bundle.folder}"
+        if not self._building.acquire(blocking=False):
+            raise JumpcadError("a bundle is being built; wait until it is there")
+        try:
+            self.status.content = "building …"
+            found = printed_answer(self.design, self.workshop, self.name)
+            if found.robot is None or found.jump is None:
+                raise JumpcadError(found.reason)
+            bundle = export(found.robot, self.folder / f"{self.name}-studio", pictures=True)
+        finally:
+            self._building.release()
+        wrong = [violation(quick_findings(found.robot))]
+        if found.jump.verdict != "jump":
+            wrong.insert(0, f"it does not jump ({found.jump.verdict})")
+        return "; ".join([f"built {bundle.folder}", *(f"**{one}**" for one in wrong if one)])

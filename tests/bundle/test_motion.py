@@ -83,8 +83,9 @@ def test_times_are_real_and_each_phase_is_shown_at_one_scale(shown: dict[str, np
     robot, phase, real, seen = built("kenan-2.0"), shown["phase"], shown["time_s"], shown["show_s"]
     assert (np.diff(seen) >= 0.0).all()
     assert seen[0] == 0.0
-    turn_s = robot.layout.drive.cam.law.lift_rad / robot.layout.drive.train.cam_speed_rad_s
-    assert real[phase == "winding"][-1] == pytest.approx(turn_s, abs=1e-4)
+    train, left_rad = robot.layout.drive.train, 2.0 * np.pi - robot.layout.drive.cam.law.lift_rad
+    free_rad_s = train.driven.no_load_rpm * 2.0 * np.pi / 60.0 / train.ratio
+    assert real[phase == "winding"][-1] == pytest.approx(train.winding_s - left_rad / free_rad_s, abs=1e-4)
     turned = robot.release.roll_over_rad / robot.layout.drive.train.cam_speed_rad_s
     assert real[phase == "drop"][-1] == pytest.approx(turned, abs=1e-4)
     for name in ("winding", "drop", "push-off", "flight"):

@@ -8,7 +8,7 @@ from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.motor import allowed_nm, free_speed_rad_s, least_ratio, winding
+from jumpcad.drive.motor import allowed_nm, free_speed_rad_s, least_ratio, lift_s, winding
 from jumpcad.electronics.supply import Supply
 
 MOTOR = load_catalogue().motors["n20-298"]
@@ -50,6 +50,19 @@ def test_what_a_turn_draws_is_the_current_over_the_time_of_each_of_its_angles() 
     assert turn.seconds == pytest.approx(seconds)
     assert turn.mean_current_a == pytest.approx(free * drawn / seconds, rel=1e-4)
     assert turn.electrical_j == pytest.approx(MOTOR.voltage_v * free * drawn, rel=1e-4)
+
+
+def test_the_lift_takes_its_time_under_load() -> None:
+    """At half of the stall torque: half of the free speed, and on the ramp as the logarithm of what is left of it."""
+    spring = law(1.0)
+    ratio = spring.peak_torque_nm / (0.5 * MOTOR.stall_torque_nm)
+    free, ramp = ratio / free_speed_rad_s(MOTOR), math.radians(30.0)
+    half, whole, end = (lift_s(spring, MOTOR, ratio, 1.0, math.radians(angle)) for angle in (15.0, 30.0, 310.0))
+    assert lift_s(spring, MOTOR, ratio, 1.0, 0.0) == 0.0
+    assert half == pytest.approx(free * ramp / 0.5 * math.log(4.0 / 3.0))
+    assert whole == pytest.approx(free * ramp / 0.5 * math.log(2.0))
+    assert end == pytest.approx(whole + free * 2.0 * math.radians(280.0))
+    assert end == pytest.approx(winding(spring, MOTOR, ratio, 1.0).seconds - free * math.radians(50.0))
 
 
 def test_the_weaker_of_stall_share_and_gearbox_limits_the_torque() -> None:

@@ -61,6 +61,21 @@ def test_the_tightest_five_limits_are_shown_and_every_error() -> None:
     assert "| **apart** | -0.25 mm |" in printed(findings=[limit("apart", -0.25, "mm", "", "")]).to_markdown()
 
 
+def test_all_that_is_violated_is_shown_in_units_that_people_read() -> None:
+    """A warning with a share stands before an error without one, and must not take its place; angles are in degrees."""
+    warned = [at_most(f"warned_{number}", 20.0, 10.0, "mm", "", "", "warning") for number in range(3)]
+    wrong = [limit(f"wrong_{number}", -0.1, "rad", "", "") for number in range(6)]
+    text = printed(findings=[*warned, *wrong]).to_markdown()
+    assert re.findall(r"\| \*\*(\w+)\*\* \|", text) == [one.name for one in [*warned, *wrong]]
+    assert "| **wrong_5** | -5.73 ° |" in text
+
+
+def test_a_limit_just_kept_without_a_share_is_among_the_tightest() -> None:
+    """As `jumpcad check` and the report say of Kenan 2.0's cam, whose next lift is as near as it may be."""
+    text = Printed(built(NAME).design, built(NAME), printed().jump).to_markdown()
+    assert "| cam_next_lift | at the limit |" in text
+
+
 def test_limits_are_those_of_its_robot_the_violated_first_then_by_use(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is violated is always told, what is kept only where it has a share."""
     told = [

@@ -1,6 +1,7 @@
 """The studio without a browser: a real viser server, its sliders, what it shows and says."""
 
 import queue
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -269,15 +270,85 @@ def test_a_bundle_of_the_studio_has_pictures(studio: Studio, monkeypatch: pytest
         return SimpleNamespace(folder=folder)
 
     monkeypatch.setattr(app, "export", export)
-    robot = built("kenan-2.0")
+    found = SimpleNamespace(robot=built("kenan-2.0"), jump=SimpleNamespace(verdict="jump"))
     made: list[object] = []
-    monkeypatch.setattr(app, "printed_answer", lambda *given: made.append(given) or SimpleNamespace(robot=robot))
+    monkeypatch.setattr(app, "printed_answer", lambda *given: made.append(given) or found)
     assert studio._build() == f"built {tmp_path / 'kenan-2.0-studio'}"
     assert asked == [studio.design, tmp_path / "kenan-2.0-studio", True]
     studio.sliders["e_coef"].value = 1.0
     studio.workshop = load_workshop("fine")
     studio._build()
     assert made[1] == (studio.design, load_workshop("fine"), "kenan-2.0")
+
+
+def test_a_bundle_of_a_robot_that_is_not_to_be_built_says_so(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Legs of 240 mm stay on the ground with these springs, and the cam's window of release is missed."""
+    monkeypatch.setattr(app, "export", lambda robot, folder, pictures: SimpleNamespace(folder=folder))
+    studio.sliders["carrying_link_mm"].value = 240.0
+    told = studio._build().split("; ")
+    assert told[:2] == [f"built {tmp_path / 'kenan-2.0-studio'}", "**it does not jump (no_takeoff)**"]
+    assert re.fullmatch(r"\*\*\d+ of its \d+ limits are violated: do not build it as it is\*\*", told[2])
+
+
+def test_one_bundle_is_built_at_a_time(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two at once left a hidden folder beside the bundle; the first says that it is at work."""
+    told: list[str] = []
+
+    def export(robot: Robot, folder: Path, pictures: bool) -> SimpleNamespace:
+        told.append(studio.status.content)
+        studio._run_action(studio._build)
+        told.append(studio.status.content)
+        return SimpleNamespace(folder=folder)
+
+    monkeypatch.setattr(app, "export", export)
+    found = SimpleNamespace(robot=built("kenan-2.0"), jump=SimpleNamespace(verdict="jump"))
+    monkeypatch.setattr(app, "printed_answer", lambda *_: found)
+    assert studio._build().startswith("built ")
+    assert told == ["building …", "**not possible**: a bundle is being built; wait until it is there"]
+    assert studio._build().startswith("built ")
+
+
+def test_a_saved_design_says_with_which_workshop_it_is_the_robot(
+    studio: Studio, study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A workshop with a name by its name; that of a point, whose values no file has, in a file beside the design."""
+    file, shop = tmp_path / "kenan-2.0-studio.toml", tmp_path / "kenan-2.0-studio-workshop.toml"
+    assert studio._save() == f"saved {file}"
+    studio.choice.value = "fine"
+    studio._change_workshop()
+    assert studio._save() == f"saved {file}; this robot: `jumpcad build {file} --workshop fine`"
+    assert not shop.exists()
+    points = Points(study)
+    monkeypatch.setattr(points, "workshop_of", lambda _: load_workshop("light"))
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    shown = Studio(points.trial(1).design, "kenan-2.0", ["of the study"], server, tmp_path, points)
+    assert shown._save() == f"saved {file}; this robot: `jumpcad build {file} --workshop {shop}`"
+    assert load_workshop(str(shop)) == load_workshop("light")
+    shop.write_text("mine")
+    assert "kenan-2.0-studio-2-workshop.toml" in shown._save()
+    assert shop.read_text() == "mine"
+    server.stop()
+
+
+def test_reset_brings_back_the_workshop_too(studio: Studio) -> None:
+    """Else the robot is another one than "at the start"."""
+    studio.choice.value = "fine"
+    studio._change_workshop()
+    assert studio._reset() == "as at the start"
+    assert (studio.choice.value, studio.workshop) == ("default", load_workshop())
+
+
+def test_a_workshop_that_cannot_be_used_is_not_named_as_the_one_in_use(studio: Studio) -> None:
+    studio.choice.value = "fine"
+    studio.workshop = load_workshop("fine")
+    studio._change_workshop()
+    studio.choice.options = (*studio.choice.options, "gone.toml")
+    studio.choice.value = "gone.toml"
+    studio._run_action(studio._change_workshop)
+    assert "not possible" in studio.status.content
+    assert (studio.choice.value, studio.workshop) == ("fine", load_workshop("fine"))
 
 
 def test_each_button_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
