@@ -273,6 +273,7 @@ def test_there_are_measurements_and_each_counts_once(
         module.calibrate(files)
 
 
+@pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")  # chains that stand still have no variance
 @pytest.mark.parametrize(("most", "length"), [(10, 10), (40, 40), (41, 80)])
 def test_chains_that_have_not_converged_are_doubled_until_they_are_long_enough(
     subject: Subject, posterior: CalibrationPosterior, most: int, length: int
