@@ -50,11 +50,10 @@ BASIS = {
 
 
 def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
-    """Yield the findings of `BASIS`; `wiring_contact` where there is a sensor, `wiring_diode` behind a regulator.
+    """Yield the findings of `BASIS`.
 
-    `wiring_logic` is yielded where the logic levels of both boards are known.
-
-    Without a regulator `wiring_diode` is yielded where the battery lies at a pin that USB feeds.
+    `wiring_contact` is yielded where there is a sensor, `wiring_logic` where the logic levels of both boards are known,
+    `wiring_diode` behind a regulator, or where the battery lies at a pin that USB feeds.
     """
     yield _enough_pins(chosen, wiring)
     yield _fit_pins(chosen, wiring)
@@ -125,22 +124,28 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
             message = f"{role} {board.name} has the supply inputs {inputs}, of which one alone would be connected"
             remedy = f"choose another bought.{role}, or leave out of its supply_v what needs no wire"
             return _yes_or_no("wiring_pins", False, "error", message, remedy)
-    most = chosen.controller.adc_max_v
-    if "battery" not in have and most is None:
-        message = f"{chosen.controller.name} has no adc_max_v: nothing measures the battery, so that it may run down"
-        return _yes_or_no("wiring_pins", False, "warning", message, "give the volts that its pins with adc read")
-    if "battery" not in have and divider_ohm(chosen) is None:
-        message = (
-            f"{chosen.controller.name} reads {most:g} V at most, and the largest divider leaves more of the "
-            f"{chosen.battery.range_v[1]:g} V of a full battery: nothing measures it, so that it may run down"
-        )
-        remedy = "choose another bought.controller or bought.battery"
-        return _yes_or_no("wiring_pins", False, "warning", message, remedy)
     if "battery" not in have:
-        message = f"{chosen.controller.name} has no pin left that measures the battery, so that it may run down"
-        return _yes_or_no("wiring_pins", False, "warning", message, "leave a pin with adc free in [bought.pins]")
+        return _unmeasured(chosen)
     used = ", ".join(f"{wiring.pins[s]} {s}" for s in have)
     return _yes_or_no("wiring_pins", True, "error", f"pins of {chosen.controller.name}: {used}", "[bought.pins]")
+
+
+def _unmeasured(chosen: Chosen) -> Finding:
+    """Return the warning of a battery that the controller does not measure, with the reason."""
+    controller, most = chosen.controller.name, chosen.controller.adc_max_v
+    if most is None:
+        why = f"{controller} has no adc_max_v: nothing measures the battery"
+        remedy = "give the volts that its pins with adc read"
+    elif divider_ohm(chosen) is None:
+        why = (
+            f"{controller} reads {most:g} V at most, and the largest divider leaves more of the "
+            f"{chosen.battery.range_v[1]:g} V of a full battery: nothing measures it"
+        )
+        remedy = "choose another bought.controller or bought.battery"
+    else:
+        why = f"{controller} has no pin left that measures the battery"
+        remedy = "leave a pin with adc free in [bought.pins]"
+    return _yes_or_no("wiring_pins", False, "warning", f"{why}, so that it may run down", remedy)
 
 
 def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:
