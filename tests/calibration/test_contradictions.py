@@ -62,3 +62,10 @@ def test_a_rise_is_less_than_the_height_above_the_floor() -> None:
     assert found(jumps=heights(106.0)) == []
     (said,) = found(jumps=heights(104.0))
     assert "a rise of 100 is 150 mm above the floor, and the absolute height is 104" in said
+
+
+@pytest.mark.parametrize(("mean_mm", "refused"), [(49.9, True), (50.0, True), (50.1, False)])
+def test_an_absolute_height_is_above_that_of_the_standing_robot(mean_mm: float, refused: bool) -> None:
+    """Of two jumps, by their mean, standing 50 mm high."""
+    series = Jumps(height_mm=(mean_mm - 5.0, mean_mm + 5.0), height_of="absolute")
+    assert [one.partition(" is not above the 50 mm")[1] != "" for one in found(jumps=(series,))] == [True] * refused

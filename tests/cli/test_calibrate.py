@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 from typing import NoReturn
@@ -103,25 +104,36 @@ def test_pictures_of_one_s_own_are_not_replaced_unasked(
     assert run(*command, "--force")[2] == "jumpcad: begun\n"
 
 
-def test_the_posterior_and_what_it_predicts_are_drawn_by_one_seed(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+@dataclass(frozen=True)
+class Measured:
+    """A robot of a name, which names its springs too."""
+
+    name: str
+
+    @property
+    def pair(self) -> str:
+        return self.name
+
+
+def test_a_predicted_robot_has_a_name_and_springs_of_its_own(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of `a/measured.toml` and `b/measured.toml` too; posterior and predictions are drawn by one seed."""
     asked = []
 
     def predicting(*given: object) -> NoReturn:
         asked.append(given)
         raise JumpcadError("enough")
 
-    one, other = SimpleNamespace(name="one", pair="one"), SimpleNamespace(name="other", pair="other")
-    given = SimpleNamespace(model=SimpleNamespace(subjects=[one]))
+    given = SimpleNamespace(model=SimpleNamespace(subjects=[Measured("measured")]))
 
     def calibrated(files: list[str], seed: int = 0) -> SimpleNamespace:
         given.of = files, seed
         return given
 
     monkeypatch.setattr("jumpcad.calibration.calibrate", calibrated)
-    monkeypatch.setattr("jumpcad.calibration.load_subject", lambda _: other)
+    monkeypatch.setattr("jumpcad.calibration.load_subject", lambda _: Measured("measured"))
     monkeypatch.setattr("jumpcad.calibration.predicted_jump", predicting)
     assert run("calibrate", "kenan-2.0", "--predict", "kenan-1.0", "--seed", 7)[2] == "jumpcad: enough\n"
-    assert asked == [(given, other, 7)]
+    assert asked == [(given, Measured("measured 2"), 7)]
     assert given.of == (["kenan-2.0"], 7)
 
 
