@@ -110,8 +110,12 @@ class Measurements(Record):
         if self.spring.rate_nmm_per_deg is not None and self.spring.springs is None:
             reason = "of one spring or of both? say springs = 1 or springs = 2"
             yield ("spring", "rate_nmm_per_deg"), self.spring.rate_nmm_per_deg, reason
-        if self.mass.robot_error_g is not None and self.mass.robot_g is None:
-            yield ("mass", "robot_error_g"), self.mass.robot_error_g, "is the error of nothing: give robot_g too"
+        robot_g, error_g = self.mass.robot_g, self.mass.robot_error_g
+        if error_g is not None and robot_g is None:
+            yield ("mass", "robot_error_g"), error_g, "is the error of nothing: give robot_g too"
+        if error_g is not None and robot_g is not None and error_g > robot_g / 2.0:
+            reason = f"is the error of robot_g, in grams: must be at most a half of it, {robot_g / 2.0:g}"
+            yield ("mass", "robot_error_g"), error_g, reason
         for series in self.jumps:
             yield from _unsaid(series)
 

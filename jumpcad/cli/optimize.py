@@ -221,14 +221,14 @@ def _print_result(
         print(f"\n{request.objective} against {cost.figure.meaning}; hypervolume {result.hypervolume:.4f}")
         for trial in result.front:
             print(f"  {cost.shown(cost.of(trial)):8.4f} {cost.figure.unit}  {trial.score:10.4f}")
-    print(f"\nbest {request.objective} {result.best.score:.4f}")
+    print(f"\nbest {request.objective} {request.aim.shown(result.best.score or 0.0)}")
     if result.candidates:
         print(f"score that nine of ten neighbours reach, parameters ±1 %, or {request.making.words}:")
         print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  neighbours, rejected")
     for one in result.candidates[:SHOWN]:
         scores = (one.trial.score or 0.0, one.parameters_score, one.print_score)
         print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {one.neighbours:10d}, {_counted(one.rejections)}")
-    print(f"\n{escaped(str(design_file))}: {request.objective} {result.score:.4f}")
+    print(f"\n{escaped(str(design_file))}: {request.objective} {request.aim.shown(result.score)}")
     for name, value in result.design.model_dump().items():
         print(f"  {name:24s}{value:12.5g}")
     for key, value in result.winner.workshop.items():

@@ -77,6 +77,7 @@ def study(
 def _watch(file: Path) -> None:
     """Print the progress of a search whenever it changes, until no search writes the study."""
     from jumpcad.search.database import is_written
+    from jumpcad.search.objective import described_objective
     from jumpcad.search.store import StudyStore
     from jumpcad.search.trial import SEARCH_PHASES
 
@@ -86,9 +87,10 @@ def _watch(file: Path) -> None:
         with StudyStore.read(file) as store:
             counts, best = store.progress()
             planned, model = sum(stage["evaluations"] for stage in store.recall("stages", [])), store.identity["model"]
+            objective = described_objective(store.identity)
         searched = sum(count for phase, count in counts.items() if phase in SEARCH_PHASES)
         around = sum(counts.values()) - searched
-        line = f"{_done(searched, planned, model)}, best {'none' if best is None else f'{best:.4f}'}"
+        line = f"{_done(searched, planned, model)}, best {'none' if best is None else objective.shown(best)}"
         line += f", {around} around the best" if around else ""
         if line != printed:
             print(line, flush=True)
@@ -165,9 +167,11 @@ def _done(designs: int, planned: int, model: dict[str, Any]) -> str:
 
 
 def _print_comparison(summaries: list[dict[str, Any]]) -> None:
+    from jumpcad.search.objective import described_objective
+
     for summary in summaries:
         identity, best = summary["identity"], summary["best"]
-        score = "none" if best is None else f"{best['score']:.4f}"
+        score = "none" if best is None else described_objective(identity).shown(best["score"])
         print(
             f"{summary['study']}: best {identity['objective']} {score} in {counted(summary['evaluations'], 'design')} "
             f"({identity['method']}, {identity['model']['name']}, seed {identity['seed']})"

@@ -128,6 +128,10 @@ class Objective:
         """Return what a study remembers of it."""
         return {"objective": self.name} | ({"objective_code": self.code} if self.code else {})
 
+    def shown(self, score: float) -> str:
+        """Return a score with its unit; that of an own objective is not known."""
+        return f"{score:.4f}" if self.code else f"{score:.4f} {self.unit}"
+
     def score(self, evaluation: Evaluation) -> float | None:
         """Return the score of a feasible evaluation, None of a rejected one.
 

@@ -169,6 +169,9 @@ class Request:
                     f"evaluations = {self.evaluations} leave {stage.evaluations} for {stage.method}, whose parts take "
                     f"{least} at least: ask for more"
                 )
+        if self.preset != Request.preset and "ga" not in stages:
+            genetic = ", ".join(name for name in NAMES if "ga" in _methods(name))
+            raise JumpcadError(f"preset = {self.preset!r}: does not apply to {self.method}, only to {genetic}")
         if self.batch > 1 and not any(METHODS[name].learns for name in stages):
             learning = ", ".join(name for name in NAMES if any(METHODS[one].learns for one in _methods(name)))
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")

@@ -120,12 +120,14 @@ def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
 def _asked(store: StudyStore, found: Known) -> Iterator[str]:
     """Yield the objective, the stages, and the space with the winner's values."""
     identity, objective = store.identity, found.objective
+    method = identity["method"]
+    explored = method.startswith("explore ")
     stages = [f"{stage['method']}, {counted(stage['evaluations'], 'design')}" for stage in store.recall("stages", [])]
     yield "<h2>What was asked</h2>"
     yield (
         f"<p>The highest {written(identity['objective'])} ({written(objective.meaning)}, {written(objective.unit)})"
-        f"{f' against {described_cost(identity).figure.meaning}' if identity['method'] in FRONTS else ''}, "
-        f"searched by {written(', then '.join(stages) or identity['method'])}.</p>"
+        f"{f' against {described_cost(identity).figure.meaning}' if method in FRONTS else ''}, "
+        f"{'evaluated' if explored else 'searched'} by {written(', then '.join(stages) or method)}.</p>"
     )
     rows = []
     for parameter in found.space.parameters:
@@ -133,7 +135,7 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
         searched = with_unit(_range(parameter.describe()), parameter.name)
         meaning, name = written(meaning_of(parameter.name)), parameter.name
         rows.append([broken(name), meaning, written(searched), with_unit(value, name) if value else ""])
-    whose = "highest" if identity["method"] in FRONTS and not found.candidates else "winner"
+    whose = "best" if explored else "highest" if method in FRONTS and not found.candidates else "winner"
     yield from table(
         ("parameter", "meaning", "searched", whose),
         rows,

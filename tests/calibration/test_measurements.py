@@ -37,6 +37,7 @@ def test_shipped_files_have_the_published_figures_and_say_what_is_unknown() -> N
         ('[[jumps]]\ndistance_mm = [1.0, 2.0]\ndistance_of = "unknown"\njumps = 1', r"jumps = 1: must be at least 2"),
         ("[spring]\nrate_nmm_per_deg = 9.2", r"rate_nmm_per_deg = 9.2: of one spring or of both\? say springs = 1"),
         ("[mass]\nrobot_error_g = 1.0", r"is the error of nothing: give robot_g too"),
+        ("[mass]\nrobot_g = 58.0\nrobot_error_g = 30.0", r"robot_error_g = 30.0: .* must be at most a half of it, 29$"),
         ("[mass]\nrobot_g = -3.0", r"mass.robot_g = -3.0: must be more than 0"),
         ("[floor]\nslope_deg = [95.0]", r"must be less than 90"),
         ("[floor]\nslope_deg = [0.0]", r"must be more than 0$"),

@@ -23,7 +23,7 @@ from jumpcad.findings import Finding
 from jumpcad.search import study
 from jumpcad.search.fronts import find_cost
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.space import Space
 from jumpcad.search.widening import Widened
@@ -64,7 +64,7 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
     ("method", "words", "more"),
     [
         ("bo", ["--batch", 3, "--until", 1, "--widen"], {"batch": 3, "until_percent": 1.0, "widen": True}),
-        ("ga", ["--screen"], {"screen": True}),
+        ("ga", ["--screen", "--preset", "published"], {"screen": True, "preset": "published"}),
     ],
 )
 def test_each_option_reaches_the_search(folder, monkeypatch, method, words, more):
@@ -78,14 +78,14 @@ def test_each_option_reaches_the_search(folder, monkeypatch, method, words, more
     monkeypatch.setattr(study, "run_study", stop)
     monkeypatch.setattr("jumpcad.search.pool.open_pool", lambda *how: nullcontext(how))
     Path("shop.toml").write_text('[springs.own]\nlike = "9271K619"\nsource = "a test"\n')
-    words = [*words, "--evaluations", 60, "--seed", 4, "--preset", "published", "--from-study", "before.db"]
+    words = [*words, "--evaluations", 60, "--seed", 4, "--from-study", "before.db"]
     words += ["--objective", "rise", "--around", "kenan-2.0", "--only", "c_coef, rest_angle_deg", "--within", 5]
     words += ["--hours", 2, "--workers", 3, "--limit", 7, "--engine", "planar", "--study", "mine.db"]
     if method == "bo":
         words += ["--workshop", "shop.toml", "--choose", "bought.spring=own,9271K619"]
     assert "enough" in refusal("optimize", method, *words)
     ((request, path, pool),) = asked
-    more = more | {"evaluations": 60, "seed": 4, "preset": "published", "prior": Path("before.db"), "hours": 2.0}
+    more = more | {"evaluations": 60, "seed": 4, "prior": Path("before.db"), "hours": 2.0}
     more |= {"objective": "rise"}
     assert {name: getattr(request, name) for name in more} == more
     of_design = [one for one in request.space.free if one not in request.space.of_workshop]
@@ -169,7 +169,7 @@ def test_robust_scores_stand_under_their_headings(capsys):
     )
     trial = SimpleNamespace(design=load_design("kenan-2.0"), score=3.0, workshop={})
     request = SimpleNamespace(
-        aim=SimpleNamespace(neighbours_of=""), searched=20, space=SimpleNamespace(size=1000), is_front=False,
+        aim=find_objective("range"), searched=20, space=SimpleNamespace(size=1000), is_front=False,
         objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"),
     )  # fmt: skip
     result = SimpleNamespace(
@@ -189,7 +189,7 @@ def test_a_winner_that_cannot_be_made_is_told_with_its_workshop(capsys, monkeypa
     design = load_design("kenan-2.0")
     trial = SimpleNamespace(design=design, score=1.5, workshop={})
     request = SimpleNamespace(
-        aim=SimpleNamespace(neighbours_of=""), searched=9, space=SimpleNamespace(size=1000), is_front=False,
+        aim=find_objective("range"), searched=9, space=SimpleNamespace(size=1000), is_front=False,
         objective="range",
     )  # fmt: skip
     result = SimpleNamespace(
@@ -219,10 +219,9 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     design = load_design("kenan-2.0")
     trial = SimpleNamespace(design=design, score=1.5, workshop={"body.plate_mm": 2.4, "bought.spring": ""})
     weaker = SimpleNamespace(design=load_design("kenan-1.0"), score=0.75)
-    aim = SimpleNamespace(neighbours_of="")
     request = SimpleNamespace(
-        aim=aim, searched=180, until_percent=0.05, space=SimpleNamespace(size=1000), is_front=True, objective="range",
-        making=SimpleNamespace(words="lengths ±0.2 mm"), cost=find_cost("spring-energy"),
+        aim=find_objective("range"), searched=180, until_percent=0.05, space=SimpleNamespace(size=1000), is_front=True,
+        objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"), cost=find_cost("spring-energy"),
     )  # fmt: skip
     result = SimpleNamespace(
         request=request, evaluations=10, trials=[trial] * 7, rejected={"loop": 2, "tips": 1}, converged=True,
@@ -247,7 +246,7 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     ]
     assert told[4] == f"{design.spring_energy_j:.4f} J 1.5000"
     assert told[5] == f"{weaker.design.spring_energy_j:.4f} J 0.7500"
-    assert told[6:8] == ["best range 1.5000", "won.toml: range 1.5000"]
+    assert told[6:8] == ["best range 1.5000 m", "won.toml: range 1.5000 m"]
     assert {"body.plate_mm 2.4", "bought.spring ''"} < set(told)
     assert told[-7:-1] == [
         "widened: c_coef, upper bound 1.2 to 1.3: +0.1250",
@@ -268,7 +267,7 @@ def test_a_front_that_seeks_more_of_both_shows_the_figures_as_they_are(capsys):
         for rise, score in ((0.25, 0.5), (0.125, 0.75))
     ]
     request = SimpleNamespace(
-        aim=SimpleNamespace(neighbours_of=""), space=SimpleNamespace(size=1000), is_front=True, objective="range",
+        aim=find_objective("range"), space=SimpleNamespace(size=1000), is_front=True, objective="range",
         cost=find_cost("rise"),
     )  # fmt: skip
     result = SimpleNamespace(
@@ -346,7 +345,7 @@ def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_
         for n in range(12)
     ]  # fmt: skip
     request = SimpleNamespace(
-        aim=SimpleNamespace(neighbours_of=""), searched=20, space=SimpleNamespace(size=1000), is_front=False,
+        aim=find_objective("range"), searched=20, space=SimpleNamespace(size=1000), is_front=False,
         objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"),
     )  # fmt: skip
     result = SimpleNamespace(
@@ -357,15 +356,15 @@ def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_
     told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
     assert told[:5] == [
         "2 designs evaluated, and 28 for the robust pick; rejected: none", "note: one", "note: two",
-        "best range 3.0000",
+        "best range 3.0000 m",
         "score that nine of ten neighbours reach, parameters ±1 %, or lengths ±0.2 mm:",
     ]  # fmt: skip
     assert told[6] == "2.0000 1.0000 0.5000 16, loop 2, tips 1"
     assert told[6:16] == [told[6], *(f"{2 + n}.0000 {1 + n}.0000 {n}.5000 {16 - n}, none" for n in range(1, 10))]
-    assert told[16] == "won.toml: range 2.0000"
+    assert told[16] == "won.toml: range 2.0000 m"
     assert told[17:25] == [f"{name} {value:.5g}" for name, value in winner.model_dump().items()]
     assert told[25:] == ["next: jumpcad build won.toml"]
-    request.aim.neighbours_of = "range"
+    request.aim = find_objective("p10-range")
     optimize._print_result(result, Path("won.toml"))
     assert "2 designs evaluated, in 30 evaluations with their neighbours; rejected: none" in capsys.readouterr().out
 

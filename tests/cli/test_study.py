@@ -127,7 +127,7 @@ def test_an_exploration_has_no_number_of_designs_to_come(capsys: pytest.CaptureF
 def test_studies_are_compared_by_their_best(capsys: pytest.CaptureFixture[str]) -> None:
     study._print_comparison([summary(), summary(study="t.db", best=None)])
     assert capsys.readouterr().out.splitlines() == [
-        "s.db: best range 2.5000 in 31 designs (ga+bo, capsule, seed 5)",
+        "s.db: best range 2.5000 m in 31 designs (ga+bo, capsule, seed 5)",
         "t.db: best range none in 31 designs (ga+bo, capsule, seed 5)",
     ]
 

@@ -25,7 +25,7 @@ def test_designs_of_the_search_and_around_the_best_are_counted_apart(tmp_path, c
         store.remember("stages", [{"method": "ga", "evaluations": 20, "initial": 0, "widen": False}])
     command._watch(tmp_path / "s.db")
     best = max(trial.score for trial in searched if trial.score is not None)
-    assert capsys.readouterr().out == f"12 of 20 designs, best {best:.4f}, 5 around the best\n"
+    assert capsys.readouterr().out == f"12 of 20 designs, best {best:.4f} body lengths, 5 around the best\n"
 
 
 def test_it_follows_a_search_until_it_ends(tmp_path, monkeypatch, capsys):

@@ -85,13 +85,14 @@ def test_wrong_arguments_are_one_line(folder, options, message):
 
 
 @pytest.mark.parametrize(
-    ("method", "more"), [("bo", {"batch": 3, "until_percent": 1.0, "widen": True}), ("ga", {"screen": True})]
+    ("method", "more"),
+    [("bo", {"batch": 3, "until_percent": 1.0, "widen": True}), ("ga", {"screen": True, "preset": "published"})],
 )
 def test_each_option_reaches_the_search(monkeypatch, method, more):
     """Every value is another than the usual one; the workshop's own spring is one to choose."""
     monkeypatch.setattr("jumpcad.search.optimization.run_study", lambda *study: study)
     monkeypatch.setattr("jumpcad.search.optimization.open_pool", lambda *how: nullcontext(how))
-    more |= {"evaluations": 60, "seed": 4, "preset": "published", "prior": Path("before.db"), "hours": 2.0}
+    more |= {"evaluations": 60, "seed": 4, "prior": Path("before.db"), "hours": 2.0}
     more |= {"objective": "rise"}
     how = {"workers": 3, "limit_s": 7.0, "engine": "planar", "study": "mine.db"}
     near = {"around": "kenan-2.0", "only": ["c_coef", "rest_angle_deg"], "within_percent": 5}

@@ -178,7 +178,7 @@ def test_a_screen_is_for_the_genetic_algorithm_on_printed_robots_of_one_workshop
 def test_a_study_s_identity_is_all_that_decides_its_trials():
     """But their number. Each part of it makes another study, and another name of the file that keeps it."""
     prior = [trial for trial in trials(4) if trial.score is not None]
-    plain = Request(SMALL, Hill(), "fitness", "bo", 40, seed=3, preset="published", batch=2)
+    plain = Request(SMALL, Hill(), "fitness", "bo", 40, seed=3, batch=2)
     found = plain.identity(prior)
     learned = json.dumps([[trial.key, trial.score] for trial in prior])
     assert found.pop("prior") == hashlib.sha256(learned.encode()).hexdigest()
@@ -189,13 +189,13 @@ def test_a_study_s_identity_is_all_that_decides_its_trials():
     making = {"length_mm": 0.2, "rate": 0.0, "mass": 0.0, "floor": 0.0, "printed": False}
     assert found == {
         "model": {"name": "hill"}, "objective": "fitness", "method": "bo", "space": SMALL.describe(), "seed": 3,
-        "preset": "published", "batch": 2, "making": making,
+        "preset": "recommended", "batch": 2, "making": making,
     }  # fmt: skip
     others = [
         replace(plain, **change)
         for change in (
             {"space": Space.default()}, {"objective": "range"}, {"method": "ga+bo"}, {"seed": 4}, {"batch": 3},
-            {"preset": "recommended"}, {"making": Making(0.3)}, {"prior": Path("p.db")}, {"widen": True},
+            {"making": Making(0.3)}, {"prior": Path("p.db")}, {"widen": True},
         )
     ]  # fmt: skip
     assert len({plain.default_name(), *(one.default_name() for one in others)}) == 1 + len(others)
@@ -203,6 +203,9 @@ def test_a_study_s_identity_is_all_that_decides_its_trials():
     assert others[2].default_name().startswith("study-ga-bo-")
     longer = [replace(one, evaluations=80).default_name() == one.default_name() for one in (plain, others[2])]
     assert longer == [True, False]  # of two methods each has its share
+    bred = replace(plain, method="ga", batch=1)
+    assert replace(bred, preset="published").identity([])["preset"] == "published"
+    assert replace(bred, preset="published").default_name() != bred.default_name()
     assert replace(plain, method="paper", batch=1, evaluations=80).default_name() != replace(
         plain, method="paper", batch=1
     ).default_name()  # fmt: skip
@@ -249,6 +252,8 @@ def test_what_is_not_asked_for_follows_from_method_and_robot():
         ({"method": "nsga2"}, "bought.spring: a front against spring energy takes springs made to order"),
         ({"method": "gaa"}, "'gaa' is not one of the methods ga.bo, ga, bo, pareto, paper, nsga2 .did you mean ga"),
         ({"preset": "fast"}, "'fast' is not one of the presets recommended, published"),
+        ({"method": "bo", "preset": "published"}, "preset = 'published': does not apply to bo, only to ga.bo, ga$"),
+        ({"method": "paper", "preset": "published"}, "preset = 'published': does not apply to paper"),
         ({"objective": "reach"}, "'reach' is not one of the objectives"),
         ({"batch": 0}, "batch = 0 must be at least 1"), ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
         ({"model": robot_model("published"), "objective": "rise"}, "the objective rise needs com_rise_m"),

@@ -537,9 +537,9 @@ def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
     """Its share of the evaluations, first designs where it learns; only the last one ends early, if it can."""
     asked = []
     monkeypatch.setattr(Method, "run", lambda self, evaluator, task: asked.append((self.name, task)) or False)
-    given = {"seed": 7, "preset": "published", "batch": 3, "until_percent": 2.0}
+    given = {"seed": 7, "batch": 3, "until_percent": 2.0}
     for request in (
-        Request(SMALL, Hill(), method="ga+bo", evaluations=90, **given),
+        Request(SMALL, Hill(), method="ga+bo", evaluations=90, preset="published", **given),
         Request(SMALL, Hill(), method="bo", evaluations=90, widen=True, **given),
         Request(SMALL, robot_model(), "body_lengths", "ga", 20, seed=7, screen=True),
     ):
@@ -547,6 +547,7 @@ def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
             run_study(request, None, pool)
     common = {"seed": 7, "batch": 3, "preset": "published"}
     assert asked[:2] == [("ga", Task(22, **common)), ("bo", Task(46, **common, least_gain=0.02))]
+    assert {task.preset for _, task in asked[2:6]} == {"recommended"}
     # 68 are searched, a half of them in three equal stages that widen
     assert [name for name, _ in asked[2:6]] == ["bo"] * 4
     assert [task.evaluations for _, task in asked[2:6]] == [35, 11, 11, 11]

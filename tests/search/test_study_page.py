@@ -345,10 +345,15 @@ def test_each_parameter_stands_with_what_was_searched_and_won():
     with store:
         lines = list(study_page._asked(store, found))
         front = words(study_page._asked(made_up("nsga2")[0], found))
+    with StudyStore.write(None, IDENTITY | {"method": "explore sample", "objective": "range"}) as sampled:
+        sample = words(study_page._asked(sampled, found))
     said = words(lines)
     assert "The highest range (range of the jump, m), searched by ga, 3 designs, then bo, 4 designs." in said
     assert "against energy in the springs" in front
     assert front.count("highest") == 2
+    assert "winner" in said
+    assert "winner" not in sample
+    assert "(range of the jump, m), evaluated by explore sample." in sample
     rows = [re.findall(r"<td[^>]*>(.*?)</td>", line) for line in lines]
     rows = {words([row[0]]).replace("_ ", "_"): row[2:] for row in rows if row}
     assert list(rows) == list(DESIGN.model_dump())
