@@ -77,6 +77,12 @@ def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:
     )
     page = write_report(robot, {}, jump, sure=sure)
     assert cells(page)["range"][1:] == ["177 mm", "196 mm", "213 mm"]
+    assert cells(page)["rise"][1:] == ["57 mm", "65 mm", "74 mm"]
+    assert "<p>128 jumps by the planar engine" in page
+    section = page.partition("<th>not known exactly</th>")[2].partition("</table>")[0]
+    rows = re.findall(r"<tr><td>([^<]+)</td>(.*?)</tr>", section)
+    shares = {name: re.findall(r"> (\d+) %", row) for name, row in rows}
+    assert (shares["mass"], shares["friction of the floor"]) == (["25", "50"], ["75", "0"])  # of range, of rise
     assert "<dd>177 to 213 mm</dd>" in page
     assert page.index("friction of the floor") < page.index("<td>mass</td>")  # what matters most comes first
     assert 'width: 75%"' in page
