@@ -225,6 +225,18 @@ def test_each_of_several_is_checked_whatever_holds_them_and_pairs_of_two_kinds_a
             joined(**wrong)  # type: ignore[arg-type]
 
 
+def test_of_one_wrong_item_it_is_told_and_not_the_whole_list_wherever_lists_stand_among_the_kinds() -> None:
+    @typed
+    def first(ends_mm: list[float] | None) -> None: ...
+
+    @typed
+    def last(ends_mm: Path | list[float]) -> None: ...
+
+    for function in (first, last):
+        with pytest.raises(JumpcadError, match=r" as ends_mm, not one with 'far' \(str\)$"):
+            function([1.0, "far"])  # type: ignore[list-item]
+
+
 def test_a_record_checks_its_fields() -> None:
     @dataclass(frozen=True)
     class Leg:
