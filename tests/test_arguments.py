@@ -70,6 +70,27 @@ def test_a_name_in_place_of_a_design_says_how_to_load_it() -> None:
     )
 
 
+@pytest.mark.parametrize("value", [7, "x" * 5000, Path("y" * 61)], ids=["number", "long text", "long path"])
+def test_the_way_out_that_is_told_makes_what_is_asked_for(value: Any) -> None:
+    """With a shipped template's name where the value is no name that fits on a line."""
+
+    @typed
+    def given(design: jumpcad.Design | None = None, settings: jumpcad.Settings | None = None,
+              workshop: jumpcad.Workshop | None = None) -> None: ...  # fmt: skip
+
+    for name, kind in (("design", jumpcad.Design), ("settings", jumpcad.Settings), ("workshop", jumpcad.Workshop)):
+        with pytest.raises(JumpcadError) as caught:
+            given(**{name: value})
+        made = str(caught.value).rpartition(": ")[2].removesuffix(" makes one")
+        assert isinstance(eval(made, {"jumpcad": jumpcad}), kind)
+
+
+@pytest.mark.parametrize("name", ["mine.toml", "z" * 60])
+def test_a_name_that_fits_on_a_line_is_in_the_way_out(name: str) -> None:
+    with pytest.raises(JumpcadError, match=rf"jumpcad\.load_settings\('{name}'\) makes one$"):
+        jumpcad.simulate(CAPSULE, name)
+
+
 def test_what_makes_an_object_is_called_by_its_class() -> None:
     """Nobody calls `__init__`."""
 
@@ -202,6 +223,18 @@ def test_each_of_several_is_checked_whatever_holds_them_and_pairs_of_two_kinds_a
     for wrong in ({"names": ["leg", 2]}, {"names": [], "lengths_mm": (1.0, "2")}):
         with pytest.raises(JumpcadError, match=r"joined\(\) takes .* not one with '?2'?"):
             joined(**wrong)  # type: ignore[arg-type]
+
+
+def test_of_one_wrong_item_it_is_told_and_not_the_whole_list_wherever_lists_stand_among_the_kinds() -> None:
+    @typed
+    def first(ends_mm: list[float] | None) -> None: ...
+
+    @typed
+    def last(ends_mm: Path | list[float]) -> None: ...
+
+    for function in (first, last):
+        with pytest.raises(JumpcadError, match=r" as ends_mm, not one with 'far' \(str\)$"):
+            function([1.0, "far"])  # type: ignore[list-item]
 
 
 def test_a_record_checks_its_fields() -> None:

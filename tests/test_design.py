@@ -1,6 +1,7 @@
 """The eight numbers: what follows from them, their limits, their files."""
 
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -128,6 +129,27 @@ def test_design_without_assembled_pose_is_refused(changes: dict[str, float]) -> 
     assert design.assembly_margin_mm < 0
     with pytest.raises(CannotBuildError, match=r"no assembled pose.*c_coef.*d_coef"):
         _ = design.l1_mm
+
+
+@pytest.mark.parametrize("changes", [{"c_coef": 2.0, "d_coef": 0.5}, {"c_coef": 0.3, "d_coef": 0.5}])
+def test_the_foot_that_is_asked_for_is_just_long_enough(changes: dict[str, float]) -> None:
+    """To the tenth of a millimetre in which it is said."""
+    design = changed(**changes)
+    with pytest.raises(CannotBuildError) as refused:
+        _ = design.beta_rad
+    said = re.search(r"l4 = ([\d.]+) mm must be more than ([\d.]+) mm", str(refused.value))
+    assert said is not None
+    assert float(said[1]) == pytest.approx(design.l4_mm, abs=0.051)
+    for more_mm, is_enough in ((0.1, True), (-0.1, False)):
+        foot = changed(**changes | {"d_coef": (float(said[2]) + more_mm) / design.l2_mm})
+        assert (foot.assembly_margin_mm > 0.0) == is_enough
+
+
+def test_a_shorter_front_link_needs_a_foot_as_long_as_the_legs_differ_in_height_alone() -> None:
+    """Legs of 100 and 50 mm that stand at 30° differ by 25 mm in height; lying flat they fold the other way round."""
+    short = changed(c_coef=0.5, d_coef=0.4, rest_angle_deg=30.0)
+    assert short.assembly_margin_mm == pytest.approx(40.0 - 25.0)
+    assert short.l1_mm > 0.0
 
 
 def test_assembly_margin_is_the_limit_of_a_real_body() -> None:

@@ -57,3 +57,11 @@ def test_what_cannot_name_files_is_refused_at_once_in_one_line(name: str, monkey
 def test_the_letter_that_cannot_be_in_a_name_is_named(name: str, letter: str) -> None:
     with pytest.raises(JumpcadError, match=re.escape(f", not {letter}")):
         require_name(name)
+
+
+@pytest.mark.parametrize(("letter", "most"), [("x", 200), ("ä", 100), ("机", 66)])
+def test_a_name_has_room_in_a_files_name_in_any_script(letter: str, most: int) -> None:
+    """File systems count bytes: in UTF-8 an umlaut has two, a Chinese character three."""
+    require_name(most * letter)
+    with pytest.raises(JumpcadError, match="is used in file names: use at most 200 bytes"):
+        require_name((most + 1) * letter)

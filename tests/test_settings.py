@@ -104,3 +104,16 @@ def test_missing_settings(tmp_path: Path) -> None:
         load_settings(tmp_path / "nowhere.toml")
     with pytest.raises(JumpcadError, match=r"screening \(did you mean screening\?\)"):
         load_settings("screning")
+
+
+@pytest.mark.parametrize(("efficiencies", "frictions"), [([0.9, 0.95], [0.3]), ([0.9], [0.3, 0.25]), ([], [0.3])])
+def test_draws_of_a_calibration_go_together_one_by_one(
+    tmp_path: Path, efficiencies: list[float], frictions: list[float]
+) -> None:
+    path, several = tmp_path / "mine.toml", len(efficiencies)
+    path.write_text(f"[draws]\nspring_efficiency = {efficiencies}\npin_friction = {frictions}\n")
+    words = f"pin_friction = {len(frictions)}: must be as many values as spring_efficiency has, {several}$"
+    with pytest.raises(JumpcadError, match=rf"mine.toml:3: draws\.{words}"):
+        load_settings(path)
+    path.write_text(f"[draws]\nspring_efficiency = {efficiencies}\npin_friction = {frictions[:1] * several}\n")
+    assert bool(load_settings(path).draws) == (several > 0)  # whether there are any

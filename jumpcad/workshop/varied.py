@@ -48,7 +48,7 @@ def varied(workshop: Workshop, values: Mapping[str, Value]) -> Workshop:
     JumpcadError
         If a key cannot vary, or a value is out of range, unknown, or contradicts another.
     """
-    data = workshop.model_dump(exclude_none=True)
+    data = workshop.model_dump()
     kits = load_catalogue().kits
     if (kit := values.get("bought.kit")) in kits:
         data["bought"] |= kits[str(kit)].model_dump(include=set(data["bought"]))

@@ -10,7 +10,7 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
-from jumpcad.bundle.bom import bill_of_facts, bill_of_materials, mass_facts, write_bom
+from jumpcad.bundle.bom import BilledPlate, bill_of_facts, bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.guide import write_guide
 from jumpcad.design import load_design
 from jumpcad.robot import Robot
@@ -117,3 +117,20 @@ def test_filament_is_paid_by_the_mass_of_all_pieces() -> None:
     facts = {"kind": "printed", "name": "toe", "quantity": 2, "material": material, "mass_kg": 0.01, "source": "layers"}
     bill = bill_of_facts([facts], shop.model_copy(update={"materials": {**shop.materials, material: priced}}))
     assert (bill.items[0].price_eur, bill.cost_eur) == pytest.approx((0.2, 0.4))
+
+
+def test_printing_times_are_of_one_copy_and_add_up_by_plates(robot: Robot) -> None:
+    """In whole seconds: of what is printed and was sliced; those of the plates make the total."""
+    bill = bill_of_materials(robot)
+    plates = [BilledPlate("plate-1-PETG", "PETG", 7260.4), BilledPlate("plate-1-PLA", "PLA", 900.2)]
+    *lines, total = table(write_bom(bill.sliced({"foot": 5400.4, "lock nut M3 DIN 985": 9.0}, plates)))
+    assert [(line["item"], line["print_time_s"]) for line in lines if line["print_time_s"]] == [
+        ("foot", "5400"), ("plate-1-PETG", "7260"), ("plate-1-PLA", "900"),
+    ]  # fmt: skip
+    for line, plate in zip(lines[-2:], plates, strict=True):
+        assert {key: value for key, value in line.items() if value} == {
+            "kind": "plate", "item": plate.name, "quantity": "1", "material": plate.material,
+            "print_time_s": f"{plate.time_s:.0f}",
+        }  # fmt: skip
+    assert total["print_time_s"] == "8161"
+    assert float(total["grams"]) == pytest.approx(1000.0 * robot.mass_kg, abs=0.001)

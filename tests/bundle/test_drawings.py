@@ -11,8 +11,8 @@ import pytest
 from support.built import built, geared, placed
 
 from jumpcad.bundle.arrival import arrival_lines
-from jumpcad.bundle.spring_sheet import spring_sheets
-from jumpcad.bundle.springs import torque_shares
+from jumpcad.bundle.spring_sheet import requirements, spring_sheets
+from jumpcad.bundle.springs import arms_off_deg, torque_shares
 from jumpcad.bundle.wiring import drawings_of
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
@@ -154,6 +154,28 @@ def test_a_spring_is_asked_for_with_its_figures(robot: Robot, drawings: dict[str
         inside = spring.arms.mean_mm * spring.turns / wound - spring.wire_mm
         mandrel = float(rows["inside, loaded"].split()[-2])
         assert inside - 0.5 < mandrel < inside
+        assert rows["turns of the body, relaxed"] == f"{spring.turns:.2f}"
+        assert float(rows["arms, straight, tangent"].split()[0]) == pytest.approx(spring.arm_length_mm, abs=0.051)
+        free = 180.0 - 360.0 * (spring.turns % 1.0)  # opposite after whole turns, and closer by what is beyond them
+        angle, wider, narrower = re.findall(r"^(\d+)° \+(\d+)° / -(\d+)°", rows["angle between arms, relaxed"])[0]
+        assert float(angle) == pytest.approx(free % 360.0, abs=0.51)
+        assert (float(narrower), float(wider)) == arms_off_deg(robot)
+        assert (rows["wire"], rows["article"][:14]) == (f"{spring.wire_mm:g} mm, EN 10270-1 SM", "torsion spring")
+
+
+def test_a_spring_from_stock_is_asked_for_by_its_article_and_not_by_its_steel(robot: Robot) -> None:
+    drive = robot.layout.drive
+    drive = replace(drive, spring=replace(drive.spring, stock="9271K589"))
+    rows = dict(requirements(robot, replace(drive.spring), "left", "right"))
+    assert (rows["article"], rows["wire"]) == ("9271K589", f"{drive.spring.wire_mm:g} mm")
+
+
+@pytest.mark.parametrize("scatter", [0.05, 0.15])
+def test_a_springs_rate_may_scatter_as_the_parts_are_made_for(robot: Robot, scatter: float) -> None:
+    safety = robot.workshop.safety.model_copy(update={"spring_rate_scatter": scatter, "stress_reserve": 0.2})
+    other = replace(robot, workshop=robot.workshop.model_copy(update={"safety": safety}))
+    rows = dict(requirements(other, robot.layout.drive.spring, "left", "right"))
+    assert rows["rate"].endswith(f"±{100.0 * scatter:.0f} %")
 
 
 def test_plates_are_drawn_to_scale_seen_from_outside(robot: Robot, drawings: dict[str, ET.Element]) -> None:

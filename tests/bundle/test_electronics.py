@@ -5,6 +5,7 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from jumpcad.bundle.electronics import electronics_facts, jumps_per_charge
 from jumpcad.bundle.export import export
 from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.lead_lines import leads_of
-from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
+from jumpcad.bundle.wiring import _notes, drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts
@@ -347,6 +348,16 @@ def test_which_ground_is_used_is_said_where_there_are_two(robot: Robot) -> None:
     assert ("BAT- and GND of the controller are connected on the board" in text) == one
     assert ("The controller's battery pads stay empty" in text) != one
     assert ("diode: K is the end with the ring" in text) != one
+
+
+@pytest.mark.parametrize("level", [0, 1])
+def test_the_notes_on_the_sensor_are_those_of_its_contact(robot: Robot, level: int) -> None:
+    """A contact that opens at the ready position leaves its pin pulled up, at 1: that of COM and NC."""
+    chosen = chosen_parts(robot.workshop)
+    resistors = wiring_of(chosen, robot.workshop.bought.pins).resistors
+    text = "\n".join(_notes(chosen, SimpleNamespace(ready_level=level, resistors=resistors)))  # type: ignore[arg-type]
+    assert ("use COM and NC: pressed, the contact opens" in text) == (level == 1)
+    assert ("known limit: this sensor has no contact that opens" in text) == (level == 0)
 
 
 def test_leads_between_the_boards_run_in_the_gap_between_them(robot: Robot) -> None:

@@ -12,9 +12,10 @@ from jumpcad.building import build
 from jumpcad.bundle import expected as module
 from jumpcad.bundle.expected import _near_stop, _prong_mm, expected, filled
 from jumpcad.bundle.firmware import numbers
-from jumpcad.bundle.operation import by_button, cable
+from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded, switching_off, to_stop, usb_out
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
+from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError
 from jumpcad.workshop import load_workshop
@@ -61,6 +62,13 @@ def test_a_bench_supply_feeds_the_controller_only_if_its_own_button_starts_it(
         cable(controller), by_button("wind", controller), by_button("jump", controller)
     )  # fmt: skip
     assert words["jump_by"].startswith("Press" if button else "Type")
+    chosen = replace(chosen, controller=controller)
+    assert (words["usb_out"], words["stop_by"], words["off"]) == (
+        usb_out(chosen),
+        to_stop(chosen),
+        switching_off(chosen),
+    )
+    assert (words["charge_how"], words["charge_loaded"]) == (charging(chosen), charging_loaded(chosen))
     assert words["boards_read"].startswith(read)
     assert (figure(words, "boards_ma") > 20.0) == (button is not None)
 
@@ -166,6 +174,9 @@ def test_sizes_are_those_of_the_parts() -> None:
     assert words["eye_drill"] == "3.1"
     least, most = map(float, words["end_play"].split(" mm, or "))
     assert most - least == pytest.approx(0.3)
+    rod = next(item for item in robot.hardware if item.name == "leg_axle")
+    between = float(np.diff(robot.layout.lateral.outside)[0]) - 2.0 * AXLE_FLOOR_MM  # of the plates' closed bores
+    assert least == pytest.approx(between - float(np.ptp(rod.look.vertices[:, 2])), abs=0.051)
     assert figure(words, "motor_wire") == max(mm for *_, end, _, mm in wires(robot) if end.part == "motor")
 
     def length(name: str) -> float:
@@ -218,6 +229,15 @@ def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pyte
     monkeypatch.setattr(module, "simulate", refused)
     found = expected(robot, [])
     assert [found[name] for name in ("range", "rise", "far", "high")] == ["?", "?", "3", "2"]
+
+
+def test_screws_are_tightened_by_their_size_and_less_in_plastic() -> None:
+    """Usual tables give 1.3 N·m for M3 and 0.37 N·m for M2 of strength 8.8; M3 strips its thread in plastic sooner."""
+    words = expected(built("kenan-2.0"), [])
+    m3, m2, plastic = (figure(words, f"torque_{name}") for name in ("m3", "m2", "plastic"))
+    assert 1.3 / 4.0 < m3 < 1.3 / 2.0
+    assert 0.37 / 4.0 < m2 < 0.37 / 2.0
+    assert m2 < plastic < m3
 
 
 def test_names_in_braces_are_replaced_and_steps_are_counted_from_one() -> None:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from support.elsewhere import environment
@@ -58,6 +59,31 @@ def test_masses_in_the_manifest_add_up(small_robot: Robot, tmp_path: Path) -> No
     assert lines == pytest.approx(manifest["mass_kg"], rel=1e-12)
     assert bodies == pytest.approx(manifest["mass_kg"], rel=1e-12)
     assert {line["source"] for line in manifest["masses"]} == {"solid", "catalogue"}
+
+
+@pytest.mark.parametrize(("pad", "friction"), [("sj5616", 0.7), ("", 0.3)])
+def test_the_manifest_says_on_which_ground_the_robot_stands_and_with_which_friction(
+    small_robot: Robot, pad: str, friction: float
+) -> None:
+    """Its pads', or that of bare feet; the simulation of a bundle by another program needs it."""
+    changed = {"surface": "dry oak", "pad": pad, "friction": 0.7, "bare_friction": 0.3}
+    ground = small_robot.workshop.ground.model_copy(update=changed)
+    robot = replace(small_robot, workshop=small_robot.workshop.model_copy(update={"ground": ground}))
+    assert bundle_module._facts(robot)["ground"] == {"friction": friction, "pad": pad, "surface": "dry oak"}
+
+
+@pytest.mark.parametrize("jumps", [True, False])
+def test_only_of_a_jump_it_is_said_how_sure_it_is(
+    small_robot: Robot, monkeypatch: pytest.MonkeyPatch, jumps: bool
+) -> None:
+    """And with the motion alone, which needs the robot's GLB file and its recorded trajectory."""
+    jump, asked, sure = SimpleNamespace(verdict="jump" if jumps else "tips"), [], object()
+    monkeypatch.setattr(bundle_module, "simulate", lambda robot, settings, engine: asked.append(settings) or jump)
+    monkeypatch.setattr(bundle_module, "uncertainty_of", lambda robot: sure)
+    monkeypatch.setattr(bundle_module, "write_report", lambda robot, pictures, jump, glb, files, sure: sure)
+    assert bundle_module._page(small_robot, {}, b"glb", []) is (sure if jumps else None)
+    assert bundle_module._page(small_robot, {}, None, []) is None
+    assert [(one.flight, one.trajectory) for one in asked] == [("simulated", True), ("simulated", False)]
 
 
 def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

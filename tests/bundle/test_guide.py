@@ -450,6 +450,7 @@ def test_tools_go_through_what_they_are_for(name: str) -> None:
     wound = spring.turns + math.degrees(spring.wound_rad) / 360.0
     loaded = spring.arms.mean_mm * spring.turns / wound - spring.wire_mm
     assert loaded - 1.0 < float(shank[1]) < loaded
+    assert f"both touching a circle of {spring.inside_diameter_mm + spring.wire_mm:.1f} mm around the drill" in guide
     assert robot.layout.pin_hole.diameter_mm - 1.1 < float(rod[1]) < robot.layout.pin_hole.diameter_mm
     assert all(side - 1.0 < float(body) < side for side, body in zip(window, plug.groups(), strict=True))
 

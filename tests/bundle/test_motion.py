@@ -12,6 +12,7 @@ from support.decimals import decimals
 from jumpcad.bundle.motion import SHOWN_S, PhasePose, _seven, _times, motion
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.mechanism.model import BODY, MAIN_LEG
+from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Settings, simulate
 
 
@@ -125,6 +126,10 @@ def test_what_a_click_on_a_part_shows_weighs_as_much_as_the_robot() -> None:
     assert data["parts"]["foot"]["file"] == "stl/foot.stl"
     assert data["parts"]["foot"]["label"] == "foot"
     assert data["parts"]["leg_axle"]["file"] == ""
+    assert data["size_m"] == pytest.approx(max(extent_m(robot)), abs=1e-6)
+    aside = data["explode_m"]
+    assert sorted(aside) == sorted(data["parts"])
+    assert aside["body_plate_left"] > 0.02 > 0.0 == aside["main_leg"] > -0.02 > aside["body_plate_right"]  # y: left
     named = [name for step in data["steps"] for name in step["parts"]]
     assert sorted(named) == sorted(data["parts"])
 

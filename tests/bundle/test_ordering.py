@@ -15,6 +15,8 @@ from jumpcad.bundle.ordering import order_lines, print_lines, weigh_lines
 from jumpcad.bundle.tools import tool_lines
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
+from jumpcad.exporters.threemf import plate_files
+from jumpcad.layout.leg_bars import END_PLAY_MM
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -121,6 +123,17 @@ def test_what_is_printed_is_said_with_the_workshops_settings() -> None:
     assert sorted(listed) == sorted(part.name for part in robot.parts)
 
 
+@pytest.mark.parametrize("spacing_mm", [2.0, 40.0])
+def test_the_rows_of_plates_are_the_files_of_plates(spacing_mm: float) -> None:
+    """Parts that are kept further apart need more of them."""
+    robot = built("kenan-2.0")
+    process = robot.workshop.process.model_copy(update={"part_spacing_mm": spacing_mm})
+    robot = replace(robot, workshop=robot.workshop.model_copy(update={"process": process}))
+    rows = re.findall(r"\| (print/plate\S+\.3mf) \|", "\n".join(print_lines(robot)))
+    assert rows == [path for path, _ in plate_files(robot.parts, robot.workshop) if path.endswith(".3mf")]
+    assert (len(rows) > 2) == (spacing_mm > 2.0)
+
+
 def test_copies_of_a_part_are_counted_in_their_row() -> None:
     robot = built("kenan-2.0")
 
@@ -170,6 +183,7 @@ def test_the_grooves_of_clips_are_ordered_where_the_rods_have_them() -> None:
     (line,) = (one for one in order_lines(robot) if one.startswith("- the grooves"))
     clips = [item for item in robot.hardware if item.article.startswith("E-clip")]
     assert f"two a rod, {len(clips)} in all, 2.3 mm in diameter and 0.64 mm wide (DIN 6799)" in line
+    assert "±0.2 mm between the inner edges" in line  # half of the play of 0.2 mm that each clip has along the rod
     said = {float(mm): int(count) for mm, count in re.findall(r"([\d.]+) mm \((\d+) ×\)", line)}
     found = Counter[float]()
     for rod in (item for item in robot.hardware if ", grooves " in item.article):
@@ -202,6 +216,9 @@ def test_bars_of_legs_are_ordered_with_glue_and_glued_to_the_designs_lengths() -
     enough = re.search(r"order (\d+) mm", line)
     assert enough is not None
     assert 0.0 <= float(enough[1]) - sum(said) - 2 * 2.0 < 10.0
+    longer = re.search(r"mm, \+([\d.]+) / -([\d.]+) mm; order", line)
+    assert longer is not None
+    assert float(longer[1]) <= END_PLAY_MM < float(longer[2])  # a longer one fills the play at an end, and fits
     assert "epoxy" in text
     eyes = re.search(r"hub to ankle, ([\d.]+) mm; front link ([\d.]+) mm", text)
     assert eyes is not None

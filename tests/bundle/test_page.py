@@ -2,6 +2,7 @@
 
 import base64
 import json
+import math
 import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
@@ -18,7 +19,7 @@ from jumpcad.building import build
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.compared import compared_of
 from jumpcad.bundle.limits import limits, verdict_on
-from jumpcad.bundle.page import ACCOUNT, _energy, write_report
+from jumpcad.bundle.page import ACCOUNT, _energy, _printing, write_report
 from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.calibration.measurements import load_measurements
 from jumpcad.checks import constraint_findings
@@ -76,6 +77,12 @@ def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:
     )
     page = write_report(robot, {}, jump, sure=sure)
     assert cells(page)["range"][1:] == ["177 mm", "196 mm", "213 mm"]
+    assert cells(page)["rise"][1:] == ["57 mm", "65 mm", "74 mm"]
+    assert "<p>128 jumps by the planar engine" in page
+    section = page.partition("<th>not known exactly</th>")[2].partition("</table>")[0]
+    rows = re.findall(r"<tr><td>([^<]+)</td>(.*?)</tr>", section)
+    shares = {name: re.findall(r"> (\d+) %", row) for name, row in rows}
+    assert (shares["mass"], shares["friction of the floor"]) == (["25", "50"], ["75", "0"])  # of range, of rise
     assert "<dd>177 to 213 mm</dd>" in page
     assert page.index("friction of the floor") < page.index("<td>mass</td>")  # what matters most comes first
     assert 'width: 75%"' in page
@@ -149,6 +156,48 @@ def test_says_what_the_robot_is(robot: Robot, jump: Jump) -> None:
     assert {part.name for part in robot.parts} <= set(found)
     assert {thing.article for thing in robot.hardware} <= set(found)
     assert found["electronics_tray_upper"][2] == "1"
+
+
+def test_each_figure_stands_beside_its_own_name(robot: Robot, jump: Jump) -> None:
+    """In the table below and on the cards above; springs without a preload are loaded by the design's angle."""
+    page, train = write_report(robot, {}, jump), robot.layout.drive.train
+    found = cells(page)
+    figures = {
+        "spring angle, loaded": (math.degrees(robot.design.compression_rad), "°"), "gear ratio": (train.ratio, ": 1"),
+        "winding time": (train.winding_s, "s"), "electrical energy of a jump": (train.electrical_j, "J"),
+        "… of it, the boards' while winding": (train.boards_j, "J"),
+        "motor current, mean": (1000.0 * train.mean_current_a, "mA"),
+        "motor current, peak": (1000.0 * train.peak_current_a, "mA"),
+    }  # fmt: skip
+    for name, (value, unit) in figures.items():
+        digits = len(found[name][1].partition(".")[2])
+        assert float(found[name][1]) == pytest.approx(value, abs=0.51 * 10.0**-digits), name
+        assert found[name][2] == unit
+    assert found["gear motor"][1] == train.motor.name
+    assert found["mass of the foot"][1] == f"{1000.0 * robot.bodies['foot'].mass_kg:.1f}"
+    cards = dict(re.findall(r"<dt>([^<]*)</dt><dd>([^<]*)</dd>", page))
+    assert jump.ballistic_range_m is not None
+    assert jump.com_rise_m is not None
+    assert cards == {
+        "range": f"{1000.0 * jump.ballistic_range_m:.0f} mm", "rise": f"{1000.0 * jump.com_rise_m:.0f} mm",
+        "mass": f"{1000.0 * robot.mass_kg:.1f} g", "energy in the springs": "133 mJ",
+        "winding": f"{train.winding_s:.1f} s", "electrical energy of a jump": f"{train.electrical_j:.2f} J",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(("infill", "words"), [(0.35, "35 % gyroid infill"), (1.0, "solid")])
+def test_the_print_settings_are_those_of_the_workshop(robot: Robot, infill: float, words: str) -> None:
+    changed = {
+        "layer_height_mm": 0.15, "first_layer_mm": 0.25, "line_width_mm": 0.47, "perimeters": 4, "top_layers": 6,
+        "bottom_layers": 5, "infill": infill, "infill_pattern": "gyroid",
+    }  # fmt: skip
+    process = robot.workshop.process.model_copy(update=changed)
+    printer = robot.workshop.printer.model_copy(update={"nozzle_mm": 0.5})
+    own = robot.workshop.model_copy(update={"process": process, "printer": printer})
+    assert (
+        "Layers of 0.15 mm, the first 0.25 mm; 4 perimeters of 0.47 mm; 6 solid layers above and 5 below; "
+        f"{words}; nozzle of 0.5 mm; no supports."
+    ) in " ".join(_printing(replace(robot, workshop=own), ()))
 
 
 def test_what_is_violated_stands_out_and_names_are_escaped(robot: Robot, jump: Jump) -> None:

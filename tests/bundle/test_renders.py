@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from jumpcad.bundle import renders as module
 from jumpcad.bundle.renders import exploded, jump_gif, renders
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
@@ -75,3 +76,22 @@ def test_what_is_drawn_stays_before_the_floor() -> None:
     below = floored[120:, :100].reshape(-1, 3)
     assert {tuple(colour) for colour in below.tolist()} >= set(STRIPES)
     assert (floored[:30, :100].min(axis=2) < 150).any()
+
+
+def test_the_caption_says_how_much_slower_the_jump_is_shown(
+    small_robot: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The time from the first to the last frame as the file shows it, over that of the jump; stripes of 100 mm."""
+    jump, captions = simulate(small_robot, Settings(flight="simulated", trajectory=True)), set()
+
+    def note(picture: Image.Image, camera: object, frame_m: object, caption: str) -> Image.Image:
+        captions.add(caption)
+        return picture
+
+    monkeypatch.setattr(module, "with_floor", note)
+    assert jump.trajectory is not None
+    gif = Image.open(io.BytesIO(jump_gif(small_robot, jump.trajectory, (60, 40))))
+    (caption,) = captions
+    shown_s = (gif.n_frames - 1) * gif.info["duration"] / 1000.0
+    times = jump.trajectory.time_s
+    assert caption == f"slow motion, {shown_s / (times[-1] - times[0]):.0f} times; stripes of 100 mm"

@@ -60,11 +60,14 @@ def test_bars_and_clips_that_cannot_be_are_refused() -> None:
     for changed, key in (
         ({"height_mm": 5.0}, "height_mm"), ({"bore_mm": 6.0}, "bore_mm"), ({"bore_mm": 5.9}, None),
     ):  # fmt: skip
-        found = [where for where, *_ in LegBar(**tube | changed).contradictions()]
-        assert found == ([(key,)] if key else [])
+        found = [(where, value) for where, value, _ in LegBar(**tube | changed).contradictions()]
+        assert found == ([((key,), changed[key])] if key else [])
     flat = STRIP.model_dump() | {"name": "x", "bore_mm": 3.0}
     assert [where for where, *_ in LegBar(**flat).contradictions()] == [("bore_mm",)]
     clip = next(iter(load_catalogue().clips.values()))
     assert not list(clip.contradictions())
     for changed in ({"groove_mm": clip.shaft_mm}, {"outer_mm": clip.shaft_mm}):
-        assert list(Clip(**clip.model_dump() | {"name": "x"} | changed).contradictions())
+        wrong = Clip(**clip.model_dump() | {"name": "x"} | changed)
+        ((where, value, reason),) = wrong.contradictions()
+        assert (where, value) == (("groove_mm",), wrong.groove_mm)
+        assert reason.endswith(f"shaft_mm = {wrong.shaft_mm:g}, and that less than outer_mm = {wrong.outer_mm:g}")

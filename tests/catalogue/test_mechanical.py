@@ -64,6 +64,20 @@ def test_a_rate_per_radian_per_turn_or_in_newton_metres_is_refused(name: str) ->
         assert [place for place, *_ in wrong.contradictions()] == [("rate_nmm_per_deg",)], factor
     bronze = spring.model_copy(update={"rate_nmm_per_deg": 110.0 / 206.0 * spring.rate_nmm_per_deg})
     assert not list(bronze.contradictions())
+    assert not list(spring.model_copy(update={"rate_nmm_per_deg": 1.1 * by_hand}).contradictions())
+
+
+@pytest.mark.parametrize("name", ["9271K619", "9271K589"])
+def test_who_gives_a_wrong_rate_is_told_that_of_steel(name: str) -> None:
+    """By the turns alone, and softer by both arms, loaded at their ends: cantilevers that give by F·L²/3EI each."""
+    spring = load_catalogue().springs[name]
+    mean, bends = spring.inside_diameter_mm + spring.wire_mm, 206000.0 * math.pi / 64.0 * spring.wire_mm**4
+    coil = math.pi * mean * spring.turns / bends  # rad per N·mm
+    arms = 2.0 * spring.arm_length_mm / (3.0 * bends)
+    ((_, value, reason),) = spring.model_copy(update={"rate_nmm_per_deg": 1e-3}).contradictions()
+    assert value == 1e-3
+    soft, stiff = math.radians(1.0) / (coil + arms), math.radians(1.0) / coil
+    assert f"has {soft:.2g} to {stiff:.2g}, with and without its arms" in reason
 
 
 @pytest.mark.parametrize("scale", [0.5, 1.0, 2.0])

@@ -75,6 +75,8 @@ def test_a_rod_weighs_its_volume_of_steel():
 
 def test_the_shortest_long_enough_screw_is_taken():
     assert CATALOGUE.screws["M3"].length_for(10.5) == 12.0
+    for length in CATALOGUE.screws["M3"].lengths_mm:  # one that is just long enough, also by a sum with round-off
+        assert CATALOGUE.screws["M3"].length_for(length) == CATALOGUE.screws["M3"].length_for(length + 1e-12) == length
     with pytest.raises(JumpcadError, match=r"no M3 screw of 99\.0 mm; the longest in stock is 30 mm"):
         CATALOGUE.screws["M3"].length_for(99.0)
 

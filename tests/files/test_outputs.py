@@ -122,6 +122,10 @@ def test_a_sealed_file_is_known_until_it_is_edited(tmp_path: Path, comment: str)
 
 def test_a_target_has_a_fitting_name_and_a_folder(tmp_path: Path) -> None:
     require_target(tmp_path / "t.csv", (".csv", ".json"))
+    (tmp_path / "mine.csv").write_text("mine")
+    require_target(tmp_path / "mine.csv", (".csv",), force=True)
+    with pytest.raises(JumpcadError, match="exists already"):
+        require_target(tmp_path / "mine.csv", (".csv",))
     for name in ("t.txt", "t.CSV", "t.csv.txt", "csv", ".csv"):  # a table's format goes by its exact suffix
         with pytest.raises(JumpcadError, match=rf"{name}: must end in \.csv or \.json"):
             require_target(tmp_path / name, (".csv", ".json"))
@@ -188,6 +192,11 @@ def test_outputs_are_apart_from_each_other_and_from_what_is_read(tmp_path: Path)
     folder.mkdir()
     require_apart({"-o": tmp_path / "x.toml", "--plots": tmp_path / "plots", "--none": None}, {"design": str(read)})
     require_apart({"-o": folder, "--plots": folder / "plots"}, {})
+    require_apart({"--plots": tmp_path / "plots", "-o": tmp_path / "plots" / "x.toml"}, {})  # that is made first
+    require_apart({"-o": tmp_path / "x.toml"}, {"design": "kenan-2.0", "bundle": str(folder)})
+    (tmp_path / "a.urdf").write_text("")
+    with pytest.raises(JumpcadError, match=r"-o .*: is robot itself; choose another name"):
+        require_apart({"-o": tmp_path / "a.urdf"}, {"robot": str(tmp_path / "a.urdf")})
     for outputs in (
         {"-o": tmp_path / "x.toml", "--plots": tmp_path / "x.toml"},
         {"-o": tmp_path / "x.toml", "--plots": tmp_path / "x.toml" / "plots"},

@@ -76,7 +76,7 @@ def test_a_file_that_grows_is_not_read_in_half(tmp_path: Path, monkeypatch: pyte
         ("[-Infinity]", "-Infinity is no number"),
         ("[" * 5000 + "]" * 5000, "nested deeper"),
         ("[" * 21 + "]" * 21, "nested deeper"),
-        ("9" * 6000, "not valid JSON"),
+        ("9" * 6000, r"not valid JSON: [^;]*digits$"),  # without the way out that Python's own message names
         ("{", "not valid JSON"),
         (r'{"a": ["\ud83d"]}', "half of a character"),
         (r'{"\udc00": 1}', "half of a character"),

@@ -1,6 +1,7 @@
 """Reading workshops: what a file may leave out, what it builds on, and what it may not name."""
 
 import re
+import unicodedata
 
 import pytest
 
@@ -171,7 +172,32 @@ def test_another_printer_and_one_material_for_all(written):
         ('[bought]\nkit = "strong-3s"', r"bought.kit = 'strong-3s': is none of the kits .*did you mean strong-2s\?"),
         ("[bought]\nkit = 2", r"bought.kit = 2: is none of the kits"),
         ("base = 3", r"base = 3: must be the name of a workshop or a path"),
+        ("[materials]\nPETG = 3", r"my.toml:2: materials.PETG = 3: must be a table: \[materials.PETG\] with density_"),
+        ('[pads.own]\nlike = "rubber-2"', r"pads.own.source: missing: say where the figures come from"),
     ],
 )
 def test_a_base_printer_or_material_that_is_not_there_is_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
+
+
+def test_an_umlaut_in_one_or_in_two_characters_is_the_same_name(written):
+    """Unicode writes it both ways (NFC, NFD), and editors differ."""
+    one, two = (unicodedata.normalize(form, "Ähnlich") for form in ("NFC", "NFD"))
+    assert one != two
+    figures = to_toml(load_workshop("default").material("links").model_dump(exclude_none=True))
+    for role, table in ((one, two), (two, one)):
+        shop = load_workshop(written(f'[roles]\nlinks = "{role}"\n[materials."{table}"]\n{figures}'))
+        assert shop.material_name("links") == one
+        assert one in shop.materials
+
+
+def test_a_material_of_ones_own_is_chosen_as_it_is_written(written):
+    """Shipped ones in letters of any size."""
+    figures = to_toml(
+        load_workshop("default").material("links").model_dump(exclude_none=True) | {"modulus_mpa": 1234.0}
+    )
+    path = written(f'[roles]\nbody = "Nylon"\n[materials.Nylon]\n{figures}')
+    shop = load_workshop(path, material="Nylon")
+    assert list(shop.materials) == ["Nylon"]
+    assert shop.material("gears").modulus_mpa == 1234.0
+    assert list(load_workshop(path, material="Petg").materials) == ["PETG"]

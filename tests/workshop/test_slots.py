@@ -71,3 +71,20 @@ def test_a_board_of_one_s_own_is_what_its_pins_make_it():
     assert uses({"D1": ("gpio1",), "3V3": ("out",)}) == ("controller",)
     assert uses({"D1": ("gpio1",), "A": ("motor+",), "B": ("motor-",)}) == ("controller", "driver")
     assert uses({"VOUT": ("out",)}) == ("regulator",)
+    assert uses({"VOUT": ("out",), "A": ("motor+",), "B": ("motor-",)}) == ("driver",)  # that feeds something else too
+
+
+@pytest.mark.parametrize("key", SLOTS)
+def test_an_empty_name_leaves_out_what_a_robot_can_be_without(key: str) -> None:
+    """It winds with a motor, a roller on its cam, a battery and two boards, and turns on axles; all else may lack.
+
+    Who names something unknown is told all that fits there: parts, "any" for a leg's bearing, and an empty name.
+    """
+    needed, catalogue = {"motors", "roller", "battery", "controller", "driver", "axle"}, load_catalogue()
+    table, name = key.split(".")
+    is_needed = table == "bought" and name in needed
+    assert (SLOTS[key].misfit(catalogue, "") == "") is not is_needed
+    said = SLOTS[key].misfit(catalogue, "nothing of this name")
+    assert ('"" for ' in said) is not is_needed
+    words = said.partition(": choose ")[2].replace(" or ", ", ").split(", ")
+    assert set(words) >= set(SLOTS[key].fitting(catalogue)) | ({"any"} if name == "leg_bearing" else set())

@@ -37,6 +37,15 @@ def test_a_kit_brings_its_parts_and_other_choices_override_them():
     kit = load_catalogue().kits["strong-2s"]
     changed = varied(DEFAULT, {"bought.battery": "lipo-1s-300", "bought.kit": "strong-2s"}).bought
     assert (changed.regulator, changed.diode, changed.battery) == (kit.regulator, kit.diode, "lipo-1s-300")
+    own = varied(DEFAULT, {"bought.kit": ""}).bought  # no kit: the parts stay as they are
+    assert own == DEFAULT.bought.model_copy(update={"kit": ""})
+
+
+def test_a_material_of_the_workshop_keeps_its_own_figures():
+    own = varied(DEFAULT, {"materials.PLA.density_g_cm3": 1.3, "roles.links": "PLA", "roles.gears": "PLA"})
+    assert own.materials["PLA"].density_g_cm3 == 1.3
+    assert varied(own, {"body.plate_mm": 2.0}).materials == own.materials
+    assert DEFAULT.materials["PLA"].density_g_cm3 != 1.3
 
 
 @pytest.mark.parametrize(
@@ -47,6 +56,8 @@ def test_a_kit_brings_its_parts_and_other_choices_override_them():
         ({"bought.motors": "n20-298"}, "cannot vary: in the workshop it is a list"),
         ({"body": 2.0}, "no single number or name"),
         ({"printer.name": "mine"}, "cannot vary"),
+        ({"printer.source": "mine"}, "cannot vary"),
+        ({"ground.surface": "ice"}, "cannot vary"),
         ({"body.plate_mm": 0.1}, "body.plate_mm = 0.1: must be at least 1"),
         ({"body.plate_mm": "thick"}, "body.plate_mm"),
         ({"bought.battery": "lipo-1s-30"}, r"did you mean lipo-1s-300\?"),

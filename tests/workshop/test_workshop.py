@@ -129,14 +129,18 @@ def test_what_does_not_go_together_is_told_from_just_beyond():
     ):  # fmt: skip
         for value, refused in ((inside, False), (beyond, True)):
             part = getattr(shop, table).model_copy(update={key: value})
-            told = [place for place, *_ in shop.model_copy(update={table: part}).contradictions()]
+            told = {place: said for place, said, _ in shop.model_copy(update={table: part}).contradictions()}
             assert ((table, key) in told) == refused, (table, key, value)
+            if refused:
+                assert told[table, key] == (value[0] if isinstance(value, tuple) else value)
 
 
 def test_a_material_is_weakest_between_its_layers_and_its_modulus_is_in_megapascals():
     """Data sheets give moduli in GPa: 2.5 of PLA, which is 2500 MPa."""
     shop = load_workshop()
-    for key, inside, beyond in (("strength_interlayer_mpa", 54.0, 54.1), ("modulus_mpa", 54.0, 2.5)):
+    for key, inside, beyond in (
+        ("strength_interlayer_mpa", 54.0, 54.1), ("modulus_mpa", 54.0, 2.5), ("modulus_mpa", 54.0, 53.9),
+    ):  # fmt: skip
         for value, places in ((inside, []), (beyond, [("materials", "PLA", key)])):
             own = shop.materials["PLA"].model_copy(update={"strength_in_plane_mpa": 54.0, key: value})
             found = shop.model_copy(update={"materials": {**shop.materials, "PLA": own}}).contradictions()
@@ -164,3 +168,19 @@ def test_parts_of_ones_own_have_names_of_their_own():
     weak = motor.model_copy(update={"name": "mine", "mass_g": 0.1})
     told = [place for place, *_ in shop.model_copy(update={"motors": {"mine": weak}}).contradictions()]
     assert told == [("motors", "mine", "mass_g")]
+
+
+def test_each_name_of_a_bought_part_is_that_of_its_own_part():
+    """Foot, stop, springs and legs; an empty name is none."""
+    shop, catalogue = load_workshop(), load_catalogue()
+    pads, bars, springs = list(catalogue.pads), list(catalogue.bars), list(catalogue.springs)
+    for foot, stop, bar, spring in ((pads[0], pads[1], bars[-1], springs[-1]), ("", pads[0], "", "")):
+        own = shop.model_copy(
+            update={
+                "ground": shop.ground.model_copy(update={"pad": foot}),
+                "body": shop.body.model_copy(update={"stop_pad": stop}),
+                "bought": shop.bought.model_copy(update={"leg": bar, "spring": spring}),
+            }
+        )
+        found = own.foot_pad, own.stop_pad, own.leg_bar, own.stock_spring
+        assert tuple(part and part.name for part in found) == tuple(name or None for name in (foot, stop, bar, spring))
