@@ -165,17 +165,3 @@ def test_a_climb_takes_as_many_steps_as_it_may():
     assert many[[0, 2]] == pytest.approx([0.8, 0.64], abs=1e-3)
     assert np.abs(few - many).max() > 0.1
     assert valley(few[None]) > valley(start[None])
-
-
-def test_the_top_at_the_end_of_a_bent_valley_is_proposed():
-    """The best of the climbs goes on until it is there: the first steps only find the valley."""
-
-    class Valley(Known):
-        def log_improvement(self, points, best):
-            return -((points[:, 0] - 0.8) ** 2) - 1e4 * (points[:, 2] - points[:, 0] ** 2) ** 2
-
-        def log_feasible(self, points):
-            return np.zeros(len(points))
-
-    found = propose(SMALL, Valley(), 0.0, np.empty((0, 3)), lambda variant: True, np.random.default_rng(1))
-    assert found.unit[[0, 2]] == pytest.approx([0.8, 0.64], abs=1e-2)
