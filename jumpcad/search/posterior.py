@@ -27,7 +27,6 @@ LEAST_GUESSED = 3
 NO_GUESSES: Mapping[Key, tuple[Array, float]] = MappingProxyType({})
 VERDICT = "verdict"
 """A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
-NO_TAKEOFF = "no_takeoff"
 MAX_CONSTRAINTS = 8
 THETA_DIGITS = 3
 """Decimals of the logarithms with which the next fit starts: a row of a study is half as long."""
@@ -163,11 +162,11 @@ def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
 
     At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most. A limit that refuses a design while it is laid out
     is one too where built robots have a margin of it (`stop_room`): the verdict alone, +1 or -1, is smooth, and
-    promises a jump a tenth of a millimetre beyond such a limit again and again. Robots that stay on the ground are
-    left to `VERDICT`.
+    promises a jump a tenth of a millimetre beyond such a limit again and again. No robot meets the
+    limit of those that stay on the ground: they are left to `VERDICT`.
     """
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
-    met = set[str]().union(*(trial.evaluation.met for trial in trials)) - {NO_TAKEOFF}
+    met = set[str]().union(*(trial.evaluation.met for trial in trials))
     missed = set[str]().union(*(trial.evaluation.missed for trial in trials)) & met
     ranked = sorted(missed, key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
     margins = {name: np.array([trial.evaluation.margins.get(name, np.nan) for trial in trials]) for name in ranked}

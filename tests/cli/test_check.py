@@ -83,6 +83,8 @@ def test_whatever_the_terminals_width_all_is_said(monkeypatch: pytest.MonkeyPatc
         (0.0017, "N·m", "+1.7 mN·m"),
         (-62.14, "MPa", "-62.1 MPa"),
         (0.0, "faults", ""),
+        (0.0, "mm³", ""),
+        (0.0, "mm", "at the limit"),
         (0.05, "mm³", "+0.05 mm³"),
     ],
 )
@@ -181,6 +183,10 @@ def test_limits_stand_in_the_order_of_their_severity_and_use(capsys: pytest.Capt
     told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
     assert told[-3:-1] == ["holds slack 10 % +9 N found slack", "holds far +2 mm found far"]
     assert "spare" not in told[-1]
+    command._print_table([limit("far", 2.0, "mm", "found far", "d")], False)
+    assert capsys.readouterr().out.splitlines() == [
+        "0 errors, 0 warnings, 1 limit holds", "1 of them hold with more than 20 % to spare: --all shows them"
+    ]  # fmt: skip
 
 
 def test_all_limits_of_a_kind_are_explained_together(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -52,6 +52,18 @@ def test_wrong_request_is_one_line_and_exit_code_2(run: Run, tmp_path: Path, arg
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["simulate", "kenan-2.0", "--seed", "x"], ", not 'x' (see jumpcad --help)\n"),
+        (["new"], "Missing argument 'FILE.toml' (see jumpcad --help)\n"),
+    ],
+)
+def test_an_error_in_the_arguments_says_where_help_is(run: Run, arguments: list[str], said: str) -> None:
+    """In one sentence."""
+    assert said in run(*arguments)[2]
+
+
 LONG_WORK = (
     "jumpcad.search.study.run_study",
     "jumpcad.search.explore.sweep",
@@ -120,6 +132,13 @@ def test_a_document_of_a_refusal_names_limit_and_margin(run: Run, monkeypatch: p
     code, out, _ = run("check", "kenan-2.0", "--json")
     document = {"verdict": "cannot_build", "message": "too long", "limit": "room", "margin": -3.0, "unit": "mm"}
     assert (code, json.loads(out)) == (1, document)
+
+    def refused_whole(*_: object) -> None:
+        raise CannotBuildError("too long")
+
+    monkeypatch.setattr("jumpcad.building.build", refused_whole)
+    code, out, _ = run("check", "kenan-2.0", "--json")
+    assert (code, json.loads(out)) == (1, {"verdict": "cannot_build", "message": "too long"})
 
 
 def test_a_bug_is_exit_code_3_with_its_traceback(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -71,6 +71,11 @@ def test_a_lowered_strength_is_told(run: Run) -> None:
     assert load_workshop(Path("w.toml")).materials["PLA"].strength_in_plane_mpa == float(lowered)
     Path("r.toml").write_text("[joints]\nfloor_n = 1000")
     assert run("coupon", "--measured", "r.toml", "-o", "same.toml")[1] == "same.toml: default unchanged\n"
+    Path("same.toml").write_text("# my own\n")
+    assert run("coupon", "--measured", "r.toml", "-o", "same.toml")[0] == 2
+    assert Path("same.toml").read_text() == "# my own\n"
+    assert run("coupon", "--measured", "r.toml", "-o", "same.toml", "--force")[0] == 0
+    assert load_workshop(Path("same.toml")) == load_workshop()
 
 
 @pytest.mark.parametrize(

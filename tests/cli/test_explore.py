@@ -93,7 +93,8 @@ def test_a_view_is_of_what_is_asked_for(folder, monkeypatch, view, words, maker,
     assert "enough" in refusal("explore", view, *QUICK, *words)
     assert asked == [given]
     around = load_design(explore.AROUND if view == "pca" else "best-ga").model_dump()
-    assert [(one["around"], one["seed"]) for one in identities] == [(around, 3 if view == "pca" else 0)]
+    seed = 3 if view == "pca" else 0
+    assert [(one["method"], one["around"], one["seed"]) for one in identities] == [(f"explore {view}", around, seed)]
 
 
 def test_what_is_chosen_of_a_workshop_is_chosen_of_the_one_that_is_named(folder, monkeypatch):

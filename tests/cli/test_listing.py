@@ -5,6 +5,7 @@ import json
 import pytest
 from support.commands import Run
 
+from jumpcad.cli import listing
 from jumpcad.cli.listing import USED_AS, described
 from jumpcad.files import template_names
 from jumpcad.workshop import load_workshop
@@ -84,6 +85,9 @@ def test_a_template_is_described_by_one_sentence() -> None:
             assert "#" not in words
             assert ". " not in words
             assert not words.endswith(".")
+    text = "# A small robot,\n# for a small printer. It has no sensor.\n#\n# Made in May.\nbed_mm = 1\n"
+    assert listing._first_sentence(text) == "A small robot, for a small printer"
+    assert listing._first_sentence("# One sentence.\n") == "One sentence"
 
 
 def test_engines_are_installed_where_their_package_is_found(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -51,6 +51,8 @@ def test_climbs_begin_at_points_that_are_apart_the_best_first():
     points = np.array([[0.5, 0.5], [0.54, 0.46], [0.5, 0.56], [0.9, 0.9], [0.86, 0.94], [0.1, 0.5]])
     assert _apart(points, np.arange(6), 6) == [0, 2, 3, 5]
     assert _apart(points, np.arange(6)[::-1], 2) == [5, 4]
+    crowd = np.vstack([np.tile([0.5, 0.5], (99, 1)), [[0.2, 0.5]]])  # behind many that are near the best
+    assert _apart(crowd, np.arange(100), 2) == [0, 99]
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])

@@ -7,6 +7,7 @@ import pytest
 from support.quick import SPACE
 
 from jumpcad.findings import Finding
+from jumpcad.search import fitting
 from jumpcad.search.fitting import FEW, KNOWN, LIMITS, MARK, Table, features, figures_of, learned_rows, of_layout
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.stand_in import LAID
@@ -83,10 +84,23 @@ def test_the_limits_that_reject_most_are_fitted_where_some_robot_meets_them() ->
     assert len(found) == LIMITS == 6
     assert found == sorted(names)[1:]  # the last of seven is missed once
     assert columns["margin limit_b"][:3].tolist() == [-1.0, -1.0, 0.5]
-    few = table(*failing, *meeting[:-2])._columns
-    assert not any(name.startswith("margin ") for name in few)
+    for count, fitted in ((KNOWN, True), (KNOWN - 1, False)):
+        few = table(*failing, *meeting[: count - len(failing)])._columns
+        assert any(name.startswith("margin ") for name in few) == fitted
     always = table(*[missed("limit_a")] * KNOWN)._columns
     assert "margin limit_a" not in always
+    simulated = table(missed("tips", "too_weak"), *[missed(tips=0.5, too_weak=0.5)] * KNOWN)._columns
+    assert not any(name.startswith("margin ") for name in simulated)  # the stand-in itself tells them
+
+
+def test_of_very_many_robots_the_nearest_to_the_best_are_fitted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In their order."""
+    monkeypatch.setattr(fitting, "FITTED", 5)
+    distance = np.abs(POINTS - CENTRE).max(axis=1)
+    found = table(*[Evaluation("jump", {MARK: 1.0})] * FEW)
+    nearest = sorted(sorted(range(FEW), key=lambda place: distance[place])[:5])
+    assert [one.place for one in found.trials] == nearest
+    assert found.distance == pytest.approx(distance[nearest], abs=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Guesses of printed robots from those that were built."""
 
+import json
 import math
 from dataclasses import replace
 
@@ -135,6 +136,17 @@ def test_what_a_guess_takes_from_a_robot_is_that_of_its_own_workshop(monkeypatch
 def test_rows_are_learned_in_steps(known, rows):
     """8 times 1.3, 1.3², 1.3³, …: 10.4, 13.5, …, 84.8, rounded."""
     assert learned_rows(known, 8, 1.3) == rows
+
+
+def test_a_fit_that_a_study_keeps_comes_back_whole():
+    fit = Fit(
+        24, {"log mass_kg": np.array([-2.0, 0.25]), "margin bed": np.array([1.0, 3.0])}, {"score": 0.5, "bed": 2.0}
+    )
+    back = Fit.from_record(json.loads(json.dumps(fit.to_record())))
+    assert (back.rows, back.errors) == (fit.rows, fit.errors)
+    assert {name: values.tolist() for name, values in back.coefficients.items()} == {
+        "log mass_kg": [-2.0, 0.25], "margin bed": [1.0, 3.0],
+    }  # fmt: skip
 
 
 def test_a_robot_a_quarter_of_the_ranges_from_the_best_counts_half():

@@ -172,6 +172,7 @@ def found_in(*steps):
         (found_in([1.0], [1.03], [0.9]), False),  # once
         (found_in([1.0], [1.03], [1.04]), False),
         (found_in([None], [None]), False),
+        ([*(replace(one, phase="ga") for one in found_in([1.0], [1.03])), *found_in([0.5], [0.9])[1:]], False),
     ],
 )  # fmt: skip
 def test_beside_a_leap_all_axes_are_rehearsed(trials, looks):
@@ -249,6 +250,22 @@ def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as
     assert learner.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
 
 
+def test_a_neighbour_that_was_proposed_is_believed_in_the_rest_of_the_step():
+    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), Rehearsal(1.0)
+    rehearsal.guessing = True
+    before, after = (Learner(SMALL, TRIALS, rehearsal, {}, refit=False) for _ in range(2))
+    unit = after.beside([best], lambda _: True, np.random.default_rng(0)).unit[None]
+    assert after._learned().score.predict(unit)[1] < 0.5 * before._learned().score.predict(unit)[1]
+
+
+@pytest.mark.parametrize("refused", [True, False])
+def test_what_has_no_room_may_not_be_proposed(monkeypatch, refused):
+    variant = SMALL.to_variant([0.5, 0.5, 0.5])
+    monkeypatch.setattr(Rehearsal, "is_refused", lambda self, one: refused and one == variant)
+    assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).may_hold(variant) != refused
+    assert Learner(SMALL, TRIALS, None, {}, refit=False).may_hold(variant)
+
+
 @pytest.mark.parametrize(("less", "proposed"), [(-1.0, True), (0.9, True), (1.1, False)])
 def test_a_neighbour_may_be_a_little_worse_than_the_best(less, proposed):
     """By half a hundredth of its guess."""
@@ -285,6 +302,8 @@ def test_hyperparameters_are_those_of_the_newest_fit():
     assert kept.thetas["score"] == old["score"]
     assert [one.thetas["score"] for one in posteriors] == [again["score"], old["score"]]
     assert kept.thetas.keys() == fitted.keys() | other.keys()
+    refit._learned()
+    assert refit.thetas == other | again  # once in a step
 
 
 def test_a_leap_is_two_per_cent_better_than_the_leap_before_it():

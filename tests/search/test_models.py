@@ -9,9 +9,11 @@ import pytest
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
+from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.models import RobotModel, _figures, robot_model
+from jumpcad.search.neighbours import neighbours
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.refusal import room_findings
 from jumpcad.search.tolerances import Making
@@ -47,6 +49,13 @@ def test_a_model_says_what_decides_its_evaluations():
     assert [one.describe()["settings"] is None for one in (printed, capsule, published)] == [False, False, True]
     assert {"manifold3d", "trimesh"} < set(printed.versions())
     assert not {"manifold3d", "trimesh"} & set(capsule.versions())
+    for model, engine in (
+        (printed, "pybullet"),
+        (replace(capsule, engine="mujoco"), "mujoco"),
+        (published, "pybullet"),
+    ):
+        assert {"jumpcad", "code", "numpy", engine} <= set(model.versions())
+    assert "mujoco" not in printed.versions()
     assert replace(printed, stand_in=True).describe() == printed.describe() | {"stand_in": True}
     assert replace(printed, neighbours_of="rise").describe() == printed.describe() | {"neighbours_of": "rise"}
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
@@ -70,9 +79,10 @@ def test_a_model_has_the_workshop_settings_and_engine_that_are_named():
 def test_a_design_is_evaluated_in_the_model_s_own_workshop_settings_and_engine(monkeypatch):
     """With other values of that workshop too; springs scatter and lengths are off as it says."""
     light, fine, design = load_workshop("light"), load_settings("fine"), load_design("kenan-2.0")
-    jump, asked = Jump("jump", "mujoco", 0.1, 0.2), []
+    gate = [Finding("tips", "info", 0.1, "mm", "", "")]
+    jump, asked = Jump("jump", "mujoco", 0.1, 0.2, findings=gate), []
     monkeypatch.setattr("jumpcad.simulation.simulate", lambda *given: asked.append(given[1:]) or jump)
-    robot_model("capsule", None, fine, "mujoco")(design)
+    assert robot_model("capsule", None, fine, "mujoco")(design).findings == tuple(gate)
     monkeypatch.setattr("jumpcad.evaluation.evaluate_made", lambda *given: asked.append(given[1:4]) or 1 / 0)
     thick = {"body.plate_mm": 2.0, "safety.spring_rate_scatter": 0.2, "fits.sliding_mm": 0.25}
     printed = robot_model("printed", light, fine, "mujoco")
@@ -93,6 +103,7 @@ def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes(mon
     design = load_design(name)
     found = robot_model("published")(design)
     assert found.verdict == ("jump" if distance_m else "no_takeoff")
+    assert found.findings == tuple(geometry_findings(design))
     longest = max(design.l2_mm, design.l3_mm, design.l5_mm)
     figures = found.metrics
     assert figures["fitness"] == pytest.approx(1000.0 * distance_m / longest)
@@ -120,6 +131,8 @@ def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbi
     assert found.findings[3:] != tuple(room_findings(small_robot.layout, reserve_mm + 1.0))
     assert made._printed(design).findings == (jumped, broken)
     assert made._printed(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}
+    monkeypatch.setattr(models, "figures_of", lambda robot: {"bodies": len(robot.bodies)})
+    assert replace(plain, stand_in=True)._printed(design).metrics == found.metrics | {"bodies": 4}
 
 
 def test_only_a_printed_robot_of_which_no_other_learns_is_refused_before_it_is_built(monkeypatch):
@@ -184,8 +197,82 @@ def test_a_variant_is_laid_out_in_its_own_workshop(monkeypatch):
         found = model.laid_out(Variant(design, values))
         assert (found.verdict, found.detail) == ("cannot_build", "no room")
         assert asked[-1] == (design, infill)
-    assert model.laid_out(Variant(design, {"process.infill": 7.0})).verdict == "workshop"
+    for found in (model.laid_out(Variant(design, {"process.infill": 7.0})), model(design, {"process.infill": 7.0})):
+        assert found.verdict == "workshop"
+        assert "infill" in found.detail
     assert len(asked) == 2
+
+
+def test_what_estimates_refuse_is_told_with_the_margins_of_its_geometry(monkeypatch):
+    """In the model's own workshop, with the settings of guesses."""
+    asked, refused = (
+        [],
+        (Finding("tips", "error", -20.0, "mm", "", ""), Finding("too_weak", "error", -1.0, "J", "", "")),
+    )
+    monkeypatch.setattr("jumpcad.search.quick_refusal.quick_refusal", lambda *given: asked.append(given) or refused)
+    light, fine, design = load_workshop("light"), load_settings("fine"), load_design("kenan-2.0")
+    found = robot_model("printed", light, fine)(design)
+    assert asked == [(design, light, fine.model_copy(update={"dt_s": 0.002}))]
+    assert found == Evaluation("tips", findings=(*geometry_findings(design), *refused))
+
+
+def test_p10_looks_at_robots_that_are_varied_and_made_otherwise_each_in_its_workshop(monkeypatch):
+    """Half of them with other springs, floors or masses, and none beside a design that is rejected."""
+    asked, verdict, design = [], "jump", load_design("kenan-2.0")
+
+    def alone(self, one):
+        asked.append((one, self.workshop, dict(self.made)))
+        return Evaluation(verdict, {"fitness": 3.0 if len(asked) > 1 else 9.0})
+
+    monkeypatch.setattr(RobotModel, "_alone", alone)
+    model = replace(robot_model(), neighbours_of="fitness")
+    assert model(design).metrics["p10"] == 3.0
+    beside = [(one, model.varied(one.workshop)) for one in neighbours(design, model.making)]
+    assert asked[1:] == [(one.design, other.workshop, dict(other.made)) for one, other in beside]
+    assert sum("made.spring_factor" in made for _, _, made in asked) == 5
+    asked.clear()
+    verdict = "tips"
+    assert model(design).metrics == {"fitness": 9.0}
+    assert len(asked) == 1
+
+
+def test_p10_alone_is_that_of_the_default_objective():
+    """The model's own, or the one that is given; a capsule robot has that of its rise, and no size."""
+    for model, default, plain in (
+        (robot_model(), "", "body_lengths"),
+        (robot_model(), "range", "range"),
+        (robot_model("capsule"), "", "fitness"),
+        (robot_model("capsule"), "rise", "rise"),
+    ):
+        aimed, objective = model.aiming_at("p10", default)
+        assert (objective.name, objective.neighbours_of, aimed.neighbours_of) == (f"p10-{plain}", plain, plain)
+    with pytest.raises(JumpcadError, match="needs body_lengths"):
+        robot_model("capsule").aiming_at("p10-body_lengths")
+
+
+def test_quick_scores_are_those_of_a_capsule_robot_by_the_engine_of_guesses(monkeypatch):
+    """By the objective, of neighbours by their own; by fitness where it has no such figure; limits do not matter."""
+    asked, verdict = [], "jump"
+    figures = {"fitness": 2.0, "com_rise_m": 0.4, "ballistic_range_m": 0.3}
+    wrong = (Finding("audit", "error", -1.0, "", "", ""),)
+
+    def capsule(self, _):
+        asked.append((self.name, self.engine, self.settings))
+        return Evaluation(verdict, figures, wrong)
+
+    monkeypatch.setattr(RobotModel, "_capsule", capsule)
+    model, design = robot_model("printed", None, None, "mujoco"), load_design("kenan-2.0")
+    scores = {name: model.quick_score(design, find_objective(name)) for name in ("rise", "p10-rise", "body_lengths")}
+    assert scores == {"rise": find_objective("rise").figure(figures), "p10-rise": scores["rise"], "body_lengths": 2.0}
+    assert set(asked[0][:2]) == {"capsule", "planar"}
+    assert asked[0][2] == load_settings("screening")
+    verdict = "no_takeoff"
+    assert model.quick_score(design, find_objective("rise")) == -math.inf
+
+
+def test_settings_that_were_changed_to_what_cannot_be_are_refused():
+    with pytest.raises(JumpcadError, match="dt_s"):
+        robot_model("capsule", None, load_settings("default").model_copy(update={"dt_s": -1.0}))
 
 
 @pytest.mark.parametrize("name", ["printed", "capsule", "published"])
@@ -251,7 +338,8 @@ def test_every_objective_is_for_printed_robots_and_for_others_what_they_have() -
 
 def test_the_first_error_of_the_geometry_is_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     design = load_design("kenan-2.0")
+    kept = Finding("ground", "info", 1.0, "mm", "", "")
     wrong = [Finding(name, "error", -1.0, "mm", "", "") for name in ("loop", "other")]
     for count in (1, 2):
-        monkeypatch.setattr(models, "geometry_findings", lambda _, count=count: wrong[:count])
-        assert robot_model("capsule")(design).verdict == "loop"
+        monkeypatch.setattr(models, "geometry_findings", lambda _, count=count: [kept, *wrong[:count]])
+        assert robot_model("capsule")(design) == Evaluation("loop", findings=(kept, *wrong[:count]))

@@ -94,6 +94,9 @@ def test_neighbours_lie_along_the_axes_that_are_on_no_bound():
     points = np.array(neighbours(SMALL, whole, np.random.default_rng(0)))
     assert len(points) == 6 + DRAWN
     assert (np.abs(points[6:] - [0.4, 0.5, 0.6]) > 0.0).all()
+    edge = replace(best, design=SMALL.to_design(np.array([0.004, 0.5, 0.996])), workshop={})  # nearer than half a step
+    near = np.array(neighbours(SMALL, edge, np.random.default_rng(0)))
+    assert near[:, [0, 2]] == pytest.approx(np.tile([0.004, 0.996], (2 + DRAWN, 1)), abs=1e-3)
     wider = np.array(neighbours(SMALL, whole, np.random.default_rng(0), 2.5)) - [0.4, 0.5, 0.6]
     assert wider == pytest.approx(2.5 * (points - [0.4, 0.5, 0.6]), abs=3e-4)  # of the same draws, to four digits
 

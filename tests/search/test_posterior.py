@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import ndtr
 from scipy.stats import norm
-from support.hills import SMALL, Hill
+from support.hills import FIXED, SMALL, Hill
 
 from jumpcad.findings import Finding
 from jumpcad.search.objective import Evaluation
@@ -23,7 +23,10 @@ from jumpcad.search.posterior import (
     unwarped,
     warped,
 )
+from jumpcad.search.space import Space
+from jumpcad.search.surrogate import Surrogate
 from jumpcad.search.trial import Trial
+from jumpcad.workshop import load_workshop
 
 
 def rows_of(count, model=None):
@@ -227,6 +230,45 @@ def test_a_believed_proposal_is_believed_of_the_guess_too():
     after = posterior.condition_on(point)
     for before, then in ((posterior.score, after.score), (posterior.guess, after.guess)):
         assert then.predict(point[None])[1] < before.predict(point[None])[1]
+
+
+def test_a_believed_proposal_is_believed_of_every_limit_and_of_the_score():
+    x, theta = SMALL.spread(12, np.random.default_rng(0)), [0.0, -1.0, -1.0, -1.0, -6.0]
+    score, limit, other = (Surrogate(x, x[:, axis], theta, fit=False) for axis in range(3))
+    point = np.array([0.31, 0.42, 0.53])
+    after = SearchPosterior(score, {"loop": limit, "tips": other}).condition_on(point)
+    assert after.guess is None
+    pairs = ((score, after.score), (limit, after.constraints["loop"]), (other, after.constraints["tips"]))
+    for before, then in pairs:
+        assert then.predict(point[None])[0] == pytest.approx(before.predict(point[None])[0])
+        assert then.predict(point[None])[1] < before.predict(point[None])[1]
+
+
+def test_a_score_is_learned_from_two_jumps_on():
+    trials = [trial for trial in rows_of(24) if trial.score is not None]
+    known = [SearchPosterior.from_trials(SMALL, trials[:count], {}, None).score for count in (1, 2)]
+    assert known[0] is None
+    assert known[1].predict(np.array([SMALL.to_unit(trials[0].variant)]))[0] == pytest.approx(
+        np.sqrt(trials[0].score), rel=0.01
+    )
+
+
+def test_a_name_is_no_place_between_others():
+    """The processes of a space with a choice of names have no slope along it."""
+    choice = "bought.battery=lipo-1s-300,lipo-2s-180"
+    space = Space.parse(fix=FIXED, choose=[choice], workshop=load_workshop())
+    points = space.snap(space.spread(24, np.random.default_rng(0)))
+    variants = [space.to_variant(point) for point in points]
+    scores = [4.0 + one.design.compression_ratio for one in variants]
+    trials = [
+        Trial("bo", 0, place, one.design, Evaluation("jump", {}, ()), score, "m", 0.0, {}, one.workshop)
+        for place, (one, score) in enumerate(zip(variants, scores, strict=True))
+    ]
+    score = SearchPosterior.from_trials(space, trials, {}, None).score
+    assert len(score.theta) == space.dimension + 2
+    slope = score.slope(points)
+    assert (slope[:, -1] == 0.0).all()
+    assert np.abs(slope[:, 0]).min() > 0.0
 
 
 def test_what_scores_are_more_is_learned_over_their_own_guesses():

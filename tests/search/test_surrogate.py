@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from sklearn.gaussian_process import GaussianProcessRegressor
 
+from jumpcad.search import surrogate
 from jumpcad.search.surrogate import JITTER, ProcessAxes, Surrogate, _kernel
 
 
@@ -32,9 +33,11 @@ def test_fitting_finds_the_axis_that_does_not_matter(data):
 
 
 @pytest.mark.parametrize("count", [2, 5, 40])
-def test_conditioning_on_the_own_mean_changes_it_nowhere_and_makes_nothing_less_sure(data, count):
+@pytest.mark.parametrize("names", [0, 3])
+def test_conditioning_on_the_own_mean_changes_it_nowhere_and_makes_nothing_less_sure(data, count, names):
+    """Where the last axis is one of three names too."""
     x, y = data
-    before = Surrogate(x[:count], y[:count])
+    before = Surrogate(x[:count], y[:count], categories=(0, 0, names))
     point = np.array([0.5, 0.5, 0.5])
     after = before.condition_on(point)
     points = np.random.default_rng(3).random((200, 3))
@@ -45,12 +48,12 @@ def test_conditioning_on_the_own_mean_changes_it_nowhere_and_makes_nothing_less_
 
 
 def test_the_slope_is_the_difference_of_the_mean(data):
-    surrogate = Surrogate(*data)
+    known = Surrogate(*data)
     points, step = np.random.default_rng(2).random((20, 3)), 1e-5
     for axis in range(3):
         shift = step * np.eye(3)[axis]
-        rise = surrogate.predict(points + shift)[0] - surrogate.predict(points - shift)[0]
-        assert surrogate.slope(points)[:, axis] == pytest.approx(rise / (2 * step), abs=1e-5)
+        rise = known.predict(points + shift)[0] - known.predict(points - shift)[0]
+        assert known.slope(points)[:, axis] == pytest.approx(rise / (2 * step), abs=1e-5)
 
 
 def test_an_axis_of_names_becomes_one_for_each_name():
@@ -65,6 +68,8 @@ def test_an_axis_of_names_becomes_one_for_each_name():
     assert axes.unfold(theta).tolist() == [9.0, 1.0, 2.0, 2.0, 2.0, 3.0, 8.0]
     assert axes.folded(axes.unfold(theta)).tolist() == theta.tolist()
     assert axes.fold(np.array([9.0, 1.0, 2.0, 4.0, 8.0, 3.0, 7.0])).tolist() == [9.0, 1.0, 14.0, 3.0, 7.0]
+    rounded = ProcessAxes((4,)).expand(np.array([[0.3333], [0.6667], [0.9999]]))  # a name is the nearest one
+    assert rounded.argmax(axis=1).tolist() == [1, 2, 3]
     plain = ProcessAxes((0, 0))
     assert plain.expand(points[:, :2]).tolist() == points[:, :2].tolist()
 
@@ -81,3 +86,27 @@ def test_values_scatter_about_the_function_by_the_root_of_their_noise(data):
     for one, centre, spread in ((plain, y.mean(), y.std()), (given, 0.5, 4.0)):
         mean, deviation = one.predict(far)
         assert (mean[0], deviation[0]) == pytest.approx((centre, spread))
+
+
+def test_values_that_are_all_equal_are_expected_everywhere(data):
+    x, _ = data
+    mean, deviation = Surrogate(x, np.full(40, 2.5)).predict(np.random.default_rng(1).random((9, 3)))
+    assert mean == pytest.approx(np.full(9, 2.5))
+    assert np.isfinite(deviation).all()
+
+
+def test_a_fit_finds_by_how_much_values_scatter(data):
+    """Measurements that are off by a sixth of the function's deviation: a share of 1/37 of their variance."""
+    x, y = data
+    noise = y.std() / 6.0
+    seen = y + noise * np.random.default_rng(4).choice([-1.0, 1.0], len(y))
+    assert Surrogate(x, seen).scatter == pytest.approx(noise, rel=0.4)
+
+
+def test_a_fit_begins_where_the_one_before_ended(data, monkeypatch):
+    """One step from there is nearer to it than a step from where the first fit begins."""
+    x, y = data
+    before = Surrogate(x[:30], y[:30]).theta
+    monkeypatch.setattr(surrogate, "_FIT_STEPS", 1)
+    after, anew = Surrogate(x, y, before).theta, Surrogate(x, y).theta
+    assert np.abs(np.subtract(after, before)).max() < 0.5 < np.abs(np.subtract(anew, before)).max()

@@ -49,6 +49,9 @@ def test_ten_of_many_are_listed_as_best(tmp_path: Path) -> None:
     assert [points.trial(number).score for number in best.values()] == [float(12 - place) for place in range(10)]
     assert [text.partition(":")[0] for text in best] == [f"best {place}" for place in range(1, 11)]
     assert points.best == 1 + [one.score for one in made].index(12.0)
+    front = [points.trial(number) for text, number in points.listed.items() if text.startswith("front")]
+    assert front
+    assert {one.phase for one in front} == {made[0].phase}
 
 
 def test_a_front_that_seeks_more_of_both_is_listed_by_the_figures_themselves(tmp_path: Path) -> None:
