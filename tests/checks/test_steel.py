@@ -60,6 +60,21 @@ def test_axles_and_pins_stay_in_a_landing_sideways(kenan: Robot) -> None:
     assert {"axle_retention", "pin_retention"} <= worse
 
 
+@pytest.mark.parametrize(
+    ("retention", "axle", "pin"),
+    [
+        ("plates", "the plates over its ends", "its split pin"), ("clips", "its clips", "its clips"),
+        ("nuts", "its nut", "its split pin"),
+    ],
+)  # fmt: skip
+def test_what_holds_an_axle_and_a_pin_is_told(kenan: Robot, retention: str, axle: str, pin: str) -> None:
+    """Clevis pins have split pins; with clips everything has clips."""
+    robot = changed(replace(kenan, layout=replace(kenan.layout, retention=retention)), "bought", retention=retention)
+    found = {one.name: one.message for one in steel._retention(LoadCase(robot))}
+    assert f" N; {axle} may carry " in found["axle_retention"]
+    assert f" N; {pin} may carry " in found["pin_retention"]
+
+
 def test_the_legs_pin_is_a_cantilever_beside_the_leg(kenan: Robot) -> None:
     """The arm pushes half a wire and 0.5 mm beside the leg; the pin is held in it, from a quarter of its width on."""
     (pin,) = (found for found in strength_findings(kenan) if found.name == "leg_pin_strength")
@@ -193,6 +208,14 @@ def test_a_thicker_axle_is_advised_only_where_it_can_be_bought(retention: str, n
     case = LoadCase(changed(built("kenan-2.0"), "bought", retention=retention, axle="silver-steel"))
     words = steel._stronger(case, name, 330.0, 300.0)
     assert words.partition("bought.axle_mm of ")[2].partition(" with")[0] == advised
+
+
+@pytest.mark.parametrize("share", [1.02, 1.13, 1.3, 1.7, 2.5])
+def test_a_rod_that_is_advised_is_thick_enough_to_a_tenth(kenan: Robot, share: float) -> None:
+    """The stress falls with the cube of the diameter, so that a tenth less would not be enough."""
+    words = steel._thicker(LoadCase(kenan), "leg_axle", share)
+    advised = float(words.partition("bought.axle_mm of ")[2].partition(" or more")[0])
+    assert (advised - 0.1) ** 3 < share * 3.0**3 <= advised**3
 
 
 def test_the_thinnest_clip_that_is_enough_is_advised() -> None:
