@@ -218,6 +218,28 @@ def test_a_rod_that_is_advised_is_thick_enough_to_a_tenth(kenan: Robot, share: f
     assert (advised - 0.1) ** 3 < share * 3.0**3 <= advised**3
 
 
+def test_where_clevis_pins_are_not_made_so_thin_clips_set_the_next_diameter() -> None:
+    """Pins of 2 mm have clips, though axles have none: 2·2^(1/3) = 2.52 mm is the next clip's 3 mm, for both."""
+    bought = SimpleNamespace(retention="plates", axle_mm=2.0)
+    clips, pins = ({f"{size}": SimpleNamespace(**{key: size}) for size in sizes} for key, sizes in (
+        ("shaft_mm", (2.0, 3.0)), ("diameter_mm", (2.8, 4.0))))  # fmt: skip
+    catalogue = SimpleNamespace(clips=clips, clevis_pins=pins, rods=built("kenan-2.0").workshop.catalogue.rods)
+    bars = dict.fromkeys(("leg_axle", "foot_pin"), SimpleNamespace(diameter_mm=2.0))
+    case: Any = SimpleNamespace(workshop=SimpleNamespace(bought=bought, catalogue=catalogue), bars=bars)
+    for name in bars:
+        assert "bought.axle_mm of 3 with" in steel._thicker(case, name, 2.0)
+
+
+def test_a_tube_is_not_advised_for_its_yield_stress() -> None:
+    """Its bore takes some of what its steel would bear."""
+    rods = {name: SimpleNamespace(name=name, yield_mpa=900.0, bore_share=bore) for name, bore in (("t", 0.7), ("r", 0))}
+    shop = SimpleNamespace(
+        bought=SimpleNamespace(retention="nuts"), catalogue=SimpleNamespace(rods=rods), stock_spring=None
+    )
+    case: Any = SimpleNamespace(workshop=shop, bars={"leg_axle": SimpleNamespace(yield_mpa=400.0, diameter_mm=3.0)})
+    assert "(bought.axle of r with" in steel._stronger(case, "leg_axle", 600.0, 300.0)
+
+
 def test_the_thinnest_clip_that_is_enough_is_advised() -> None:
     """Of clips for 2, 3, 4 and 5 mm: twice the stress needs 2·2^(1/3) = 2.52 mm, ten times 4.31 mm, 30 times more."""
     bought = SimpleNamespace(retention="clips")
