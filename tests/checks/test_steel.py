@@ -240,6 +240,20 @@ def test_a_tube_is_not_advised_for_its_yield_stress() -> None:
     assert "(bought.axle of r with" in steel._stronger(case, "leg_axle", 600.0, 300.0)
 
 
+@pytest.mark.parametrize("roller_mm", [3.0, 6.0])
+def test_a_wider_roller_is_farther_from_the_hubs_bearings(kenan: Robot, roller_mm: float) -> None:
+    """Statics of two supports, the roller's middle half its width and a washer of 0.5 mm beside the leg."""
+    layout = kenan.layout
+    begins = layout.lateral.cam[0]
+    wide = replace(layout, lateral=replace(layout.lateral, cam=(begins, begins + roller_mm)))
+    case = LoadCase(replace(kenan, layout=wide))
+    (found,) = steel._bearings(case)
+    (arms, _), push = case.wound_forces_n
+    thick = layout.sections.thickness_mm
+    aside = (thick / 2.0 + 0.5 + roller_mm / 2.0) / (thick - layout.hub_bearing.width_mm)
+    assert found.value == pytest.approx(math.hypot(*(arms / 2.0 + push * (0.5 + aside))))
+
+
 def test_the_thinnest_clip_that_is_enough_is_advised() -> None:
     """Of clips for 2, 3, 4 and 5 mm: twice the stress needs 2·2^(1/3) = 2.52 mm, ten times 4.31 mm, 30 times more."""
     bought = SimpleNamespace(retention="clips")
