@@ -60,6 +60,21 @@ def test_axles_and_pins_stay_in_a_landing_sideways(kenan: Robot) -> None:
     assert {"axle_retention", "pin_retention"} <= worse
 
 
+@pytest.mark.parametrize(
+    ("retention", "axle", "pin"),
+    [
+        ("plates", "the plates over its ends", "its split pin"), ("clips", "its clips", "its clips"),
+        ("nuts", "its nut", "its split pin"),
+    ],
+)  # fmt: skip
+def test_what_holds_an_axle_and_a_pin_is_told(kenan: Robot, retention: str, axle: str, pin: str) -> None:
+    """Clevis pins have split pins; with clips everything has clips."""
+    robot = changed(replace(kenan, layout=replace(kenan.layout, retention=retention)), "bought", retention=retention)
+    found = {one.name: one.message for one in steel._retention(LoadCase(robot))}
+    assert f" N; {axle} may carry " in found["axle_retention"]
+    assert f" N; {pin} may carry " in found["pin_retention"]
+
+
 def test_the_legs_pin_is_a_cantilever_beside_the_leg(kenan: Robot) -> None:
     """The arm pushes half a wire and 0.5 mm beside the leg; the pin is held in it, from a quarter of its width on."""
     (pin,) = (found for found in strength_findings(kenan) if found.name == "leg_pin_strength")
@@ -193,6 +208,50 @@ def test_a_thicker_axle_is_advised_only_where_it_can_be_bought(retention: str, n
     case = LoadCase(changed(built("kenan-2.0"), "bought", retention=retention, axle="silver-steel"))
     words = steel._stronger(case, name, 330.0, 300.0)
     assert words.partition("bought.axle_mm of ")[2].partition(" with")[0] == advised
+
+
+@pytest.mark.parametrize("share", [1.02, 1.13, 1.3, 1.7, 2.5])
+def test_a_rod_that_is_advised_is_thick_enough_to_a_tenth(kenan: Robot, share: float) -> None:
+    """The stress falls with the cube of the diameter, so that a tenth less would not be enough."""
+    words = steel._thicker(LoadCase(kenan), "leg_axle", share)
+    advised = float(words.partition("bought.axle_mm of ")[2].partition(" or more")[0])
+    assert (advised - 0.1) ** 3 < share * 3.0**3 <= advised**3
+
+
+def test_where_clevis_pins_are_not_made_so_thin_clips_set_the_next_diameter() -> None:
+    """Pins of 2 mm have clips, though axles have none: 2·2^(1/3) = 2.52 mm is the next clip's 3 mm, for both."""
+    bought = SimpleNamespace(retention="plates", axle_mm=2.0)
+    clips, pins = ({f"{size}": SimpleNamespace(**{key: size}) for size in sizes} for key, sizes in (
+        ("shaft_mm", (2.0, 3.0)), ("diameter_mm", (2.8, 4.0))))  # fmt: skip
+    catalogue = SimpleNamespace(clips=clips, clevis_pins=pins, rods=built("kenan-2.0").workshop.catalogue.rods)
+    bars = dict.fromkeys(("leg_axle", "foot_pin"), SimpleNamespace(diameter_mm=2.0))
+    case: Any = SimpleNamespace(workshop=SimpleNamespace(bought=bought, catalogue=catalogue), bars=bars)
+    for name in bars:
+        assert "bought.axle_mm of 3 with" in steel._thicker(case, name, 2.0)
+
+
+def test_a_tube_is_not_advised_for_its_yield_stress() -> None:
+    """Its bore takes some of what its steel would bear."""
+    rods = {name: SimpleNamespace(name=name, yield_mpa=900.0, bore_share=bore) for name, bore in (("t", 0.7), ("r", 0))}
+    shop = SimpleNamespace(
+        bought=SimpleNamespace(retention="nuts"), catalogue=SimpleNamespace(rods=rods), stock_spring=None
+    )
+    case: Any = SimpleNamespace(workshop=shop, bars={"leg_axle": SimpleNamespace(yield_mpa=400.0, diameter_mm=3.0)})
+    assert "(bought.axle of r with" in steel._stronger(case, "leg_axle", 600.0, 300.0)
+
+
+@pytest.mark.parametrize("roller_mm", [3.0, 6.0])
+def test_a_wider_roller_is_farther_from_the_hubs_bearings(kenan: Robot, roller_mm: float) -> None:
+    """Statics of two supports, the roller's middle half its width and a washer of 0.5 mm beside the leg."""
+    layout = kenan.layout
+    begins = layout.lateral.cam[0]
+    wide = replace(layout, lateral=replace(layout.lateral, cam=(begins, begins + roller_mm)))
+    case = LoadCase(replace(kenan, layout=wide))
+    (found,) = steel._bearings(case)
+    (arms, _), push = case.wound_forces_n
+    thick = layout.sections.thickness_mm
+    aside = (thick / 2.0 + 0.5 + roller_mm / 2.0) / (thick - layout.hub_bearing.width_mm)
+    assert found.value == pytest.approx(math.hypot(*(arms / 2.0 + push * (0.5 + aside))))
 
 
 def test_the_thinnest_clip_that_is_enough_is_advised() -> None:

@@ -52,6 +52,8 @@ def test_two_cells_pass_a_regulator_and_a_diode_to_the_controller() -> None:
     low = 6.6 - PEAK_A * chosen.battery.ohm
     assert found["regulator"].gets_v == pytest.approx((low, 8.4))
     assert found["driver"].gets_v == pytest.approx((low, 8.4))
+    for role in ("switch", "plug", "capacitor"):  # before the regulator
+        assert found[role].gets_v == pytest.approx((low, 8.4)), role
     logic = chosen.regulator.output_v - (chosen.diode.drop_v if chosen.diode else 0.0)
     assert found["controller"].gets_v == pytest.approx((logic, logic))
     alone = replace(chosen, components={name: one for name, one in chosen.components.items() if name != "diode"})

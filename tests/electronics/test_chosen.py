@@ -1,5 +1,7 @@
 """Which electrical parts a workshop has."""
 
+from dataclasses import replace
+
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -35,3 +37,21 @@ def test_a_diode_lies_behind_a_regulator_alone() -> None:
     assert bare.boards.keys() == {"controller", "driver"}
     assert "diode" in bare.components
     assert bare.diode is None
+
+
+def test_usb_charges_one_cell_that_lies_at_a_charger_and_no_other() -> None:
+    """Two cells need 8.4 V; a regulator lets no current back; a board without charger or pads for a cell has 5 V."""
+    shop = load_workshop()
+    one = chosen_parts(shop)
+    assert one.charged_by_usb
+    two = shop.catalogue.batteries["lipo-2s-180"]
+    assert (one.battery.cells, two.cells) == (1, 2)
+    regulator = shop.catalogue.boards[shop.catalogue.kits["strong-2s"].regulator]
+    bare = {name: tuple(f for f in able if f != "battery") for name, able in one.controller.pins.items()}
+    rated = one.controller.model_copy(update={"pins": bare})
+    unrated = one.controller.model_copy(update={"charge_ma": None})
+    for charged in (replace(one, controller=rated), replace(one, controller=unrated)):
+        assert charged.charged_by_usb
+    neither = rated.model_copy(update={"charge_ma": None})
+    for other in ({"battery": two}, {"regulator": regulator}, {"controller": neither}):
+        assert not replace(one, **other).charged_by_usb

@@ -8,6 +8,7 @@ import pytest
 from jumpcad.catalogue import load_catalogue
 from jumpcad.electronics.chosen import Chosen, chosen_of
 from jumpcad.electronics.nets import (
+    AT,
     LOWER_OHM,
     PULL_UP_OHMS,
     UPPER_OHMS,
@@ -321,3 +322,40 @@ def test_a_driver_of_two_inputs_gets_the_battery_at_the_one_that_bears_it(kit: s
     edges = wires(wiring_of(replace(chosen, driver=two), {})) | {("switch 1", "switch 2")}
     assert f"driver {pin}" in reached("battery +", edges)
     assert f"driver {'VM' if pin == 'VCC' else 'VCC'}" not in {end for edge in edges for end in edge}
+
+
+def test_a_regulator_of_two_inputs_gets_the_battery_at_the_one_that_bears_it() -> None:
+    """6.6 to 8.4 V of two cells, not the 5 V that it makes of them."""
+    chosen = parts("strong-2s")
+    two = chosen.regulator.model_copy(update={"supply_v": {"LOW": (2.7, 5.5), "HIGH": (5.6, 11.0)}})
+    edges = wires(wiring_of(replace(chosen, regulator=two), {})) | {("switch 1", "switch 2")}
+    assert "regulator HIGH" in reached("battery +", edges)
+    assert "regulator LOW" not in {end for edge in edges for end in edge}
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_a_small_part_is_wired_to_the_board_at_which_it_is_soldered(kit: str) -> None:
+    """The capacitor at the driver's supply, the resistors at the pins that read them, the diode where USB feeds too."""
+    chosen = parts(kit)
+    assert AT["capacitor"] == "driver"
+    assert [role for role, board in chosen.boards.items() if board.diode_at] == [AT["diode"]]
+    boards, direct = {"capacitor": "driver"} | dict.fromkeys(("upper", "lower", "pull-up"), "controller"), set()
+    for net in wiring_of(chosen, {}).nets:
+        there = {terminal.part for terminal in net.terminals}
+        for one, other in net.wires:
+            part = other.part.removesuffix(" resistor")
+            if boards.get(part) in there:
+                assert one.part == boards[part], f"{net.name}: {other}"
+                direct.add(part)
+    assert direct == set(boards)
+
+
+@pytest.mark.parametrize(("terminals", "level"), [(("COM", "NC", "NO"), 1), (("COM", "NC"), 1), (("COM", "NO"), 0)])
+def test_at_ready_a_contact_that_opens_reads_high_and_one_that_closes_low(
+    terminals: tuple[str, ...], level: int
+) -> None:
+    """It lies between the pin, which is pulled up, and ground."""
+    chosen = parts("light-1s")
+    sensor = chosen.components["sensor"].model_copy(update={"terminals": terminals})
+    wiring = wiring_of(replace(chosen, components=chosen.components | {"sensor": sensor}), {})
+    assert wiring.ready_level == level

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from jumpcad.design import load_design
+from jumpcad.design import PARAMETERS, Design, limits_of, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import FOOT, RollerOff
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
@@ -81,3 +81,18 @@ def test_links_are_longer_by_their_errors_and_nothing_else_changes() -> None:
     found = [changed.l2_mm, changed.l3_mm, changed.l4_mm, changed.l5_mm]
     assert found == pytest.approx([design.l2_mm + 0.2, design.l3_mm - 0.1, design.l4_mm + 0.15, design.l5_mm + 0.05])
     assert changed.to_vector()[4:] == pytest.approx(design.to_vector()[4:])
+
+
+def test_a_link_that_would_be_longer_than_a_design_may_be_is_as_long_as_it_may_be() -> None:
+    """Errors of a print at either end of what a parameter may be: no jump of a scatter fails for them."""
+    design = load_design("kenan-2.0")
+    for name, end in (("c_coef", 0), ("c_coef", 1), ("e_coef", 0), ("e_coef", 1)):
+        values = design.model_dump() | {name: limits_of(name)[end]}
+        at_end = Design(**{key: values[key] for key in PARAMETERS})
+        outwards = -0.2 if end == 0 else 0.2
+        place = 1 if name == "c_coef" else 3
+        errors = np.zeros(4)
+        errors[place] = outwards
+        assert getattr(with_length_errors(at_end, errors), name) == limits_of(name)[end]
+        errors[place] = -outwards
+        assert getattr(with_length_errors(at_end, errors), name) != limits_of(name)[end]

@@ -244,6 +244,29 @@ def test_what_is_lost_is_accounted_for(kenan: Robot, friction: float) -> None:
     assert slips == (friction == 0.3)
 
 
+def test_what_damping_takes_in_the_air_is_what_is_missing(either: Robot) -> None:
+    """Of links of any lengths: each joint of leg, front link and ankle takes by its own rate."""
+    settings = replace_damping(FINE, 0.002)
+    world = world_at(either, moving(model_of(either), -0.5), settings)
+    energy = kernel.energy(world.model, world.moment)
+    world.advance(round(0.02 / FINE.dt_s))
+    lost, losses = energy - kernel.energy(world.model, world.moment), world.moment.losses
+    assert losses.damping_j == pytest.approx(lost, rel=1e-3)
+    assert lost > 0.05 * either.spring.energy_j
+    assert sum(losses) == losses.damping_j
+
+
+@pytest.mark.parametrize("leg_rad", [-0.6, -0.2, 0.1])
+def test_dry_friction_of_a_joint_acts_by_its_rate(either: Robot, leg_rad: float) -> None:
+    """Virtual work of 4 mN·m at leg, front link and ankle, whose angles change as those of the linkage's poses do."""
+    model = model_of(either, FINE.model_copy(update={"joint_friction_nm": 0.004}))
+    links, speed = kernel.links_at(model, leg_rad), PlanarMotion(0j, 0.0, 1.0)
+    torque = kernel.pin_torque(model, links, Stance(0.5j, 1.0 + 0j, 1e-4), speed, speed, NO_CONTACT)
+    near = Linkage(either.design).pose([leg_rad - 1e-6, leg_rad + 1e-6])
+    turned = sum(abs(float(np.ptp(angle))) for angle in (near.leg_rad, near.front_rad, near.ankle_rad)) / 2e-6
+    assert torque - model.pins_nm == pytest.approx(0.004 * turned, rel=1e-6)
+
+
 def test_pin_friction_takes_what_a_separate_study_found(kenan: Robot) -> None:
     """Friction 0.25 in pins of 3 mm takes about 2 % of the springs' energy (`loads` gives the same pin forces)."""
     world = PlanarWorld(rubbing(kenan, pin=0.25), FINE)
@@ -300,6 +323,17 @@ def test_a_stop_holds_the_leg_and_keeps_momentum(kenan: Robot) -> None:
     lost = energy - kernel.energy(world.model, world.moment)
     assert world.moment.losses.stop_j == pytest.approx(lost, rel=0.01)
     assert lost > 0.001
+
+
+def test_a_stop_lets_the_leg_go_back(kenan: Robot) -> None:
+    """The pad pushes and does not hold: springs that pull back turn the leg home as if there were no stop."""
+    robot = stopped(kenan)
+    leaving = moving(model_of(kenan), STOP_RAD + 0.02)._replace(speed=PlanarMotion(0j, 0.0, -0.5))
+    held, free = (world_at(one, leaving, replace_damping(FINE)) for one in (robot, kenan))
+    for world in (held, free):
+        world.advance(round(0.01 / FINE.dt_s))
+    assert held.moment.leg_rad == free.moment.leg_rad < STOP_RAD
+    assert held.moment.losses.stop_j == 0.0
 
 
 def test_a_stop_met_on_the_ground_lifts_the_robot(kenan: Robot) -> None:
