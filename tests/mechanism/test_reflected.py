@@ -1,6 +1,7 @@
 """The robot as its leg joint feels it, against a simulated push-off and textbook oscillators."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -62,6 +63,15 @@ def test_preloaded_springs_push_a_leg_through_a_part_of_their_oscillation(preloa
     speed = rate * math.sqrt((0.7 + preload) ** 2 - preload**2)
     assert level.push_off_s(spring, 0.0) == pytest.approx(expected, rel=2e-3)
     assert level.push_off_s(spring, 0.1) == pytest.approx(expected + 0.1 / speed, rel=2e-3)
+
+
+@pytest.mark.parametrize("weight_nm", [-0.06, 0.03, 0.09])
+def test_a_steady_weight_acts_as_more_or_less_preload(weight_nm: float) -> None:
+    """k·(w + p) + W = k·(w + p + W/k): the weight helps where the body rises as the leg is wound."""
+    level = ReflectedMass(np.linspace(0.0, 0.7, 33), np.full(33, 8e-4), np.zeros(33), np.full(33, weight_nm))
+    bare = replace(level, weight_nm=np.zeros(33))
+    spring, other = (Spring("leg", 0.5, 0.7, preload_rad=0.2 + more) for more in (0.0, weight_nm / 0.5))
+    assert level.push_off_s(spring, 0.1) == pytest.approx(bare.push_off_s(other, 0.1), rel=1e-9)
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "best-ga"])

@@ -1,6 +1,6 @@
 """Proposals at a distance from a constraint."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -107,6 +107,22 @@ def test_only_what_was_made_as_the_space_says_is_learned_from(evaluator):
         runs.append([trial.key for trial in propose_robust(one, own, 2, 0, 0.01)])
     assert len(runs[0]) == 3
     assert runs[0] == runs[1]
+
+
+def test_it_learns_with_the_newest_hyperparameters_of_its_space(evaluator, monkeypatch):
+    """Of the search so far: those of a space of other size are passed over."""
+    one, asked = evaluator(model=Cliff()), []
+    trials = one.evaluate([SMALL.to_design(point) for point in SMALL.spread(16, np.random.default_rng(1))], "bo", 0)
+    notes = {3: [0.1] * 5, 9: [0.2] * 5, 12: [0.3] * 6}
+    trials = [replace(trial, proposal={"theta": {"score": notes[n]}}) if n in notes else trial
+              for n, trial in enumerate(trials)]  # fmt: skip
+    monkeypatch.setattr(
+        "jumpcad.search.margin.SearchPosterior.from_trials", lambda space, known, thetas, fit: asked.append(thetas)
+    )
+    monkeypatch.setattr("jumpcad.search.margin.propose", lambda *_: None)
+    monkeypatch.setattr("jumpcad.search.margin._missed", lambda *_: None)
+    assert propose_robust(one, trials, 3, 0, 0.01) == []
+    assert asked == [{"score": [0.2] * 5}]
 
 
 def test_for_each_confidence_another_design_is_proposed(evaluator, monkeypatch):

@@ -71,6 +71,8 @@ def test_phases_follow_one_another_and_say_how_slow_they_are(played: Playback) -
     assert first.to_text(2.0).endswith(f"({2.0 * first.slower:.3g} times slower than real)")
     assert replace(first, slower=2.0).to_text().endswith("(2 times slower than real)")
     assert replace(first, slower=0.5).to_text().endswith("(2 times quicker than real)")
+    for real_s, told in ((0.0314, "0.031"), (0.9994, "0.999"), (2.26, "2.3")):  # a push-off takes milliseconds
+        assert replace(first, phase="flight", real_s=real_s).to_text().startswith(f"flight, {told} s (")
 
 
 def test_gears_turn_against_each_other_while_the_spring_is_wound(played: Playback) -> None:
