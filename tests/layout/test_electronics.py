@@ -182,6 +182,13 @@ def test_the_balance_lead_has_its_tie_between_the_stop_and_the_trays_end() -> No
     assert single.battery_mm == 0.0
 
 
+def test_a_tray_is_never_too_short_for_its_two_tabs() -> None:
+    """Of 10 mm each, 1 mm before the tray's ends and 8 mm apart, however small battery and boards are."""
+    battery = CARRIED.battery.model_copy(update={"length_mm": 8.0, "cells": 1})
+    boards = [board.model_copy(update={"width_mm": 5.0}) for board in (CARRIED.controller, CARRIED.driver)]
+    assert Electronics(battery, *boards).length_mm == 2 * (1.0 + 10.0) + 8.0
+
+
 def test_what_lies_on_the_trays_has_the_height_of_trays_tape_and_gap() -> None:
     """Bottoms above the lower tray's underside: battery on 1.6 mm; 3.8 mm over it the upper tray; tape of 1 mm.
 

@@ -312,6 +312,18 @@ def test_motor_and_cap_screws_stand_where_the_layout_says() -> None:
         assert low[1] == pytest.approx(high[1] - head - 8.0, abs=1e-3)
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_shafts_flat_lies_on_the_flat_of_the_pinions_bore(name: str) -> None:
+    """All of its section is in the bore but for what five crush ribs take of it, each a tenth of a mm deep or less."""
+    robot = built(name)
+    lateral, shaft = robot.layout.lateral, next(item for item in robot.hardware if item.name == "motor_shaft")
+    y = lateral.gears[-1][0] + 1.0
+    pinion = region(cut(placed(robot, "motor_pinion"), y))
+    section = region(cut(shaft.look.copy().apply_transform(shaft.T_body_part), y))
+    assert section.area == pytest.approx(math.pi * 1.5**2, rel=0.15)
+    assert section.intersection(pinion).area < 0.02 * section.area
+
+
 @pytest.mark.parametrize(("diameter", "across"), [(3.0, 2.5), (4.0, 3.5)])
 def test_a_d_shaft_is_a_disc_without_a_segment(diameter: float, across: float) -> None:
     """Area of a segment beyond a chord at h from the middle: r²·acos(h/r) - h·√(r² - h²)."""
