@@ -221,6 +221,19 @@ def test_what_lies_on_the_trays_has_the_height_of_trays_tape_and_gap() -> None:
     assert tall.height_mm == pytest.approx(upper + 1.6 + 30.0)
 
 
+def test_the_plug_lies_beside_the_foremost_board_and_opens_to_the_front() -> None:
+    """Of two boards or of three: inwards of the board's rim and of its own tie's slot, at the tray's front end."""
+    parts = CATALOGUE.components
+    two = replace(CARRIED, plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"])
+    for full, foremost in ((two, "driver"), (replace(two, regulator=CATALOGUE.boards["s7v7f5"]), "regulator")):
+        seats = full.seats((-30.0, 26.0))
+        board, plug = seats[foremost], seats["plug"]
+        assert board.x_mm == max(seats[role].x_mm for role in full.boards)
+        apart = board.y_mm - board.size_mm[1] / 2.0 - (plug.y_mm + plug.size_mm[1] / 2.0)
+        assert apart == pytest.approx(0.2 + 1.2 + 1.8)
+        assert plug.x_mm + plug.size_mm[0] / 2.0 == pytest.approx(full.length_mm / 2.0)
+
+
 def test_ties_have_their_slots_on_both_sides_of_what_they_hold() -> None:
     """Of a board along the robot, 0.2 mm beside it; of capacitor and plug across, close to them."""
     parts = CATALOGUE.components

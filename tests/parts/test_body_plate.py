@@ -16,6 +16,7 @@ from jumpcad.parts import body_plate
 from jumpcad.parts.body_plate import _drawing, _openings, _spring_boss, plates
 from jumpcad.parts.engraving import TEXT_HEIGHTS_MM
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.part import Face
 from jumpcad.parts.plate_outline import pin_hole
 from jumpcad.parts.sensor import plate_pad
@@ -219,6 +220,20 @@ def test_the_springs_pins_boss_leaves_the_motors_socket_free(kenan: Robot) -> No
     assert (low, high) == (2.0, 2.0 + layout.spring_boss_mm)
     assert (region ^ beside).area() < 1e-6
     assert region.area() == pytest.approx(math.pi / 8.0 * (7.0**2 - RUNNING**2), rel=0.01)
+
+
+def test_the_springs_pins_boss_closes_no_screws_hole_of_the_motors_cap(kenan: Robot) -> None:
+    """A pin beside an ear of the socket: the boss around it, 7 mm wide, would reach over the tapped hole."""
+    ear = ear_places(kenan.layout)[0]
+    layout = replace(kenan.layout, spring_pin_mm=ear + np.array([3.0, 0.0]), spring_boss_mm=4.0)
+    holes = HoleSizes.of(kenan.workshop, layout.hub_bearing)
+    _, right = plates(layout, holes, "")
+    thick = layout.lateral.right_plate[1] - layout.lateral.right_plate[0]
+    (section,) = right.shape.regions_at([thick + 2.0])
+    at = np.linalg.inv(right.placements[0].T_body_part)
+    x, z = (at @ [ear[0], 0.0, ear[1], 1.0])[:2]
+    assert (section ^ disc(holes.fits.m2_tap_mm - 0.02, (x, z))).area() < 1e-6
+    assert (section ^ disc(4.0, (x, z))).area() > 1.0
 
 
 @pytest.mark.parametrize(("retention", "closed"), [("plates", True), ("nuts", False), ("clips", False)])
