@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from support.built import built, cut, placed, region
-from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, measured
+from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, chamfered, measured
 
 from jumpcad.building import build
 from jumpcad.design import load_design
@@ -311,3 +311,8 @@ def test_tabs_of_trays_slide_into_slots_at_both_ends(name: str, side: str) -> No
             slot = tab.buffer(fit, join_style="mitre")
             assert slot.intersection(around).area < 0.01
             assert slot.buffer(0.05, join_style="mitre").difference(slot).difference(around).area < 0.05
+
+
+@pytest.mark.parametrize("name", ["body_plate_left", "body_plate_right"])
+def test_plates_lie_on_chamfered_edges(kenan: Robot, name: str) -> None:
+    assert chamfered(kenan, name)

@@ -8,6 +8,7 @@ import pytest
 import shapely
 import trimesh
 from support.built import built, cut, hole_centres, placed, region
+from support.fits import chamfered
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM
@@ -172,3 +173,8 @@ def test_the_base_of_the_switch_is_at_least_a_first_layer_outside_the_plate(laye
     process = holes.process.model_copy(update={"first_layer_mm": base - 0.01, layer: base + 0.01})
     with nullcontext() if fits else pytest.raises(CannotBuildError, match=f"{base + 0.01:.2f} mm are needed"):
         _require_base(robot.layout, replace(holes, process=process))
+
+
+def test_the_mount_stands_on_chamfered_edges(robot: Robot) -> None:
+    """The switch's case goes in there."""
+    assert chamfered(robot, "sensor_mount")
