@@ -83,9 +83,9 @@ def plate_opening(sensor: SensorPlace, holes: HoleSizes) -> Region:
 
 def plate_pad(sensor: SensorPlace, more_mm: float = 0.0) -> Region:
     """Return where the left plate needs material for the sensor, grown by a margin."""
-    half = [side + more_mm for side in sensor.half_mm]
-    half[1] = max(half[1], sensor.case_mm[1] / 2.0 + OPENING_MM + EDGE_MM + more_mm)
-    return _turned(sensor, rectangle((2.0 * half[0], 2.0 * half[1]), corner_radius_mm=1.0 + more_mm))
+    long = sensor.half_mm[0] + more_mm
+    wide = sensor.case_mm[1] / 2.0 + OPENING_MM + EDGE_MM + more_mm  # farther than the mount
+    return _turned(sensor, rectangle((2.0 * long, 2.0 * wide), corner_radius_mm=1.0 + more_mm))
 
 
 def sensor_slabs(part: Component, travel: Travel) -> list[tuple[float, float, Region]]:

@@ -17,7 +17,16 @@ from support.elsewhere import environment
 from support.places import ROOT
 
 from jumpcad.building import assembly, build
-from jumpcad.building.assembly import _contacts, _friction, _printed, _sensor_needs, assembled, layout_of
+from jumpcad.building.assembly import (
+    _contacts,
+    _friction,
+    _printed,
+    _require_parts,
+    _sensor_needs,
+    assembled,
+    drawings,
+    layout_of,
+)
 from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -137,6 +146,15 @@ def test_weights_of_one_robot_do_not_hinder_another() -> None:
     assert {"idler", "toe_left", "toe_right"} < others
     robot = build(load_design("kenan-2.0"), weighed(**dict.fromkeys(others, 1.0)), "kenan-2.0")
     assert robot.mass_kg == built("kenan-2.0").mass_kg
+
+
+def test_parts_of_which_a_workshops_choice_decides_may_be_weighed_for_all_robots() -> None:
+    """Ends of legs of bars, and the mount of a sensor: for a robot without them their weights are of no use."""
+    whole, holes = layout_of(KENAN, load_workshop())
+    barred, _ = layout_of(KENAN, changed(bought={"leg": "carbon-tube-4x2"}))
+    few, more = ({one.name for one in drawings(layout, holes, "")} for layout in (replace(whole, sensor=None), barred))
+    assert more - few == {"main_leg_end", "sensor_mount"}
+    _require_parts(more, sorted(few))
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])

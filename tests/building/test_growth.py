@@ -11,7 +11,7 @@ from jumpcad.building import assembly, build, growth
 from jumpcad.checks import check, constraint_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import Design, load_design
-from jumpcad.errors import CannotBuildError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, at_least, errors
 from jumpcad.robot import Robot
 from jumpcad.strength.growth import Growth
@@ -35,6 +35,16 @@ def test_a_loop_that_does_not_close_says_by_how_much_it_is_short() -> None:
         build(design)
     assert (refused.value.limit, refused.value.unit) == ("loop", "mm")
     assert refused.value.margin == pytest.approx(-66.70, abs=0.005)
+
+
+def test_designs_and_workshops_that_were_changed_to_wrong_values_are_refused() -> None:
+    """As they would be in a file, before anything is computed from them."""
+    design, shop = load_design("kenan-2.0"), load_workshop()
+    with pytest.raises(JumpcadError, match="carrying_link_mm"):
+        build(design.model_copy(update={"carrying_link_mm": -5.0}), shop)
+    wrong = shop.model_copy(update={"process": shop.process.model_copy(update={"perimeters": -1})})
+    with pytest.raises(JumpcadError, match=r"process\.perimeters"):
+        build(design, wrong)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

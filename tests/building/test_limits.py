@@ -12,7 +12,7 @@ from jumpcad.building.limits import drive_limits, release_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
-from jumpcad.drive import DriveLimits
+from jumpcad.drive import CamLimits, DriveLimits
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
@@ -81,6 +81,8 @@ def test_the_default_workshop_has_the_limits_of_its_comments() -> None:
     assert found.train.stress_mpa == pytest.approx(15.0 / (1.1 * 1.05))  # stiffest springs, and the reserve
     assert (found.cam.roller_radius_mm, found.cam.cam_width_mm) == (5.0, 4.0)
     assert found.cam.roller_load_n == pytest.approx(220.0 / (1.1 * 1.05))  # static rating of a 623, both reserves
+    # of a line contact the pressure grows with the root of its force (Hertz)
+    assert (CamLimits.pressure_mpa / found.cam.pressure_mpa) ** 2 == pytest.approx(220.0 / found.cam.roller_load_n)
     assert limits(load_workshop()).motors == ("n20-298-mp",)
     assert (found.preload_rad, limits(changed("spring", preload_deg=4.0)).preload_rad) == (0.0, math.radians(4.0))
 

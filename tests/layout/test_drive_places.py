@@ -248,9 +248,25 @@ def test_a_shaft_reaches_into_its_pinion_by_its_diameter(pairs: int) -> None:
     motor, lateral = layout.drive.train.motor, layout.lateral
     needed = lateral.gears[-1][0] - lateral.motor[1] + 3.0
     require_shaft(motor.model_copy(update={"shaft_length_mm": needed}), lateral)
-    with pytest.raises(CannotBuildError, match=rf"it needs {needed:.1f} mm to pass its cap") as refused:
+    with pytest.raises(
+        CannotBuildError, match=rf"it needs {needed:.1f} mm to pass its cap and reach 3 mm in"
+    ) as refused:
         require_shaft(motor.model_copy(update={"shaft_length_mm": needed - 0.01}), lateral)
     assert refused.value.margin == pytest.approx(-0.01)
+
+
+def test_what_leaves_pinion_or_motor_no_room_is_told_with_their_sizes() -> None:
+    """In the gears' plane it is the pinion's tips that meet a wall, beside them the N20, 10 x 12 mm."""
+    layout, smaller = built("kenan-2.0").layout, r"raise d_coef .*a smaller motor than n20-[\w-]+ \(10 x 12 mm\)$"
+    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
+    tip = drive.train.stages[0].pinion.tip_radius_mm
+    with pytest.raises(CannotBuildError, match=rf"no room for the pinion of {tip:.1f} mm radius on .*: {smaller}"):
+        train_places([disc("wall", axis, 500.0, lateral.gears[-1])], drive, lateral, axis)
+    with pytest.raises(CannotBuildError, match=rf"no room for the motor: .* beside the wall: {smaller}"):
+        train_places([disc("wall", axis, 500.0, lateral.motor)], drive, lateral, axis)
+    drive, axis, lateral = geared().layout.drive, geared().layout.cam_axis_mm, geared().layout.lateral
+    with pytest.raises(CannotBuildError, match=rf"no room for the idler and the motor beside the cam: {smaller}"):
+        train_places([disc("wall", axis, 500.0, EVERYWHERE)], drive, lateral, axis)
 
 
 def test_the_motors_pinion_keeps_clear_of_what_stands_in_its_own_plane() -> None:

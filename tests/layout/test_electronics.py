@@ -182,6 +182,13 @@ def test_the_balance_lead_has_its_tie_between_the_stop_and_the_trays_end() -> No
     assert single.battery_mm == 0.0
 
 
+def test_a_tray_is_never_too_short_for_its_two_tabs() -> None:
+    """Of 10 mm each, 1 mm before the tray's ends and 8 mm apart, however small battery and boards are."""
+    battery = CARRIED.battery.model_copy(update={"length_mm": 8.0, "cells": 1})
+    boards = [board.model_copy(update={"width_mm": 5.0}) for board in (CARRIED.controller, CARRIED.driver)]
+    assert Electronics(battery, *boards).length_mm == 2 * (1.0 + 10.0) + 8.0
+
+
 def test_what_lies_on_the_trays_has_the_height_of_trays_tape_and_gap() -> None:
     """Bottoms above the lower tray's underside: battery on 1.6 mm; 3.8 mm over it the upper tray; tape of 1 mm.
 
@@ -212,6 +219,19 @@ def test_what_lies_on_the_trays_has_the_height_of_trays_tape_and_gap() -> None:
     assert wide.width_mm == pytest.approx(across + 60.0 - full.controller.length_mm)
     tall = replace(full, capacitor=parts["electrolytic-100uf"].model_copy(update={"height_mm": 30.0}))
     assert tall.height_mm == pytest.approx(upper + 1.6 + 30.0)
+
+
+def test_the_plug_lies_beside_the_foremost_board_and_opens_to_the_front() -> None:
+    """Of two boards or of three: inwards of the board's rim and of its own tie's slot, at the tray's front end."""
+    parts = CATALOGUE.components
+    two = replace(CARRIED, plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"])
+    for full, foremost in ((two, "driver"), (replace(two, regulator=CATALOGUE.boards["s7v7f5"]), "regulator")):
+        seats = full.seats((-30.0, 26.0))
+        board, plug = seats[foremost], seats["plug"]
+        assert board.x_mm == max(seats[role].x_mm for role in full.boards)
+        apart = board.y_mm - board.size_mm[1] / 2.0 - (plug.y_mm + plug.size_mm[1] / 2.0)
+        assert apart == pytest.approx(0.2 + 1.2 + 1.8)
+        assert plug.x_mm + plug.size_mm[0] / 2.0 == pytest.approx(full.length_mm / 2.0)
 
 
 def test_ties_have_their_slots_on_both_sides_of_what_they_hold() -> None:

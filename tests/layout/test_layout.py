@@ -253,6 +253,8 @@ def test_the_reserve_is_kept_in_the_stops_room_and_between_the_legs() -> None:
         (apart + 0.02, "legs_apart", 0.02),
     ):
         layout_module._require_legs_apart(free.linkage, free.sections, GAP_MM + apart - 0.02)
+        with pytest.raises(CannotBuildError, match=rf"come 2\.0 mm nearer than the {GAP_MM + apart + 2.0:g} mm that"):
+            layout_module._require_legs_apart(free.linkage, free.sections, GAP_MM + apart + 2.0)
         with pytest.raises(CannotBuildError) as refused:
             planned(reserve)
         assert (refused.value.limit, refused.value.margin) == (limit, pytest.approx(-misses))

@@ -125,7 +125,7 @@ def test_the_gear_keeps_1_6_mm_under_the_groove_or_is_refused(robot: Robot) -> N
     least = middle_mm(needs.travel) - needs.axial_mm - 0.1
     assert placed_with(robot, free_mm=least + 3.2).depth_mm == pytest.approx(3.2)
     with pytest.raises(
-        CannotBuildError, match=r"no room for the sensor's groove: 3\.6 mm deep, it leaves 1\.4 of"
+        CannotBuildError, match=r"groove: 3\.6 mm deep, it leaves 1\.4 of the cam gear's 5 mm; 1\.6 mm are needed"
     ) as refused:
         placed_with(robot, free_mm=least + 3.5)
     assert refused.value.margin == pytest.approx(-0.2)
@@ -141,7 +141,10 @@ def test_the_track_fits_between_dog_and_teeth_with_its_walls_or_is_refused(robot
     assert placed_with(robot, pin_mm=thickest - 1e-6).radius_mm == pytest.approx(
         (wheel.root_radius_mm + dog.outer_mm / 2.0) / 2.0, abs=1e-3
     )
-    with pytest.raises(CannotBuildError, match=r"no room for the sensor's track on the cam gear: 0\.5 mm") as refused:
+    between = rf"its dog of {dog.outer_mm:.1f} mm and its teeth, {2.0 * wheel.root_radius_mm:.1f} mm at their roots"
+    with pytest.raises(
+        CannotBuildError, match=rf"track on the cam gear: 0\.5 mm too little between {between}"
+    ) as refused:
         placed_with(robot, pin_mm=thickest + 0.5)
     assert (refused.value.limit, refused.value.margin) == ("sensor_track", pytest.approx(-0.5))
 
@@ -194,6 +197,15 @@ def test_where_no_direction_is_free_at_12_mm_the_track_is_as_near_to_that_as_it_
         fenced(math.hypot(low + wide, long) - 0.5)
     lacking = math.hypot(free.radius_mm + wide, long) - math.hypot(low + wide, long) + 0.5
     assert refused.value.margin == pytest.approx(-lacking, abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["motor", "cam axle", "leg axle", "front axle", "idler axle", "idler wheel", "lever"])
+def test_of_axles_and_motor_the_switch_keeps_off_the_seats_and_the_shaft_alone(robot: Robot, name: str) -> None:
+    """The motor's socket ends before the gears, and spacers are inside the plate: what else is there is in the way."""
+    layout, free, far = robot.layout, placed_with(robot), np.array([900.0, 900.0])
+    given = (layout.drive, layout.lateral, layout.cam_axis_mm, {}, far, layout.axle_mm, layout.sensor.needs)
+    found = sensor_place([disc(name, free.place_mm, 1.0, layout.lateral.inside)], *given)
+    assert (found.place_mm == free.place_mm).all() == (name not in ("idler wheel", "lever"))
 
 
 def test_a_motors_shaft_in_the_plate_keeps_the_switch_off(robot: Robot) -> None:

@@ -85,7 +85,7 @@ def test_the_stop_gives_way_to_what_is_there_and_says_what_misses(robot: Robot) 
         stop_place([replace(post, radius_mm=40.0)], *given)
     enough, thin = (stop.pad.model_copy(update={"thickness_mm": thickness}) for thickness in (1.5, 1.49))
     assert stop_place([], *given[:3], enough, *given[4:]).pad == enough
-    with pytest.raises(CannotBuildError, match="choose a thicker pad"):
+    with pytest.raises(CannotBuildError, match=r"is 1\.49 mm thick; .* needs at least 1\.5 mm: choose a thicker pad"):
         stop_place([], *given[:3], thin, *given[4:])
 
 
@@ -179,7 +179,8 @@ def test_links_that_are_too_short_beyond_the_least_stop_are_refused(robot: Robot
             return np.asarray(self.l3 + self.l4 + (leg_rad - math.radians(6.0)) * 10.0 + 0.4)
 
     with pytest.raises(
-        CannotBuildError, match=r"0\.4 mm too short to close the loop with the leg 6\.0° past"
+        CannotBuildError,
+        match=r"0\.4 mm too short to close the loop with the leg 6\.0° past rest, which a stop at 3° and",
     ) as refused:
         stop_angle_rad(Short(robot.design), sections, math.radians(9.0))
     assert (refused.value.limit, refused.value.margin) == ("stop_reach", pytest.approx(-0.4))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from support.built import built, cut, placed, region
-from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, measured
+from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, chamfered, measured
 
 from jumpcad.building import build
 from jumpcad.design import load_design
@@ -16,6 +16,7 @@ from jumpcad.parts import body_plate
 from jumpcad.parts.body_plate import _drawing, _openings, _spring_boss, plates
 from jumpcad.parts.engraving import TEXT_HEIGHTS_MM
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.part import Face
 from jumpcad.parts.plate_outline import pin_hole
 from jumpcad.parts.sensor import plate_pad
@@ -221,6 +222,20 @@ def test_the_springs_pins_boss_leaves_the_motors_socket_free(kenan: Robot) -> No
     assert region.area() == pytest.approx(math.pi / 8.0 * (7.0**2 - RUNNING**2), rel=0.01)
 
 
+def test_the_springs_pins_boss_closes_no_screws_hole_of_the_motors_cap(kenan: Robot) -> None:
+    """A pin beside an ear of the socket: the boss around it, 7 mm wide, would reach over the tapped hole."""
+    ear = ear_places(kenan.layout)[0]
+    layout = replace(kenan.layout, spring_pin_mm=ear + np.array([3.0, 0.0]), spring_boss_mm=4.0)
+    holes = HoleSizes.of(kenan.workshop, layout.hub_bearing)
+    _, right = plates(layout, holes, "")
+    thick = layout.lateral.right_plate[1] - layout.lateral.right_plate[0]
+    (section,) = right.shape.regions_at([thick + 2.0])
+    at = np.linalg.inv(right.placements[0].T_body_part)
+    x, z = (at @ [ear[0], 0.0, ear[1], 1.0])[:2]
+    assert (section ^ disc(holes.fits.m2_tap_mm - 0.02, (x, z))).area() < 1e-6
+    assert (section ^ disc(4.0, (x, z))).area() > 1.0
+
+
 @pytest.mark.parametrize(("retention", "closed"), [("plates", True), ("nuts", False), ("clips", False)])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_bores_are_closed_outside_where_plates_keep_the_axles(
@@ -296,3 +311,8 @@ def test_tabs_of_trays_slide_into_slots_at_both_ends(name: str, side: str) -> No
             slot = tab.buffer(fit, join_style="mitre")
             assert slot.intersection(around).area < 0.01
             assert slot.buffer(0.05, join_style="mitre").difference(slot).difference(around).area < 0.05
+
+
+@pytest.mark.parametrize("name", ["body_plate_left", "body_plate_right"])
+def test_plates_lie_on_chamfered_edges(kenan: Robot, name: str) -> None:
+    assert chamfered(kenan, name)

@@ -13,7 +13,7 @@ from support.fits import with_fits_apart
 from support.robots import FOLDED
 
 from jumpcad.building import build, layout_of
-from jumpcad.design import Design
+from jumpcad.design import Design, load_design
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts import foot as foot_part
@@ -141,6 +141,18 @@ def test_the_ankles_pin_fits_its_lugs_and_its_ends_have_room_outside(name: str, 
     assert mesh.contains([[2.2, side * (face - 0.3), 0.0]])[0]
 
 
+@pytest.mark.parametrize("angle_deg", [55.0, 80.0])
+def test_the_ankles_pin_goes_in_past_the_toes(angle_deg: float) -> None:
+    """Its head, or its clip, has 7 mm of room about the pin's axis from the boss's face outwards, past both toes."""
+    design = load_design("best-bo").model_copy(update={"ground_link_angle_deg": angle_deg})
+    layout, holes = layout_of(design, load_workshop())
+    mesh, depth, face = foot_part.foot(layout, holes).mesh, layout.sections.foot_depth_mm, layout.ankle_face_mm
+    turns = np.radians(np.arange(0.0, 360.0, 30.0))
+    rim = [[3.4 * np.cos(turn), 3.4 * np.sin(turn)] for turn in turns]
+    for y in np.arange(face + 0.1, face + 12.0, 0.2):
+        assert not mesh.contains([[x, side * y, depth + z] for side in (-1.0, 1.0) for x, z in [(0, 0), *rim]]).any(), y
+
+
 @pytest.mark.parametrize("axle_mm", [2.0, 3.0, 5.0])
 def test_the_ankles_boss_has_two_walls_around_its_pin_and_more_than_its_ends_have_room(axle_mm: float) -> None:
     """Round about the ankle, and as wide down to the sole; the ends of a pin have 7 mm of room outside it."""
@@ -207,16 +219,18 @@ LEANING = {
 def test_the_web_at_the_ankle_begins_half_a_millimetre_ahead_of_the_leg_on_its_stop(numbers: list[float]) -> None:
     """Seen in the foot, with the pad pressed: the straight bar as wide as the ankle's eye, on the line to the hub."""
     robot = build(Design.from_vector(numbers), load_workshop("fine"))
-    layout = robot.layout
-    sections, past = layout.sections, layout.stop.reach_rad
+    past = robot.layout.stop.reach_rad
     foot, leg = (body_in_plane(robot, body, -past) for body in (FOOT, MAIN_LEG))
     hub, ankle = ((np.linalg.inv(foot) @ leg @ [x, 0.0, 1.0])[:2] for x in (0.0, robot.design.l2_mm))
     assert ankle == pytest.approx([0.0, 0.0], abs=1e-6)
-    (start, end, height), *_ = foot_part._webs(layout, sections.rail_root_mm, 2.0)
-    web = shapely.box(start, -sections.foot_depth_mm, end, height - sections.foot_depth_mm)
-    bar = shapely.LineString([ankle, hub]).buffer(max(sections.leg_tip_mm / 2.0, sections.eye_radius_mm))
-    assert start > sections.foot_depth_mm
-    assert web.distance(bar) == pytest.approx(0.5, abs=1e-3)
+    for thicker_mm in (0.0, 3.0):  # or as thick as the leg, where that is more
+        sections = replace(robot.layout.sections, leg_tip_mm=robot.layout.sections.leg_tip_mm + thicker_mm)
+        layout = replace(robot.layout, sections=sections)
+        (start, end, height), *_ = foot_part._webs(layout, sections.rail_root_mm, 2.0)
+        web = shapely.box(start, -sections.foot_depth_mm, end, height - sections.foot_depth_mm)
+        bar = shapely.LineString([ankle, hub]).buffer(max(sections.leg_tip_mm / 2.0, sections.eye_radius_mm))
+        assert start > sections.foot_depth_mm
+        assert web.distance(bar) == pytest.approx(0.5, abs=1e-3)
 
 
 def test_a_leg_that_leans_back_on_its_stop_leaves_the_web_at_the_ankle() -> None:

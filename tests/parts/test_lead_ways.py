@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.built import built
+from support.built import built, placed
 
 from jumpcad.building import build
 from jumpcad.bundle.lead_lines import _outer, leads_of
@@ -150,6 +150,9 @@ def test_words_say_the_direction_in_which_the_lead_goes(robot: Robot) -> None:
         if "outside it" in words:
             along = "forwards" if way[-1, 0] > inside[-1, 0] else "backwards"
             assert f"outside it {along}" in words
+            outside = way[(way[:, 1] < robot.layout.lateral.outside[0]) | (way[:, 1] > robot.layout.lateral.outside[1])]
+            screws = {float(x) for x, _ in robot.layout.standoffs_mm}
+            assert ("below the standoff's screw" in words) == bool(screws & set(outside[:, 0].tolist())), words
         said += 1
     assert said >= 6
 
@@ -177,7 +180,8 @@ def test_the_batterys_leads_go_from_its_front_end_around_the_trays_to_the_plug(r
         assert end == pytest.approx([high[0], (low[1] + high[1]) / 2.0, (low[2] + high[2]) / 2.0], abs=0.02), name
     assert np.ptp(way[1:4, 0]) == 0.0
     assert (np.count_nonzero(np.abs(np.diff(way, axis=0)) > 1e-9, axis=1) <= 1).all()  # one way at a time
-    assert way[1, 0] > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
+    trays = placed(robot, "electronics_tray_upper")
+    assert way[1, 0] == pytest.approx(trays.bounds[1, 0] + 3.0, abs=2e-3)
     drawn = [lead.points_mm - way for lead in leads_of(robot) if set(lead.parts) == {"battery", "plug"}]
     aside = [[[0.0, y, 0.0]] * 5 for y in (-0.5, 0.5)]  # two leads, a millimetre apart
     assert np.array(drawn) == pytest.approx(np.array(aside))

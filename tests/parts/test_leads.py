@@ -7,7 +7,9 @@ import pytest
 from support.built import built
 
 from jumpcad.bundle.wiring import wires
-from jumpcad.parts.leads import _lead_mm
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import wiring_of
+from jumpcad.parts.leads import _lead_mm, has_own_legs, metres_by_colour
 
 
 @pytest.mark.parametrize(
@@ -33,6 +35,16 @@ def test_inside_a_wire_goes_from_where_one_lead_ends_to_where_the_other_does() -
     assert _lead_mm(ways, "controller", "driver") == _lead_mm(ways, "driver", "controller") == 70.0
 
 
+@pytest.mark.parametrize(
+    ("one", "other", "own"),
+    [("diode", "controller", True), ("upper resistor", "controller", True), ("regulator", "diode", False),
+     ("switch", "upper resistor", False), ("controller", "driver", False)],
+)  # fmt: skip
+def test_legs_reach_the_board_beside_them_and_no_other_part(one: str, other: str, own: bool) -> None:
+    """A diode lies at the controller: from the regulator it takes a wire."""
+    assert has_own_legs(one, other) == has_own_legs(other, one) == own
+
+
 def test_no_wire_is_cut_for_legs_of_a_part_and_the_batterys_own_plug() -> None:
     far = {
         name: [np.array([100.0 * number, 0.0, 0.0])] for number, name in enumerate(("battery", "plug", "controller"))
@@ -45,6 +57,12 @@ def test_wires_of_a_colour_are_all_that_are_cut_of_it() -> None:
     robot = built("kenan-2.0")
     cut = [(colour, length) for _, _, _, colour, length in wires(robot)]
     assert cut
+    needed = {colour for colour, length in cut if length > 0.0}
+    assert needed < {colour for colour, _ in cut}  # the pull-up resistor's own legs are all of the logic supply
+    assert (
+        metres_by_colour(robot.layout, wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)).keys()
+        == needed
+    )
     wiring = {colour: sum(length for one, length in cut if one == colour) / 1000.0 for colour, _ in cut}
     written = {item.article for item in robot.hardware if item.name.startswith("wiring_wire_")}
     for colour, metres in wiring.items():

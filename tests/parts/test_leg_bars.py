@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from manifold3d import CrossSection
 from support.documented import documented_bases
-from support.fits import with_fits_apart
+from support.fits import chamfered, with_fits_apart
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.catalogue import load_catalogue
@@ -63,6 +63,11 @@ def test_bars_sit_in_the_sockets_of_both_ends(leg: str) -> None:
         assert bar[1] > end[0] + 7.5
         height, width = np.ptp(sizes["bar"][:, 2]), np.ptp(sizes["bar"][:, 1])
         assert (width, height) == pytest.approx((BARS[leg].width_mm, BARS[leg].height_mm), abs=0.1)
+
+
+@pytest.mark.parametrize("name", ["main_leg", "main_leg_end", "front_link"])
+def test_printed_ends_of_legs_lie_on_chamfered_edges(name: str) -> None:
+    assert chamfered(robot("carbon-strip-3x6"), name)
 
 
 def test_the_whole_heel_is_printed() -> None:

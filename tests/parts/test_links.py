@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from support.built import LONG_TOES, built, cut, hole_centres, placed, region
+from support.fits import chamfered
 
 from jumpcad.robot import Robot
 
@@ -130,3 +131,9 @@ def test_the_front_link_is_a_straight_bar_between_equal_eyes(robot: Robot) -> No
     assert link.buffer(2.95).buffer(-2.95).difference(link).area < 0.05
     mesh = placed(robot, "front_link")
     assert mesh.bounds[:, 1] == pytest.approx([-sections.thickness_mm / 2.0, sections.thickness_mm / 2.0])
+
+
+def test_links_lie_on_chamfered_edges(robot: Robot) -> None:
+    """Their eyes turn between others."""
+    assert chamfered(robot, "main_leg")
+    assert chamfered(robot, "front_link")

@@ -152,6 +152,17 @@ def test_a_pad_is_printed_where_its_kind_is(under: bool | None, stop: bool) -> N
     assert found == (under_the_foot if under else set()) | ({"stop_pad"} if stop else set())
 
 
+def test_what_is_ordered_is_strip_to_cut_and_a_printed_pad_has_its_parts_name() -> None:
+    robot = built("kenan-2.0")
+    strip = robot.workshop.foot_pad
+    assert strip is not None
+    for printed in (False, True):
+        for item in pads(robot.layout, strip.model_copy(update={"printed": printed})):
+            if item.name != "stop_pad":
+                assert (item.article == item.name) == printed
+                assert item.article.startswith(f"{strip.description}, cut ") != printed
+
+
 def test_a_printed_pad_is_of_its_own_kind() -> None:
     robot = built("kenan-2.0")
     assert robot.workshop.foot_pad is not None

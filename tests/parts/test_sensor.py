@@ -8,6 +8,7 @@ import pytest
 import shapely
 import trimesh
 from support.built import built, cut, hole_centres, placed, region
+from support.fits import chamfered
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM
@@ -130,9 +131,11 @@ def test_the_mount_is_refused_on_a_plate_so_thick_that_the_base_does_not_stand_o
     """At least the first layer's chamfer, or that layer, is left of the rim around the base."""
     holes = HoleSizes.of(robot.workshop, robot.layout.hub_bearing)
     least = max(robot.workshop.fits.first_layer_chamfer_mm, robot.workshop.process.first_layer_mm)
+    low, high = robot.layout.lateral.left_plate
+    told = rf"is {least - 0.001:.2f} mm outside the left plate, which is {high - low:.1f} mm thick, {least:.2f} mm are"
     for base_mm, fits in ((least + 0.001, True), (least - 0.001, False)):
         layout = replace(robot.layout, sensor=replace(robot.layout.sensor, base_mm=base_mm))
-        with nullcontext() if fits else pytest.raises(CannotBuildError, match="no room for the sensor's mount") as no:
+        with nullcontext() if fits else pytest.raises(CannotBuildError, match=told) as no:
             assert len(list(sensor_mount(layout, holes))) == 1
         if not fits:
             assert no.value.margin == pytest.approx(-0.001)
@@ -172,3 +175,8 @@ def test_the_base_of_the_switch_is_at_least_a_first_layer_outside_the_plate(laye
     process = holes.process.model_copy(update={"first_layer_mm": base - 0.01, layer: base + 0.01})
     with nullcontext() if fits else pytest.raises(CannotBuildError, match=f"{base + 0.01:.2f} mm are needed"):
         _require_base(robot.layout, replace(holes, process=process))
+
+
+def test_the_mount_stands_on_chamfered_edges(robot: Robot) -> None:
+    """The switch's case goes in there."""
+    assert chamfered(robot, "sensor_mount")

@@ -19,7 +19,7 @@ from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.parts.shopping import _d_shaft, _standoffs
+from jumpcad.parts.shopping import _d_shaft, _motor_things, _standoffs
 from jumpcad.parts.toes import joint_height_mm, toes
 from jumpcad.robot import Robot
 from jumpcad.strength.growth import Growth
@@ -105,6 +105,16 @@ def test_the_motor_weighs_what_the_catalogue_says_with_its_shaft(assembled_robot
     assert grams([shaft]) == pytest.approx(
         7.85e-3 * math.pi / 4.0 * motor.shaft_mm**2 * motor.shaft_length_mm, rel=0.01
     )
+
+
+def test_a_motor_is_ordered_by_its_name_and_by_the_article_that_a_shop_knows_if_there_is_one() -> None:
+    layout, catalogue = built("kenan-2.0").layout, load_catalogue()
+    train = layout.drive.train
+    for article, ordered in (("4787", "gear motor mine (4787)"), (None, "gear motor mine")):
+        motor = train.motor.model_copy(update={"name": "mine", "article": article})
+        moved = replace(layout, drive=replace(layout.drive, train=replace(train, motor=motor)))
+        found = {one.name: one.article for one in _motor_things(moved, catalogue)}
+        assert found["motor"] == found["motor_shaft"] == ordered
 
 
 def test_two_springs_weigh_their_wire(assembled_robot: Robot) -> None:
@@ -310,6 +320,18 @@ def test_motor_and_cap_screws_stand_where_the_layout_says() -> None:
         assert high[1] == pytest.approx(lateral.motor_cap[1], abs=1e-3)
         head = load_catalogue().screws["M2"].button_head_height_mm
         assert low[1] == pytest.approx(high[1] - head - 8.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_shafts_flat_lies_on_the_flat_of_the_pinions_bore(name: str) -> None:
+    """All of its section is in the bore but for what five crush ribs take of it, each a tenth of a mm deep or less."""
+    robot = built(name)
+    lateral, shaft = robot.layout.lateral, next(item for item in robot.hardware if item.name == "motor_shaft")
+    y = lateral.gears[-1][0] + 1.0
+    pinion = region(cut(placed(robot, "motor_pinion"), y))
+    section = region(cut(shaft.look.copy().apply_transform(shaft.T_body_part), y))
+    assert section.area == pytest.approx(math.pi * 1.5**2, rel=0.15)
+    assert section.intersection(pinion).area < 0.02 * section.area
 
 
 @pytest.mark.parametrize(("diameter", "across"), [(3.0, 2.5), (4.0, 3.5)])

@@ -137,8 +137,12 @@ def test_spacers_hold_the_axles_around_which_they_keep_a_wall() -> None:
 
     require_axle(shop(4.399))
     require_axle(shop(4.2, sliding_mm=0.29))
-    for wrong, most in ((shop(4.401), "4.4"), (shop(4.4, sliding_mm=0.3), "4.2"), (shop(4.4, wall_min_mm=1.0), "4")):
-        with pytest.raises(JumpcadError, match=rf"is more than {most}, the most with which spacers of 6.4 mm keep"):
+    wrong_ones = ((shop(4.401), "4.4", "0.8"), (shop(4.4, sliding_mm=0.3), "4.2", "0.8"),
+                  (shop(4.4, wall_min_mm=1.0), "more than 4", "1"))  # fmt: skip
+    for wrong, most, least in wrong_ones:
+        with pytest.raises(
+            JumpcadError, match=rf"{most}, .* spacers of 6.4 mm keep a wall of .*wall_min_mm = {least}:"
+        ):
             require_axle(wrong)
 
 

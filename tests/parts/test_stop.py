@@ -5,7 +5,7 @@ import pytest
 import shapely
 import trimesh
 from support.built import built, cut, part, placed, region
-from support.fits import with_fits_apart
+from support.fits import chamfered, with_fits_apart
 
 from jumpcad.parts.body_plate import _openings
 from jumpcad.parts.holes import HoleSizes
@@ -92,3 +92,8 @@ def test_the_pad_lies_in_its_seat_before_the_bar(robot: Robot) -> None:
     assert pad.bounds[:, 1] == pytest.approx([-0.6, thick - 0.6], abs=2e-3)
     assert pad.bounds[:, 2] == pytest.approx([0.0, 8.0], abs=2e-3)
     assert (pad.bounds[0, 0] + pad.bounds[1, 0]) / 2.0 == pytest.approx(0.0, abs=1e-3)
+
+
+def test_the_bar_lies_on_chamfered_edges(robot: Robot) -> None:
+    """Its tabs are pressed into slots."""
+    assert chamfered(robot, "stop_bar")

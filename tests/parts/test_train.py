@@ -11,7 +11,7 @@ import trimesh
 from scipy.optimize import brentq
 from shapely import affinity
 from support.built import built, cut, geared, hole_centres, in_body, placed, region
-from support.fits import with_fits_apart
+from support.fits import chamfered, with_fits_apart
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
@@ -483,3 +483,12 @@ def test_the_cam_gear_lies_as_it_is_drawn_with_the_springs_at_rest() -> None:
         turns = gear_turns(robot.layout)
         assert turns["cam_gear"] == 0.0
         assert ("idler" in turns) == (robot.layout.idler_mm is not None)
+
+
+def test_gears_and_cam_stand_on_chamfered_edges() -> None:
+    """Teeth that spread on the bed would jam."""
+    for robot in robots().values():
+        gears_and_cam = [one.name for one in robot.parts if one.drawing.role == "gears"]
+        assert len(gears_and_cam) == (3 if robot.layout.idler_mm is None else 4)
+        for name in gears_and_cam:
+            assert chamfered(robot, name), name

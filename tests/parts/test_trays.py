@@ -168,6 +168,18 @@ def test_the_window_under_a_short_battery_ends_a_millimetre_before_its_stops(len
     assert high.bounds[0] - window.bounds[2] == pytest.approx(1.0, abs=2e-3)
 
 
+@pytest.mark.parametrize(("width_mm", "stop_mm"), [(5.0, 4.0), (6.5, 4.0), (10.0, 6.0)])
+def test_the_stops_of_a_narrow_battery_are_4_mm_long(width_mm: float, stop_mm: float) -> None:
+    """Those of a wider one three fifths of its width."""
+    layout = built("kenan-2.0").layout
+    battery = layout.electronics.battery.model_copy(update={"width_mm": width_mm})
+    electronics = replace(layout.electronics, battery=battery)
+    lower = trays(replace(layout, electronics=electronics), HoleSizes.of(load_workshop(), None))[0]
+    (section,) = lower.shape.regions_at(np.array([2.6]))
+    sizes = [np.ptp(ring, axis=0)[1] for ring in section.to_polygons()]
+    assert sizes == pytest.approx([stop_mm, stop_mm], abs=1e-3)
+
+
 @pytest.mark.parametrize("battery", ["lipo-2s-180", "lipo-1s-300"])
 @pytest.mark.parametrize("length_mm", [60.0, 90.0])
 def test_the_window_under_a_long_battery_ends_5_mm_before_the_trays_end(battery: str, length_mm: float) -> None:

@@ -11,6 +11,8 @@ from support.built import built, placed
 
 from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import load_catalogue
+from jumpcad.electronics.chosen import chosen_of
+from jumpcad.electronics.nets import wiring_of
 from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.wired import _soldered, _switch, electronics
 from jumpcad.workshop import load_workshop
@@ -218,6 +220,20 @@ def test_the_balance_lead_of_two_cells_lies_under_its_tie_ahead_of_the_battery()
     assert np.ptp(tie, axis=0) == pytest.approx([2.5, 10.0, 1.1], abs=2e-3)
     assert tie[0, 0] > battery[1, 0]
     assert "tie_balance_lead" not in {item.name for item in robot.hardware}
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_resistors_are_ordered_with_what_the_wiring_needs(name: str) -> None:
+    robot = built(name)
+    bought = robot.workshop.bought
+    needed = wiring_of(chosen_of(load_catalogue(), bought), bought.pins).resistors
+    found = {item.name: item.article for item in robot.hardware if item.name.startswith("wiring_resistor_")}
+    assert len(needed) >= 2
+    assert len(found) == len(needed)
+    for which, ohm in needed.items():
+        said = found[f"wiring_resistor_{which.removesuffix(' resistor').replace('-', '_')}"]
+        (thousands,) = re.findall(r"^resistor ([\d.]+) kOhm 0\.25 W, 1 %$", said)
+        assert 1000.0 * float(thousands) == pytest.approx(ohm), which
 
 
 def test_wire_of_which_no_length_is_known_weighs_as_for_half_a_metre() -> None:

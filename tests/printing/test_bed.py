@@ -92,3 +92,10 @@ def test_what_is_advised_makes_the_part_smaller_or_the_rest_of_it_no_larger(long
             "body_plate_right": other.l1_mm < base.l1_mm and name != "c_coef",  # which turns the body too
         }
         assert (name in advice) == shorter[long], name
+
+
+@pytest.mark.parametrize("part", ["body_plate_left", "electronics_tray_lower", "stop_bar"])
+def test_parts_of_the_body_are_smaller_in_a_smaller_body_or_with_smaller_electronics(part: str) -> None:
+    bounds = np.array([[0.0, 0.0, 0.0], [400.0, 5.0, 5.0]])
+    with pytest.raises(CannotBuildError, match=r"a smaller d_coef, or a smaller battery or boards$"):
+        require_bed(part, bounds, lambda: bounds[:, :2], BED)

@@ -27,9 +27,10 @@ G1 X10 Y15 E4
 """
 RELATIVE = ABSOLUTE.replace("M82", "M83").replace("E3\n;TYPE", "E1.5\n;TYPE").replace("Y5 E3", "Y5 E1")
 RELATIVE = RELATIVE.replace("E1.5\nG1 F", "E-1.5\nG1 F").replace("Y15 E4", "Y15 E1")
+RAPID = ABSOLUTE.replace("G1 X30 Y15 ;", "G0 X30 Y15 ;")
 
 
-@pytest.mark.parametrize("text", [ABSOLUTE, RELATIVE])
+@pytest.mark.parametrize("text", [ABSOLUTE, RELATIVE, RAPID])
 def test_only_moves_that_lay_a_line_count(text):
     path = read_gcode(text)
     assert path.filament_mm == pytest.approx([1.0, 1.0])

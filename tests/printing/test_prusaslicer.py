@@ -113,6 +113,9 @@ def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):
     stand_in("echo 'slicing'; echo 'no layers were detected'; exit 1")
     with pytest.raises(CannotBuildError, match=r"refused leg\.stl: no layers were detected"):
         sliced(tmp_path)
+    stand_in("echo 'no layers were detected' >&2; echo 'slicing'; exit 1")  # errors are told apart from progress
+    with pytest.raises(CannotBuildError, match=r"refused leg\.stl: no layers were detected"):
+        sliced(tmp_path)
     stand_in("echo 'slicing'; echo 'Segmentation fault'; echo; exit 139")
     with pytest.raises(JumpcadError, match=r"crashed on leg\.stl with exit code 139: Segmentation fault$"):
         sliced(tmp_path)
@@ -125,7 +128,7 @@ def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):
 def test_a_slicer_that_does_not_finish_is_ended(stand_in, monkeypatch, tmp_path):
     monkeypatch.setattr(prusaslicer, "TIMEOUT_S", 0.1)
     stand_in("exec sleep 5")
-    with pytest.raises(JumpcadError, match=r"did not finish .* within 0\.1 s"):
+    with pytest.raises(JumpcadError, match=r"did not finish leg\.stl within 0\.1 s"):
         sliced(tmp_path)
 
 
@@ -135,8 +138,10 @@ def test_versions_of_which_settings_are_known_are_taken(stand_in):
     stand_in("echo PrusaSlicer-3.0.1")
     with pytest.raises(JumpcadError, match=r"version 3\.0\.1.*install version 2"):
         slicer_version()
+    stand_in("echo PrusaSlicer-2.7.1 >&2")
+    assert slicer_version() == "2.7.1"
     stand_in("echo something else")
-    with pytest.raises(JumpcadError, match="does not say that it is PrusaSlicer"):
+    with pytest.raises(JumpcadError, match="does not say that it is PrusaSlicer: install PrusaSlicer 2 "):
         slicer_version()
 
 

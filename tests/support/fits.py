@@ -4,7 +4,7 @@ import numpy as np
 
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
-from support.built import cut, inscribed_diameter, placed
+from support.built import cut, inscribed_diameter, part, placed
 
 PRESS, SLIDING, LOOSE, EYE, LYING, RIB = 0.10, 0.20, 0.30, 0.10, 0.10, 0.05
 """Per side, in the default workshop."""
@@ -23,6 +23,19 @@ LOADS = 1.1 * 1.05
 def with_fits_apart(workshop: Workshop) -> Workshop:
     """Return a workshop in which no two of the tight fits are equal."""
     return workshop.model_copy(update={"fits": workshop.fits.model_copy(update=APART)})
+
+
+def chamfered(robot: Robot, name: str) -> bool:
+    """Tell whether a part's first layer, which spreads on the bed, is set back on all sides by the workshop's chamfer.
+
+    It rises at 45° and is printed as steps, each as wide as the slope is in the middle of its layer.
+    """
+    shape, fits = part(robot, name).drawing.shape, robot.workshop.fits
+    bottom, above = (
+        np.array(region.bounds()) for region in shape.regions_at([0.05, fits.first_layer_chamfer_mm + 0.2])
+    )
+    inset = fits.first_layer_chamfer_mm - robot.workshop.process.first_layer_mm / 2.0
+    return bool(((bottom - above) * [1.0, 1.0, -1.0, -1.0] > inset - 0.01).all())
 
 
 def measured(robot: Robot, name: str, y: float, centre: np.ndarray, copy: int = 0) -> float:
