@@ -4,7 +4,7 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 import pytest
@@ -235,6 +235,16 @@ def test_of_one_wrong_item_it_is_told_and_not_the_whole_list_wherever_lists_stan
     for function in (first, last):
         with pytest.raises(JumpcadError, match=r" as ends_mm, not one with 'far' \(str\)$"):
             function([1.0, "far"])  # type: ignore[list-item]
+
+
+def test_a_value_of_a_few_is_of_the_kind_that_they_are() -> None:
+    @typed
+    def wound(springs: Literal[1, 2] = 1, release: Literal["dog", "fixed"] = "dog") -> None: ...
+
+    wound(2, "fixed")
+    for wrong in ({"springs": "2"}, {"release": 2}):
+        with pytest.raises(JumpcadError, match=r"wound\(\) takes "):
+            wound(**wrong)  # type: ignore[arg-type]
 
 
 def test_a_record_checks_its_fields() -> None:

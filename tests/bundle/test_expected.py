@@ -25,6 +25,14 @@ def figure(words: dict[str, str], name: str) -> float:
     return float(words[name])
 
 
+def test_forces_and_torques_of_the_hand_are_each_told_as_their_own() -> None:
+    """Newtons and newton metres of judgement: a larger thread bears more, plastic less than steel of its size."""
+    words = expected(built("kenan-2.0"), [])
+    assert figure(words, "press_n") == module.PRESS_N
+    assert figure(words, "torque_m3") == module.TORQUE_M3_NM > figure(words, "torque_m2") == module.TORQUE_M2_NM
+    assert figure(words, "torque_plastic") == module.TORQUE_PLASTIC_NM < module.TORQUE_M3_NM
+
+
 def test_the_motor_is_a_line_from_no_load_to_stall_in_series_with_battery_and_driver() -> None:
     """Pololu 2371: 6 V, 73 rpm with 70 mA, 0.67 A stalled; one cell of 3.7 to 4.2 V has no need of PWM."""
     robot = built("kenan-2.0")

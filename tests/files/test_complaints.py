@@ -38,6 +38,18 @@ def test_the_place_of_a_key_is_its_line_or_the_file_alone(key: str, said: str) -
     assert place("own.toml", "a = 1\n\n[b]\nc = 2\n", key) == said
 
 
+def test_of_tables_of_one_name_the_first_is_the_place_of_what_lacks() -> None:
+    assert place("own.toml", "a = 1\n[[b]]\nc = 2\n[[b]]\nd = 3\n", "b") == "own.toml:2"
+
+
+@pytest.mark.parametrize(("count", "more"), [(9, ""), (10, ""), (11, "; and 1 more"), (14, "; and 4 more")])
+def test_ten_wrong_keys_are_named_and_the_others_counted(tmp_path: Path, count: int, more: str) -> None:
+    wrong = "".join(f"x{n} = 1\n" for n in range(count))
+    said = complaint(tmp_path, f'name = "MK4"\nnozzle_mm = 0.4\n{wrong}[bed]\nwidth_mm = 250\n')
+    assert said.count("unknown key") == min(count, 10)
+    assert said.removesuffix(more).endswith("unknown key")
+
+
 def test_value_out_of_range_is_named_with_its_line(tmp_path: Path) -> None:
     text = 'name = "MK4"\n# a comment\nnozzle_mm = 3.5\n[bed]\nwidth_mm = 250\n'
     assert complaint(tmp_path, text) == "p.toml:3: nozzle_mm = 3.5: must be less than 2"
