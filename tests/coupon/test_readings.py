@@ -151,6 +151,7 @@ def test_of_running_fits_the_widest_of_any_joint_counts(joint: str) -> None:
             r"r\.toml: fits\.sliding_mm = 0\.2: must be at least fits\.press_mm = 0\.25, the tighter fit",
         ),
         ("[gauge.PETG]\npegs_mm = [4.0, 6.0]", r"r\.toml:2: gauge\.PETG\.pegs_mm = .*: must be 3 diameters, of the"),
+        ("[gauge.PETG]\npegs_mm = [4.0, 6.0, 8.0, 10.0]", "must be 3 diameters, of the pegs 4, 6, 8 mm"),
         ("[gauge.PETG]\npegs_mm = [4.0, 6.6, 8.0]", r"pegs_mm = .*: 6\.6 for the peg of 6 mm is outside 5\.5…6\.5"),
         ("[gauge.PETG]\npegs_mm = [4.0, 6.0, nan]", r"pegs_mm\.2 = nan: must be a finite number"),
         ("[gauge.PETG]\naxle_pres_mm = 0.1", r"axle_pres_mm: unknown key"),
