@@ -2,6 +2,7 @@
 
 import io
 import zipfile
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -10,8 +11,10 @@ import trimesh
 from jumpcad import build, load_design, load_workshop
 from jumpcad.bundle.bom import bill_of_facts, bill_of_materials, mass_facts
 from jumpcad.bundle.guide import write_guide
+from jumpcad.bundle.printed_pads import pads_order
 from jumpcad.exporters.stl import stl_files
 from jumpcad.exporters.threemf import plate_files, threemf_files
+from jumpcad.parts.pads import printed_pads
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
@@ -92,6 +95,21 @@ def test_a_stop_is_printed_though_the_feet_are_cut() -> None:
     body = shop.body.model_copy(update={"stop_pad": "tpu-2"})
     files = dict(stl_files(build(load_design("kenan-2.0"), shop.model_copy(update={"body": body}))))
     assert [name for name in files if "_pad" in name] == ["stl/stop_pad.stl"]
+
+
+def test_each_soft_material_is_ordered_by_its_own_weight() -> None:
+    """A foot's of one kind, a stop's of another: the grams are of their own pads."""
+    robot = soled()
+    pads = printed_pads(robot.hardware, robot.workshop)
+    other = replace(pads[0], pad=pads[0].pad.model_copy(update={"description": "TPU 85A"}))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("jumpcad.bundle.printed_pads.printed_pads", lambda *_: [other, *pads[1:]])
+        lines = [line for line in pads_order(robot) if "filament" in line]
+    assert lines == [
+        f"- filament for the printed pads, {kind}: {1000.0 * sum(one.item.mass_kg for one in some):.1f} g, and what "
+        "the printer needs to begin"
+        for kind, some in (("TPU 85A", [other]), ("TPU 95A", pads[1:]))
+    ]
 
 
 def test_pads_that_are_cut_have_none() -> None:

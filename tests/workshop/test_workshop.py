@@ -20,6 +20,14 @@ def test_a_written_workshop_reads_back_the_same(name, written):
     assert load_workshop(path).to_toml() == workshop.to_toml()
 
 
+def test_parts_of_ones_own_are_written_too(written):
+    """Those alone: what is shipped, and may change with the next version, is not."""
+    own = load_workshop(written('[springs.own]\nlike = "9271K619"\nsource = "a test"\n'))
+    text = own.to_toml()
+    assert re.findall(r"^\[(?:springs|motors|boards|bearings|batteries)\.(\w+)\]", text, re.M) == ["own"]
+    assert load_workshop(written(text)) == own
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

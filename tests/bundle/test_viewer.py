@@ -1,0 +1,33 @@
+"""What a click on a part of the report's picture shows."""
+
+import pytest
+from support.built import built
+
+from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.viewer import parts_facts
+
+
+def test_what_is_bought_in_one_piece_and_seen_as_several_has_the_mass_of_the_whole() -> None:
+    """A motor with its shaft, a spring with its second arm: pieces that no scale shows alone."""
+    robot = built("kenan-2.0")
+    facts, bill = parts_facts(robot), {line.name: line for line in bill_of_materials(robot).items}
+    apart = {name for name, one in facts.items() if "as bought" in one["material"]}
+    wholes = (("motor", "motor_shaft"), *((f"spring_{side}", f"spring_{side}_leg_arm") for side in ("left", "right")))
+    assert apart == {name for pieces in wholes for name in pieces}
+    for pieces in wholes:
+        (words,) = {facts[name]["material"] for name in pieces}
+        article, grams = words.removesuffix(" g").split("; as bought ")
+        assert float(grams) == pytest.approx(1000.0 * bill[article].mass_kg, abs=0.006)
+        assert float(grams) == pytest.approx(sum(facts[name]["mass_g"] for name in pieces), abs=0.007)
+
+
+def test_a_printed_part_is_shown_with_its_material_file_and_mass() -> None:
+    robot = built("kenan-2.0")
+    facts = parts_facts(robot)
+    for part in robot.parts:
+        assert facts[part.name] == {
+            "label": part.name.replace("_", " "),
+            "material": part.material,
+            "file": f"stl/{part.name}.stl",
+            "mass_g": round(1000.0 * part.mass.mass_kg, 3),
+        }
