@@ -19,12 +19,18 @@ def test_lives_and_limits_are_inverse(jumps: float) -> None:
     assert spring_jumps(0.5) == math.inf
 
 
-def test_pins_that_last_obey_goodman() -> None:
-    """Half mean and half amplitude: s/2/Se + s/2/Su = 1, with Se = 700 MPa times the surface factor of drawn wire."""
-    endless = 700.0 * 4.51 * 1760.0**-0.265
-    limit = pin_limit_mpa(1760.0, 1e6)
-    assert limit / 2.0 / endless + limit / 2.0 / 1760.0 == pytest.approx(1.0)
-    assert pin_limit_mpa(1760.0, 1e8) == limit
+@pytest.mark.parametrize(("tensile_mpa", "turning_mpa"), [(1760.0, 700.0), (1400.0, 700.0), (800.0, 400.0)])
+def test_pins_that_last_obey_goodman(tensile_mpa: float, turning_mpa: float) -> None:
+    """Half mean and half amplitude: s/2/Se + s/2/Su = 1, with Se that of a turning bar, half of Su or 700 MPa at most,
+    times the surface factor of drawn wire.
+    """
+    endless = turning_mpa * 4.51 * tensile_mpa**-0.265
+    limit = pin_limit_mpa(tensile_mpa, 1e6)
+    assert limit / 2.0 / endless + limit / 2.0 / tensile_mpa == pytest.approx(1.0)
+    assert pin_limit_mpa(tensile_mpa, 1e8) == limit
+
+
+def test_pins_for_a_few_jumps_yield_before_they_tire() -> None:
     assert pin_limit_mpa(1760.0, 1.0) == pytest.approx(0.78 * 1760.0)  # yields before it tires
 
 
