@@ -43,7 +43,10 @@ def chosen(root: Path, seed: int, count: int, only: str, mixed: bool) -> list[Mu
 
 
 def nearest(root: Path, module: str, files: int) -> list[str]:
-    """Return the test files nearest to a module: its namesake, then importers and namesakes, its folder's first."""
+    """Return the test files nearest to a module: its namesake, then importers and namesakes, its folder's first.
+
+    Of a module that no test imports, those of its package.
+    """
     inner = Path(module).relative_to(PACKAGE)
     stem, folder = inner.parent.name if inner.stem == "__init__" else inner.stem, Path("tests") / inner.parent
     dotted = ".".join(inner.with_suffix("").parts).removesuffix(".__init__")
@@ -56,6 +59,8 @@ def nearest(root: Path, module: str, files: int) -> list[str]:
         namesake, beside = file.name == f"test_{stem}.py", file.parent == folder
         if imports or namesake:
             ranks[file.as_posix()] = (not (namesake and beside), not beside, -imports)
+    if not ranks and inner.stem != "__init__":
+        return nearest(root, Path(module).with_name("__init__.py").as_posix(), files)
     return sorted(ranks, key=lambda file: ranks[file])[:files] or [folder.as_posix()]
 
 

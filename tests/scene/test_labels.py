@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageDraw
 
-from jumpcad.scene.labels import EDGE_PX, FINE, HEAD_PX, ROW_PX, _arrow, _rows, _spread, _turn, _width
+from jumpcad.scene.labels import CAPITAL_PX, EDGE_PX, FINE, HEAD_PX, ROW_PX, _arrow, _rows, _spread, _turn, _width
 
 
 @pytest.mark.parametrize("wanted", [[], [5.0], [50.0, 51.0, 52.0, 53.0], [380.0, 390.0, 399.0], [10.0, 200.0, 398.0]])
@@ -13,6 +13,12 @@ def test_rows_are_apart_and_inside_the_picture(wanted: list[float]) -> None:
     assert len(placed) == len(wanted)
     assert (np.diff(placed) >= ROW_PX - 1e-9).all()
     assert all(ROW_PX - 1e-9 <= y <= 400 - ROW_PX + 1e-9 for y in placed)
+
+
+def test_letters_of_two_rows_do_not_touch() -> None:
+    """Capitals, and what hangs below the line, a third of them, have room between two rows."""
+    assert ROW_PX > CAPITAL_PX * 4.0 / 3.0 + 4.0
+    assert 0.0 < EDGE_PX < ROW_PX
 
 
 def test_rows_that_have_room_stay_where_they_are_wanted() -> None:
