@@ -84,6 +84,23 @@ def test_what_comes_from_a_side_moves_away_from_it() -> None:
     assert len(SIDES) == len(towards) + 1
 
 
+def test_each_screw_and_nut_is_turned_by_the_tool_of_its_size(robot: Robot) -> None:
+    """Hexagons of 2 mm in M3 (ISO 7380-1), sockets T6 in M2 (ISO 14580), nuts M3 of 5.5 mm (DIN 985)."""
+    sizes = {"screw M3": "hex key 2 mm", "screw M2": "screwdriver T6", "lock nut M3": "nut driver 5.5 mm"}
+    turned = set()
+    for step in assembly_steps(robot):
+        for placed in step.placed:
+            if placed.move.trial or placed.move.brings:  # only tried, or screwed together before
+                continue
+            for thing in placed.things:
+                for size, tool in sizes.items():
+                    if getattr(thing.source, "article", "").startswith(size):
+                        assert placed.move.tool is not None, thing.name
+                        assert placed.move.tool.name.startswith(tool), thing.name
+                        turned.add(size)
+    assert turned == set(sizes)
+
+
 def test_a_nut_comes_from_the_other_side_than_its_screw(robot: Robot) -> None:
     """It moves towards the head of the screw on which it goes; its spanner comes the same way."""
     poses = body_poses(robot, 0.0)
