@@ -83,6 +83,7 @@ def test_a_lowered_strength_is_told(run: Run) -> None:
     [
         (["--measured", "none.toml"], 2, "none.toml: no such file"),
         (["--measured", "r.toml", "-o", "r.toml"], 2, "is --measured itself"),
+        (["--measured", "r.toml", "--workshop", "tiny.toml", "-o", "tiny.toml", "--force"], 2, "is --workshop itself"),
         (["--measured", "r.toml", "-o", "w.json"], 2, "w.json: must end in .toml"),
         (["--measured", "r.toml", "--workshop", "kitchen"], 2, "'kitchen' is neither a TOML file nor"),
         (["-o", "thesis"], 2, "thesis: holds files but no manifest.json"),

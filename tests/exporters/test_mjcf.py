@@ -17,7 +17,7 @@ from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
-from jumpcad.mechanism.model import BODY, BODY_NAMES
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -106,14 +106,20 @@ def test_the_stop_is_as_stiff_as_the_robots() -> None:
 
 
 def test_mujoco_slides_spins_and_rolls_as_the_settings_say() -> None:
-    """A pair's friction is twice sliding, then spinning, then twice rolling (MuJoCo's XML reference)."""
+    """A pair's friction is twice sliding, then spinning, then twice rolling (MuJoCo's XML reference).
+
+    All of them are the ground's times another: of foot or body in sliding.
+    """
     mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
-    settings = Settings(ground_friction=0.8, rolling_friction_m=0.001, spinning_friction_m=0.003)
+    settings = Settings(
+        ground_friction=0.8, foot_friction=0.9, body_friction=0.4, rolling_friction_m=0.001, spinning_friction_m=0.003
+    )
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot, settings))
     assert set(model.pair_dim) == {6}
     assert len(model.pair_friction) == sum(len(body.contacts) for body in robot.bodies.values())
-    for row in model.pair_friction.tolist():
-        assert row[:2] == pytest.approx([row[0]] * 2)
+    for row, geom in zip(model.pair_friction.tolist(), model.pair_geom2, strict=True):
+        name = model.body(model.geom_bodyid[geom]).name
+        assert row[:2] == pytest.approx([0.8 * (0.9 if name == FOOT else 0.4)] * 2), name
         assert row[2:] == pytest.approx([0.8 * 0.003, 0.8 * 0.001, 0.8 * 0.001])
 
 

@@ -4,7 +4,19 @@ import numpy as np
 import pytest
 from PIL import Image, ImageDraw
 
-from jumpcad.scene.labels import CAPITAL_PX, EDGE_PX, FINE, HEAD_PX, ROW_PX, _arrow, _rows, _spread, _turn, _width
+from jumpcad.scene.labels import (
+    CAPITAL_PX,
+    EDGE_PX,
+    FINE,
+    HEAD_PX,
+    ROW_PX,
+    _arrow,
+    _rows,
+    _spread,
+    _turn,
+    _width,
+    labelled,
+)
 
 
 @pytest.mark.parametrize("wanted", [[], [5.0], [50.0, 51.0, 52.0, 53.0], [380.0, 390.0, 399.0], [10.0, 200.0, 398.0]])
@@ -45,6 +57,18 @@ def test_a_contours_sense_is_that_of_its_area() -> None:
     square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
     assert _turn(square) == 8.0
     assert _turn(square[::-1]) == -8.0
+
+
+def test_an_arrow_leads_from_where_a_part_is_drawn_to_its_place() -> None:
+    """Its head, wider than its shaft, is at the place."""
+    picture = Image.new("RGB", (300, 200), (255, 255, 255))
+    at, place = np.array([[150.0, 40.0]]), np.array([[150.0, 160.0]])
+    drawn = np.asarray(labelled(picture, ["part"], at, place, 0)).astype(int)
+    red = (drawn[..., 0] - drawn[..., 2]) > 80
+    width = red.sum(axis=1)
+    shaft = width[95:105].max()
+    assert width[145:160].max() > 2 * shaft > 0
+    assert width[46:60].max() <= shaft + 1
 
 
 def test_an_arrow_ends_at_its_point_whatever_its_length() -> None:
