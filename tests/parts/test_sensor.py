@@ -11,9 +11,18 @@ from support.built import built, cut, hole_centres, placed, region
 from support.fits import chamfered
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM
+from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM, OPENING_MM
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.sensor import EAR_MM, THREAD_MIN_MM, _require_base, ear_height_mm, plate_pad, screw_mm, sensor_mount
+from jumpcad.parts.sensor import (
+    EAR_MM,
+    EDGE_MM,
+    THREAD_MIN_MM,
+    _require_base,
+    ear_height_mm,
+    plate_pad,
+    screw_mm,
+    sensor_mount,
+)
 from jumpcad.robot import Robot
 
 
@@ -180,3 +189,8 @@ def test_the_base_of_the_switch_is_at_least_a_first_layer_outside_the_plate(laye
 def test_the_mount_stands_on_chamfered_edges(robot: Robot) -> None:
     """The switch's case goes in there."""
     assert chamfered(robot, "sensor_mount")
+
+
+def test_the_plates_pad_reaches_as_far_as_the_mount_across_it() -> None:
+    """The mount stands on it: half the case, play and wall, within half the opening and the material around it."""
+    assert OPENING_MM + EDGE_MM >= MOUNT_PLAY_MM + MOUNT_WALL_MM
