@@ -83,9 +83,9 @@ def plate_opening(sensor: SensorPlace, holes: HoleSizes) -> Region:
 
 def plate_pad(sensor: SensorPlace, more_mm: float = 0.0) -> Region:
     """Return where the left plate needs material for the sensor, grown by a margin."""
-    long = sensor.half_mm[0] + more_mm
-    wide = sensor.case_mm[1] / 2.0 + OPENING_MM + EDGE_MM + more_mm  # farther than the mount
-    return _turned(sensor, rectangle((2.0 * long, 2.0 * wide), corner_radius_mm=1.0 + more_mm))
+    half_length_mm = sensor.half_mm[0] + more_mm
+    half_width_mm = sensor.case_mm[1] / 2.0 + OPENING_MM + EDGE_MM + more_mm  # farther than the mount
+    return _turned(sensor, rectangle((2.0 * half_length_mm, 2.0 * half_width_mm), corner_radius_mm=1.0 + more_mm))
 
 
 def sensor_slabs(part: Component, travel: Travel) -> list[tuple[float, float, Region]]:

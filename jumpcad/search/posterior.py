@@ -162,8 +162,8 @@ def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
 
     At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most. A limit that refuses a design while it is laid out
     is one too where built robots have a margin of it (`stop_room`): the verdict alone, +1 or -1, is smooth, and
-    promises a jump a tenth of a millimetre beyond such a limit again and again. No robot meets the
-    limit of those that stay on the ground: they are left to `VERDICT`.
+    promises a jump a tenth of a millimetre beyond such a limit again and again. No robot meets the limit of those that
+    stay on the ground: they are left to `VERDICT`.
     """
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
     met = set[str]().union(*(trial.evaluation.met for trial in trials))

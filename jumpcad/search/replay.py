@@ -20,6 +20,9 @@ from jumpcad.search.tolerances import Making
 from jumpcad.search.trial import Trial, best_trial, searched, trial_numbers
 from jumpcad.search.variant import Key, Variant
 
+EXPLORED = ("sample", "sweep")
+"""Phases of a view."""
+
 
 class Replay(Evaluator):
     """An evaluator that gives the trials of a study, and None where the study has none."""
@@ -84,6 +87,11 @@ class Known:
     candidates: list[Candidate]
     bounds: list[ActiveBound]
     numbers: Mapping[tuple[int, int, int], int]
+
+    @property
+    def is_explored(self) -> bool:
+        """Whether the designs are a view's, whose order means nothing, and not proposals of a search."""
+        return bool(self.trials) and all(trial.phase in EXPLORED for trial in self.trials)
 
 
 def known(store: StudyStore) -> Known:

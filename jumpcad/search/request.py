@@ -160,7 +160,7 @@ class Request:
             raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
         stages = [*_methods(self.method), *([WIDER] if self.widen else [])]
         if self.until_percent not in (0.0, UNTIL_PERCENT) and not METHODS[stages[-1]].ends:
-            ending = ", ".join(name for name in NAMES if METHODS[_methods(name)[-1]].ends)
+            ending = _named(lambda methods: METHODS[methods[-1]].ends)
             percent = shown(self.until_percent)
             raise JumpcadError(f"until_percent = {percent}: does not apply to {self.method}, only to {ending}")
         for stage in plan_stages(self):
@@ -170,10 +170,10 @@ class Request:
                     f"{least} at least: ask for more"
                 )
         if self.preset != Request.preset and "ga" not in stages:
-            genetic = ", ".join(name for name in NAMES if "ga" in _methods(name))
+            genetic = _named(lambda methods: "ga" in methods)
             raise JumpcadError(f"preset = {self.preset!r}: does not apply to {self.method}, only to {genetic}")
         if self.batch > 1 and not any(METHODS[name].learns for name in stages):
-            learning = ", ".join(name for name in NAMES if any(METHODS[one].learns for one in _methods(name)))
+            learning = _named(lambda methods: any(METHODS[one].learns for one in methods))
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
 
     def _require_cost(self, model: RobotModel) -> None:
@@ -280,6 +280,11 @@ class Stage:
 def _methods(name: str) -> tuple[str, ...]:
     """Return the methods that run one after the other under a name."""
     return SEQUENCES.get(name, (name,))
+
+
+def _named(allows: Callable[[tuple[str, ...]], bool]) -> str:
+    """Return the names under which such methods run."""
+    return ", ".join(name for name in NAMES if allows(_methods(name)))
 
 
 def plan_stages(request: Request, prior: int = 0) -> list[Stage]:

@@ -24,8 +24,6 @@ BEST_SHARE, BEST_LEAST = 0.05, 5
 """What is called the best designs: this share of those that jump, at least so many."""
 LITTLE = 0.01
 """Gain of a search's last fifth, over the best score before, below which going on promises little; judgement."""
-EXPLORED = ("sample", "sweep")
-"""Phases of an exploration, whose order says nothing of what going on promises."""
 TOGETHER, APART = 0.1, 0.5
 """Shares of a range within which designs run together, and beyond which they spread; judgement."""
 LEFT, RIGHT, ROW = 16.0, 624.0, 54.0
@@ -39,10 +37,9 @@ def history(found: Known) -> Iterator[str]:
         return
     scores = np.array([np.nan if trial.score is None else trial.score for trial in trials])
     feasible = np.flatnonzero(np.isfinite(scores))
-    is_explored = all(trial.phase in EXPLORED for trial in trials)
     yield "<h2>History</h2>"
     yield "<p>Every design in the order in which it was tried; the line is the best score so far, and the ticks at "
-    yield f"the bottom are designs that were rejected. {_gain(scores, is_explored)}</p>"
+    yield f"the bottom are designs that were rejected. {_gain(scores, found.is_explored)}</p>"
     if not len(feasible):
         return
     axes = Axes(scale([1.0, float(len(trials))], whole=True), scale(scores[feasible].tolist()))

@@ -121,13 +121,12 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
     """Yield the objective, the stages, and the space with the winner's values."""
     identity, objective = store.identity, found.objective
     method = identity["method"]
-    explored = method.startswith("explore ")
     stages = [f"{stage['method']}, {counted(stage['evaluations'], 'design')}" for stage in store.recall("stages", [])]
     yield "<h2>What was asked</h2>"
     yield (
         f"<p>The highest {written(identity['objective'])} ({written(objective.meaning)}, {written(objective.unit)})"
         f"{f' against {described_cost(identity).figure.meaning}' if method in FRONTS else ''}, "
-        f"{'evaluated' if explored else 'searched'} by {written(', then '.join(stages) or method)}.</p>"
+        f"{'evaluated' if found.is_explored else 'searched'} by {written(', then '.join(stages) or method)}.</p>"
     )
     rows = []
     for parameter in found.space.parameters:
@@ -135,7 +134,7 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
         searched = with_unit(_range(parameter.describe()), parameter.name)
         meaning, name = written(meaning_of(parameter.name)), parameter.name
         rows.append([broken(name), meaning, written(searched), with_unit(value, name) if value else ""])
-    whose = "best" if explored else "highest" if method in FRONTS and not found.candidates else "winner"
+    whose = "best" if found.is_explored else "highest" if method in FRONTS and not found.candidates else "winner"
     yield from table(
         ("parameter", "meaning", "searched", whose),
         rows,

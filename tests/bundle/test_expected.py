@@ -25,14 +25,6 @@ def figure(words: dict[str, str], name: str) -> float:
     return float(words[name])
 
 
-def test_forces_and_torques_of_the_hand_are_each_told_as_their_own() -> None:
-    """Newtons and newton metres of judgement: a larger thread bears more, plastic less than steel of its size."""
-    words = expected(built("kenan-2.0"), [])
-    assert figure(words, "press_n") == module.PRESS_N
-    assert figure(words, "torque_m3") == module.TORQUE_M3_NM > figure(words, "torque_m2") == module.TORQUE_M2_NM
-    assert figure(words, "torque_plastic") == module.TORQUE_PLASTIC_NM < module.TORQUE_M3_NM
-
-
 def test_the_motor_is_a_line_from_no_load_to_stall_in_series_with_battery_and_driver() -> None:
     """Pololu 2371: 6 V, 73 rpm with 70 mA, 0.67 A stalled; one cell of 3.7 to 4.2 V has no need of PWM."""
     robot = built("kenan-2.0")
@@ -239,13 +231,14 @@ def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pyte
     assert [found[name] for name in ("range", "rise", "far", "high")] == ["?", "?", "3", "2"]
 
 
-def test_screws_are_tightened_by_their_size_and_less_in_plastic() -> None:
+def test_screws_are_tightened_by_their_size_and_less_in_plastic_and_a_thumb_presses_in_newtons() -> None:
     """Usual tables give 1.3 N·m for M3 and 0.37 N·m for M2 of strength 8.8; M3 strips its thread in plastic sooner."""
     words = expected(built("kenan-2.0"), [])
     m3, m2, plastic = (figure(words, f"torque_{name}") for name in ("m3", "m2", "plastic"))
     assert 1.3 / 4.0 < m3 < 1.3 / 2.0
     assert 0.37 / 4.0 < m2 < 0.37 / 2.0
     assert m2 < plastic < m3
+    assert figure(words, "press_n") == module.PRESS_N
 
 
 def test_names_in_braces_are_replaced_and_steps_are_counted_from_one() -> None:

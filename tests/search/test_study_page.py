@@ -346,7 +346,8 @@ def test_each_parameter_stands_with_what_was_searched_and_won():
         lines = list(study_page._asked(store, found))
         front = words(study_page._asked(made_up("nsga2")[0], found))
     with StudyStore.write(None, IDENTITY | {"method": "explore sample", "objective": "range"}) as sampled:
-        sample = words(study_page._asked(sampled, found))
+        view = replace(found, trials=[replace(trial, phase="sample") for trial in found.trials])
+        sample = words(study_page._asked(sampled, view))
     said = words(lines)
     assert "The highest range (range of the jump, m), searched by ga, 3 designs, then bo, 4 designs." in said
     assert "against energy in the springs" in front
