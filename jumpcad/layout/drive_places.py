@@ -23,7 +23,7 @@ from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import Interval, Lateral
 from jumpcad.layout.places import around, best_place, ring_candidates
-from jumpcad.layout.room import Obstacle, bar, box_obstacle, clearance, disc
+from jumpcad.layout.room import Obstacle, bar, box_obstacle, clearance, disc, shortfall
 from jumpcad.transforms import Array
 
 PIN_FROM_DEG, PIN_UP_TO_DEG, PIN_WANTED_DEG = 20.0, 131.0, 40.0
@@ -132,7 +132,7 @@ def require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y:
     room = clearance(hub_things, axis[None], (0.0, 0.0), 0.0, y, tip_mm)[0] - tip_mm
     if room < 0:
         raise CannotBuildError(
-            f"the cam gear's tip radius of {tip_mm:.1f} mm is {-room:.1f} mm too large beside the leg's axle: "
+            f"the cam gear's tip radius of {tip_mm:.1f} mm is {shortfall(room)} too large beside the leg's axle: "
             "allow a stronger motor (a smaller ratio), or a smaller gear module",
             "gear_room", room,
         )  # fmt: skip

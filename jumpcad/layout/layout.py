@@ -34,7 +34,7 @@ from jumpcad.layout.fittings import Fittings, fittings_of
 from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.obstacles import axle_obstacle, cam_obstacles, hub_obstacles, swept_obstacles
 from jumpcad.layout.pin_hole import PinHole, pin_hole
-from jumpcad.layout.room import Obstacle, disc
+from jumpcad.layout.room import Obstacle, disc, shortfall
 from jumpcad.layout.sensor import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.layout.stop import (
     GIVE_ROOM_RAD,
@@ -268,7 +268,7 @@ def _require_legs_apart(linkage: Linkage, sections: Sections, gap_mm: float) -> 
     room = legs_apart_mm(linkage, sections) - gap_mm
     if room < 0:
         raise CannotBuildError(
-            f"main leg and front link come {-room:.1f} mm nearer than the {gap_mm:g} mm that they need between them: "
-            "lower compression_ratio, or raise d_coef or rest_angle_deg",
+            f"main leg and front link come {shortfall(room)} nearer than the {gap_mm:g} mm that they need between them"
+            ": lower compression_ratio, or raise d_coef or rest_angle_deg",
             "legs_apart", room,
         )  # fmt: skip

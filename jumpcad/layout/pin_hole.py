@@ -11,7 +11,7 @@ import numpy as np
 from jumpcad.dimensions import CLEAR_MM, PIN_HOLE_EDGE_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import Interval, Lateral
-from jumpcad.layout.room import Obstacle, clearance, disc, lacking
+from jumpcad.layout.room import Obstacle, clearance, disc, shortfall
 from jumpcad.layout.stop import StopPlace, stop_obstacles, stop_tab_obstacle
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.transforms import Array, direction
@@ -81,7 +81,7 @@ def pin_hole(
         if (room := room_mm(others)) < 0.0:
             blocker = min(others, key=lambda one: room_mm([one]))
             raise CannotBuildError(
-                f"no way for the leg's springs' pin through the left plate: {lacking(room)} beside the "
+                f"no way for the leg's springs' pin through the left plate: {shortfall(room)} too little beside the "
                 f"{blocker.name}: raise d_coef, or take a smaller spring (lower stiffness_nmm_per_deg, or another "
                 "bought.spring)",
                 "pin_way", room,

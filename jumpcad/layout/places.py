@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.room import GROUP, Cloud, Obstacle, clearance, lacking
+from jumpcad.layout.room import GROUP, Cloud, Obstacle, clearance, shortfall
 from jumpcad.transforms import Array
 
 TURN_STEPS = 72
@@ -82,6 +82,6 @@ def best_place(
     here, turn = centres_mm[best : best + 1], angles[best : best + 1]
     blocker = min(obstacles, key=lambda obstacle: clearance([obstacle], here, half_mm, turn, y_mm)[0])
     raise CannotBuildError(
-        f"no room for the {what}: {lacking(free[best])} beside the {blocker.name}: {remedy}",
+        f"no room for the {what}: {shortfall(free[best])} too little beside the {blocker.name}: {remedy}",
         f"room_{what.replace(' ', '_')}", free[best],
     )  # fmt: skip

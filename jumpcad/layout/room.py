@@ -90,9 +90,9 @@ def clearance(
     return free
 
 
-def lacking(room_mm: float) -> str:
-    """Return in words how much room is missing, rounded up to a tenth of a mm."""
-    return f"{math.ceil(-10.0 * room_mm - 1e-6) / 10.0:.1f} mm too little"
+def shortfall(room_mm: float) -> str:
+    """Return how much room is missing, rounded up to a tenth of a mm."""
+    return f"{math.ceil(-10.0 * room_mm - 1e-6) / 10.0:.1f} mm"
 
 
 @dataclass(frozen=True)

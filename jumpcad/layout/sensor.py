@@ -16,7 +16,7 @@ from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import Lateral
 from jumpcad.layout.places import TURN_STEPS, around, best_place
-from jumpcad.layout.room import Obstacle, box_obstacle, disc
+from jumpcad.layout.room import Obstacle, box_obstacle, disc, shortfall
 from jumpcad.transforms import Array
 
 GEAR_PLAY_MM = 0.1
@@ -254,9 +254,9 @@ def _track_mm(drive: Drive, needs: SensorNeeds) -> tuple[float, float, float]:
     outer = wheel.root_radius_mm - TRACK_WALL_MM
     if outer - inner < width:
         raise CannotBuildError(
-            f"no room for the sensor's track on the cam gear: {width - (outer - inner):.1f} mm too little between its "
-            f"dog of {drive.dog.outer_mm:.1f} mm and its teeth, {2.0 * wheel.root_radius_mm:.1f} mm at their roots: "
-            "allow a motor that needs a larger cam gear, or choose bought.sensor with a thinner plunger",
+            f"no room for the sensor's track on the cam gear: {shortfall(outer - inner - width)} too little between "
+            f"its dog of {drive.dog.outer_mm:.1f} mm and its teeth, {2.0 * wheel.root_radius_mm:.1f} mm at their roots"
+            ": allow a motor that needs a larger cam gear, or choose bought.sensor with a thinner plunger",
             "sensor_track", outer - inner - width,
         )  # fmt: skip
     return inner + width / 2.0, outer - width / 2.0, width

@@ -13,7 +13,7 @@ from jumpcad.catalogue import Pad
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, STOP_EDGE_MM, STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import Interval
-from jumpcad.layout.room import Obstacle, box_obstacle, clearance
+from jumpcad.layout.room import Obstacle, box_obstacle, clearance, shortfall
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import Sections
@@ -187,8 +187,8 @@ def stop_place(
     room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate, known_mm)) - reserve_mm
     if not (room >= 0.0).any():
         raise CannotBuildError(
-            f"no room for the rest stop behind the main leg: {-room.max():.1f} mm too little: lower compression_ratio, "
-            "or raise rest_angle_deg",
+            f"no room for the rest stop behind the main leg: {shortfall(room.max())} too little: lower "
+            "compression_ratio, or raise rest_angle_deg",
             "stop_room", room.max(),
         )  # fmt: skip
     best = int(np.argmax(room >= 0.0))

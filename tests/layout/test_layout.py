@@ -20,10 +20,11 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout import drive_places
 from jumpcad.layout import layout as layout_module
+from jumpcad.layout.drive_places import require_gear_room
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout, moving_obstacles
 from jumpcad.layout.obstacles import LEVER_HEAD_MM, hub_obstacles
-from jumpcad.layout.room import Obstacle
+from jumpcad.layout.room import EVERYWHERE, Obstacle, disc
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
@@ -258,6 +259,7 @@ def test_the_reserve_is_kept_in_the_stops_room_and_between_the_legs() -> None:
         with pytest.raises(CannotBuildError) as refused:
             planned(reserve)
         assert (refused.value.limit, refused.value.margin) == (limit, pytest.approx(-misses))
+        assert " 0.1 mm " in str(refused.value)  # never that nothing is missing
 
 
 def test_a_cam_gear_in_the_legs_axle_is_refused() -> None:
@@ -266,6 +268,10 @@ def test_a_cam_gear_in_the_legs_axle_is_refused() -> None:
     room = math.dist(layout.cam_axis_mm, layout.hub_mm)
     teeth = math.ceil(2.0 * room / pair.module_mm)  # its pitch circle then passes through the axle
     huge = replace(pair, wheel=replace(pair.wheel, teeth=teeth))
+    post = [disc("post", np.array([10.0, 0.0]), 2.0, EVERYWHERE)]
+    require_gear_room(post, np.zeros(2), 8.0, (0.0, 1.0))
+    with pytest.raises(CannotBuildError, match=r"of 8\.0 mm is 0\.1 mm too large beside"):
+        require_gear_room(post, np.zeros(2), 8.01, (0.0, 1.0))
     train = replace(layout.drive.train, stages=(*layout.drive.train.stages[:-1], huge))
     with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of \d+\.\d mm is \d+\.\d mm too large beside"):
         plan_again(layout, drive=replace(layout.drive, train=train))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.layout.room import EVERYWHERE, Cloud, bar, box_obstacle, clearance, disc, lacking
+from jumpcad.layout.room import EVERYWHERE, Cloud, bar, box_obstacle, clearance, disc, shortfall
 
 
 def test_distance_from_a_box_to_a_disc():
@@ -76,6 +76,4 @@ def test_thinned_is_one_disc_in_so_many() -> None:
 
 
 def test_a_tenth_more_than_is_missing_is_said_and_never_nothing() -> None:
-    assert [lacking(room) for room in (-0.01, -0.1, -0.11, -2.0)] == [
-        "0.1 mm too little", "0.1 mm too little", "0.2 mm too little", "2.0 mm too little",
-    ]  # fmt: skip
+    assert [shortfall(room) for room in (-0.01, -0.1, -0.11, -2.0)] == ["0.1 mm", "0.1 mm", "0.2 mm", "2.0 mm"]
