@@ -220,7 +220,7 @@ def _print_result(
         cost = request.cost
         print(f"\n{request.objective} against {cost.figure.meaning}; hypervolume {result.hypervolume:.4f}")
         for trial in result.front:
-            print(f"  {cost.shown(cost.of(trial)):8.4f} {cost.figure.unit}  {trial.score:10.4f}")
+            print(f"  {cost.shown(cost.of(trial)):8.4f} {cost.figure.unit}  {request.aim.shown(trial.score or 0.0)}")
     print(f"\nbest {request.objective} {request.aim.shown(result.best.score or 0.0)}")
     if result.candidates:
         print(f"score that nine of ten neighbours reach, parameters ±1 %, or {request.making.words}:")

@@ -56,7 +56,7 @@ def settings_in_words(printer: Printer, process: Process) -> list[str]:
         f"solid layers: {process.top_layers} at the top, {process.bottom_layers} at the bottom",
         f"infill: {infill}, {'rectilinear' if solid else process.infill_pattern}",
         f"{small}; no extra solid shell (ensure vertical shell thickness off)",
-        "no support, no brim, no elephant foot compensation: first layers are chamfered",
+        "no support, no brim, no elephant foot compensation: plates, links and gears are chamfered at the bed",
     ]
 
 

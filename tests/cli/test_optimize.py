@@ -244,8 +244,8 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
         "note: a note",
         "range against energy in the springs; hypervolume 0.2500",
     ]
-    assert told[4] == f"{design.spring_energy_j:.4f} J 1.5000"
-    assert told[5] == f"{weaker.design.spring_energy_j:.4f} J 0.7500"
+    assert told[4] == f"{design.spring_energy_j:.4f} J 1.5000 m"
+    assert told[5] == f"{weaker.design.spring_energy_j:.4f} J 0.7500 m"
     assert told[6:8] == ["best range 1.5000 m", "won.toml: range 1.5000 m"]
     assert {"body.plate_mm 2.4", "bought.spring ''"} < set(told)
     assert told[-7:-1] == [
@@ -279,8 +279,8 @@ def test_a_front_that_seeks_more_of_both_shows_the_figures_as_they_are(capsys):
     told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
     assert told[1:4] == [
         "range against rise of the centre of mass; hypervolume 0.1250",
-        "0.2500 m 0.5000",
-        "0.1250 m 0.7500",
+        "0.2500 m 0.5000 m",
+        "0.1250 m 0.7500 m",
     ]
 
 
