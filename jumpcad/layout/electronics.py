@@ -40,7 +40,6 @@ opening, and of the others; judgement."""
 WALL_MM, PLAY_MM = 0.8, 0.2
 """Least wall beside a tie's slot, of two lines, and play of a tray between the plates; where a workshop needs more,
 what it needs; judgement."""
-"""Between boards: a slot for the tie of either, and a wall of two lines."""
 
 
 @dataclass(frozen=True)
