@@ -36,7 +36,7 @@ _RESERVE = _degrees(CamLimits.reserve_rad)
 _LOW, _HIGH = _degrees(CamLimits.axis_min_rad), _degrees(CamLimits.axis_max_rad)
 LIMITS = (
     Limit(
-        "cam_pressure_angle", "rad", 0.1, f"{_WIND_LESS}, or a larger cam",
+        "cam_pressure_angle", "rad", 0.1, f"{_WIND_LESS}, or safety.pressure_angle_reserve_deg",
         Basis(
             f"largest α of the lift ≤ {_STEEPEST} - safety.pressure_angle_reserve_deg; cos α = a·sin ψ/|L·(1 + θ')·u "
             "- a|, L lever with direction u, ψ from u to the cam's axis at a, θ' leg's angle by cam's angle",

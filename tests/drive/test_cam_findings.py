@@ -62,7 +62,7 @@ def test_what_a_cam_misses_is_named_with_how_much_and_what_to_change() -> None:
     margin[names.index("cam_pressure_angle")] = -math.radians(5.0)
     words = missed(CAM, margin)
     assert "(5° short)" in words
-    assert "lower compression_ratio, or a larger cam" in words
+    assert "lower compression_ratio, or safety.pressure_angle_reserve_deg" in words
 
 
 def test_what_is_missed_by_much_is_a_plain_number_and_hardly_anything_a_hundredth() -> None:
