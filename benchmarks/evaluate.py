@@ -23,7 +23,7 @@ import pybullet
 from manifold3d import CrossSection
 
 from jumpcad import evaluation, published
-from jumpcad.building import assembly, settle
+from jumpcad.building import assembly, settle, weighing
 from jumpcad.building import growth as building
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import CannotBuildError
@@ -39,7 +39,7 @@ STAGES: dict[str, tuple[ModuleType, str]] = {
     "drive": (settle, "synthesise"),
     "plan": (assembly, "make_layout"),
     "drawings": (assembly, "drawings"),
-    "printed masses": (assembly, "mass_properties"),
+    "printed masses": (weighing, "mass_properties"),
     "checks": (building, "constraint_findings"),
     "bought parts": (shopping, "bought_parts"),
     "simulation": (evaluation, "simulate"),

@@ -14,6 +14,7 @@ import pytest
 from support.built import built
 from support.loaded import loaded_range_m
 from support.places import ROOT
+from support.workshops import changed
 
 from jumpcad import evaluation
 from jumpcad.building import build
@@ -29,18 +30,11 @@ from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.transforms import in_metres
-from jumpcad.workshop import Workshop, load_workshop
 
 KENAN = load_design("kenan-2.0")
 TEMPLATES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
 FEEBLE = Design.from_vector([158.0, 1.16, 0.7, 0.96, 0.25, 60.0, 5.0, 30.0])
 """A large robot with 5 N·mm/° whose springs are hardly loaded."""
-
-
-def changed(**sections: dict[str, object]) -> Workshop:
-    workshop = load_workshop("default")
-    parts = {name: getattr(workshop, name).model_copy(update=values) for name, values in sections.items()}
-    return workshop.model_copy(update=parts)
 
 
 @pytest.mark.parametrize("name", TEMPLATES)

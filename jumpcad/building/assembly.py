@@ -2,56 +2,36 @@
 
 import math
 import pickle
-from collections import defaultdict
-from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-import numpy as np
-
+from jumpcad.building.bodies import bodies_of, friction_of
 from jumpcad.building.releasing import release_of
 from jumpcad.building.settle import settle
+from jumpcad.building.weighing import require_parts, weighed_part
 from jumpcad.design import Design
-from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
+from jumpcad.dimensions import GAP_MM
 from jumpcad.drive import Drive
 from jumpcad.drive.socket import cap_ear_mm
 from jumpcad.drive.stock_spring import of_stock, springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
-from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.files import did_you_mean
+from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout
 from jumpcad.layout.sensor import GEAR_PLAY_MM, SensorNeeds
 from jumpcad.mechanism.flight import Blow, leg_blow
-from jumpcad.mechanism.linkage import toe_tip_mm
-from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface, five_bar
+from jumpcad.mechanism.model import five_bar
 from jumpcad.parts import axles, body_plate, foot, links, sensor, shopping, small, stop, toes, train, trays
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.pads import pads
 from jumpcad.parts.part import Drawing, Part
-from jumpcad.parts.purchased import BoughtPart
-from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.bearings import roller_screw_mm
 from jumpcad.strength.growth import Growth, grown_mm
 from jumpcad.strength.stop import StopBlow, stop_blow
-from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
-WEIGHED_OFF = 20.0
-"""By how much a printed part may be heavier or lighter than as drawn; judgement: kilograms are 1000 times off."""
-NOT_IN_EVERY_ROBOT = (
-    "idler",
-    "cam_spacer_left",
-    "idler_spacer_right",
-    "toe_left",
-    "toe_right",
-    "main_leg_end",
-    "sensor_mount",
-)
-"""Parts that only some designs have: a workshop with their weights serves the other designs too."""
 PIN_ROUNDS = 5
 """Attempts with springs for other directions of their pin."""
 
@@ -74,11 +54,11 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
             *pads(layout, workshop.foot_pad),
             *links.bars(layout, holes),
         )
-        _require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
+        require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
-    parts = (*(_printed(drawing, workshop) for drawing in drawn), *kept)
-    bodies = _bodies(layout, parts, hardware)
+    parts = (*(weighed_part(drawing, workshop) for drawing in drawn), *kept)
+    bodies = bodies_of(layout, parts, hardware)
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
     release = release_of(layout, workshop, holes, parts, hardware, bodies, spring)
     blow = leg_blow(bodies, layout.linkage, spring, layout.stop.angle_rad)
@@ -93,7 +73,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
         loop=loop,
         spring=spring,
         foot_depth_m=layout.sections.ground_mm / 1000.0,
-        friction=_friction(layout, workshop),
+        friction=friction_of(layout, workshop),
         parts=parts,
         hardware=hardware,
         workshop=workshop,
@@ -109,14 +89,6 @@ def _same_but_for_lever(one: Layout, other: Layout) -> bool:
     """Tell whether two layouts are the same but for the height of the lever, which only the main leg has."""
     sections = replace(one.sections, lever_root_mm=other.sections.lever_root_mm)
     return pickle.dumps(replace(one, sections=sections)) == pickle.dumps(other)
-
-
-def _friction(layout: Layout, workshop: Workshop) -> Friction:
-    """Return the friction of feet and body on the workshop's ground, and of pins with its axles' diameter."""
-    ground, radius_m = workshop.ground, layout.axle_mm / 2000.0
-    hub_m = 0.0 if layout.hub_bearing else radius_m
-    pins = (hub_m, radius_m, radius_m, radius_m)
-    return Friction(ground.foot_friction, ground.bare_friction, workshop.pins.friction, pins)
 
 
 def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> tuple[Layout, HoleSizes]:
@@ -254,69 +226,3 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
             small.spacer(layout, holes, "idler_spacer_right", [idler_right]),
         ]
     return made
-
-
-def _require_parts(weighed: Iterable[str], names: Sequence[str]) -> None:
-    """Reject weights of parts that neither this robot nor any other has."""
-    known = (*names, *NOT_IN_EVERY_ROBOT)
-    for name in weighed:
-        if name not in known:
-            raise JumpcadError(
-                f"mass.weighed_g.{name}: no such part{did_you_mean(name, known)}; the robot has {', '.join(names)}"
-            )
-
-
-def _printed(drawing: Drawing, workshop: Workshop) -> Part:
-    """Return a drawing with its material and the mass of one copy."""
-    material, material_name = workshop.material(drawing.role), workshop.material_name(drawing.role)
-    model, nozzle = workshop.mass.model, workshop.printer.nozzle_mm
-    mass = mass_properties(drawing.shape, material.density_g_cm3, workshop.process, nozzle, model)
-    weighed = workshop.mass.weighed_g.get(drawing.name)
-    if weighed is not None:
-        grams = 1000.0 * mass.mass_kg
-        if not grams / WEIGHED_OFF <= weighed <= grams * WEIGHED_OFF:
-            raise JumpcadError(
-                f"mass.weighed_g.{drawing.name} = {weighed:g}: as drawn it weighs about {grams:.2g} g: is it in grams?"
-            )
-        return Part(drawing, material_name, mass.scaled_to(weighed / 1000.0), "weighed")
-    return Part(drawing, material_name, mass, model)
-
-
-def _bodies(layout: Layout, parts: tuple[Part, ...], hardware: tuple[BoughtPart, ...]) -> dict[str, Body]:
-    """Return the four rigid bodies with everything that they carry."""
-    carried: dict[str, list[MassProperties]] = defaultdict(list)
-    for part in parts:
-        for placement in part.placements:
-            carried[placement.body].append(part.mass.placed(in_metres(placement.T_body_part)))
-    for item in hardware:
-        carried[item.body].append(item.mass)
-    contacts = _contacts(layout)
-    bodies = {}
-    for name in BODY_NAMES:
-        mass = combined(carried[name])
-        bodies[name] = Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts.get(name, ()))
-    return bodies
-
-
-def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
-    """Return the spheres that may touch the ground: the pads of the foot's nose and toe tips, the plates' corners."""
-    sections = layout.sections
-    tip_radius = sections.toe_tip_height_mm / 2.0
-    tip_x, tip_y = float(toe_tip_mm(layout.design)[0]), layout.toe_half_width_mm
-    tip_z = tip_radius - sections.foot_depth_mm
-
-    def sphere(name: str, x: float, y: float, z: float, radius: float, surface: Surface) -> ContactSphere:
-        return ContactSphere(name, np.array([x, y, z]) / 1000.0, radius / 1000.0, surface)
-
-    pad = layout.axle_mm / 2.0 + PAD_WALL_MM
-    return {
-        FOOT: (
-            sphere("front_eye", layout.design.l4_mm, 0.0, 0.0, sections.ground_mm, "foot"),
-            sphere("left_toe", tip_x, tip_y, tip_z, tip_radius + sections.pad_mm, "foot"),
-            sphere("right_toe", tip_x, -tip_y, tip_z, tip_radius + sections.pad_mm, "foot"),
-        ),
-        BODY: (
-            sphere("back", layout.hub_mm[0], 0.0, layout.hub_mm[1], pad, "body"),
-            sphere("front", layout.front_mm[0], 0.0, layout.front_mm[1], pad, "body"),
-        ),
-    }

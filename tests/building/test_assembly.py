@@ -1,4 +1,4 @@
-"""Whole robots: masses summed up by trimesh, the loop closed by the joints' frames, refusals, the same bytes."""
+"""Whole robots: the loop closed by the joints' frames, refusals, the same bytes."""
 
 import hashlib
 import math
@@ -6,163 +6,27 @@ import re
 import subprocess
 import sys
 from collections import Counter
-from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
-import trimesh
 from support.built import LONG_TOES, body_in_plane, built, design, geared, placed
 from support.elsewhere import environment
 from support.places import ROOT
+from support.workshops import changed
 
 from jumpcad.building import assembly, build
-from jumpcad.building.assembly import (
-    _contacts,
-    _friction,
-    _printed,
-    _require_parts,
-    _sensor_needs,
-    assembled,
-    drawings,
-    layout_of,
-)
+from jumpcad.building.assembly import _sensor_needs, assembled, layout_of
 from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.mechanism.flight import leg_blow
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Friction
-from jumpcad.robot import Robot
-from jumpcad.solids.finish import to_trimesh
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.solids.stl import write_stl
 from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop, load_workshop
-
-
-def pieces(robot: Robot, body: str) -> list[tuple[trimesh.Trimesh, float]]:
-    """Return mesh (m, in the body's frame) and mass of everything on a body."""
-    found = [
-        (part.mesh.copy().apply_transform(place.T_body_part), part.mass_kg)
-        for part in robot.parts
-        for place in part.placements
-        if place.body == body
-    ]
-    found += [
-        (to_trimesh(item.solid).apply_transform(item.T_body_part), item.mass_kg)
-        for item in robot.hardware
-        if item.body == body
-    ]
-    return [(mesh.apply_scale(0.001), mass) for mesh, mass in found]
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
-@pytest.mark.parametrize("body", BODY_NAMES)
-def test_bodies_are_the_sum_of_their_meshes(name: str, body: str) -> None:
-    """Mass, centre and tensor of every mesh by trimesh, and Steiner's theorem."""
-    robot = built(name, mass_model="solid")
-    assert {part.mass_source for part in robot.parts} == {"solid"}
-    masses, centres, tensors = [], [], []
-    for mesh, mass in pieces(robot, body):
-        mesh.density = mass / mesh.volume
-        masses.append(mass)
-        centres.append(mesh.center_mass)
-        tensors.append(mesh.moment_inertia)
-    total = sum(masses)
-    centre = np.average(centres, axis=0, weights=masses)
-    inertia = np.zeros((3, 3))
-    for mass, at, tensor in zip(masses, centres, tensors, strict=True):
-        arm = at - centre
-        inertia += tensor + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    found = robot.bodies[body]
-    assert found.mass_kg == pytest.approx(total, rel=1e-9)
-    np.testing.assert_allclose(found.com_m, centre, atol=1e-6)
-    # Meshes leave out what is below 0.05 mm: kenan-2.0's main leg alone has its centre 0.9 µm off, on an arm of 30 mm.
-    np.testing.assert_allclose(found.inertia_kg_m2, inertia, atol=4e-5 * np.abs(inertia).max())
-
-
-def test_solid_parts_weigh_their_volume() -> None:
-    """PETG 1.27 and PLA 1.24 g/cm³."""
-    robot = built("kenan-2.0", mass_model="solid")
-    for part in robot.parts:
-        density = {"PETG": 1270.0, "PLA": 1240.0}[part.material]
-        assert part.mass_kg == pytest.approx(density * part.mesh.volume * 1e-9, rel=5e-4), part.name
-
-
-def test_printed_parts_are_mostly_lighter_than_solid_ones() -> None:
-    """Nothing but narrow frames, in which a slicer's lines overlap, is heavier (PrusaSlicer: the trays by 3 %)."""
-    printed, solid = built("kenan-2.0"), built("kenan-2.0", mass_model="solid")
-    for light, heavy in zip(printed.parts, solid.parts, strict=True):
-        assert 0.4 * heavy.mass_kg < light.mass_kg < 1.08 * heavy.mass_kg, light.name
-    assert printed.mass_kg < solid.mass_kg
-
-
-def test_a_weighed_part_weighs_what_the_scale_says() -> None:
-    workshop = load_workshop()
-    scale = workshop.mass.model_copy(update={"weighed_g": {"foot": 12.5}})
-    robot = build(load_design("kenan-2.0"), workshop.model_copy(update={"mass": scale}))
-    foot = next(part for part in robot.parts if part.name == "foot")
-    assert foot.mass_kg == pytest.approx(0.0125)
-    assert foot.mass_source == "weighed"
-    gained = 0.0125 - next(part for part in built("kenan-2.0").parts if part.name == "foot").mass_kg
-    assert robot.bodies[FOOT].mass_kg - built("kenan-2.0").bodies[FOOT].mass_kg == pytest.approx(gained, rel=1e-9)
-
-
-def weighed(**grams: float) -> Workshop:
-    workshop = load_workshop()
-    return workshop.model_copy(update={"mass": workshop.mass.model_copy(update={"weighed_g": grams})})
-
-
-def test_a_misspelt_weighed_part_is_told_when_the_parts_are_known() -> None:
-    with pytest.raises(
-        JumpcadError, match=r"mass\.weighed_g\.fot: no such part \(did you mean foot\?\); the robot has"
-    ):
-        build(load_design("kenan-2.0"), weighed(fot=12.5))
-
-
-@pytest.mark.parametrize("grams", [-1.0, 0.0, math.nan, math.inf, "5", None, True])
-def test_weights_that_nothing_has_are_refused_in_python_too(grams: float) -> None:
-    with pytest.raises(JumpcadError, match=r"mass\.weighed_g\.foot = .*: must be"):
-        build(load_design("kenan-2.0"), weighed(foot=grams))
-    changed = load_workshop().model_copy(deep=True)
-    changed.mass.weighed_g["foot"] = grams
-    with pytest.raises(JumpcadError, match=r"mass\.weighed_g\.foot = .*: must be"):
-        build(load_design("kenan-2.0"), changed)
-
-
-@pytest.mark.parametrize("share", [1e-3, 1e3])
-def test_a_weight_in_kilograms_or_milligrams_is_refused(share: float) -> None:
-    (foot,) = (part for part in built("kenan-2.0").parts if part.name == "foot")
-    with pytest.raises(JumpcadError, match=r"weighed_g\.foot = .*: as drawn it weighs about 8\.5 g: is it in grams"):
-        build(load_design("kenan-2.0"), weighed(foot=share * 1000.0 * foot.mass_kg))
-
-
-def test_weights_of_one_robot_do_not_hinder_another() -> None:
-    """Whatever part some robot has may be weighed; robots without it are built as if it were not."""
-    names = {part.name for robot in (geared(), built(LONG_TOES)) for part in robot.parts}
-    others = names - {part.name for part in built("kenan-2.0").parts}
-    assert {"idler", "toe_left", "toe_right"} < others
-    robot = build(load_design("kenan-2.0"), weighed(**dict.fromkeys(others, 1.0)), "kenan-2.0")
-    assert robot.mass_kg == built("kenan-2.0").mass_kg
-
-
-def test_parts_of_which_a_workshops_choice_decides_may_be_weighed_for_all_robots() -> None:
-    """Ends of legs of bars, and the mount of a sensor: for a robot without them their weights are of no use."""
-    whole, holes = layout_of(KENAN, load_workshop())
-    barred, _ = layout_of(KENAN, changed(bought={"leg": "carbon-tube-4x2"}))
-    few, more = ({one.name for one in drawings(layout, holes, "")} for layout in (replace(whole, sensor=None), barred))
-    assert more - few == {"main_leg_end", "sensor_mount"}
-    _require_parts(more, sorted(few))
-
-
-@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
-def test_body_tensors_belong_to_bodies(name: str) -> None:
-    for body in built(name).bodies.values():
-        low, middle, high = np.linalg.eigvalsh(body.inertia_kg_m2)
-        assert 0 < low <= middle <= high < low + middle
-        np.testing.assert_allclose(body.inertia_kg_m2, body.inertia_kg_m2.T, atol=1e-18)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo", LONG_TOES])
@@ -264,13 +128,6 @@ def test_the_same_inputs_give_the_same_files_on_another_machine() -> None:
         for part in built("best-bo").parts
     ]
     assert here == there
-
-
-def changed(**sections: dict[str, Any]) -> Workshop:
-    """Return the default workshop with some values of some sections changed."""
-    workshop = load_workshop()
-    parts = {name: getattr(workshop, name).model_copy(update=values) for name, values in sections.items()}
-    return workshop.model_copy(update=parts)
 
 
 KENAN = design("kenan-2.0")
@@ -386,54 +243,6 @@ def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
     names = {item.name for item in robot.hardware}
     assert "idler_axle" in names
     assert "idler_axle" not in {item.name for item in built("kenan-2.0").hardware}
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
-def test_what_touches_the_ground_is_where_the_design_says(name: str) -> None:
-    """Foot: nose at the front eye, tips at the toes' length and angle; body: both ends of its strut."""
-    robot = built(name)
-    design = robot.design
-    angle = math.radians(design.ground_link_angle_deg)
-    x, y = -design.l5_mm * math.cos(angle), design.l5_mm * math.sin(angle)
-    feet = {one.name: 1000.0 * one.centre_m for one in robot.bodies[FOOT].contacts}
-    assert feet["front_eye"] == pytest.approx([design.l4_mm, 0.0, 0.0])
-    assert feet["left_toe"][:2] == pytest.approx([x, y])
-    assert feet["right_toe"][:2] == pytest.approx([x, -y])
-    for one in robot.bodies[FOOT].contacts:
-        assert one.centre_m[2] - one.radius_m == pytest.approx(-robot.foot_depth_m)
-    sections, (_, *toes) = robot.layout.sections, robot.bodies[FOOT].contacts
-    for toe in toes:  # from the pad's lower face to its upper one, around the printed tip
-        assert 2000.0 * toe.radius_m == pytest.approx(sections.toe_tip_height_mm + 2.0 * sections.pad_mm)
-    ends = {one.name: (1000.0 * one.centre_m, 1000.0 * one.radius_m) for one in robot.bodies[BODY].contacts}
-    for end, sign in (("back", -1.0), ("front", 1.0)):
-        assert ends[end][0] == pytest.approx([sign * design.l1_mm / 2.0, 0.0, 0.0])
-        assert ends[end][1] == pytest.approx(1.5 + 3.0)  # a seat of 3 mm around an axle of 3 mm
-
-
-def test_a_part_weighs_what_the_printers_own_nozzle_lays() -> None:
-    """A wider one bridges the infill of a plate with thicker threads."""
-    workshop = load_workshop()
-    wide = workshop.model_copy(update={"printer": workshop.printer.model_copy(update={"nozzle_mm": 0.6})})
-    drawing = next(part.drawing for part in built("kenan-2.0").parts if part.name == "body_plate_right")
-    assert _printed(drawing, wide).mass_kg > 1.001 * _printed(drawing, workshop).mass_kg
-
-
-@pytest.mark.parametrize("axle_mm", [2.0, 4.0])
-def test_the_bodys_ends_are_as_thick_as_their_seats_around_the_axles(axle_mm: float) -> None:
-    """A seat of 3 mm around an axle; the ground is that far from its middle."""
-    ends = _contacts(replace(built("kenan-2.0").layout, axle_mm=axle_mm))[BODY]
-    assert [1000.0 * one.radius_m for one in ends] == pytest.approx([axle_mm / 2.0 + 3.0] * 2)
-
-
-def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
-    robot, plain = built("kenan-2.0"), load_workshop()
-    plain = plain.model_copy(update={"bought": plain.bought.model_copy(update={"leg_bearing": ""})})
-    assert robot.layout.hub_bearing is not None
-    assert robot.friction.pin_radius_m == (0.0, 0.0015, 0.0015, 0.0015)
-    assert build(load_design("kenan-2.0"), plain).friction.pin_radius_m == (0.0015,) * 4
-    rough = changed(pins={"friction": 0.4}, ground={"friction": 0.7, "bare_friction": 0.5})
-    rubbing = Friction(foot=0.7, body=0.5, pin=0.4, pin_radius_m=(0.0, 0.002, 0.002, 0.002))
-    assert _friction(replace(robot.layout, axle_mm=4.0), rough) == rubbing
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
