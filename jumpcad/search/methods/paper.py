@@ -39,10 +39,10 @@ def run_paper(evaluator: Evaluator, task: Task) -> None:
     points = np.random.default_rng([task.seed, 8]).random((explored, space.dimension))
     evaluator.evaluate([space.to_variant(point) for point in space.snap(points)], "sample", 0)
     best: list[Trial] = []
-    for run in range(RUNS):
+    for run, seed in enumerate(seeds(task.seed)):
         before = len(evaluator.trials)
         share = int(EVOLVED * task.evaluations / RUNS)
-        run_genetic(evaluator, Task(share, task.seed + run, preset="published", first_step=run * STEPS))
+        run_genetic(evaluator, Task(share, seed, preset="published", first_step=run * STEPS))
         found = best_trial(evaluator.trials[before:])
         best += [found] if found else []
     centre = max(best, key=_efficiency) if best else best_trial(evaluator.trials)
@@ -59,6 +59,11 @@ def run_paper(evaluator: Evaluator, task: Task) -> None:
                 )
                 centre = best_trial([centre, *(one for one in evaluator.trials if inner.contains(one.variant))])
         assert centre is not None
+
+
+def seeds(seed: int) -> list[int]:
+    """Return the seeds of the runs of the genetic algorithm: other ones for every seed of a search."""
+    return [int(one) for one in np.random.SeedSequence([seed, 9]).generate_state(RUNS)]
 
 
 def _efficiency(trial: Trial) -> float:

@@ -8,7 +8,7 @@ from support.hills import SMALL, Hill
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.methods import STEPS, Task, paper
-from jumpcad.search.methods.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper
+from jumpcad.search.methods.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
@@ -68,6 +68,23 @@ def test_every_run_begins_with_designs_of_its_own(evaluator):
     run_paper(one, Task(140, 3))
     first = [trial for trial in one.trials if trial.phase == "ga" and trial.step % STEPS == 0]
     assert [sum(trial.step == run * STEPS for trial in first) for run in range(RUNS)] == [10] * RUNS
+
+
+def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(evaluator):
+    """Else several searches are no independent repetitions."""
+    keys = []
+    for seed in (3, 4):
+        one = evaluator(space=Space.default())
+        run_paper(one, Task(140, seed))
+        keys.append({trial.key for trial in one.trials if trial.phase == "ga"})
+    assert min(map(len, keys)) > 30
+    assert not keys[0] & keys[1]
+
+
+def test_it_takes_the_largest_seed(evaluator):
+    one = evaluator(space=Space.default())
+    run_paper(one, Task(40, 2**32 - 1))
+    assert {trial.step // STEPS for trial in one.trials if trial.phase == "ga"} == set(range(RUNS))
 
 
 def test_it_resumes_and_its_study_is_read(tmp_path):
@@ -148,7 +165,7 @@ def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_wh
     one = evaluator(space=Space.default())
     run_paper(one, Task(100, 9))
     assert [(task.evaluations, task.seed, task.first_step, task.preset) for task in runs] == [
-        (17, 9 + run, run * STEPS, "published") for run in range(3)
+        (17, seed, run * STEPS, "published") for run, seed in enumerate(seeds(9))
     ]
     scores = [trial.score for trial in one.trials if trial.phase == "ga"]
     energies = [design.spring_energy_j for design in designs]
