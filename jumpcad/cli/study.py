@@ -132,7 +132,7 @@ def _print_one(summary: dict[str, Any]) -> None:
     around = f", and {summary['other_evaluations']} around the best" if summary["planned"] else ""
     print(f"{_done(summary['evaluations'], summary['planned'], identity['model'])}{around}")
     if summary["ended"] is not None:
-        print(f"  ended: {_end_in_words(summary['ended'], identity['method'])}")
+        print(f"  ended: {_end_in_words(summary['ended'], identity)}")
     for name, count in summary["refused"].items():
         print(f"  rejected {count:6d}  {name}")
     for note in summary["notes"]:
@@ -146,10 +146,15 @@ def _print_one(summary: dict[str, Any]) -> None:
         print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}  (trial {trial['trial']})")
 
 
-def _end_in_words(ended: dict[str, Any], method: str) -> str:
+def _end_in_words(ended: dict[str, Any], identity: dict[str, Any]) -> str:
     """Return what ended a search, and how it goes on."""
+    from jumpcad.search.methods import METHODS
+
+    method = identity["method"]
+    shares = method in METHODS and METHODS[method].shares and not identity.get("widen")
+    more = f"{method} with more is another study" if shares else "more --evaluations go on"
     words = {
-        "evaluations": "all evaluations that it was to take are spent; more --evaluations go on",
+        "evaluations": f"all evaluations that it was to take are spent; {more}",
         "until": f"its last steps gained less than {ended.get('until_percent', 0.0):g} % of the best score (--until); "
         "--until 0 goes on",
         "hours": f"its time is over (--hours {ended.get('hours', 0.0):g}); the same command goes on",

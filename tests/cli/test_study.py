@@ -119,6 +119,19 @@ def test_a_study_says_what_ended_its_search(
     assert capsys.readouterr().out.splitlines()[2].strip() == told
 
 
+@pytest.mark.parametrize(
+    ("widen", "told"),
+    [({}, "spent; paper with more is another study"), ({"widen": True}, "spent; more --evaluations go on")],
+)
+def test_a_method_whose_parts_have_shares_is_not_said_to_go_on(
+    capsys: pytest.CaptureFixture[str], widen: dict[str, object], told: str
+) -> None:
+    """`jumpcad optimize paper` refuses its study with more evaluations, unless a widening takes them."""
+    identity = summary()["identity"] | {"method": "paper"} | widen  # type: ignore[operator]
+    study._print_one(summary(identity=identity, ended={"by": "evaluations"}))
+    assert capsys.readouterr().out.splitlines()[2].endswith(told)
+
+
 def test_an_exploration_has_no_number_of_designs_to_come(capsys: pytest.CaptureFixture[str]) -> None:
     study._print_one(summary(planned=0, other_evaluations=0))
     assert capsys.readouterr().out.splitlines()[1] == "31 designs"
