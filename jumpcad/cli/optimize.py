@@ -224,7 +224,7 @@ def _print_result(
     print(f"\nbest {request.objective} {request.aim.shown(result.best.score or 0.0)}")
     if result.candidates:
         print(f"score that nine of ten neighbours reach, parameters ±1 %, or {request.making.words}:")
-        print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  neighbours, rejected")
+        print(f"  {'itself':>10s}{'±1 %':>10s}{'as made':>10s}  neighbours, rejected")
     for one in result.candidates[:SHOWN]:
         scores = (one.trial.score or 0.0, one.parameters_score, one.print_score)
         print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {one.neighbours:10d}, {_counted(one.rejections)}")

@@ -30,7 +30,7 @@ class Replay(Evaluator):
     def __init__(self, store: StudyStore) -> None:
         identity = store.identity
         held = store.trials()
-        self.space, self.objective = Space.from_record(identity["space"]), described_objective(identity)
+        self.space, self.objective = Space.from_record(store.space), described_objective(identity)
         self.store = store
         self._watch, self._spent = ignore, 0
         self._finished = {trial.key: trial for trial in held}
@@ -67,7 +67,7 @@ class Known:
     Parameters
     ----------
     space, objective
-        What was searched for, and where.
+        What was searched for, and where: with the bounds that the search moved.
     trials
         All designs that the search proposed, in order.
     winner
@@ -102,9 +102,8 @@ def known(store: StudyStore) -> Known:
     candidates: list[Candidate] = []
     if share and best is not None:
         identity = store.identity
-        making = Making(**identity.get("making") or {"length_mm": identity.get("tolerance_mm", 0.0)})
         among = front(trials, described_cost(identity)) if identity["method"] in FRONTS else None
-        candidates = rank_candidates(replay, trials, identity["seed"], making, share, among)
+        candidates = rank_candidates(replay, trials, identity["seed"], Making.of(identity), share, among)
     winner = candidates[0].trial if candidates else best
     bounds = [] if winner is None else active_bounds(replay, winner, 0)
     return Known(replay.space, replay.objective, trials, winner, candidates, bounds, trial_numbers(held))

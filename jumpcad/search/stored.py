@@ -66,6 +66,9 @@ class _Making(TomlTable):
     printed: bool = False
 
 
+_Space = Annotated[dict[str, _Range], AfterValidator(_whole)]
+
+
 class _Identity(TomlTable):
     """What readers of a study need; the writer compares the rest."""
 
@@ -75,7 +78,7 @@ class _Identity(TomlTable):
     objective: Name
     method: Name
     seed: Count
-    space: Annotated[dict[str, _Range], AfterValidator(_whole)]
+    space: _Space
     making: _Making | None = None
     tolerance_mm: Count | float = 0.0
 
@@ -103,13 +106,14 @@ _REMEMBERED: dict[str, TypeAdapter[Any]] = {
     "identity": TypeAdapter(_Identity),
     "stages": TypeAdapter(Annotated[list[_Stage], Field(min_length=1)]),
     "ended": TypeAdapter(_Ended),
+    "widened": TypeAdapter(_Space),
 }
 _WORKSHOP = TypeAdapter(dict[str, Finite | Text], config=STRICT)
 _PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]] | list[list[Share]]], config=STRICT)
 
 
 def require_remembered(key: str, value: Any) -> None:
-    """Reject what a study cannot have remembered as its `identity`, its `stages` or what `ended` it.
+    """Reject what a study cannot have remembered as its `identity`, its `stages`, what `ended` or `widened` it.
 
     Raises
     ------

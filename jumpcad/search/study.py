@@ -21,7 +21,7 @@ from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
 from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
-from jumpcad.search.store import ENDED, StudyStore, difference
+from jumpcad.search.store import ENDED, WIDENED, StudyStore, difference
 from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
 from jumpcad.search.versions import versions
 from jumpcad.search.widening import Widened, widen
@@ -137,6 +137,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 if stage.widen:
                     first_step = number * STEPS
                     widened += widen(evaluator, first_step, stage.evaluations)
+                    store.remember(WIDENED, evaluator.space.describe())
                 # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
                 may_end = number == len(stages) - 1 and METHODS[stage.method].ends
                 least_gain = request.until_percent / 100.0 if may_end else 0.0

@@ -27,6 +27,7 @@ from jumpcad.search.study_drawings import history, parallel, slices
 from jumpcad.search.study_lessons import active, importances, rejections
 from jumpcad.search.study_plots import study_figures
 from jumpcad.search.study_words import meaning_of, named, with_unit
+from jumpcad.search.tolerances import Making
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.workshop.varied import Value
 
@@ -43,7 +44,7 @@ ACQUISITION = (
 )
 UNSAVED = "F.db"
 """The file in the commands of a study that is kept in memory."""
-CANDIDATE_HEAD = ("±1 %", "lengths", "rejected")
+CANDIDATE_HEAD = ("±1 %", "as made", "rejected")
 
 
 @typed
@@ -128,6 +129,9 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
         f"{f' against {described_cost(identity).figure.meaning}' if method in FRONTS else ''}, "
         f"{'evaluated' if found.is_explored else 'searched'} by {written(', then '.join(stages) or method)}.</p>"
     )
+    if store.space != identity["space"]:
+        yield "<p>The search moved bounds on which its best design lay (<code>--widen</code>); ranges are those at its "
+        yield "end.</p>"
     rows = []
     for parameter in found.space.parameters:
         value = "" if found.winner is None else _value(found.winner.variant.value(parameter.name))
@@ -189,7 +193,7 @@ def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[s
     yield '</button> <button type="button" id="after">Next</button></p>'
     yield from shown_designs(shown, numbers, objective, str(store.path or UNSAVED))
     yield "</div></div>"
-    yield from _designs(found, shown, numbers)
+    yield from _designs(found, shown, numbers, Making.of(store.identity))
 
 
 def _shown(found: Known, of_front: Cost | None) -> list[Trial]:
@@ -223,7 +227,7 @@ def _reach(shown: Sequence[Trial], objective: Objective, cost: Cost) -> str:
     return f"Here it goes from {ends[0]} to {ends[1]}; half of the highest score comes with {spent(half)}."
 
 
-def _designs(found: Known, shown: Sequence[Trial], numbers: Sequence[int]) -> Iterator[str]:
+def _designs(found: Known, shown: Sequence[Trial], numbers: Sequence[int], making: Making) -> Iterator[str]:
     """Yield the table of the shown designs, with the scores of their neighbours if they were examined."""
     if _are_candidates(found, shown):
         neighbours = [
@@ -235,9 +239,9 @@ def _designs(found: Known, shown: Sequence[Trial], numbers: Sequence[int]) -> It
             for one in found.candidates
         ]
         head: tuple[str, ...] = CANDIDATE_HEAD
-        yield "<p>Most robust first. ±1 % and lengths: the score that nine of ten neighbours reach when every "
-        yield "parameter varies by ±1 %, and when lengths vary by the tolerance of print and assembly; how many of "
-        yield "the neighbours were rejected.</p>"
+        yield "<p>Most robust first. ±1 % and as made: the score that nine of ten neighbours reach when every "
+        yield f"parameter varies by ±1 %, and within what may be made otherwise ({written(making.words)}); how many "
+        yield "of the neighbours were rejected.</p>"
     else:
         neighbours, head = [[] for _ in shown], ()
     rows = [

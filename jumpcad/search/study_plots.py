@@ -27,7 +27,7 @@ def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
 def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[], Figure]]:
     """Return functions that draw the pictures of a study, by the pictures' names; see `plots.acquisition`."""
     trials, identity = searched(store.trials()), store.identity
-    space, objective = Space.from_record(identity["space"]), described_objective(identity)
+    space, objective = Space.from_record(store.space), described_objective(identity)
     figures: dict[str, Callable[[], Figure]] = {}
     if trials:
         figures["history"] = partial(plots.history, trials, objective)

@@ -7,6 +7,7 @@ robot is that robot with other links, angles and springs: who prints it does not
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.special import ndtri
@@ -68,6 +69,11 @@ class Making:
         shares = (("springs", self.rate), ("mass", self.mass), ("friction", self.floor))
         more = "".join(f", {name} ±{200.0 * share:.0f} %" for name, share in shares if share)
         return f"lengths ±{self.length_mm:g} mm{more}"
+
+    @classmethod
+    def of(cls, identity: Mapping[str, Any]) -> "Making":
+        """Return the tolerances of a study by what it remembers; the first ones had one of lengths alone."""
+        return cls(**identity.get("making") or {"length_mm": identity.get("tolerance_mm", 0.0)})
 
     def neighbours(self, one: Variant, generator: np.random.Generator) -> list[Variant]:
         """Return variants as they may be made.

@@ -179,7 +179,7 @@ def test_robust_scores_stand_under_their_headings(capsys):
     optimize._print_result(result, Path("won.toml"))
     lines = capsys.readouterr().out.splitlines()
     head = next(number for number, line in enumerate(lines) if "itself" in line)
-    for heading, score in (("itself", "3.0000"), ("±1 %", "2.0000"), ("lengths", "1.0000")):
+    for heading, score in (("itself", "3.0000"), ("±1 %", "2.0000"), ("as made", "1.0000")):
         end = lines[head].index(heading) + len(heading)
         assert lines[head + 1][:end].endswith(score)
 

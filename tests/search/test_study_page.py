@@ -28,6 +28,7 @@ from jumpcad.search.study import run_study
 from jumpcad.search.study_lessons import active
 from jumpcad.search.study_page import write_study_page
 from jumpcad.search.table import write_table
+from jumpcad.search.tolerances import Making
 from jumpcad.search.trial import Trial
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
@@ -400,7 +401,9 @@ def test_candidates_stand_in_a_row_with_their_neighbours():
     candidates = [Candidate(TRIALS[3], 1.25, 1.75, {"tips": 2, "loop": 1}, 16), Candidate(TRIALS[1], 0.5, 0.25, {}, 8)]
     store, found = made_up(candidates=candidates)
     shown = [TRIALS[3], TRIALS[1]]
-    lines = list(study_page._designs(found, shown, [4, 2]))
+    making = Making(0.4, rate=0.05, mass=0.04, floor=0.15, printed=True)
+    lines = list(study_page._designs(found, shown, [4, 2], making))
+    assert "(lengths ±0.4 mm, springs ±10 %, mass ±8 %, friction ±30 %)" in " ".join(lines)
     rows = [[words([cell]) for cell in re.findall(r"<td[^>]*>(.*?)</td>", line)] for line in lines]
     rows = [row for row in rows if row]
     store.close()
@@ -412,10 +415,10 @@ def test_candidates_stand_in_a_row_with_their_neighbours():
     ]  # fmt: skip
     heads = [words([cell]) for line in lines for cell in re.findall(r"<th[^>]*>(.*?)</th>", line)]
     assert [head.replace("_ ", "_") for head in heads] == [
-        "design", "trial", "score (m)", "±1 %", "lengths", "rejected", "springs (J)", "compression_ratio",
+        "design", "trial", "score (m)", "±1 %", "as made", "rejected", "springs (J)", "compression_ratio",
         "rest_angle_deg (°)",
     ]  # fmt: skip
-    plain = "".join(study_page._designs(replace(found, candidates=[]), shown, [4, 2]))
+    plain = "".join(study_page._designs(replace(found, candidates=[]), shown, [4, 2], making))
     assert "rejected" not in plain
     assert "Most robust first" not in plain
 
