@@ -232,9 +232,21 @@ class Space:
         return snapped
 
     def spread(self, count: int, generator: np.random.Generator) -> Array:
-        """Return `count` scrambled Sobol points (count, dimension) of the unit cube."""
+        """Return `count` scrambled Sobol points (count, dimension) of the unit cube, with every choice as often."""
         power = max(0, math.ceil(math.log2(max(count, 1))))
-        return self.snap(sobol(self.dimension, 2**power, generator)[:count])
+        return self.drawn(sobol(self.dimension, 2**power, generator)[:count])
+
+    def drawn(self, units: Array) -> Array:
+        """Return evenly distributed points (n, dimension) with choices, each for an equal part of its axis.
+
+        Of three names that `snap` finds at 0, ½ and 1, the second would be as frequent as both others together.
+        """
+        drawn = units.copy()
+        for column, parameter in enumerate(self.free):
+            if parameter.choices:
+                levels = np.asarray(parameter.levels)
+                drawn[:, column] = levels[(units[:, column] * len(levels)).astype(int)]
+        return drawn
 
     def near(self, centre: Variant, names: Sequence[str] = (), percent: float | None = None) -> "Space | None":
         """Return the part of the space in which only some parameters vary; the others have the values of `centre`.

@@ -52,6 +52,6 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
     if quick is None:
         return []
     space = evaluator.space
-    points = space.snap(sobol(space.dimension, SCREENED, generator))
+    points = space.drawn(sobol(space.dimension, SCREENED, generator))
     scores = np.array([quick(space.to_design(point), evaluator.objective) for point in points])
     return [points[index] for index in np.argsort(-scores, kind="stable") if math.isfinite(scores[index])]

@@ -79,6 +79,19 @@ def test_spread_points_of_choices_are_their_levels():
     assert len(np.unique(np.delete(points, column, axis=1))) == 32 * 7
 
 
+@pytest.mark.parametrize("order", ["a,b,c", "c,a,b"])
+def test_every_name_is_spread_as_often_in_whatever_order_it_is_given(order):
+    """And every number of unequally spaced ones."""
+    names = SearchParameter.of_names("bought.battery", order.split(","))
+    numbers = SearchParameter("c_coef", 0.8, 1.2, (0.8, 0.85, 1.2))
+    space = Space((names, numbers))
+    points = space.spread(96, np.random.default_rng(0))
+    for column, parameter in zip(points.T, space.free, strict=True):
+        counts = [np.isclose(column, level).sum() for level in parameter.levels]
+        assert sum(counts) == 96
+        assert max(counts) - min(counts) <= 3
+
+
 def test_near_a_design_and_only_some_parameters():
     centre = load_design("best-ga")
     near = Space.parse(around=centre, within_percent=10)

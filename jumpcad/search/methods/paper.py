@@ -37,7 +37,7 @@ def run_paper(evaluator: Evaluator, task: Task) -> None:
     space, start = evaluator.space, len(evaluator.trials)
     explored = int(EXPLORED * task.evaluations)
     points = np.random.default_rng([task.seed, 8]).random((explored, space.dimension))
-    evaluator.evaluate([space.to_variant(point) for point in space.snap(points)], "sample", 0)
+    evaluator.evaluate([space.to_variant(point) for point in space.drawn(points)], "sample", 0)
     best: list[Trial] = []
     for run, seed in enumerate(seeds(task.seed)):
         before = len(evaluator.trials)
