@@ -7,7 +7,7 @@ Saltelli's scheme; the rest of the variance is due to interactions of groups.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -79,7 +79,8 @@ def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0,
     robot
         As built; its workshop has the tolerance of lengths and the scatter of spring rates.
     settings
-        With the draws of a calibration; without draws the priors of a calibration are used.
+        With the draws of a calibration; without draws the priors of a calibration are used, about the efficiency of
+        springs and the friction of pins and floor that the settings give.
     engine
         A key of `ENGINES`.
     seed, samples
@@ -147,6 +148,9 @@ def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
     mass = Prior("normal", 1.0, PRINTED_MASS_SHARE, "model", 0.3)
     floor = Prior("lognormal", rubs.ground, FLOOR_SHARE, "workshop")
     pins = Prior("lognormal", rubs.pin, PIN_FRICTION.second, "workshop")
+    efficiency, given = SPRING_EFFICIENCY, settings.spring_efficiency
+    if given != Settings().spring_efficiency:
+        efficiency = replace(SPRING_EFFICIENCY, first=given, source="settings", least=0.1)
 
     def drawn(at: Array) -> Array:
         pairs = np.column_stack([draws.spring_efficiency, draws.pin_friction])
@@ -154,7 +158,7 @@ def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
         return found
 
     def assumed(at: Array) -> Array:
-        return np.column_stack([SPRING_EFFICIENCY.at(ndtri(at[:, 0])), pins.at(ndtri(at[:, 1]))])
+        return np.column_stack([efficiency.at(ndtri(at[:, 0])), pins.at(ndtri(at[:, 1]))])
 
     def calibrated(robot: Robot, settings: Settings, value: Array) -> Applied:
         return robot, _changed(settings, spring_efficiency=value[0], pin_friction=value[1])

@@ -123,6 +123,13 @@ def test_what_workshop_and_settings_say_of_lengths_floor_and_pins_is_what_varies
     assert groups["calibration"].values(np.array([[0.5, 0.5]]))[0] == pytest.approx([0.95, 0.4])
 
 
+@pytest.mark.parametrize("efficiency", [0.1, 0.6, 1.1])
+def test_an_efficiency_of_springs_that_is_given_is_the_middle_of_what_varies(robot: Robot, efficiency: float) -> None:
+    """As settings say it without draws: the interval holds their jump."""
+    (given,) = _groups(robot, Settings(spring_efficiency=efficiency))["calibration"].values(np.full((1, 2), 0.5))
+    assert given[0] == pytest.approx(efficiency)
+
+
 def test_every_jump_is_simulated_by_the_engine_that_is_asked_for(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     asked, jump = [], simulate(robot, engine="planar")
     monkeypatch.setattr(uncertain, "simulate", lambda *given: asked.append(given[2]) or jump)
