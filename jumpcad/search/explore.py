@@ -172,7 +172,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
     with threadpool_limits(1):
         for part in range(FOLDS):
             known = fold != part
-            surrogate = Surrogate(x[known], y[known], theta)
+            surrogate = Surrogate(x[known], y[known], theta, categories=evaluator.space.categories)
             theta = surrogate.theta
             plain = _r_squared(surrogate, x[~known], y[~known])
             scores.append(plain)

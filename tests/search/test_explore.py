@@ -22,7 +22,10 @@ from jumpcad.search.explore import (
     sweep,
 )
 from jumpcad.search.models import robot_model
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial
 from jumpcad.workshop import load_workshop, varied
 
 CENTRE = SMALL.to_design([0.5, 0.5, 0.5])
@@ -63,6 +66,26 @@ def test_importance_knows_which_parameters_decide(evaluator):
     ranked = {found.names[index] for index in np.argsort(-found.mean)[:3]}
     assert ranked == set(TOP)
     assert np.abs(found.mean[[name not in TOP for name in found.names]]).max() < 0.02
+
+
+def test_what_a_name_matters_does_not_depend_on_the_order_of_the_names(evaluator):
+    """They have none: the score of each is its own."""
+    names, generator = "abcde", np.random.default_rng(1)
+    points, drawn = generator.random((60, 3)), generator.integers(0, 5, 60)
+    scores = np.array([1.0, 3.0, 1.5, 4.0, 2.0])[drawn] + 2.0 * np.sin(3.0 * points[:, 0])
+    scores += 0.3 * generator.standard_normal(60)
+    trials = [
+        Trial("sample", 0, number, SMALL.to_design(point), Evaluation("jump"), float(score) ** 2, "m", 0.0, {},
+              {"bought.kit": names[name]})
+        for number, (point, name, score) in enumerate(zip(points, drawn, scores, strict=True))
+    ]  # fmt: skip
+    falls = []
+    for order in ("abcde", "acebd", "bdeca"):
+        space = Space((*SMALL.parameters, SearchParameter.of_names("bought.kit", tuple(order))))
+        falls.append(importance(evaluator(space=space), trials, 0).mean)
+    assert falls[0] == pytest.approx(falls[1], abs=2e-3)
+    assert falls[0] == pytest.approx(falls[2], abs=2e-3)
+    assert falls[0].argmax() == 3
 
 
 def test_feasibility_map_shows_the_border(evaluator):
