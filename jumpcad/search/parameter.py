@@ -68,9 +68,9 @@ class SearchParameter:
 
     def at(self, units: npt.ArrayLike) -> Array:
         """Return the values (n,) at positions (n,) in the unit interval; with choices, the nearest ones."""
-        values = np.clip(self.lower + np.asarray(units) * self.width, self.lower, self.upper)
+        values = self.lower + np.asarray(units) * self.width
         if not self.choices:
-            rounded: Array = values.round(DECIMALS)
+            rounded: Array = np.clip(values.round(DECIMALS), self.lower, self.upper)
             return rounded
         choices = np.array(self.choices)
         nearest: Array = choices[np.abs(values[:, None] - choices).argmin(axis=1)]

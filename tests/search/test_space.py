@@ -92,6 +92,15 @@ def test_every_name_is_spread_as_often_in_whatever_order_it_is_given(order):
         assert max(counts) - min(counts) <= 3
 
 
+def test_values_lie_within_bounds_of_any_number_of_digits():
+    """A third and two thirds, which the ten decimals of values pass."""
+    space = Space.parse(bound=[f"d_coef={2.0 / 3.0 - 0.1!r}:{2.0 / 3.0!r}", f"rest_angle_deg={100.0 / 3.0!r}:50"])
+    for point in (np.zeros(8), np.ones(8)):
+        design = space.to_design(point)
+        assert 2.0 / 3.0 - 0.1 <= design.d_coef <= 2.0 / 3.0
+        assert 100.0 / 3.0 <= design.rest_angle_deg <= 50.0
+
+
 def test_near_a_design_and_only_some_parameters():
     centre = load_design("best-ga")
     near = Space.parse(around=centre, within_percent=10)
