@@ -154,10 +154,12 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
 
     A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is permuted there.
 
+    A fifth whose scores are equal says nothing.
+
     Raises
     ------
     JumpcadError
-        If too few designs jump.
+        If too few designs jump, or all score alike.
     """
     feasible = [trial for trial in trials if trial.score is not None]
     if len(feasible) < 2 * FOLDS:
@@ -172,6 +174,8 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
     with threadpool_limits(1):
         for part in range(FOLDS):
             known = fold != part
+            if np.ptp(y[~known]) == 0.0:
+                continue  # there is no variance to be explained
             surrogate = Surrogate(x[known], y[known], theta, categories=evaluator.space.categories)
             theta = surrogate.theta
             plain = _r_squared(surrogate, x[~known], y[~known])
@@ -179,6 +183,11 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
             for _ in range(REPEATS):
                 shuffled = [_shuffled(x[~known], column, generator) for column in range(x.shape[1])]
                 falls.append([plain - _r_squared(surrogate, points, y[~known]) for points in shuffled])
+    if not scores:
+        raise JumpcadError(
+            f"{len(feasible)} of {len(trials)} designs jump, and score alike: nothing says what is important; raise "
+            "--samples, or choose another --objective"
+        )
     names = tuple(parameter.name for parameter in evaluator.space.free)
     return Importance(names, np.mean(falls, axis=0), np.std(falls, axis=0), float(np.mean(scores)), len(feasible))
 

@@ -68,6 +68,27 @@ def test_importance_knows_which_parameters_decide(evaluator):
     assert np.abs(found.mean[[name not in TOP for name in found.names]]).max() < 0.02
 
 
+def scored(scores):
+    """Return trials that are drawn at random, with these scores."""
+    points = np.random.default_rng(1).random((len(scores), 3))
+    return [
+        Trial("sample", 0, number, SMALL.to_design(point), Evaluation("jump"), float(score), "m", 0.0)
+        for number, (point, score) in enumerate(zip(points, scores, strict=True))
+    ]
+
+
+def test_equal_scores_do_not_say_what_is_important(evaluator):
+    with pytest.raises(JumpcadError, match="20 of 20 designs jump, and score alike: nothing says what is important"):
+        importance(evaluator(), scored(np.ones(20)), 0)
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_a_fold_of_equal_scores_is_left_out(evaluator):
+    """One design differs from the others, so four of five folds have no variance."""
+    found = importance(evaluator(), scored([2.0, *np.ones(19)]), 0)
+    assert np.isfinite([found.r_squared, *found.mean, *found.deviation]).all()
+
+
 def test_what_a_name_matters_does_not_depend_on_the_order_of_the_names(evaluator):
     """They have none: the score of each is its own."""
     names, generator = "abcde", np.random.default_rng(1)
