@@ -130,9 +130,12 @@ def described_cost(identity: Mapping[str, Any]) -> Cost:
 
 @typed
 def front(trials: Sequence[Trial], cost: Cost = SPRING_ENERGY) -> list[Trial]:
-    """Return the trials whose positive score no other trial reaches at less cost, sorted by cost."""
+    """Return the trials whose score no other trial reaches at less cost, sorted by cost.
+
+    Where a score is above 0, those that are not are left out: a jump backwards is no cheap jump.
+    """
     scored = [trial for trial in trials if trial.score is not None]
-    best, chosen = 0.0, []
+    best, chosen = 0.0 if any((trial.score or 0.0) > 0.0 for trial in scored) else -math.inf, []
     for trial in sorted(scored, key=lambda trial: (cost.of(trial), -(trial.score or 0.0))):
         if trial.score is not None and trial.score > best:
             best = trial.score
@@ -147,6 +150,6 @@ def hypervolume(trials: Sequence[Trial], reference: float | None = None, cost: C
     Without a reference it is the cost's own, as `Cost.of` gives costs.
     """
     last = cost.reference if reference is None else reference
-    chosen = [trial for trial in front(trials, cost) if cost.of(trial) < last]
+    chosen = [trial for trial in front(trials, cost) if cost.of(trial) < last and (trial.score or 0.0) > 0.0]
     ends = [cost.of(trial) for trial in chosen[1:]] + [last]
     return sum((trial.score or 0.0) * (end - cost.of(trial)) for trial, end in zip(chosen, ends, strict=False))

@@ -156,7 +156,7 @@ def rank_candidates(
     reserve = JOINING * 3 if evaluations >= LEAST_TO_JOIN and among is None else 0
     rounds = plan_rounds(evaluations - reserve)
     best = best_apart(evaluator.space, trials if among is None else among, rounds[0][0])
-    if not best:  # no score of a front is above 0
+    if not best:  # nothing jumps
         return []
     field = [_Examined(index, one) for index, one in enumerate(best)]
     left: list[_Examined] = []

@@ -218,13 +218,15 @@ def _first(shown: Sequence[Trial], is_front: bool) -> int:
 def _reach(shown: Sequence[Trial], objective: Objective, cost: Cost) -> str:
     """Return from where to where a front goes, in words."""
     low, high = shown[0], shown[-1]
-    half = next(trial for trial in shown if (trial.score or 0.0) >= 0.5 * (high.score or 0.0))
-
     def spent(trial: Trial) -> str:
         return f"{cost.shown(cost.of(trial)):.3g} {cost.figure.unit}"
 
     ends = [f"{one.score:.3g} {objective.unit} with {spent(one)}" for one in (low, high)]
-    return f"Here it goes from {ends[0]} to {ends[1]}; half of the highest score comes with {spent(half)}."
+    said, highest = f"Here it goes from {ends[0]} to {ends[1]}", high.score or 0.0
+    if highest <= 0.0:
+        return f"{said}."
+    half = next(trial for trial in shown if (trial.score or 0.0) >= 0.5 * highest)
+    return f"{said}; half of the highest score comes with {spent(half)}."
 
 
 def _designs(found: Known, shown: Sequence[Trial], numbers: Sequence[int], making: Making) -> Iterator[str]:

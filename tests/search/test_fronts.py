@@ -46,6 +46,20 @@ def test_front_is_what_nothing_dominates(trials):
     assert {(trial.score, energy_j(trial.design)) for trial in front(trials)} == brute
 
 
+def test_where_no_score_is_above_0_the_front_is_still_what_nothing_dominates(trials):
+    """Scores of an own objective may all be negative; they dominate nothing above 0."""
+    below = [replace(trial, score=trial.score and trial.score - 2.0) for trial in trials]
+    assert [trial.place for trial in front(below)] == [trial.place for trial in front(trials)]
+    assert hypervolume(below) == 0.0
+
+
+def test_a_jump_backwards_is_on_no_front_that_has_jumps_forwards(trials):
+    cheapest = min((trial for trial in trials if trial.score is not None), key=lambda trial: energy_j(trial.design))
+    backwards = [replace(trial, score=-0.5) if trial is cheapest else trial for trial in trials]
+    assert all(trial.score > 0.0 for trial in front(backwards))
+    assert front(backwards)
+
+
 def test_hypervolume_is_pygads(trials):
     points = np.array([[trial.score, -energy_j(trial.design)] for trial in trials if trial.score is not None])
     energies = [energy_j(trial.design) for trial in front(trials)]

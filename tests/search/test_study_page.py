@@ -374,6 +374,14 @@ def test_a_front_is_told_from_end_to_end_and_where_half_of_it_is_reached():
     assert [study_page._first(shown, front) for front in (True, False)] == [4, 1]
 
 
+def test_no_half_is_told_of_a_front_whose_scores_are_not_above_0():
+    shown = [replace(TRIALS[0], score=score) for score in (-4.0, -1.0)]
+    spent = f"{TRIALS[0].design.spring_energy_j:.3g} J"
+    assert study_page._reach(shown, find_objective("range"), SPRING_ENERGY) == (
+        f"Here it goes from -4 m with {spent} to -1 m with {spent}."
+    )
+
+
 def test_a_front_that_seeks_more_of_both_is_told_by_the_figures_themselves():
     shown = [
         replace(shown_trial(score, n), evaluation=Evaluation("jump", {"com_rise_m": rise}))

@@ -21,6 +21,7 @@ from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import incumbent, learned_trials, run_steps, unproposed
 from jumpcad.search.methods.genetic import Fitness, evolve
+from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Surrogate
 from jumpcad.search.trial import Trial
@@ -115,7 +116,7 @@ class ParetoFitness(Fitness):
     """Score and negative cost, both to be maximised."""
 
     def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, cost: Cost = SPRING_ENERGY) -> None:
-        super().__init__(evaluator, phase, evaluations, rejected=[-1.0, -cost.worst])
+        super().__init__(evaluator, phase, evaluations, rejected=[-2.0 * LARGEST, -cost.worst])
         self.cost = cost
 
     def objectives(self, trial: Trial) -> list[float]:

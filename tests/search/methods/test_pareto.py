@@ -1,5 +1,6 @@
 """Searches for a front: how much of the true one they find, and resumption."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -84,6 +85,14 @@ def test_nsga2_finds_most_of_it(evaluator):
     run_nsga2(one, Task(300, 0))
     assert len(one.trials) == 300
     assert dominated_share(one) > 0.95
+
+
+def test_whatever_jumps_is_better_than_what_is_rejected(evaluator):
+    """An own objective may give any score down to -1e12."""
+    fitness = ParetoFitness(evaluator(), "nsga2", 10)
+    jumps = Trial("nsga2", 0, 0, SMALL.to_design([0.5] * 3), Evaluation("jump"), -1e12, "m", 0.0)
+    rejected = fitness.fitness(replace(jumps, score=None))
+    assert all(good > bad for good, bad in zip(fitness.fitness(jumps), rejected, strict=True))
 
 
 def test_of_two_that_score_alike_the_one_with_less_energy_is_as_good_or_better():
