@@ -21,7 +21,7 @@ from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.space import Space
 from jumpcad.search.start import first_points, ranked_points
-from jumpcad.search.trial import Trial, best_trial, feasible_trials
+from jumpcad.search.trial import Trial, best_trial, feasible_trials, searched
 from jumpcad.search.variant import Key, Variant
 from jumpcad.transforms import Array
 
@@ -81,7 +81,10 @@ def run_genetic(evaluator: Evaluator, task: Task) -> None:
 
 
 class Fitness:
-    """What PyGAD asks for: the fitness of a population, and whether to stop."""
+    """What PyGAD asks for: the fitness of a population, and whether to stop.
+
+    Designs of a prior study have the score that it found, and are not evaluated again.
+    """
 
     def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, rejected: Any, first_step: int = 0) -> None:
         self.evaluator = evaluator
@@ -90,6 +93,7 @@ class Fitness:
         self.rejected = rejected
         self.first_step = first_step
         self._idle = 0
+        self._prior = {one.key: one for one in evaluator.prior if one.evaluation.verdict != SCREENED}
 
     def objectives(self, trial: Any) -> Any:
         """Return the fitness of a feasible trial."""
@@ -101,8 +105,11 @@ class Fitness:
         before = len(self.evaluator.trials)
         variants = [space.to_variant(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
         step = self.first_step + int(ga.generations_completed)
-        left_out = self.left_out(variants)
-        trials = self.evaluator.evaluate(variants, self.phase, step, limit=self.left, left_out=left_out)
+        others = [one for one in variants if one.key not in self._prior]
+        left_out = self.left_out(others)
+        found = self.evaluator.evaluate(others, self.phase, step, limit=self.left, left_out=left_out)
+        known = {**self._prior, **{one.key: trial for one, trial in zip(others, found, strict=True)}}
+        trials = [known[one.key] for one in variants]
         new = len(self.evaluator.trials) - before
         self.left -= new
         self._idle = 0 if new else self._idle + 1
@@ -192,6 +199,10 @@ def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
     space = evaluator.space
     generator = np.random.default_rng([seed, 0])
     spread = first_points(evaluator.space, count, generator, ranked_points(evaluator, generator))
-    best = feasible_trials(evaluator.prior)
+    return begun_with(space, feasible_trials(searched(evaluator.prior)), spread, count)
+
+
+def begun_with(space: Space, best: Sequence[Trial], spread: Array, count: int) -> Array:
+    """Return a first population (count, dimension): at most half of it the first of some trials, the rest spread."""
     known = np.array([space.to_unit(trial.variant) for trial in best[: count // 2]]).reshape(-1, space.dimension)
     return np.vstack([known, spread])[:count]

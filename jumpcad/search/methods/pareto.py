@@ -16,15 +16,15 @@ from scipy.special import log_ndtr
 from jumpcad.design import PARAMETERS
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, find_cost
+from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, find_cost, front
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import incumbent, learned_trials, run_steps, unproposed
-from jumpcad.search.methods.genetic import Fitness, evolve
+from jumpcad.search.methods.genetic import Fitness, begun_with, evolve
 from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Surrogate
-from jumpcad.search.trial import Trial
+from jumpcad.search.trial import Trial, searched
 from jumpcad.transforms import Array
 
 CAPS = 8
@@ -125,7 +125,10 @@ class ParetoFitness(Fitness):
 
 
 def run_nsga2(evaluator: Evaluator, task: Task) -> None:
-    """Search the front by PyGAD's NSGA-II; a rejected design is dominated by every other one."""
+    """Search the front by PyGAD's NSGA-II; a rejected design is dominated by every other one.
+
+    With a prior study, designs of its front make half of the first population, evenly chosen if there are more.
+    """
     half = POPULATION // 2
     operators = {
         "num_parents_mating": half, "parent_selection_type": "nsga2", "keep_elitism": 0, "keep_parents": -1,
@@ -133,5 +136,7 @@ def run_nsga2(evaluator: Evaluator, task: Task) -> None:
         "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
     }  # fmt: skip
     fitness = ParetoFitness(evaluator, "nsga2", task.evaluations, find_cost(task.against))
-    population = evaluator.space.spread(POPULATION, np.random.default_rng([task.seed, 0]))
-    evolve(fitness, population, operators, task.seed)
+    space, best = evaluator.space, front(searched(evaluator.prior), fitness.cost)
+    best = [best[round(place)] for place in np.linspace(0, len(best) - 1, min(len(best), half)).tolist()]
+    spread = space.spread(POPULATION, np.random.default_rng([task.seed, 0]))
+    evolve(fitness, begun_with(space, best, spread, POPULATION), operators, task.seed)

@@ -87,6 +87,18 @@ def test_nsga2_finds_most_of_it(evaluator):
     assert dominated_share(one) > 0.95
 
 
+def test_nsga2_begins_with_the_front_of_a_prior_study(evaluator):
+    """Its designs are not evaluated again."""
+    teacher, alone = evaluator(), evaluator()
+    run_nsga2(teacher, Task(300, 0))
+    run_nsga2(alone, Task(60, 1))
+    pupil = evaluator(prior=teacher.trials)
+    run_nsga2(pupil, Task(60, 1))
+    assert len(pupil.trials) == 60
+    assert not {trial.key for trial in pupil.trials} & {trial.key for trial in teacher.trials}
+    assert hypervolume(pupil.trials) > hypervolume(alone.trials)
+
+
 def test_whatever_jumps_is_better_than_what_is_rejected(evaluator):
     """An own objective may give any score down to -1e12."""
     fitness = ParetoFitness(evaluator(), "nsga2", 10)
