@@ -115,8 +115,9 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
 
     In each layer, as if it were laid at full height everywhere: the area of its cross-section, less the rounding of
     the lines along its border, plus the turns of the solid filling and of the infill, less what the infill leaves
-    open, plus what bridges over infill hold more than flat lines do. All but the area are those of the middle layer of
-    a run of layers that are alike. A chamfer takes from a layer's area, not from what is inside its perimeters.
+    open, plus what bridges over infill hold more than flat lines do, or in thick layers less. All but the area are
+    those of the middle layer of a run of layers that are alike. A chamfer takes from a layer's area, not from what is
+    inside its perimeters.
     """
     levels, sections = sliced(shape, process)
     which, inset = sections.which, sections.inset_mm
@@ -134,10 +135,10 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
         (number, window): _filled(inside[number], number, window, sections, process.solid_below_area_mm2)
         for number, window in dict.fromkeys(cases)
     }
-    bridged = _bridged(runs, cases, fillings, max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9)))
+    bridged = _bridged(runs, cases, fillings, math.floor(nozzle_mm / process.layer_height_mm + 1e-9))
     hollow = 1.0 - process.infill
     thread = math.pi * nozzle_mm**2 / 4.0 / (nozzle_mm + BRIDGE_GAP_MM)
-    excess = max(0.0, thread / process.layer_height_mm - 1.0) if hollow > 0.0 else 0.0
+    excess = thread / process.layer_height_mm - 1.0 if hollow > 0.0 else 0.0
 
     area, border = _table(cases, fillings, bridged)
     inside = spacing * SOLID_TURNS * border[0] + hollow * (spacing * SPARSE_TURNS * border[1] - area[1])

@@ -30,19 +30,25 @@ def test_lines_lie_apart_by_the_area_of_their_cross_section():
     assert line_spacing_mm(w, h) * h == pytest.approx((w - h) * h + math.pi * h**2 / 4.0)
 
 
+@pytest.mark.parametrize("height", [0.2, 0.28, 0.32])
 @pytest.mark.parametrize("infill", [0.2, 1.0])
-def test_a_box_weighs_what_its_lines_and_infill_add_up_to(infill):
-    """Threads bridge sparse layers, with which a box that is filled has nothing to do."""
-    s = 0.45 - 0.2 * (1.0 - math.pi / 4.0)
+def test_a_box_weighs_what_its_lines_and_infill_add_up_to(infill, height):
+    """Threads bridge sparse layers, with which a box that is filled has nothing to do.
+
+    Round ones of 0.4 mm, 0.45 mm apart, are more plastic than a layer of up to 0.279 mm, and less than a thicker one.
+    """
+    s = 0.45 - height * (1.0 - math.pi / 4.0)
     void, shell = (0.45 - s) / 2.0, 2.0 * s + (0.45 - s) / 2.0
     outline, core = 2.0 * (40.0 + 30.0), (40.0 - 2.0 * shell) * (30.0 - 2.0 * shell)
     border = 2.0 * (70.0 - 4.0 * shell)
     walls = 1200.0 - core - void * outline
     solid = core + 0.5 * s * border
     sparse = infill * core + (1.0 - infill) * 0.25 * s * border
-    bridge = (infill < 1.0) * (math.pi * 0.4**2 / 4.0 / (0.45 * 0.2) - 1.0) * core
-    volume = 0.2 * (20 * walls + 5 * solid + 15 * sparse + bridge)
-    assert grams(BOX, infill=infill) == pytest.approx(volume / 1000.0, rel=1e-6)
+    bridge = (infill < 1.0) * (math.pi * 0.4**2 / 4.0 / (0.45 * height) - 1.0) * core
+    volume = height * (20 * walls + 5 * solid + 15 * sparse + bridge)
+    box = Stack.of([(0, 20 * height, rectangle((40.0, 30.0)))])
+    found = grams(box, infill=infill, layer_height_mm=height, first_layer_mm=height)
+    assert found == pytest.approx(volume / 1000.0, rel=1e-6)
 
 
 def test_a_thicker_first_layer_is_more_of_the_same_lines():
@@ -119,9 +125,11 @@ def test_layers_cover_the_part_from_the_bed_up():
     assert set(sections.which.tolist()) == {0}
 
 
-@pytest.mark.parametrize(("top_mm", "layers"), [(0.88, 4), (0.92, 5), (1.08, 5), (1.12, 6)])
+@pytest.mark.parametrize(
+    ("top_mm", "layers"), [(0.05, 1), (0.28, 1), (0.32, 2), (0.88, 4), (0.92, 5), (1.08, 5), (1.12, 6)]
+)
 def test_a_layer_is_printed_where_its_middle_lies_in_the_part(top_mm: float, layers: int) -> None:
-    """Of 0.2 mm, as slicers take it: the fifth from 0.8 to 1.0 mm in a part that is higher than 0.9."""
+    """Of 0.2 mm, as slicers take it: the fifth from 0.8 to 1.0 mm in a part that is higher than 0.9. One in any."""
     levels, _ = sliced(Stack.of([(0.0, top_mm, rectangle((10.0, 10.0)))]), PROCESS)
     assert len(levels) == layers + 1
 
@@ -207,17 +215,25 @@ def test_pockets_in_one_outline_weigh_what_outlines_of_their_own_do():
     assert kept.inertia_kg_m2 == pytest.approx(cut.inertia_kg_m2, rel=1e-7, abs=1e-15)
 
 
-@pytest.mark.parametrize("bottom", [1, 2])
-@pytest.mark.parametrize(("sparse_layers", "bridged"), [(1, 0.0), (2, 1.0), (3, 1.0)])
-def test_threads_bridge_only_what_is_as_deep_as_they_are_thick(sparse_layers, bridged, bottom):
-    """A nozzle of 0.4 mm lays round threads over two sparse layers of 0.2 mm; over one it lays flat lines."""
-    s = 0.45 - 0.2 * (1.0 - math.pi / 4.0)
+@pytest.mark.parametrize("bottom", [0, 1, 2])
+@pytest.mark.parametrize(
+    ("nozzle", "height", "deep"), [(0.4, 0.2, 2), (0.5, 0.2, 2), (0.6, 0.2, 3), (0.4, 0.28, 1), (0.4, 0.32, 1)]
+)
+def test_threads_bridge_only_what_is_as_deep_as_they_are_thick(nozzle, height, deep, bottom):
+    """A nozzle of 0.4 mm lays round threads over two sparse layers of 0.2 mm; over one it lays flat lines.
+
+    Its layers are counted whole: three of 0.2 mm for 0.6 mm, one of 0.28 mm for 0.4 mm.
+    """
+    s = 0.45 - height * (1.0 - math.pi / 4.0)
     void, shell = (0.45 - s) / 2.0, 2.0 * s + (0.45 - s) / 2.0
     core, border = (40.0 - 2.0 * shell) * (30.0 - 2.0 * shell), 2.0 * (70.0 - 4.0 * shell)
     walls = 1200.0 - core - void * 140.0
     solid, sparse = core + 0.5 * s * border, 0.2 * core + 0.8 * 0.25 * s * border
-    bridge = bridged * (math.pi * 0.4**2 / 4.0 / (0.45 * 0.2) - 1.0) * core
-    layers = bottom + 3 + sparse_layers
-    volume = 0.2 * (layers * walls + (bottom + 3) * solid + sparse_layers * sparse + bridge)
-    plate = Stack.of([(0, 0.2 * layers, rectangle((40.0, 30.0)))])
-    assert grams(plate, bottom_layers=bottom) == pytest.approx(volume / 1000.0, rel=1e-6)
+    changes = {"bottom_layers": bottom, "layer_height_mm": height, "first_layer_mm": height}
+    for sparse_layers in range(1, 5):
+        bridge = (sparse_layers >= deep) * (math.pi * nozzle**2 / 4.0 / ((nozzle + 0.05) * height) - 1.0) * core
+        layers = bottom + 3 + sparse_layers
+        volume = height * (layers * walls + (bottom + 3) * solid + sparse_layers * sparse + bridge)
+        plate = Stack.of([(0, height * layers, rectangle((40.0, 30.0)))])
+        found = mass_properties(plate, 1.0, PROCESS.model_copy(update=changes), nozzle).mass_kg
+        assert found == pytest.approx(volume / 1e6, rel=1e-6)
