@@ -116,10 +116,8 @@ def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: flo
         pose[:3, 3] = *(corner - low[:2]), -low[2]
         plates.setdefault(plate, []).append((number, PlacedCopy(parts[number], pose)))
     return [
-        PrintPlate(
-            parts[0].material, number, tuple(item for _, item in sorted(plates[plate], key=lambda pair: pair[0]))
-        )
-        for number, plate in enumerate(sorted(plates), start=1)
+        PrintPlate(parts[0].material, number, tuple(item for _, item in sorted(items, key=lambda pair: pair[0])))
+        for number, items in enumerate(plates.values(), start=1)
     ]
 
 

@@ -46,13 +46,29 @@ def test_a_cone_has_no_jumps_and_short_odd_runs():
     assert all((run.end - run.first) % 2 == 1 and run.end - run.first <= min(ALIKE_LAYERS, 3) for run in inner)
 
 
-@pytest.mark.parametrize(("top_layers", "most"), [(1, 1), (2, 1), (3, 3), (4, 3), (5, 5), (9, 5)])
+@pytest.mark.parametrize(("top_layers", "most"), [(0, 1), (1, 1), (2, 1), (3, 3), (4, 3), (5, 5), (9, 5)])
 def test_runs_of_what_changes_are_odd_and_no_longer_than_a_top_nor_than_five_layers(top_layers, most):
     area = disc_moments(np.linspace(9.0, 8.0, 60))
     runs = runs_of(area, [], PROCESS.model_copy(update={"top_layers": top_layers}))
     inner = [run.end - run.first for run in runs if run.first >= 2 and run.end < 60 - top_layers]
     assert max(inner) == most
     assert all(length % 2 for length in inner)
+
+
+def test_layers_that_are_equal_are_one_run_beside_those_that_change():
+    """Of 30 equal layers under a cone only those that it makes tops are apart from the others, and the bottom."""
+    area = disc_moments(np.concatenate([np.full(30, 9.0), np.linspace(9.0, 3.0, 11)[1:]]))
+    runs = cut(area, [])
+    (long,) = (run for run in runs if run.end - run.first > ALIKE_LAYERS)
+    assert long.first == PROCESS.bottom_layers
+    assert 30 - PROCESS.top_layers - 1 <= long.end <= 30
+
+
+def test_a_gap_between_layers_is_a_run_of_its_own():
+    area = disc_moments([5.0] * 10 + [0.0] * 3 + [5.0] * 10)
+    jumps = jumps_of(np.repeat([0, 1, 0], [10, 3, 10]), area[:, 0])
+    assert jumps == [10, 13]
+    assert {10, 13} <= {run.first for run in cut(area, jumps)}
 
 
 def test_a_cone_that_ends_in_a_plate_jumps_there():
