@@ -4,6 +4,7 @@ import math
 import re
 from collections import Counter
 from dataclasses import replace
+from functools import lru_cache
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,7 +17,7 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import ORDER
-from jumpcad.scene.assembly_order.plan import Move, Words
+from jumpcad.scene.assembly_order.plan import HEX_AXLE, HEX_M3, NUT_M3, Move, Plan, Words
 from jumpcad.scene.assembly_steps import REST, SIDES, Step, _texts, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import pose_about_y, pose_about_z
@@ -34,6 +35,92 @@ def test_every_thing_is_put_on_once_and_none_is_left_over(robot: Robot) -> None:
         thing.name for thing in visuals(robot)
     )
     assert all(step.title != REST for step in steps)
+
+
+RETENTIONS = ({}, {"retention": "clips", "axle": "silver-steel"}, {"retention": "nuts"})
+"""Plates keep the axles, or clips in their grooves, or they are screws with nuts."""
+
+
+@lru_cache
+def _retained(retention: str) -> Robot:
+    """Return Kenan 2.0 with another retention of its axles."""
+    (changed,) = (one for one in RETENTIONS if one.get("retention", "") == retention)
+    shop = load_workshop("default")
+    bought = shop.bought.model_copy(update=changed)
+    return (
+        build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought})) if changed else built("kenan-2.0")
+    )
+
+
+@pytest.mark.parametrize("retention", ["clips", "nuts"])
+def test_axles_of_any_kind_are_put_on_once_with_what_keeps_them_each_from_its_end(retention: str) -> None:
+    """Hexagons of 2.5 mm in cylinder heads M3 (ISO 4762); clips are at both ends, a nut or split pin at the right."""
+    robot = _retained(retention)
+    steps = assembly_steps(robot)
+    added = [thing for step in steps for thing in step.added]
+    assert Counter(thing.name for thing in added) == Counter(thing.name for thing in visuals(robot))
+    assert all(step.title != REST for step in steps)
+    y = {thing.name: float((thing.T_body_mesh @ np.append(thing.mesh.centroid / 1000.0, 1.0))[1]) for thing in added}
+    tools = {r"screw M3 .* ISO 4762": "hex key 2.5 mm", "lock nut M3": "nut driver 5.5 mm", "E-clip": "clip applicator",
+             "split pin": "needle-nose pliers"}  # fmt: skip
+    seen = Counter[str]()
+    for placed in (placed for step in steps for placed in step.placed if not placed.move.brings):
+        for thing in placed.things:
+            if thing.name == "leg_spring_pin_clip_2":  # it goes in with its pin
+                continue
+            for article, tool in tools.items():
+                if re.match(article, getattr(thing.source, "article", "")):
+                    assert placed.move.tool is not None, thing.name
+                    assert placed.move.tool.name.startswith(tool), thing.name
+                    seen[article] += 1
+            end = re.fullmatch(r"(.*(?:axle|pin))_(?:nut|clip_\d|split_pin)", thing.name)
+            if end:
+                comes = SIDES.get(placed.move.reach or placed.move.along, np.zeros(3))[1]
+                assert (y[thing.name] - y[end[1]]) * comes <= 0.0, thing.name
+                seen["at its end"] += bool(comes)
+    # leg, front and cam axle and the springs' pin; the pins of ankle, front eye and leg have clips or split pins too,
+    # and the roller's screw a nut
+    assert seen == (
+        {"E-clip": 2 * 4 + 2 * 2 + 1, "at its end": 2 * 4 + 2 * 2, "lock nut M3": 1}
+        if retention == "clips"
+        else {"screw M3 .* ISO 4762": 4, "lock nut M3": 4 + 1, "split pin": 3, "at its end": 4 + 2}
+    )
+
+
+def test_a_key_needs_the_room_of_its_hexagon_and_a_nut_driver_that_of_a_nut() -> None:
+    """Across corners, the width across flats over cos 30°; long arms of keys of 2 mm have 50 mm (ISO 2936)."""
+    for tool, across_mm in ((HEX_M3, 2.0), (HEX_AXLE, 2.5), (NUT_M3, 5.5)):
+        assert f" {across_mm:g} mm" in tool.name
+        corners_mm = across_mm / math.cos(math.radians(30.0))
+        assert corners_mm - 0.05 < tool.diameter_mm < corners_mm + 3.0, tool.name
+    assert HEX_M3.length_mm == 50.0
+
+
+REFERENCES = {
+    "stays out until step {step_arm}": "leg_spring_pin",
+    "come onto the foot in step {step_feet}": "toe_left",
+    "strapped in for good in step {step_trays}": "Now strap it in",
+    "stay free until step {step_left}": "sensor",
+    "under the screw's head in step {step_close}": "standoff_1_screw_left",
+    "strap it in as in step {step_lower}": "strap_battery",
+    "It comes off in step {step_close}": "Pull the strip of tape off the springs' pin",
+    "The sensor's check of step {step_left}": "Pressed on the inside, the plunger clicks",
+}
+"""Where texts refer to other steps, and what is put on or said there."""
+
+
+def test_steps_that_texts_refer_to_are_those_in_which_it_is_done() -> None:
+    def words(*plans: Plan) -> str:
+        return " ".join(one.text for plan in plans for one in (*plan.text, *plan.warnings, *plan.checks))
+
+    keys = re.compile(r"\{step_(\w+)\}")
+    plans, said = {plan.key: plan for plan in ORDER}, words(*ORDER)
+    assert sorted(keys.findall(said)) == sorted(key for text in REFERENCES for key in keys.findall(text))
+    for text, done in REFERENCES.items():
+        assert said.count(text) == 1, text
+        there = plans[keys.findall(text)[0]]
+        put = any(re.fullmatch(move.parts, done) for move in there.moves)
+        assert put or done in words(there), text
 
 
 def test_what_no_step_knows_is_not_forgotten(small_robot: Robot) -> None:
@@ -191,16 +278,10 @@ def test_the_springs_pin_leans_on_a_boss_or_on_a_strip_of_tape(boss_mm: float) -
     assert found == [boss_mm > 0.0, boss_mm == 0.0]
 
 
-@pytest.mark.parametrize(
-    "changed", [{}, {"retention": "clips", "axle": "silver-steel"}, {"retention": "nuts"}], ids=str
-)
-def test_what_stands_in_open_bores_is_kept_from_falling_through(changed: dict[str, str]) -> None:
+@pytest.mark.parametrize("retention", ["", "clips", "nuts"])
+def test_what_stands_in_open_bores_is_kept_from_falling_through(retention: str) -> None:
     """Tape closes the lower plate's bores where its mesh is open outside; it comes off before screws or clips go on."""
-    shop = load_workshop("default")
-    bought = shop.bought.model_copy(update=changed)
-    robot = (
-        build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought})) if changed else built("kenan-2.0")
-    )
+    robot = _retained(retention)
     outside = robot.layout.lateral.right_plate[0] + 0.3
     spot = [[robot.layout.hub_mm[0], outside, robot.layout.hub_mm[1]]]
     is_open = not placed_mesh(robot, "body_plate_right").contains(spot)[0]
@@ -208,7 +289,7 @@ def test_what_stands_in_open_bores_is_kept_from_falling_through(changed: dict[st
     (stands,) = (number for number, text in enumerate(legs.text) if text.startswith("Stand the axles"))
     closed = ["stick adhesive tape over those of the right plate, outside" in text for text in legs.text[:stands]]
     opened = [text.startswith("Pull the tape off the right plate's bores") for text in close.text]
-    assert sum(closed) == sum(opened) == is_open == bool(changed)
+    assert sum(closed) == sum(opened) == is_open == bool(retention)
 
 
 @pytest.mark.parametrize("preload_rad", [0.0, 0.1])
