@@ -64,6 +64,13 @@ def test_chains_are_long_enough_or_say_so(posterior: CalibrationPosterior) -> No
     assert posterior.effective > 500
 
 
+def test_differential_evolution_needs_a_quarter_of_the_steps_of_emcees_usual_move(
+    posterior: CalibrationPosterior,
+) -> None:
+    """By the stretch move, its default, the same chains were doubled until 6400 steps were left of them."""
+    assert posterior.steps <= 6400 / 4
+
+
 def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: CalibrationPosterior) -> None:
     first, again = (sampled(CalibrationModel(posterior.model.subjects), 1, **SHORTEST) for _ in range(2))
     assert np.array_equal(again.z, first.z)

@@ -188,6 +188,26 @@ def test_what_coarse_samples_hide_is_held_in_reserve():
     assert (coarse() <= 3.0 * missed + 1e-9).all()
 
 
+def test_a_cam_that_was_hoped_to_fit_is_looked_for_again_by_what_the_nearest_shape_misses(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    law, asked, allow = CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad), [], _Shapes.allow_for
+
+    def spied(search: _Shapes, shape: np.ndarray, margin: np.ndarray) -> None:
+        asked.append((shape, margin))
+        allow(search, shape, margin)
+
+    monkeypatch.setattr(_Shapes, "RESERVE", -0.02)
+    monkeypatch.setattr(_Shapes, "allow_for", spied)
+    cam = synthesise_cam.__wrapped__(law, LIMITS)
+    assert asked
+    for shape, margin in asked:
+        _, true, _ = measure(law, LIMITS, shape[None], 181)
+        assert margin == pytest.approx(true[:, 0], abs=1e-9)
+        assert margin.min() < 0.0
+    assert min(finding.margin for finding in cam.findings) > 0.0
+
+
 @pytest.mark.parametrize(
     ("compression_deg", "stiffness", "limits"),
     [

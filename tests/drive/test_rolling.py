@@ -92,6 +92,21 @@ def test_the_roller_leaves_a_corner_that_falls_away_too_fast(speed: float) -> No
     assert release.speed == pytest.approx(exact.y[1, -1], rel=0.02)
 
 
+@pytest.mark.parametrize("falls", [0.0, 100.0])
+def test_a_corner_is_the_same_however_many_parts_it_is_followed_in(falls: float) -> None:
+    """A level one to its end, and one that falls away until the roller leaves it; no stop behind the cam moves it."""
+    cam = np.linspace(0.0, 0.01, 801)
+    corner = Corner(cam, WIND_RAD - falls * cam**2 / 2.0, -falls * cam, -falls + 0.0 * cam, 20.0 + 0.0 * cam)
+    found = []
+    for stops in ((800,), (100, 101, 60, 300, 800)):
+        release = _Release(corner, parts(cam_rad_s=50.0, roller_kg_m2=5e-7, cam_kg_m2=2e-7))
+        for stop in stops:
+            release._push_to(stop)
+        found.append((release.at, release.touches, release.speed, release.wind, release.rate))
+    assert found[1] == found[0]
+    assert (found[0][0] == 800) == found[0][1] == (falls == 0.0)
+
+
 def test_what_the_corner_pushes_turns_the_rotor_too() -> None:
     """The lever's torque at the corner's slope turns cam, gear and rotor alike; each has its share of it."""
     given = parts(cam_rad_s=0.5)

@@ -119,6 +119,22 @@ def test_words_say_plate_hole_and_side(robot: Robot) -> None:
     assert battery_way(robot.layout)[:, 0].max() > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
 
 
+@pytest.mark.parametrize("at", ["part", "corner", "hole", "inside", "nowhere"])
+@pytest.mark.parametrize("screw", [0, 1])
+def test_only_a_lead_with_a_corner_under_a_screw_passes_below_it(
+    monkeypatch: pytest.MonkeyPatch, screw: int, at: str
+) -> None:
+    """A part or a hole right under a standoff's screw is no corner; nor is one beside the opening for USB."""
+    layout = built("kenan-2.0").layout
+    x = dict.fromkeys(("part", "corner", "hole", "inside"), 7.0) | {at: float(layout.standoffs_mm[screw][0])}
+    way = [np.array([x["part"], 60.0, 30.0]), np.array([x["corner"], 60.0, 15.0])]
+    way += [np.array([x["hole"], 60.0, 20.0]), np.array([x["inside"], 40.0, 20.0])]
+    for points, has_corner in ((way, True), ([way[0], *way[2:]], False)):
+        monkeypatch.setattr(lead_ways, "outer_way", lambda *_, points=points: points)
+        said = "below the standoff's screw" in way_words(layout, "driver", "motor")
+        assert said == (has_corner and at == "corner")
+
+
 @pytest.mark.parametrize(("to_part", "said"), [(1.0, "forwards"), (-1.0, "backwards")])
 def test_outside_a_lead_goes_to_the_front_or_to_the_back(
     monkeypatch: pytest.MonkeyPatch, to_part: float, said: str

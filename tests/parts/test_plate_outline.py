@@ -201,3 +201,17 @@ def test_plates_have_three_millimetres_around_axles_of_any_size(axle_mm: float) 
     for place in layout.axles.values():
         sizes = [np.ptp(box, axis=0) for box in boxes if np.allclose(box.mean(axis=0), place, atol=0.01)]
         assert any(size == pytest.approx([axle_mm + 6.0] * 2, abs=0.01) for size in sizes)
+
+
+@pytest.mark.parametrize("usb", [True, False])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_only_above_the_opening_for_a_usb_plug_has_a_plate_no_slot(side: Face, usb: bool) -> None:
+    """It is in the right plate, behind: there the upper tray has its front tab alone. All other slots are pairs."""
+    layout = built("kenan-2.0").layout
+    assert layout.fittings.usb_mm is not None
+    if not usb:
+        layout = replace(layout, fittings=replace(layout.fittings, usb_mm=None))
+    lower, upper = tray_slots(layout, side)
+    behind, ahead = lower
+    assert behind[0] < ahead[0]
+    assert [x for x, _ in upper] == ([ahead[0]] if side == "right" and usb else [behind[0], ahead[0]])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.hills import FIXED, SMALL
 
+from jumpcad.search import acquisition
 from jumpcad.search.acquisition import Proposal, _apart, _climb, promised_gain, propose
 from jumpcad.search.posterior import SearchPosterior
 from jumpcad.search.space import Space
@@ -165,3 +166,20 @@ def test_a_climb_takes_as_many_steps_as_it_may():
     assert many[[0, 2]] == pytest.approx([0.8, 0.64], abs=1e-3)
     assert np.abs(few - many).max() > 0.1
     assert valley(few[None]) > valley(start[None])
+
+
+def test_the_highest_of_six_short_climbs_goes_on_to_the_top(monkeypatch):
+    """Short ones go a tenth of the way from their starts, which are apart; the long one ends where the top is."""
+    top, climbs = np.array([0.37, 0.5, 0.71]), []
+
+    def climb(space, function, start, steps):
+        end = top if climbs and steps > climbs[0][0] else start + 0.1 * (top - start)
+        climbs.append((steps, start, end, function(end[None])[0]))
+        return end
+
+    monkeypatch.setattr(acquisition, "_climb", climb)
+    assert ask().unit.tolist() == top.tolist()
+    *short, (steps, start, _, _) = climbs
+    assert [few for few, *_ in short] == [short[0][0]] * 6
+    assert steps > short[0][0] > 1
+    assert start.tolist() == max(short, key=lambda one: one[3])[2].tolist()

@@ -45,6 +45,16 @@ def test_cuts_leave_the_rest():
         stack.minus([(0, 5, rectangle((30, 30)))])
 
 
+@pytest.mark.parametrize(("inward_mm", "tops_mm"), [(1e-8, [3.0]), (1e-7, [3.0]), (1e-3, [3.0, 5.0])])
+def test_what_clipping_leaves_between_two_outlines_is_no_slab(inward_mm, tops_mm):
+    """A corner on an oblique side is off it by the grid of the polygons; by a micrometre it is meant so."""
+    far, near = np.array([7.1, 0.3]), np.array([2.2, 5.7])
+    corner = 0.6 * far + 0.4 * near - inward_mm * np.array([5.4, 4.9]) / np.hypot(5.4, 4.9)
+    cut = polygon([(0.0, 0.0), far, corner, near])
+    block = Stack.of([(0, 3, rectangle((20, 20))), (3, 5, polygon([(0.0, 0.0), far, near]))])
+    assert [slab.z1_mm for slab in block.minus([(3, 5, cut)]).slabs] == tops_mm
+
+
 def test_what_is_cut_through_at_half_height_is_two_slabs_with_nothing_between():
     stack = Stack.of([(0, 5, rectangle((10, 10)))]).minus([(2, 3, rectangle((20, 20)))])
     assert [(slab.z0_mm, slab.z1_mm) for slab in stack.slabs] == [(0, 2), (3, 5)]

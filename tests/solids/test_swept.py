@@ -47,5 +47,15 @@ def test_it_comes_from_before_its_place_and_does_not_go_beyond(path: tuple[float
     assert room.bounds_mm[1] == pytest.approx(np.maximum(high, high - path))
 
 
+@pytest.mark.parametrize("length_mm", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize(("off", "is_swept"), [(1e-7, True), (-1e-7, True), (1e-5, False), (-1e-5, False)])
+def test_a_path_may_be_oblique_by_rounding_alone_however_long_it_is(
+    off: float, is_swept: bool, length_mm: float
+) -> None:
+    """Of angles in radians: a ten-millionth is rounding, a hundred-thousandth is not."""
+    for path in ((off, 0.0, 1.0), (0.0, off, -1.0), (0.6, -0.8, off)):
+        assert (swept(PLATE, length_mm * np.array(path)) is not None) == is_swept
+
+
 def test_an_oblique_path_is_not_swept() -> None:
     assert swept(PLATE, np.array([1.0, 0.0, 1.0])) is None

@@ -70,7 +70,8 @@ def test_legs_with_a_bar_have_walls_around_its_socket(name: str) -> None:
     assert sizes.front_mm == pytest.approx(max(6.0, high), abs=0.011)
     assert sizes.leg_tip_mm >= high - 1e-9
     assert sizes.leg_root_mm >= high - 1e-9
-    assert sizes.eye_radius_mm >= high / 2.0 - 1e-9
+    around_axle = workshop.bought.axle_mm / 2.0 + 0.3 + 2.0 * fits.wall_mm
+    assert sizes.eye_radius_mm == pytest.approx(max(around_axle, high / 2.0), abs=0.006)
     assert sizes.thickness_mm == pytest.approx(max(6.0, bar.width_mm + 2.0 * (fits.lying_mm + fits.wall_min_mm)))
 
 
