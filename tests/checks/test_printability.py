@@ -109,6 +109,30 @@ def test_silent_on_what_prints(kenan: Robot, slabs: Slabs) -> None:
             assert findings[name].margin == pytest.approx(findings[name].value - least_mm)
 
 
+@pytest.mark.parametrize(("less_mm", "accepted"), [(0.03, True), (0.05, False)])
+def test_walls_and_holes_may_be_four_hundredths_narrower(kenan: Robot, less_mm: float, accepted: bool) -> None:
+    """As docs/limits.md says; so may columns. Polygons of circles are narrower than these."""
+    shapes: dict[str, Slabs] = {
+        "walls": [(0.0, 5.0, rectangle((30.0, 0.8 - less_mm)))],
+        "holes": [(0.0, 5.0, BLOCK - rectangle((1.6 - less_mm, 1.6 - less_mm)))],
+        "pins": [(0.0, 2.0, BLOCK), (2.0, 12.0, rectangle((3.0 - less_mm, 3.0 - less_mm)))],
+    }
+    for name, slabs in shapes.items():
+        assert (found(kenan, Stack.of(slabs))[name].severity != "error") == accepted, name
+
+
+@pytest.mark.parametrize(("gap_mm", "name"), [(0.0, "bridges"), (0.15, "overhangs")])
+def test_a_ledge_that_ends_beside_a_wall_hangs(kenan: Robot, gap_mm: float, name: str) -> None:
+    """From one wall 5 mm towards another: on it is a bridge, 0.15 mm before it an overhang of more than two lines."""
+    walls = rectangle((8.0, 20.0), (-4.0, 0.0)) + rectangle((8.0, 20.0), (9.0, 0.0))
+    ledge = rectangle((8.0 + 5.0 - gap_mm, 20.0), ((5.0 - gap_mm - 8.0) / 2.0, 0.0))
+    findings = found(
+        kenan, Stack.of([(0.0, 1.0, rectangle((25.0, 20.0), (4.5, 0.0))), (1.0, 5.0, walls), (5.0, 6.0, ledge)])
+    )
+    assert (findings["bridges"].value or 0.0) == pytest.approx(5.0 if name == "bridges" else 0.0, abs=0.06)
+    assert (findings["overhangs"].severity == "error") == (name == "overhangs")
+
+
 def test_of_a_plain_block_no_width_is_told_as_found(kenan: Robot) -> None:
     """Nothing is narrower than twice the least: how much wider it is, is not known; the limit is."""
     findings = found(kenan, Stack.of([(0.0, 5.0, BLOCK)]))
@@ -254,10 +278,22 @@ def test_a_meshs_wall_hangs_over_where_it_leans_more_than_the_printer_can(lean_d
     floor = [(x, y, 0.0) for x in (0.0, 20.0) for y in (0.0, 8.0)]
     top = [(x, y, 10.0) for x in (0.0, 20.0 + lean) for y in (0.0, 8.0)]
     mesh = trimesh.Trimesh([*floor, *top]).convex_hull
-    for most_deg in (lean_deg - 2.0, lean_deg + 2.0):
+    for most_deg in (lean_deg - 2.0, lean_deg, lean_deg + 2.0):
         found = list(_mesh_undersides(mesh, math.radians(most_deg)))
         assert len(found) == (most_deg < lean_deg)
         assert all(span == (False, pytest.approx(min(8.0, lean), abs=1e-6)) for span in found)
+
+
+@pytest.mark.parametrize("up", [0.0, 7.0])
+def test_a_level_roof_that_ends_in_a_slope_is_no_bridge(up: float) -> None:
+    """A wedge on a post: 4 mm level, then 6 mm that rise by 2 mm. Level alone it is one; wherever the bed is."""
+    post = Bar(rectangle((10.0, 12.0), (0.0, 6.0 + up)), ((0.0, 12.0),))
+    roofs = {True: [(5.0, 8.0), (9.0, 8.0), (9.0, 11.0), (5.0, 11.0)]}
+    roofs[False] = [*roofs[True][:2], (15.0, 10.0), (15.0, 11.0), (5.0, 11.0)]
+    for level, corners in roofs.items():
+        wedge = Bar(polygon(np.array(corners) + np.array([0.0, up])), ((0.0, 12.0),))
+        mesh = Drawing("piece", "body", Blocks((post, wedge)), (Placement(BODY, np.eye(4)),)).mesh
+        assert list(_mesh_undersides(mesh, math.radians(45.0))) == [(level, pytest.approx(4.0 if level else 10.0))]
 
 
 @pytest.mark.parametrize(("beyond_mm", "bridge", "size_mm"), [(0.0, True, 8.0), (5.0, False, math.hypot(5.0, 4.0))])
