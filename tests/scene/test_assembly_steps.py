@@ -9,16 +9,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.built import built
+from support.built import LONG_TOES, built, geared
 from support.built import placed as placed_mesh
 
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_order.plan import HEX_AXLE, HEX_M3, NUT_M3, Move, Plan, Words
 from jumpcad.scene.assembly_steps import REST, SIDES, Step, _texts, assembly_steps, travel
+from jumpcad.scene.step_views import step_views
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import pose_about_y, pose_about_z
 from jumpcad.workshop import load_workshop
@@ -75,9 +77,9 @@ def test_axles_of_any_kind_are_put_on_once_with_what_keeps_them_each_from_its_en
                     seen[article] += 1
             end = re.fullmatch(r"(.*(?:axle|pin))_(?:nut|clip_\d|split_pin)", thing.name)
             if end:
-                comes = SIDES.get(placed.move.reach or placed.move.along, np.zeros(3))[1]
-                assert (y[thing.name] - y[end[1]]) * comes <= 0.0, thing.name
-                seen["at its end"] += bool(comes)
+                ways = [SIDES[way][1] for way in (placed.move.along, placed.move.reach) if way in SIDES]
+                assert all((y[thing.name] - y[end[1]]) * way <= 0.0 for way in ways), thing.name
+                seen["at its end"] += any(ways)
     # leg, front and cam axle and the springs' pin; the pins of ankle, front eye and leg have clips or split pins too,
     # and the roller's screw a nut
     assert seen == (
@@ -85,6 +87,48 @@ def test_axles_of_any_kind_are_put_on_once_with_what_keeps_them_each_from_its_en
         if retention == "clips"
         else {"screw M3 .* ISO 4762": 4, "lock nut M3": 4 + 1, "split pin": 3, "at its end": 4 + 2}
     )
+
+
+def test_an_assembly_begins_with_its_largest_printed_part(robot: Robot) -> None:
+    """Onto which the others are put: by volume, on the bench as in the robot."""
+    begun = set()
+    for step in assembly_steps(robot):
+        if step.onto in begun:
+            continue
+        begun.add(step.onto)
+        printed = [thing for placed in step.placed for thing in placed.things if isinstance(thing.source, Part)]
+        assert printed[0] == max(printed, key=lambda thing: thing.mesh.volume), step.key
+        assert step.placed[0].things[0] == printed[0], step.key
+    assert begun >= {"robot", "leg", "foot", "rest stop", "lower tray", "upper tray", "left plate"}
+
+
+@pytest.mark.parametrize(
+    "there",
+    [
+        ("spring_bushing_right", "main_leg", "spring_bushing_left"), ("spring_right", "main_leg", "spring_left"),
+        ("front_spacer_right", "front_link", "front_spacer_left"), ("main_leg", "roller_washer", "roller"),
+        ("cam_spacer_right", "cam", "cam_gear", "cam_spacer_left"),
+    ],
+)  # fmt: skip
+def test_what_is_put_on_an_axle_lies_farther_left_than_what_was_there_before(
+    robot: Robot, there: tuple[str, ...]
+) -> None:
+    """The robot lies on its right plate meanwhile, and the leg has its roller on the left."""
+    placed = [thing for step in assembly_steps(robot) for one in step.placed for thing in one.things]
+    on_it = [thing for thing in placed if thing.name in there]
+    if "roller" not in there:  # the last time: links are put on with what was put on them
+        on_it = [thing for index, thing in enumerate(on_it) if thing not in on_it[index + 1 :]]
+    y = [float((one.T_body_mesh @ np.append(one.mesh.bounds.mean(axis=0) / 1000.0, 1.0))[1]) for one in on_it]
+    assert y[: len(there)] == sorted(y[: len(there)])
+    assert [thing.name for thing in on_it][: len(there)] == [name for name in there if name in {t.name for t in placed}]
+
+
+def test_the_springs_pin_of_the_leg_is_drawn_before_the_plate_through_whose_hole_it_goes(robot: Robot) -> None:
+    """On the left of the left plate, which is there before; nothing else goes through a part."""
+    (arm,) = step_views(robot)["arm"][:1]
+    at = next(k for k, thing in enumerate(arm.things) if thing.name == "leg_spring_pin")
+    low = (arm.things[at].mesh.bounds / 1000.0 @ arm.poses[at][:3, :3].T + arm.poses[at][:3, 3])[:, 1].min()
+    assert low > robot.layout.lateral.left_plate[1] / 1000.0
 
 
 def test_a_key_needs_the_room_of_its_hexagon_and_a_nut_driver_that_of_a_nut() -> None:
@@ -269,13 +313,53 @@ def test_what_is_glued_together_is_listed_where_it_is_glued() -> None:
     assert "front" not in {step.key for step in assembly_steps(built("kenan-2.0"))}
 
 
+FIGURES = {
+    "after_ms": "stops # ms later", "ankle_pin": "where the toes meet and push # through from the left",
+    "arm_n": r"right one's; # N at most|# N where an arm is \{wider\}° wider", "axle_length": "rods .* # mm long",
+    "battery_v": "# V at rest", "block": "wood of # mm", "boards_a": r"shows # and \{free_a\} A",
+    "boards_ma": "about # mA while the motor stands", "bushing_left": "RIGHT-HAND spring; the bushing of # mm",
+    "bushing_right": "Leg axle: the bushing of # mm; over it the LEFT-HAND spring", "cam_left_tube": "tube [(]# mm",
+    "cam_tube": "Cam axle: its tube [(]# mm", "cam_turn": "turn, # as seen from the left", "clamp": "above it [(]# mm",
+    "contact": "solder them to COM and #", "divider_pin": "ground and #:", "divider_share": ": # of that",
+    "divider_v": "of that [(]# V", "dog_play": "from jaw to jaw, by #°", "dry_s": "It winds in about # s and stops",
+    "end_play": "moved along by # mm", "energy": "can be loaded: # J", "eye_drill": "drill (or reamer )?of # mm",
+    "far": "# m free ahead", "foot_n": "pulled forward; # N", "free": "sensor, # where|unplugged: #; pressed",
+    "free_a": "and # A", "free_ma": "# mA while it turns", "free_rpm": "shaft alone turns with about # rpm",
+    "front_pin": "lugs of the nose, with #", "front_tubes": "Front axle: .* [(]#", "groove": "groove # mm wide",
+    "high": "and # m above", "idler_tube": "Idler axle: its tube [(]# mm", "landing_s": "For # s after",
+    "leg_pin": "Drop the pin [(]#", "lift": "over #° of its turn", "min_v": "at least # V", "motor_turn": "must turn #",
+    "motor_wire": "motor's two wires first [(]# mm each", "nominal_v": "V at # V", "nutted_screws": "without thread: #",
+    "peak_ma": "# mA at most", "pin_hole": "hole in the left plate, # mm wide", "preload": "springs are loaded by #°",
+    "preload_n": r"right one's; # N, and \{arm_n|# N each", "press_n": "cut. # N at most", "pressed": "pressed, #",
+    "push_ms": "set free within # ms", "range": "it jumps # mm far", "ready_deg": "clicks #° before",
+    "release_ms": "let go at once, within # ms|leg falls within # ms", "rise": "and # mm high", "stroke": "it by #°",
+    "state_off": "to # V of the multimeter", "strap": "Cut its strap to # mm", "torque_m3": "the washer .*: # N·m",
+    "torque_m2": "two screws into the plastic(:|.*and no further:) # N·m", "wider": "#° wider than ordered",
+    "torque_plastic": "(for good,|right plate.* from outside:|stubs from outside:) # N·m", "window": "window of # mm",
+    "wind_j": "# J; do not connect", "wind_ma": "# mA from the battery on average", "wind_s": "in about # s. Of that",
+    "wind_max": "motor that runs for # s and says|turns for # s at most",
+}  # fmt: skip
+"""What a text says of each figure that it has in braces."""
+
+
+def test_every_figure_stands_where_its_words_are() -> None:
+    texts = [one.text for plan in ORDER for kind in (plan.text, plan.warnings, plan.checks) for one in kind]
+    for name, words in FIGURES.items():
+        field = f"{{{name}}}"
+        said, found = re.compile(words.replace("#", re.escape(field))), [text for text in texts if field in text]
+        assert found, name
+        for text in found:
+            assert text.count(field) == len(said.findall(text)), text
+
+
 @pytest.mark.parametrize("boss_mm", [0.0, 2.0])
 def test_the_springs_pin_leans_on_a_boss_or_on_a_strip_of_tape(boss_mm: float) -> None:
     robot = built("kenan-2.0")
     steps = assembly_steps(replace(robot, layout=replace(robot.layout, spring_boss_mm=boss_mm)))
     words = " ".join(text for step in steps for text in step.text)
-    found = [text in words for text in ("its boss on the plate holds it", "adhesive tape from it to the plate")]
-    assert found == [boss_mm > 0.0, boss_mm == 0.0]
+    tape = ("adhesive tape from it to the plate", "Pull the strip of tape off the springs' pin")
+    found = [text in words for text in ("its boss on the plate holds it", *tape)]
+    assert found == [boss_mm > 0.0, boss_mm == 0.0, boss_mm == 0.0]
 
 
 @pytest.mark.parametrize("retention", ["", "clips", "nuts"])
@@ -290,6 +374,37 @@ def test_what_stands_in_open_bores_is_kept_from_falling_through(retention: str) 
     closed = ["stick adhesive tape over those of the right plate, outside" in text for text in legs.text[:stands]]
     opened = [text.startswith("Pull the tape off the right plate's bores") for text in close.text]
     assert sum(closed) == sum(opened) == is_open == bool(retention)
+
+
+TOLD = {
+    "rods of their diameter": "nuts", "stick adhesive tape over those": "clips nuts", "turn the lock nuts on": "nuts",
+    "closed bores of both plates hold the axles": "plates geared toes", "a clip into every groove": "clips",
+    "their nuts touch the plate": "nuts", "at the springs' pin, the others are covered": "plates geared toes",
+    "Idler axle: its tube": "geared", "Then the idler": "geared",
+    "Bend the split pins' ends": "plates nuts geared toes",
+    "Press the clips into the grooves": "clips", "cross hole points forwards": "plates nuts geared toes",
+    "the groove at one end of the pin": "clips", "the groove at the pin's right end": "clips", "Screw the toes": "toes",
+    "head is on the left, its split pin": "plates nuts geared toes", "both clips are in their grooves": "clips",
+    "The toes, with their pads, come": "toes",
+}  # fmt: skip
+"""Which of five robots are told what; all, of what has other words for each."""
+
+
+def test_a_robot_is_told_of_what_it_has_and_of_nothing_else() -> None:
+    robots = {"plates": built("kenan-2.0"), "clips": _retained("clips"), "nuts": _retained("nuts"),
+              "geared": geared(), "toes": built(LONG_TOES)}  # fmt: skip
+    assert [name for name, robot in robots.items() if robot.layout.toes_apart] == ["toes"]
+    for name, robot in robots.items():
+        steps = assembly_steps(robot)
+        said = " ".join(text for step in steps for kind in (step.text, step.warnings, step.checks) for text in kind)
+        for words, told in TOLD.items():
+            assert said.count(words) == (name in told.split()), (name, words)
+        for words in (
+            "Left plate and its screws for good",
+            "The leg still swings freely",
+            "The shaft alone turns with",
+        ):
+            assert said.count(words) == 1, (name, words)
 
 
 @pytest.mark.parametrize("preload_rad", [0.0, 0.1])
