@@ -69,6 +69,8 @@ def test_a_gap_between_layers_has_a_top_below_and_a_bottom_above():
     jumps = jumps_of(np.repeat([0, 1, 0], [10, 3, 10]), area[:, 0])
     assert jumps == [10, 13]
     assert [run.first for run in cut(area, jumps)] == [0, 2, 7, 10, 12, 13, 15, 20]
+    over_it = disc_moments([5.0] * 10 + [0.0] * 3 + [9.0 - 0.3 * n for n in range(20)])
+    assert all(run.end - run.first <= PROCESS.top_layers for run in cut(over_it, jumps) if 15 <= run.first < 30)
 
 
 def test_a_cone_that_ends_in_a_plate_jumps_there():
