@@ -4,6 +4,7 @@ import itertools
 import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -348,6 +349,11 @@ def test_which_ground_is_used_is_said_where_there_are_two(robot: Robot) -> None:
     assert ("BAT- and GND of the controller are connected on the board" in text) == one
     assert ("The controller's battery pads stay empty" in text) != one
     assert ("diode: K is the end with the ring" in text) != one
+    chosen = chosen_parts(robot.workshop)
+    pins = {name: uses for name, uses in chosen.controller.pins.items() if name != "BAT-"}
+    alone = replace(chosen, controller=chosen.controller.model_copy(update={"pins": pins}))
+    assert len(alone.controller.with_function("ground")) == 1
+    assert "are connected on the board" not in "\n".join(_notes(alone, wiring_of(chosen, robot.workshop.bought.pins)))
 
 
 @pytest.mark.parametrize("level", [0, 1])
