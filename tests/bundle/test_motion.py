@@ -91,6 +91,7 @@ def test_times_are_real_and_each_phase_is_shown_at_one_scale(shown: dict[str, np
     assert real[phase == "drop"][-1] == pytest.approx(turned, abs=1e-4)
     for name in ("winding", "drop", "push-off", "flight"):
         at = phase == name
+        assert np.ptp(seen[at]) == pytest.approx(SHOWN_S[name], abs=2e-4)
         scale = np.ptp(seen[at]) / np.ptp(real[at])
         assert seen[at] - seen[at][0] == pytest.approx(scale * (real[at] - real[at][0]), abs=2e-3 * scale)
         number, way = re.findall(r"([\d.]+) times (\w+)", shown["words"][name])[0]

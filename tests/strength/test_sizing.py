@@ -10,6 +10,7 @@ from support.strengths import with_own
 from jumpcad.design import load_design
 from jumpcad.dimensions import STOP_SEAT_MM
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.strength import sizing
 from jumpcad.strength.growth import Growth
 from jumpcad.strength.loads import push_off, toe_load_n
 from jumpcad.strength.sizing import TYPICAL_BODY, Sections, leg_flex_share, sections
@@ -105,6 +106,21 @@ def test_eyes_and_a_thin_dog_grow_with_the_axle() -> None:
     before, after = sections(linkage, shop), sections(linkage, thick)
     assert after.eye_radius_mm - before.eye_radius_mm == pytest.approx(0.5)
     assert after.dog_mm - before.dog_mm == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_the_leg_bears_the_springs_torque_and_more_than_the_force_along_it(
+    monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """The torque is known; masses are not yet, so a fifth more than the axial force of a typical body."""
+    asked, linkage = [], Linkage(load_design(name))
+    bend = sizing.tapered_stress_mpa
+    monkeypatch.setattr(sizing, "tapered_stress_mpa", lambda leg, *loads: asked.append(loads) or bend(leg, *loads))
+    sections(linkage, load_workshop())
+    axial = 1.2 * np.abs(push_off(linkage, TYPICAL_BODY).leg_axial_n).max()
+    assert asked
+    for loads in asked:
+        assert loads == pytest.approx((1000.0 * linkage.design.peak_spring_torque_nm, axial), rel=1e-6)
 
 
 def test_hollow_links_are_higher_than_solid_ones() -> None:
