@@ -407,6 +407,22 @@ def test_a_robot_is_told_of_what_it_has_and_of_nothing_else() -> None:
             assert said.count(words) == 1, (name, words)
 
 
+@pytest.mark.parametrize("name", [LONG_TOES, "kenan-2.0"])
+def test_pads_are_put_on_what_is_there(name: str) -> None:
+    """From below; under toes that are parts of their own when these are on the foot."""
+    robot, poses = built(name), body_poses(built(name))
+    put = [(thing.name, placed.move, thing) for step in assembly_steps(robot) for placed in step.placed
+           if not placed.move.brings for thing in placed.things]  # fmt: skip
+    names = [one for one, *_ in put]
+    pads = {f"toe_{side}_pad": f"toe_{side}" if robot.layout.toes_apart else "foot" for side in ("left", "right")}
+    pads |= {one: "foot" for one in names if one.startswith("nose_pad")}
+    assert len(pads) >= 4
+    for pad, under in pads.items():
+        assert names.index(under) < names.index(pad)
+        _, move, thing = put[names.index(pad)]
+        assert travel(robot, thing, move, poses[thing.body])[2] > 0.99, pad
+
+
 @pytest.mark.parametrize("preload_rad", [0.0, 0.1])
 def test_springs_with_a_preload_are_put_on_with_a_screwdriver(preload_rad: float) -> None:
     robot = built("kenan-2.0")
