@@ -64,7 +64,7 @@ Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 class _MassLine(BaseModel):
     """Where the mass of a part comes from."""
 
-    model_config = ConfigDict(strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(strict=True)
 
     kind: Literal["printed", "pad", "bought"]
     name: Text
@@ -77,7 +77,7 @@ class _MassLine(BaseModel):
 class _Manifest(BaseModel):
     """The keys of a manifest that jumpcad reads; it may have more."""
 
-    model_config = ConfigDict(strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(strict=True)
 
     format: int
     name: Name
@@ -162,7 +162,7 @@ def open_bundle(folder: str | Path) -> Bundle:
         if manifest["format"] != FORMAT and isinstance(manifest["format"], int):
             raise JumpcadError(f"{path}: format {manifest['format']}; this version reads {FORMAT}: build it again")
         _Manifest.model_validate(manifest)
-        json.dumps(manifest, allow_nan=False, ensure_ascii=False).encode()  # 1e999, half of a character
+        json.dumps(manifest, ensure_ascii=False).encode()  # half of a character cannot be
         return Bundle(Path(os.path.realpath(folder)), manifest)
     except OSError as error:
         raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
