@@ -319,6 +319,12 @@ def test_springs_are_accepted_by_their_torque_where_the_robot_loads_them(name: s
     assert high / middle * spring.stress_mpa <= 1.05 * spring.allowable_mpa * 1.001  # the reserve of loads
     assert high >= 1.05 * middle * 0.999
     assert 1.1 * rate * (wound + 4.0) > high
+    assert f"nearest to {found[3]} g that agree within 5 %" in guide
+    assert f"MPa in the wire ({1.05 * spring.allowable_mpa:.0f} allowed); the parts' reserve is 10 %" in guide
+    assert re.findall(r"([\d.]+) mm (?:from the circle|to the side of the drill)", guide) == [
+        f"{spring.arms.lever_mm:.1f}"
+    ] * 2  # fmt: skip
+    assert f", ordered {math.degrees(spring.free_arm_angle_rad):.0f}°)" in guide
     scale = re.search(r"kitchen scale .* up to (\d+) kg", guide)
     assert scale is not None
     assert 1000 * int(scale[1]) > int(found[2])
@@ -334,6 +340,17 @@ def test_springs_are_accepted_by_their_torque_where_the_robot_loads_them(name: s
     percent = f"N·mm, +{100.0 * (high / middle - 1.0):.0f} % / -{100.0 * (1.0 - low / middle):.0f} %"
     assert all(percent in sheet for _, sheet in spring_sheets(robot))
     assert percent in guide
+
+
+@pytest.mark.parametrize(("wound_deg", "rows"), [(9.0, []), (10.0, ["10"]), (15.0, ["10"]), (20.0, ["10", "20"])])
+def test_a_spring_is_tested_by_no_angle_beyond_that_to_which_the_robot_loads_it(
+    wound_deg: float, rows: list[str]
+) -> None:
+    robot = built("kenan-2.0")
+    drive = robot.layout.drive
+    spring = replace(drive.spring, wound_rad=math.radians(wound_deg))
+    own = replace(robot, layout=replace(robot.layout, drive=replace(drive, spring=spring)))
+    assert re.findall(r"^\| (\d+)° \|", "\n".join(arrival_lines(own)), re.MULTILINE) == rows
 
 
 NEAR_SCREW = [100.0, 0.96812, 0.5, 1.07992, 0.8, 70.0, 30.0, 15.404]
