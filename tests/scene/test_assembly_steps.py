@@ -407,6 +407,20 @@ def test_a_robot_is_told_of_what_it_has_and_of_nothing_else() -> None:
             assert said.count(words) == 1, (name, words)
 
 
+def test_what_stands_out_of_a_plate_is_put_on_from_outside(robot: Robot) -> None:
+    """The sensor with its mount and screws on the left one; what is inside the right one from inside, from its left."""
+    poses, seen, lateral = body_poses(robot, 0.0), set(), robot.layout.lateral
+    for step in (step for step in assembly_steps(robot) if step.key in ("left", "motor")):
+        for placed in (placed for placed in step.placed if placed.move.way != "laid"):
+            for thing in placed.things:
+                y = (thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T)[:, 1] + 1000.0 * thing.T_body_mesh[1, 3]
+                out, inside = y.max() > lateral.left_plate[1] + 0.5, y.min() > lateral.right_plate[0] - 0.01
+                if out if step.key == "left" else inside:
+                    assert travel(robot, thing, placed.move, poses[thing.body])[1] < -0.99, thing.name
+                    seen.add(thing.name)
+    assert seen >= {"sensor", "sensor_mount", "sensor_screw_1", "motor", "motor_cap", "cap_screw_1", "standoff_1"}
+
+
 @pytest.mark.parametrize("name", [LONG_TOES, "kenan-2.0"])
 def test_pads_are_put_on_what_is_there(name: str) -> None:
     """From below; under toes that are parts of their own when these are on the foot."""
