@@ -2,7 +2,7 @@
 
 import os
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, Self
 
@@ -21,19 +21,20 @@ LONGEST_NAME = 200
 """Longest name in bytes: file systems allow 255, with what file names add before and after it."""
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Robot(Mechanism):
     """One printed robot; its bodies have the mass and inertia of its parts.
 
     `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with;
-    `release` is the release of its springs by the cam, `stop_blow` the impact of its leg on the rest stop.
+    `release` is the release of its springs by the cam, `stop_blow` the impact of its leg on the rest stop. Two robots
+    are equal where name, design, workshop and mechanism are, with the masses and inertias of all bodies.
     """
 
-    parts: tuple[Part, ...]
-    hardware: tuple[BoughtPart, ...]
+    parts: tuple[Part, ...] = field(compare=False)
+    hardware: tuple[BoughtPart, ...] = field(compare=False)
     workshop: Workshop
-    layout: Layout
-    release: Release
+    layout: Layout = field(compare=False)
+    release: Release = field(compare=False)
     stop_blow: StopBlow
 
     def __copy__(self) -> Self:

@@ -105,6 +105,7 @@ def test_the_workshop_decides_what_it_weighs_and_how_far_it_jumps() -> None:
 
 def test_the_settings_and_the_engine_are_passed_on() -> None:
     slippery = evaluate(KENAN, settings=Settings(foot_friction=0.3))
+    assert slippery != evaluate(KENAN) == evaluate(KENAN)
     assert slippery.fitness < 0.9 * evaluate(KENAN).fitness
     pytest.importorskip("mujoco")
     other = evaluate(KENAN, engine="mujoco")

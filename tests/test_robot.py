@@ -3,6 +3,7 @@
 import copy
 import pickle
 import re
+from dataclasses import replace
 
 import pytest
 from support.built import LONG_TOES, built, geared
@@ -43,6 +44,19 @@ def test_a_robot_is_shared_and_not_pickled() -> None:
     with pytest.raises(JumpcadError, match=r"send its design and workshop .*to_dict\(\) is plain data"):
         pickle.dumps({"robot": robot})
     assert pickle.loads(pickle.dumps(robot.design)) == robot.design
+
+
+def test_robots_are_equal_where_all_is_of_which_they_are_made() -> None:
+    """Arrays too, number by number; what is heavier, or made with another workshop, is another robot."""
+    design = jumpcad.load_design("kenan-2.0")
+    robot, again = jumpcad.build(design), jumpcad.build(design)
+    assert robot == again
+    foot = replace(robot.bodies["foot"], com_m=robot.bodies["foot"].com_m + 1e-6)
+    assert robot != replace(robot, bodies={**robot.bodies, "foot": foot})
+    assert robot != replace(robot, workshop=robot.workshop.model_copy(update={"safety": None}))
+    assert robot != capsule_robot(design)
+    assert capsule_robot(design) == pickle.loads(pickle.dumps(capsule_robot(design)))
+    assert robot != "kenan-2.0"
 
 
 @pytest.mark.parametrize("name", ["/", "..", "a/b", "a\nb", "\x1b[31m", "a.", "x" * 5000, "\ud800", " frog"])

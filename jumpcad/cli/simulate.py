@@ -209,10 +209,12 @@ def _difference_percent(jumps: "list[Jump]") -> float | None:
 
 
 def _write_trajectory(path: Path, jump: "Jump") -> None:
-    """Write the trajectory, one row per moment; a rejected design has none."""
+    """Write the trajectory, one row per moment; a design that the gate rejects has none."""
     from jumpcad.files.outputs import write_atomically
 
     if jump.trajectory is None:
+        reason = f"{jump.verdict}: a robot that is rejected before its release does not move"
+        print(f"jumpcad: {escaped(str(path))}: not written; {reason}", file=sys.stderr)
         return
     if path.suffix == ".json":
         columns = {name: values.tolist() for name, values in jump.trajectory.columns().items()}

@@ -18,7 +18,7 @@ import numpy as np
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 Surface = Literal["foot", "body"]
 
@@ -29,8 +29,8 @@ RANGE_POINTS = 33
 """Leg angles at which the ranges of the other joints are computed."""
 
 
-@dataclass(frozen=True)
-class ContactSphere:
+@dataclass(frozen=True, eq=False)
+class ContactSphere(ByValue):
     """A sphere that may touch the ground, in its body's frame; `surface` chooses the friction in the settings."""
 
     name: str
@@ -39,8 +39,8 @@ class ContactSphere:
     surface: Surface
 
 
-@dataclass(frozen=True)
-class Body:
+@dataclass(frozen=True, eq=False)
+class Body(ByValue):
     """A rigid body: mass, centre of mass (3,) and inertia tensor (3, 3) about it, both along the body frame's axes."""
 
     name: str
@@ -55,8 +55,8 @@ class Body:
         return "foot" if any(contact.surface == "foot" for contact in self.contacts) else "body"
 
 
-@dataclass(frozen=True)
-class Joint:
+@dataclass(frozen=True, eq=False)
+class Joint(ByValue):
     """A hinge about +y: the child frame lies at `origin_m` in the parent frame, turned by `rest_angle_rad` + q.
 
     `lower_rad` and `upper_rad` bound q as far as the mechanism goes (information for exporters, not a stop).
@@ -74,8 +74,8 @@ class Joint:
     velocity_rad_s: float
 
 
-@dataclass(frozen=True)
-class Loop:
+@dataclass(frozen=True, eq=False)
+class Loop(ByValue):
     """The closure of the five-bar: `point_a_m` of `body_a` is at `point_b_m` of `body_b`, each in its frame."""
 
     body_a: str
@@ -166,8 +166,8 @@ class Friction:
     pin_radius_m: tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, repr=False)
-class Mechanism:
+@dataclass(frozen=True, repr=False, eq=False)
+class Mechanism(ByValue):
     """The planar five-bar of one jumping robot: four rigid bodies, three joints, one loop, the springs.
 
     `foot_depth_m` is the distance from the line through ankle and front eye down to the ground on a flat foot.

@@ -1,11 +1,11 @@
 """The result of a simulation."""
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from jumpcad.findings import Finding
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 ACCOUNT = {
     "useful": "of the centre of mass: the jump",
@@ -53,8 +53,8 @@ class EnergyBudget:
         }
 
 
-@dataclass(frozen=True)
-class Trajectory:
+@dataclass(frozen=True, eq=False)
+class Trajectory(ByValue):
     """Poses of all bodies over n moments, from release on.
 
     `body_names` (b), `time_s` (n,), `position_m` (n, b, 3) and `quaternion_xyzw` (n, b, 4) of each body's *frame* in
@@ -122,7 +122,7 @@ class Jump:
     touchdown_distance_m: float | None = None
     energy: EnergyBudget | None = None
     published: PublishedQuantities | None = None
-    trajectory: Trajectory | None = None
+    trajectory: Trajectory | None = field(default=None, hash=False)
     findings: tuple[Finding, ...] = ()
 
     def __repr__(self) -> str:

@@ -78,6 +78,18 @@ def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
     assert read == {name: values.tolist() for name, values in expected.trajectory.columns().items()}
 
 
+def test_that_a_rejected_robot_has_no_trajectory_is_told(command: Run, tmp_path: Path) -> None:
+    """The loop of legs so unequal does not close, so nothing moves: no file, and no old one's contents taken for new."""
+    design, path = tmp_path / "open.toml", tmp_path / "path.csv"
+    parameters = load_design("kenan-2.0").model_dump() | {"c_coef": 1.3, "d_coef": 0.5}
+    design.write_text(Design(**parameters).to_toml())
+    code, out, err = command(design, "--capsule", "--trajectory", path)
+    assert (code, path.exists()) == (1, False)
+    assert "loop" in out
+    assert err.startswith(f"jumpcad: {path}: not written; loop: ")
+    assert err.count("\n") == 1
+
+
 def test_a_trajectory_replaces_nothing_unasked(command: Run, tmp_path: Path) -> None:
     path = tmp_path / "path.csv"
     path.write_text("mine")

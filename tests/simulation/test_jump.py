@@ -32,6 +32,16 @@ def test_a_jump_is_told_in_one_line(jump: Jump) -> None:
     assert repr(refused).startswith("<Jump loop, fitness 0.000")
 
 
+def test_jumps_with_the_same_motion_are_equal(kenan: Robot, jump: Jump) -> None:
+    assert jump.trajectory is not None
+    again = simulate(kenan, Settings(trajectory=True), "planar")
+    assert again == jump
+    assert len({again, jump}) == 1
+    later = replace(jump.trajectory, time_s=jump.trajectory.time_s + 1.0)
+    assert jump != replace(jump, trajectory=later)
+    assert jump != replace(jump, trajectory=None)
+
+
 def test_rows_of_a_trajectory_are_its_moments() -> None:
     """Two bodies at two moments; every number is another one."""
     place, turn = np.arange(12.0).reshape(2, 2, 3), 100.0 + np.arange(16.0).reshape(2, 2, 4)
