@@ -218,6 +218,7 @@ def _first(shown: Sequence[Trial], is_front: bool) -> int:
 def _reach(shown: Sequence[Trial], objective: Objective, cost: Cost) -> str:
     """Return from where to where a front goes, in words."""
     low, high = shown[0], shown[-1]
+
     def spent(trial: Trial) -> str:
         return f"{cost.shown(cost.of(trial)):.3g} {cost.figure.unit}"
 

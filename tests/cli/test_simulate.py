@@ -79,7 +79,7 @@ def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
 
 
 def test_that_a_rejected_robot_has_no_trajectory_is_told(command: Run, tmp_path: Path) -> None:
-    """The loop of legs so unequal does not close, so nothing moves: no file, and no old one's contents taken for new."""
+    """The loop of legs so unequal does not close, so nothing moves: no file, and no old one is taken for new."""
     design, path = tmp_path / "open.toml", tmp_path / "path.csv"
     parameters = load_design("kenan-2.0").model_dump() | {"c_coef": 1.3, "d_coef": 0.5}
     design.write_text(Design(**parameters).to_toml())
