@@ -124,6 +124,10 @@ class Objective:
     code: str = ""
     neighbours_of: str = ""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Be pickled as a study keeps it: by name, and an own one without its function."""
+        return described_objective, (self.describe(),)
+
     def describe(self) -> dict[str, str]:
         """Return what a study remembers of it."""
         return {"objective": self.name} | ({"objective_code": self.code} if self.code else {})

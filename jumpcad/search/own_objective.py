@@ -31,7 +31,7 @@ REMEDY = "mend it; what a study file holds is kept, and `--from-study` takes it 
 
 
 def load_function(place: str) -> Callable[..., Any]:
-    """Return the function that `FILE.py:FUNCTION` names; the file is run.
+    """Return the function that `FILE.py:FUNCTION` names; the file is run, and finds the modules beside it.
 
     Raises
     ------
@@ -44,6 +44,9 @@ def load_function(place: str) -> Callable[..., Any]:
     require_path(Path(file))
     if not os.path.isfile(file):
         raise JumpcadError(f"{shown(file)}: no such file, so there is no objective {name}")
+    beside = os.path.dirname(os.path.realpath(file))
+    if beside not in sys.path:
+        sys.path.append(beside)
     try:
         with _undisturbed():
             defined = runpy.run_path(file, run_name="objective")

@@ -47,6 +47,14 @@ def test_a_function_and_one_of_a_file_score_alike(tmp_path):
     assert own.describe() == {"objective": "light", "objective_code": own.code}
 
 
+def test_a_file_finds_the_modules_beside_it_from_any_folder(tmp_path, monkeypatch):
+    """As a script does that Python runs."""
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    (tmp_path / "weights_beside.py").write_text("MASS = 2.0\n")
+    (tmp_path / "aims.py").write_text(f"from weights_beside import MASS as WEIGHT\n{FILE.partition(chr(10))[2]}")
+    assert find_objective(f"{tmp_path}/aims.py:light").score(JUMP) == pytest.approx(3.8)
+
+
 def test_the_hash_follows_the_code_and_the_values_that_it_uses(tmp_path):
     def of(text):
         (tmp_path / "aims.py").write_text(text)

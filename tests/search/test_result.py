@@ -1,5 +1,6 @@
 """What a search found."""
 
+import pickle
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -36,6 +37,17 @@ def test_a_front_has_its_trials_and_its_own_objective():
     assert {one.trial.key for one in found.candidates} <= {trial.key for trial in found.front}
     assert found.winner is found.candidates[0].trial
     assert found.bounds == []
+
+
+@pytest.mark.parametrize("objective", ["range", "p10-range", lambda figures: figures["mass_kg"]])
+def test_what_a_search_found_can_come_from_another_process(objective):
+    """One search a seed, in a pool of processes: results are pickled."""
+    found = jumpcad.optimize("ga", evaluations=60, objective=objective, **QUICK)
+    copied = pickle.loads(pickle.dumps(found))
+    assert copied.trials == found.trials
+    assert copied.score == found.score
+    assert copied.design == found.design
+    assert copied.to_dict() == found.to_dict()
 
 
 @pytest.mark.parametrize("method", ["pareto", "nsga2"])
