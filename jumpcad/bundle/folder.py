@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from jumpcad.bundle.manifest import FORMAT, MANIFEST, Bundle, open_bundle
+from jumpcad.bundle.manifest import FORMAT, MANIFEST, Bundle, open_bundle, require_ours
 from jumpcad.bundle.place import write_in_place
 from jumpcad.bundle.tree import Tree, above, few, shown, tree
 from jumpcad.errors import JumpcadError
@@ -49,7 +49,8 @@ def write_folder(
     Raises
     ------
     JumpcadError
-        If the folder holds anything else, a user's file would be lost, or the folder cannot be written.
+        If the folder holds anything else, a user's file would be lost, the folder cannot be written, or a file is none
+        that a bundle may have.
     """
     target = _writable_folder(folder)
     manifest = {
@@ -119,6 +120,7 @@ def _put(new: Bundle, old: Bundle | None, files: Mapping[str, bytes], gone: set[
     with _plain_errors(new.folder):
         there = tree(new.folder) if old else {}
         kept = _kept(old, there, files, gone, force) if old else {}
+        require_ours(files)
         write_in_place(new.folder, {**files, MANIFEST: text.encode()}, there, kept)
     return Bundle(new.folder, manifest)
 

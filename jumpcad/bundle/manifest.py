@@ -5,7 +5,7 @@ import json
 import math
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, NoReturn
@@ -48,6 +48,23 @@ def _ours(path: str) -> str:
     if hidden or not (path.endswith(SUFFIXES) or path in PROGRAMS or IN_ROS2.fullmatch(path)):
         raise ValueError("is no file of a bundle")
     return _safe(path)
+
+
+def require_ours(paths: Iterable[str]) -> None:
+    """Require that files are such as a bundle may have: one with others could never be read.
+
+    Raises
+    ------
+    JumpcadError
+        If one is not.
+    """
+    for path in paths:
+        try:
+            _ours(path)
+        except ValueError as wrong:
+            raise JumpcadError(
+                f"{shown(path)}: {wrong}: an exporter's new suffix belongs in SUFFIXES of jumpcad/bundle/manifest.py"
+            ) from None
 
 
 def _no_file_is_folder(files: dict[str, str]) -> dict[str, str]:

@@ -13,6 +13,14 @@ from jumpcad.bundle.manifest import open_bundle, verify
 from jumpcad.errors import JumpcadError
 
 
+@pytest.mark.parametrize("path", ["usd/robot.usda", "notes.txt", ".hidden.md", "../outside.md"])
+def test_what_is_written_can_be_read_again(path: str, tmp_path: Path) -> None:
+    """So a file that no manifest may list is refused, with what an exporter's author does."""
+    with pytest.raises(JumpcadError, match=r"SUFFIXES of jumpcad/bundle/manifest\.py"):
+        write_folder(tmp_path / "robot", "robot", {}, {"a.md": "fine", path: "new"}.items())
+    assert not (tmp_path / "robot").exists()
+
+
 @pytest.mark.parametrize("force", [False, True])
 def test_what_would_be_lost_is_named_and_replaced_only_by_force(tmp_path: Path, force: bool) -> None:
     target = tmp_path / "robot"
@@ -20,11 +28,11 @@ def test_what_would_be_lost_is_named_and_replaced_only_by_force(tmp_path: Path, 
     (target / "a.md").write_text("edited")  # will be written
     (target / "deep" / "b.md").write_text("edited")  # would go
     (target / "c.md").write_text("mine")  # added under a name that will be written
-    (target / "same.txt").write_text("new")  # nothing is lost
-    new = {"a.md": "new", "c.md": "new", "same.txt": "new"}.items()
+    (target / "same.svg").write_text("new")  # nothing is lost
+    new = {"a.md": "new", "c.md": "new", "same.svg": "new"}.items()
     if force:
         write_folder(target, "robot", {}, new, force=True)
-        assert listed(target) == ["a.md", "c.md", "manifest.json", "same.txt"]
+        assert listed(target) == ["a.md", "c.md", "manifest.json", "same.svg"]
         return
     with pytest.raises(JumpcadError, match=r"robot: a\.md, c\.md, deep/b\.md: edited or added .* --force$"):
         write_folder(target, "robot", {}, new)
