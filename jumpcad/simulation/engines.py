@@ -57,7 +57,12 @@ def engine_named(name: str) -> "Engine":
     """
     require_engine(name)
     entry = ENGINES[name]
-    engine: Engine = getattr(importlib.import_module(entry.module), entry.maker)()
+    try:
+        engine: Engine = getattr(importlib.import_module(entry.module), entry.maker)()
+    except ModuleNotFoundError:
+        if entry.is_installed:
+            raise
+        raise JumpcadError(f"the engine {name} needs the package {entry.package}, which is not installed") from None
     return engine
 
 
