@@ -213,6 +213,25 @@ def test_a_preloaded_spring_keeps_to_room_and_bushing_whatever_they_are(name):
     assert found > 20
 
 
+@pytest.mark.parametrize("stiffness", [0.02, 0.2, 1.0])
+def test_no_coil_is_wider_or_longer_than_its_room(stiffness):
+    """From a room that no wire fits into to one that is larger than the coil."""
+    found = refused = 0
+    for outer in np.arange(6.0, 40.0, 2.0):
+        for length in (0.5, 1.0, 2.0, 4.0, 8.0, 13.0):
+            limits = replace(LIMITS, outer_max_mm=outer, body_lengths_max_mm=(length,), mandrel_min_mm=3.0)
+            try:
+                spring = synthesise_spring(Spring("leg", stiffness, 0.6), -1.5, WIRE, limits)
+            except CannotBuildError:
+                refused += 1
+                continue
+            found += 1
+            assert spring.outer_diameter_mm <= outer + 1e-6
+            assert spring.body_length_mm <= length + 1e-6
+    assert found > 5
+    assert refused > 20
+
+
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("preload_deg", [0.0, 15.0])
 def test_the_smallest_coil_of_a_wire_is_at_one_of_its_limits(name, preload_deg):
