@@ -317,3 +317,17 @@ def test_the_motor_stands_clear_over_its_whole_length(stages: int) -> None:
         post = disc("post", usual, 1.0, interval)
         _, motor, _ = train_places([post], drive, lateral, axis)
         assert (math.dist(motor, usual) >= half + 1.0 - 1e-5) == clear, interval
+
+
+@pytest.mark.parametrize(("gap_mm", "free"), [(0.02, True), (-0.02, False)])
+def test_the_springs_pin_needs_room_for_all_of_its_width(gap_mm: float, free: bool) -> None:
+    """Beside a disc of 2 mm, whichever side that is on."""
+    spring = spring_with(14.0)
+    place = spring_pin_place([], HUB, spring, INSIDE)
+    for side in ([1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]):
+        near = disc("near", place + (1.0 + spring.arms.pin_mm / 2.0 + gap_mm) * np.array(side), 1.0, INSIDE)
+        if free:
+            assert spring_pin_place([near], HUB, spring, INSIDE) == pytest.approx(place)
+        else:
+            with pytest.raises(NoPinRoomError):
+                spring_pin_place([near], HUB, spring, INSIDE)
