@@ -20,6 +20,7 @@ WORDS = {
     "masses.source": "where the mass comes from: printed model, catalogue, weighed",
     "com_m": "centre of mass in the body's frame",
     "inertia_kg_m2": "inertia about the centre of mass, in the body's frame",
+    "file": "where it was written",
     "files": "paths",
     "files.*": "sha256 of a file",
     "folder": "where it was written",
@@ -235,6 +236,7 @@ WORDS = {
     "y.name": "parameter along y",
     "verdicts": "`jump`, or what rejects the design there, by y and x",
     "sweeps.*.value": "value of the parameter",
+    "studies": "each with the fields of `jumpcad study F.db --json`",
     "sweeps.*.verdict": "`jump`, or why there is none; a limit may reject a robot that jumps",
     "sweeps.*.reasons": "what rejects the design; empty where it has a score",
     # calibration

@@ -29,8 +29,8 @@ MAPPINGS = {
     "design", "deviation", "first_order", "importance", "interval", "margins", "readings", "refused", "sweeps",
 }  # fmt: skip
 """Fields that map names to like things, though their names look like fields."""
-WHOLE = {"engines", "evaluated", "identity"}
-"""Mappings that are not taken apart."""
+WHOLE, ELSEWHERE = {"engines", "evaluated", "identity"}, {"studies"}
+"""Mappings that are not taken apart, and lists of what another table has."""
 
 
 def files_and_json() -> str:
@@ -39,6 +39,7 @@ def files_and_json() -> str:
         built = _json("build", EXAMPLE, "-o", f"{folder}/bundle", "--no-pictures")
         manifest = json.loads((Path(folder) / "bundle" / "manifest.json").read_text(encoding="utf-8"))
         documents = {
+            "jumpcad new DESIGN.toml --json": _json("new", f"{folder}/design.toml"),
             f"jumpcad build {EXAMPLE} --json": built,
             f"jumpcad simulate {EXAMPLE} --uncertain --json": _uncertain_document(),
             f"jumpcad simulate {EXAMPLE} --engine both --json": _json("simulate", EXAMPLE, "--engine", "both"),
@@ -48,6 +49,8 @@ def files_and_json() -> str:
             "jumpcad verify BUNDLE --json": _json("verify", f"{folder}/bundle"),
             "jumpcad slice BUNDLE --json": _slice_document(Path(folder) / "bundle"),
             "jumpcad coupon --json": _json("coupon", "-o", f"{folder}/coupon"),
+            f"jumpcad render {EXAMPLE} --json": _json("render", EXAMPLE, "-o", f"{folder}/pictures"),
+            f"jumpcad report {EXAMPLE} --json": _json("report", EXAMPLE, "-o", f"{folder}/report.html"),
             "jumpcad list engines --json": _json("list", "engines"),
             **_search_documents(folder),
             "jumpcad calibrate kenan-1.0 --predict kenan-2.0 --json": _calibration_document(),
@@ -79,7 +82,11 @@ def _search_documents(folder: str) -> dict[str, Any]:
     study = ("--study", f"{folder}/s.db")
     found = _json("optimize", "ga", *small, "--evaluations", "24", "--seed", "0", *study, "-o", f"{folder}/w.toml")
     found["active_bounds"] = [asdict(ActiveBound("c_coef", "lower", 0.8, 0.78, -0.1))]  # this search ends on none
-    documents = {"jumpcad optimize --json": found, "jumpcad study F.db --json": _json("study", f"{folder}/s.db")}
+    documents = {
+        "jumpcad optimize --json": found,
+        "jumpcad study F.db --json": _json("study", f"{folder}/s.db"),
+        "jumpcad study F.db G.db --json": _json("study", f"{folder}/s.db", f"{folder}/s.db"),
+    }
     views = {"sweep": ("--points", "2"), "pca": ("--samples", "20"), "importance": ("--samples", "100"),
              "feasibility": ("--points", "2")}  # fmt: skip
     return documents | {
@@ -155,7 +162,7 @@ def _fields(data: Any, prefix: str = "") -> list[tuple[str, str]]:
         deeper = (isinstance(value, dict) and value) or (
             isinstance(value, list) and value and isinstance(value[0], dict)
         )
-        whole = key in WHOLE and isinstance(value, dict)
+        whole = key in (WHOLE if isinstance(value, dict) else ELSEWHERE)
         rows |= dict(_fields(value, path)) if deeper and not whole else {path: _type(value)}
     return list(rows.items())
 
