@@ -17,6 +17,8 @@ from jumpcad.strength.stop import StopBlow
 from jumpcad.workshop import Workshop
 
 NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
+DEVICE = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³])(\.|$)", re.IGNORECASE)
+"""Names that Windows keeps for devices, with any ending (Microsoft, Naming Files, Paths, and Namespaces)."""
 LONGEST_NAME = 200
 """Longest name in bytes: file systems allow 255, with what file names add before and after it."""
 
@@ -71,5 +73,7 @@ def require_name(name: str) -> None:
         raise JumpcadError(
             f"{shown(name)} is used in file names: use letters, digits, spaces, '.', '-', '+' and '_'{wrong}"
         )
+    if device := DEVICE.match(name):
+        raise JumpcadError(f"{shown(name)} is used in file names: {device[1]} is a device on Windows; use another name")
     if len(os.fsencode(name)) > LONGEST_NAME:
         raise JumpcadError(f"{shown(name)} is used in file names: use at most {LONGEST_NAME} bytes")

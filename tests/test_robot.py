@@ -73,6 +73,18 @@ def test_the_letter_that_cannot_be_in_a_name_is_named(name: str, letter: str) ->
         require_name(name)
 
 
+@pytest.mark.parametrize("name", ["CON", "nul", "Aux.v2", "com1", "LPT9", "PRN.toml", "com²"])
+def test_a_name_that_windows_keeps_for_a_device_is_refused(name: str) -> None:
+    """Microsoft, Naming Files, Paths, and Namespaces: NUL.txt is NUL, so NUL.glb could not be unpacked there."""
+    with pytest.raises(JumpcadError, match="is used in file names: .* is a device on Windows; use another name"):
+        require_name(name)
+
+
+@pytest.mark.parametrize("name", ["console", "conrad-2", "com10", "auxiliary.v2", "my-con", "nul-2"])
+def test_a_name_that_begins_like_a_device_is_taken(name: str) -> None:
+    require_name(name)
+
+
 @pytest.mark.parametrize(("letter", "most"), [("x", 200), ("ä", 100), ("机", 66)])
 def test_a_name_has_room_in_a_files_name_in_any_script(letter: str, most: int) -> None:
     """File systems count bytes: in UTF-8 an umlaut has two, a Chinese character three."""

@@ -192,3 +192,17 @@ def test_each_name_of_a_bought_part_is_that_of_its_own_part():
         )
         found = own.foot_pad, own.stop_pad, own.leg_bar, own.stock_spring
         assert tuple(part and part.name for part in found) == tuple(name or None for name in (foot, stop, bar, spring))
+
+
+def test_materials_whose_plates_would_be_one_file_are_refused(refusal):
+    """Windows and macOS take print/plate-1-petg.3mf and print/plate-1-PETG.3mf for one file."""
+    own = '[materials."%s"]\ndensity_g_cm3 = 1.2\nstrength_in_plane_mpa = 40.0\nstrength_interlayer_mpa = 20.0\n' \
+        'modulus_mpa = 2000.0\nsource = "a test"\n'  # fmt: skip
+    for text in ('[roles]\nlinks = "petg"', '[roles]\nlinks = "Öko"\nbody = "öko"\n' + own % "Öko" + own % "öko"):
+        assert "write both alike, or choose another name" in refusal(text)
+
+
+def test_one_material_may_be_written_in_small_letters(written):
+    """Where no role writes it otherwise, there is one plate."""
+    roles = load_workshop(written('[roles]\nlinks = "petg"\ngears = "petg"')).roles
+    assert (roles.links, roles.body, roles.gears) == ("petg", "PLA", "petg")
