@@ -76,7 +76,7 @@ def test_the_letter_that_cannot_be_in_a_name_is_named(name: str, letter: str) ->
 @pytest.mark.parametrize("name", ["CON", "nul", "Aux.v2", "com1", "LPT9", "PRN.toml", "com²"])
 def test_a_name_that_windows_keeps_for_a_device_is_refused(name: str) -> None:
     """Microsoft, Naming Files, Paths, and Namespaces: NUL.txt is NUL, so NUL.glb could not be unpacked there."""
-    with pytest.raises(JumpcadError, match="is used in file names: .* is a device on Windows; use another name"):
+    with pytest.raises(JumpcadError, match=r"is used in file names: .* is a device on Windows; use another name"):
         require_name(name)
 
 

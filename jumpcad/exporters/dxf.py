@@ -2,6 +2,7 @@
 
 Layer `CUT` holds the outline and every hole, `ENGRAVE` the name. What is higher than a plate (the motor's socket) is
 not in a flat drawing; it is printed and glued onto a cut plate.
+Blind bores of axles are cut through: cut plates need axles with clips or nuts (`bought.retention`).
 """
 
 import io

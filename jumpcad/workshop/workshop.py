@@ -162,7 +162,7 @@ class Workshop(Record):
         for role, name in self.roles.model_dump().items():
             if name not in self.materials:
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
-            twins = (other for other in self.materials if other != name and other.casefold() == name.casefold())
+            twins = (other for other in self.materials if other < name and other.casefold() == name.casefold())
             if twin := next(twins, ""):
                 reason = f"is {twin!r} but for capital letters, and their plates would be one file on many computers"
                 yield ("roles", role), name, f"{reason}: write both alike, or choose another name"
