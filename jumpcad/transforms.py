@@ -19,8 +19,6 @@ Array = npt.NDArray[np.float64]
 class ByValue:
     """A dataclass, with `eq=False`, whose fields may be arrays: two are equal where all fields are, arrays by value."""
 
-    __hash__ = None  # type: ignore[assignment]
-
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented

@@ -57,6 +57,10 @@ def test_robots_are_equal_where_all_is_of_which_they_are_made() -> None:
     assert robot != capsule_robot(design)
     assert capsule_robot(design) == pickle.loads(pickle.dumps(capsule_robot(design)))
     assert robot != "kenan-2.0"
+    assert robot.parts == again.parts
+    assert robot.parts[0] not in again.parts[1:]
+    assert robot.hardware == again.hardware
+    assert robot.hardware[0] not in again.hardware[1:]
 
 
 @pytest.mark.parametrize("name", ["/", "..", "a/b", "a\nb", "\x1b[31m", "a.", "x" * 5000, "\ud800", " frog"])

@@ -12,11 +12,11 @@ from typing import Self
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 
-@dataclass(frozen=True)
-class MassProperties:
+@dataclass(frozen=True, eq=False)
+class MassProperties(ByValue):
     """Mass (kg), centre of mass (3,) in m, and inertia tensor (3, 3) in kg·m² about that centre, in one frame."""
 
     mass_kg: float

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from jumpcad.mechanism.model import BODY, Mechanism
-from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
+from jumpcad.transforms import Array, ByValue, chained, pose_at, rotation_about_y
 
 
-@dataclass(frozen=True)
-class ReleasePose:
+@dataclass(frozen=True, eq=False)
+class ReleasePose(ByValue):
     """The robot at release: loop exactly closed, foot flat and still on the ground, ankle above the world's origin.
 
     `joint_rad` holds the coordinate of every joint by name; the frame of `body` lies at `body_position_m` (3,), turned

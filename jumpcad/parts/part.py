@@ -17,7 +17,7 @@ from jumpcad.printing.bed import BedFit, fit_to_bed, require_bed
 from jumpcad.solids.blocks import Blocks
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 if TYPE_CHECKING:
     import trimesh
@@ -29,8 +29,8 @@ UNSEEN_MM = 0.05
 """Size of detail that is left out of meshes for pictures; judgement: less than a pixel."""
 
 
-@dataclass(frozen=True)
-class Placement:
+@dataclass(frozen=True, eq=False)
+class Placement(ByValue):
     """One copy of a part: its body, and the pose (4, 4) of the printing frame in the body's frame, lengths in mm."""
 
     body: str

@@ -14,14 +14,14 @@ from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import Slab
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire, tube
-from jumpcad.transforms import Array, chained, in_metres, pose_about_z
+from jumpcad.transforms import Array, ByValue, chained, in_metres, pose_about_z
 
 if TYPE_CHECKING:
     import trimesh
 
 
-@dataclass(frozen=True, repr=False)
-class BoughtPart:
+@dataclass(frozen=True, repr=False, eq=False)
+class BoughtPart(ByValue):
     """One bought part on the robot.
 
     `article` is what to order and `units` how many of it this piece counts for: 0 for a piece of one that is counted

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 if TYPE_CHECKING:
     import trimesh
@@ -15,11 +15,14 @@ SIDES = 8
 
 
 @dataclass(frozen=True, eq=False)
-class DrawnWire:
+class DrawnWire(ByValue):
     """A round wire along points (n, 3)."""
 
     points_mm: Array
     diameter_mm: float
+
+    def __hash__(self) -> int:
+        return hash((self.points_mm.tobytes(), self.diameter_mm))
 
 
 def tube(points_mm: Array, diameter_mm: float) -> "trimesh.Trimesh":
