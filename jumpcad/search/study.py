@@ -135,7 +135,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             if not evaluator.expired():
                 before, first_step = len(evaluator.trials), 0
                 if stage.widen:
-                    first_step = number * STEPS
+                    first_step = sum(METHODS[earlier.method].runs for earlier in stages[:number]) * STEPS
                     widened += widen(evaluator, first_step, stage.evaluations)
                     store.remember(WIDENED, evaluator.space.describe())
                 # Only the last stage goes on when less is asked: what came before would have led it elsewhere.

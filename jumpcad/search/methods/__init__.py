@@ -76,6 +76,8 @@ class Method:
         Whether its parts have shares of the evaluations: a search with more of them is another one.
     least
         Fewest evaluations that it takes: each of its parts has one.
+    runs
+        How often it runs another method; each time has `STEPS` steps of its own in the study file.
     """
 
     name: str
@@ -86,6 +88,7 @@ class Method:
     ends: bool = False
     shares: bool = False
     least: int = 0
+    runs: int = 1
 
     def run(self, evaluator: "Evaluator", task: Task) -> bool:
         """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
@@ -105,7 +108,7 @@ METHODS = {
             front=True,
             learns=True,
         ),
-        Method("paper", "paper.run_paper", "the published study's stages", shares=True, least=7),
+        Method("paper", "paper.run_paper", "the published study's stages", shares=True, least=7, runs=3),
         Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
     )
 }
