@@ -200,9 +200,9 @@ def _print_result(
 
     request = result.request
     more = result.evaluations - len(result.trials)
-    around = f", and {more} for the robust pick" if more else ""
+    around = f", and {_of(more, request.pick)} for the robust pick" if more else ""
     if request.aim.neighbours_of:
-        around = f", in {counted(result.evaluations, 'evaluation')} with their neighbours"
+        around = f", in {_of(result.evaluations, request.searched)} evaluations with their neighbours"
     print(f"{counted(len(result.trials), 'design')} evaluated{around}; rejected: {_counted(result.rejected)}")
     if result.converged:
         print(
@@ -254,6 +254,11 @@ def _print_result(
         print(f"\nnext: jumpcad check {made}: do not build it as it is; a search does not look at these limits")
         return
     print(f"\nnext: jumpcad build {made}")
+
+
+def _of(spent: int, most: int) -> str:
+    """Return a number of evaluations; of how many, where some are left."""
+    return f"{spent} of {most}" if spent < most else str(spent)
 
 
 def _counted(reasons: dict[str, int]) -> str:

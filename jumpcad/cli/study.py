@@ -149,12 +149,16 @@ def _print_one(summary: dict[str, Any]) -> None:
 def _end_in_words(ended: dict[str, Any], identity: dict[str, Any]) -> str:
     """Return what ended a search, and how it goes on."""
     from jumpcad.search.methods import METHODS
+    from jumpcad.search.neighbours import NEIGHBOURS
 
     method = identity["method"]
     shares = method in METHODS and METHODS[method].shares and not identity.get("widen")
     more = f"{method} with more is another study" if shares else "more --evaluations go on"
+    spent = "all evaluations that it was to take are spent"
+    if identity["model"].get("neighbours_of"):
+        spent = f"fewer than the {1 + NEIGHBOURS} evaluations that a design may take with its neighbours are left"
     words = {
-        "evaluations": f"all evaluations that it was to take are spent; {more}",
+        "evaluations": f"{spent}; {more}",
         "until": f"its last steps gained less than {ended.get('until_percent', 0.0):g} % of the best score (--until); "
         "--until 0 goes on",
         "hours": f"its time is over (--hours {ended.get('hours', 0.0):g}); the same command goes on",

@@ -169,7 +169,7 @@ def test_robust_scores_stand_under_their_headings(capsys):
     )
     trial = SimpleNamespace(design=load_design("kenan-2.0"), score=3.0, workshop={})
     request = SimpleNamespace(
-        aim=find_objective("range"), searched=20, space=SimpleNamespace(size=1000), is_front=False,
+        aim=find_objective("range"), searched=20, pick=30, space=SimpleNamespace(size=1000), is_front=False,
         objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"),
     )  # fmt: skip
     result = SimpleNamespace(
@@ -221,7 +221,7 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     weaker = SimpleNamespace(design=load_design("kenan-1.0"), score=0.75)
     request = SimpleNamespace(
         aim=find_objective("range"), searched=180, until_percent=0.05, space=SimpleNamespace(size=1000), is_front=True,
-        objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"), cost=find_cost("spring-energy"),
+        pick=3, objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"), cost=find_cost("spring-energy"),
     )  # fmt: skip
     result = SimpleNamespace(
         request=request, evaluations=10, trials=[trial] * 7, rejected={"loop": 2, "tips": 1}, converged=True,
@@ -345,7 +345,7 @@ def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_
         for n in range(12)
     ]  # fmt: skip
     request = SimpleNamespace(
-        aim=find_objective("range"), searched=20, space=SimpleNamespace(size=1000), is_front=False,
+        aim=find_objective("range"), searched=20, pick=30, space=SimpleNamespace(size=1000), is_front=False,
         objective="range", making=SimpleNamespace(words="lengths ±0.2 mm"),
     )  # fmt: skip
     result = SimpleNamespace(
@@ -355,7 +355,7 @@ def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_
     optimize._print_result(result, Path("won.toml"))
     told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
     assert told[:5] == [
-        "2 designs evaluated, and 28 for the robust pick; rejected: none", "note: one", "note: two",
+        "2 designs evaluated, and 28 of 30 for the robust pick; rejected: none", "note: one", "note: two",
         "best range 3.0000 m",
         "score that nine of ten neighbours reach, parameters ±1 %, or lengths ±0.2 mm:",
     ]  # fmt: skip
@@ -364,9 +364,9 @@ def test_a_robust_winner_is_told_with_its_own_score_and_design_and_not_the_best_
     assert told[16] == "won.toml: range 2.0000 m"
     assert told[17:25] == [f"{name} {value:.5g}" for name, value in winner.model_dump().items()]
     assert told[25:] == ["next: jumpcad build won.toml"]
-    request.aim = find_objective("p10-range")
+    request.aim, request.searched = find_objective("p10-range"), 35
     optimize._print_result(result, Path("won.toml"))
-    assert "2 designs evaluated, in 30 evaluations with their neighbours; rejected: none" in capsys.readouterr().out
+    assert "2 designs evaluated, in 30 of 35 evaluations with their neighbours; rejected" in capsys.readouterr().out
 
 
 def test_a_design_that_is_edited_while_the_search_runs_is_kept_unless_it_is_to_be_replaced(folder, monkeypatch):

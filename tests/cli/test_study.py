@@ -96,6 +96,8 @@ def test_designs_with_their_neighbours_are_not_counted_against_evaluations(capsy
     study._print_one(summary(identity=identity, other_evaluations=0))
     told = capsys.readouterr().out.splitlines()[1]
     assert told == "31 designs, of 40 evaluations with their neighbours, and 0 around the best"
+    study._print_one(summary(identity=identity, ended={"by": "evaluations"}))
+    assert "fewer than the 11 evaluations that a design may take with its neighbours are" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
