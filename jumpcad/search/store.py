@@ -271,6 +271,12 @@ class StudyStore:
                 f"{self.path}: was made by another program ({differs}), whose trials do not mix with this one's; "
                 f"go on with that program, or name another file (`--from-study {self.path}` learns from this one)"
             )
+        if differs.startswith("objective_code: ") and self.identity.get("objective_code"):
+            raise JumpcadError(
+                f"{self.path}: holds another study (the code of {identity['objective']}, or of what it uses, was "
+                "changed): put it back, or name another file "
+                f"(`--from-study {self.path}` scores its designs by the new code)"
+            )
         if differs.startswith("against: "):
             theirs = str(self.identity.get("against", SPRING_ENERGY.name))
             raise JumpcadError(
