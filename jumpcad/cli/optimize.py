@@ -1,20 +1,14 @@
 """`jumpcad optimize`: search for the best printable robot."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status, typed
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
 from jumpcad.cli.progress import watching
-from jumpcad.cli.searching import (
-    PlotsOption,
-    SearchOptions,
-    require_plots,
-    with_search_options,
-)
-from jumpcad.counting import counted
+from jumpcad.cli.search_result import print_result
+from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_search_options
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
@@ -24,8 +18,6 @@ if TYPE_CHECKING:
     from jumpcad.search.result import Result
     from jumpcad.search.trial import Trial
 
-SHOWN = 10
-"""Candidates that are printed; --json has all of them."""
 _MEANINGS = "; ".join(f"{name}: {method.meaning}" for name, method in METHODS.items())
 _SEQUENCES = "; ".join(f"{name}: {first}, then {second} on its results" for name, (first, second) in SEQUENCES.items())
 
@@ -154,7 +146,7 @@ def optimize(
         data["violated"] = [finding.to_dict() for finding in violated]
         print_json(data | result.to_dict())
     else:
-        _print_result(result, design_file, violated, options.workshop)
+        print_result(result, design_file, violated, options.workshop)
     if result.winner is None:
         raise typer.Exit(1)
 
@@ -191,75 +183,3 @@ def _plot(path: Path, folder: Path | None) -> list[str]:
 
     with StudyStore.read(path) as store:
         return [str(picture) for picture in plot_study(store, folder)]
-
-
-def _print_result(
-    result: "Result", design_file: Path, violated: "Sequence[Finding]" = (), workshop: str | None = None
-) -> None:
-    from jumpcad.search.result import workshop_file
-
-    request = result.request
-    more = result.evaluations - len(result.trials)
-    around = f", and {_of(more, request.pick)} for the robust pick" if more else ""
-    if request.aim.neighbours_of:
-        around = f", in {_of(result.evaluations, request.searched)} evaluations with their neighbours"
-    print(f"{counted(len(result.trials), 'design')} evaluated{around}; rejected: {_counted(result.rejected)}")
-    if result.converged:
-        print(
-            f"ended before {request.searched}: in its last steps less than {request.until_percent:g} % of the best "
-            "score was gained; --until 0 goes on"
-        )
-    if len(result.trials) >= request.space.size:
-        print("these are all designs of the space")
-    for note in result.notes:
-        print(f"note: {note}")
-    if result.best is None or result.winner is None:
-        print("no design jumps: widen the bounds, raise --evaluations, or see the reasons above")
-        return
-    if request.is_front:
-        cost = request.cost
-        print(f"\n{request.objective} against {cost.figure.meaning}; hypervolume {result.hypervolume:.4f}")
-        for trial in result.front:
-            print(f"  {cost.shown(cost.of(trial)):8.4f} {cost.figure.unit}  {request.aim.shown(trial.score or 0.0)}")
-    print(f"\nbest {request.objective} {request.aim.shown(result.best.score or 0.0)}")
-    if result.candidates:
-        print(f"score that nine of ten neighbours reach, parameters ±1 %, or {request.making.words}:")
-        print(f"  {'itself':>10s}{'±1 %':>10s}{'as made':>10s}  neighbours, rejected")
-    for one in result.candidates[:SHOWN]:
-        scores = (one.trial.score or 0.0, one.parameters_score, one.print_score)
-        print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {one.neighbours:10d}, {_counted(one.rejections)}")
-    print(f"\n{escaped(str(design_file))}: {request.objective} {request.aim.shown(result.score)}")
-    for name, value in result.design.model_dump().items():
-        print(f"  {name:24s}{value:12.5g}")
-    for key, value in result.winner.workshop.items():
-        print(f"  {key:24s}" + (f"{value or repr(value):>12s}" if isinstance(value, str) else f"{value:12.5g}"))
-    for wider in result.widened:
-        change = wider.reason if wider.unknown else f"rejected by {wider.reason}"
-        if wider.worth is not None:
-            change = f"{wider.worth:+.4f}"
-        moved = (
-            f"{wider.name}, {wider.side} bound {wider.value:g} to {wider.beyond:g}" if wider.side else "all together"
-        )
-        print(f"widened: {moved}: {change}")
-    for bound in result.bounds:
-        change = f"is {bound.reason}" if bound.unknown else f"is rejected: {bound.reason}"
-        if bound.worth is not None:
-            change = f"changes the score by {bound.worth:+.4f}"
-        print(f"at its {bound.side} bound: {bound.name} = {bound.value:g}; {bound.beyond:g} {change}")
-    used = str(workshop_file(design_file)) if result.winner.workshop else workshop
-    made = typed(str(design_file)) + (f" --workshop {typed(used)}" if used else "")
-    for finding in violated:
-        print(f"error: {finding.name}: {finding.message}; {finding.remedy}")
-    if violated:
-        print(f"\nnext: jumpcad check {made}: do not build it as it is; a search does not look at these limits")
-        return
-    print(f"\nnext: jumpcad build {made}")
-
-
-def _of(spent: int, most: int) -> str:
-    """Return a number of evaluations; of how many, where some are left."""
-    return f"{spent} of {most}" if spent < most else str(spent)
-
-
-def _counted(reasons: dict[str, int]) -> str:
-    return ", ".join(f"{name} {count}" for name, count in reasons.items()) or "none"
