@@ -268,6 +268,7 @@ def test_what_cannot_be_written_is_told_before_anything_is_evaluated(folder, mon
         (("--study", "s.sqlite", *QUICK), "a study file must end in .db"),
         (("-o", "w.toml", *QUICK), "w.toml: exists already"),
         (("-o", "w.txt", *QUICK), "w.txt: must end in .toml"),
+        (("-o", "pics", *QUICK), "file 'pics' is a directory"),
         (("--plots", "pics", *QUICK), "pics/history.svg: exists already"),
         (("--from-study", "s.db", "--study", "s.db", *QUICK), "--study s.db: is --from-study itself"),
         (("--around", "own.toml", "-o", "own.toml", *QUICK), "own.toml: is --around itself"),
