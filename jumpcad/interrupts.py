@@ -1,11 +1,11 @@
-"""Interrupts (Ctrl-C): held back while processes start, and asked for where a library took one for an error of its own.
+"""Interrupts, by Ctrl-C or SIGTERM: held back while processes start, asked for where a library took one for an error.
 
 The command line counts them and decides what follows; programs that use jumpcad as a library have their own handler.
 """
 
 # It imports nothing at first: the command line needs it before an interrupt can be handled.
 seen: list[int] = []
-"""Interrupts of the command so far."""
+"""Interrupts of the command so far, by the numbers of their signals."""
 holding: list[object] = []
 """The blocks in which an interrupt waits for their end."""
 

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from types import FrameType, TracebackType
     from typing import NoReturn
 
-INTERRUPTED = 130
+SIGNALLED = 128
+"""Exit code of a command that a signal ended, with the signal's number: 130 for Ctrl-C, 143 for SIGTERM."""
 IMPORTING = "<frozen importlib._bootstrap>"
 """File name of the code of Python's import system."""
 
@@ -45,12 +46,17 @@ def program() -> "NoReturn":
 
 
 def main() -> "NoReturn":
-    """Run the command line; exit codes are those of `jumpcad.cli.commands.run`, and 130 for an interrupt."""
+    """Run the command line; exit codes are those of `jumpcad.cli.commands.run`, and `SIGNALLED` ones.
+
+    SIGTERM, by which queues of shared machines end a program, is taken as Ctrl-C is.
+    """
     seen.clear()
-    listening = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # nohup and & have it ignored
+    usual = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL}
+    listening = [one for one in usual if signal.getsignal(one) == usual[one]]  # nohup and & have SIGINT ignored
     hooks = sys.excepthook, sys.unraisablehook
+    for one in listening:
+        signal.signal(one, _interrupt)
     if listening:
-        signal.signal(signal.SIGINT, _interrupt)
         sys.excepthook, sys.unraisablehook = _unhandled, _unraisable
     try:
         from jumpcad.collecting import collect_seldom
@@ -59,22 +65,24 @@ def main() -> "NoReturn":
         from jumpcad.cli.commands import run
 
         code = run(sys.argv[1:])
-        _ignore_interrupts(listening)  # the command is done: an interrupt would only print a traceback
+        _listen_no_more(listening)  # the command is done: an interrupt would only print a traceback
+        interrupted = bool(seen)  # a library may have caught the KeyboardInterrupt
     except KeyboardInterrupt:
-        _ignore_interrupts(listening)
-        code = INTERRUPTED
-    if seen or code == INTERRUPTED:  # a library may have caught the KeyboardInterrupt
+        _listen_no_more(listening)
+        interrupted = True
+    if interrupted:
         from jumpcad.cli.output import complain
 
-        code = complain("interrupted", INTERRUPTED)
+        code = complain("interrupted", SIGNALLED + (seen[0] if seen else signal.SIGINT))
     seen.clear()
     sys.excepthook, sys.unraisablehook = hooks
     sys.exit(code)
 
 
-def _ignore_interrupts(listening: bool) -> None:
-    if listening:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+def _listen_no_more(listening: "list[int]") -> None:
+    """Ignore Ctrl-C from now on; another SIGTERM ends the process."""
+    for one in listening:
+        signal.signal(one, signal.SIG_IGN if one == signal.SIGINT else signal.SIG_DFL)
 
 
 def _interrupt(number: int, frame: "FrameType | None") -> None:

@@ -133,7 +133,8 @@ def test_says_that_it_ended_early_and_how_it_goes_on(folder):
     assert "ended before" not in longer
 
 
-def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_or_sigterm_keeps_what_is_finished_and_the_same_command_goes_on(folder, number):
     command = [*JUMPCAD, "optimize", "ga", "--model", "capsule", "--evaluations", "400", "--study", "s.db", "--json",
                "--settings", "fine", "--workers", "1"]  # fmt: skip
     process = subprocess.Popen(
@@ -146,9 +147,12 @@ def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):
     )
     while process.poll() is None and not (Path("s.db").exists() and data_or_none("s.db")):
         time.sleep(0.2)
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does it: to the workers too
+    if number == signal.SIGINT:
+        os.killpg(process.pid, number)  # as a terminal does it: to the workers too
+    else:
+        os.kill(process.pid, number)  # as queues and `kill` do it
     out, err = process.communicate()
-    assert process.returncode == 130
+    assert process.returncode == 128 + number
     assert out == ""
     assert err.strip() == "jumpcad: interrupted"
     kept = data("study", "s.db")["evaluations"]

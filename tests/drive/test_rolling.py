@@ -172,6 +172,14 @@ def test_a_play_is_counted_from_where_the_corner_first_drives_the_cam() -> None:
     assert lagging.first == lagging.last == 400, "with friction above its slope no corner drives"
 
 
+def test_the_cam_has_run_ahead_by_an_angle_at_the_first_index_at_or_beyond_it() -> None:
+    release = _Release(arc(0.3), parts())
+    for share in (0.0, 0.1, 1.0, 1.9, 17.5):
+        steps = release._index(share * release.step) - release.first
+        assert steps - 1 < share <= steps
+    assert release._index(1.0) == release.last
+
+
 @pytest.mark.parametrize(("rate", "left"), [(0.7, 0.0), (-0.7, -0.7)])
 def test_what_a_rebound_gives_the_leg_is_lost(monkeypatch: pytest.MonkeyPatch, rate: float, left: float) -> None:
     """The roller leaves the corner with the leg on its way up, or down."""
