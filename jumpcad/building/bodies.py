@@ -17,7 +17,7 @@ from jumpcad.workshop import Workshop
 
 
 def bodies_of(layout: Layout, parts: Iterable[Part], hardware: Iterable[BoughtPart]) -> dict[str, Body]:
-    """Return the four rigid bodies with everything that they carry."""
+    """Return the four rigid bodies by name (kg, m, in their frames) with everything that they carry."""
     carried: dict[str, list[MassProperties]] = defaultdict(list)
     for part in parts:
         for placement in part.placements:

@@ -23,7 +23,13 @@ NOT_IN_EVERY_ROBOT = (
 
 
 def weighed_part(drawing: Drawing, workshop: Workshop) -> Part:
-    """Return a drawing with its material and the mass of one copy."""
+    """Return a drawing with its material and the mass of one copy.
+
+    Raises
+    ------
+    JumpcadError
+        If the user's weight is off by more than `WEIGHED_OFF`.
+    """
     material, material_name = workshop.material(drawing.role), workshop.material_name(drawing.role)
     model, nozzle = workshop.mass.model, workshop.printer.nozzle_mm
     mass = mass_properties(drawing.shape, material.density_g_cm3, workshop.process, nozzle, model)
@@ -39,7 +45,7 @@ def weighed_part(drawing: Drawing, workshop: Workshop) -> Part:
 
 
 def require_parts(weighed: Iterable[str], names: Sequence[str]) -> None:
-    """Reject weights of parts that neither this robot nor any other has."""
+    """Reject weights of parts that neither this robot, whose parts have these names, nor any other has."""
     known = (*names, *NOT_IN_EVERY_ROBOT)
     for name in weighed:
         if name not in known:

@@ -14,13 +14,13 @@ import numpy as np
 
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.fronts import energy_j
-from jumpcad.search.methods import STEPS, Task
+from jumpcad.search.methods import METHODS, STEPS, Task
 from jumpcad.search.methods.bayesian import default_initial, run_bayesian
 from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, best_trial
 
-RUNS = 3
+RUNS = METHODS["paper"].runs
 """Runs of the genetic algorithm."""
 EXPLORED, EVOLVED = 0.15, 0.51
 """Shares of the evaluations for the random designs, and for all runs of the genetic algorithm; the three searches near
