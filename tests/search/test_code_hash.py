@@ -59,7 +59,13 @@ def test_values_of_closures_and_defaults_count() -> None:
 
         return light
 
-    for make in (weighted, default):
+    def named_default(weight: float) -> Any:
+        def light(m: Any, *, by: float = weight) -> float:
+            return by * m["range"]
+
+        return light
+
+    for make in (weighted, default, named_default):
         assert code_hash(make(1.0)) == code_hash(make(1.0)) != code_hash(make(2.0))
 
 
@@ -120,22 +126,37 @@ class Named:
 FIRST, SECOND = Named("FIRST"), Named("SECOND")
 
 
-def made(body: int) -> type:
-    """Return a class whose methods of three kinds return a number."""
+KINDS = ("value", "base", "getter", "setter", "static", "of_class", "comparison")
 
-    class Made:
-        whole = body
+
+def made(body: int, kind: str = "value") -> type:
+    """Return a class in which one thing has a number: a value, a method of some kind, or what it is derived from."""
+    value, base, getter, setter, static, of_class, comparison = (body if kind == one else 0 for one in KINDS)
+
+    class Base:
+        below = base
+
+    class Made(Base):
+        whole = value
 
         @property
         def part(self) -> int:
-            return body
+            return getter
+
+        @part.setter
+        def part(self, to: int) -> None:
+            self.kept = to + setter
 
         @staticmethod
         def still() -> int:
-            return body
+            return static
+
+        @classmethod
+        def whose(cls) -> int:
+            return of_class
 
         def __eq__(self, other: object) -> bool:
-            return bool(other == body)
+            return bool(other == comparison)
 
         __hash__ = None  # type: ignore[assignment]
 
@@ -152,7 +173,7 @@ def made(body: int) -> type:
         (10**30, 10**30, 10**30 + 1), (np.array([1.0, 2.0]), np.array([1.0, 2.0]), np.array([1.0, 2.5])),
         (np.array([1.0]), np.array([1.0]), np.array([1])), (math.sin, math.sin, math.cos), (math, math, json),
         (functools.partial(round, ndigits=1), functools.partial(round, ndigits=1), functools.partial(round, ndigits=2)),
-        (made(1), made(1), made(2)), (made(1)(), made(1)(), made(2)()), ([].append, [].append, [1].append),
+        *((made(1, kind), made(1, kind), made(2, kind)) for kind in KINDS), (made(1)(), made(1)(), made(2)()), ([].append, [].append, [1].append),
         (re.compile("a"), re.compile("a"), re.compile("b")), (FIRST, FIRST, SECOND),
         (random.Random(1), random.Random(1), random.Random(2)), (range(3), range(3), range(4)),
         (datetime.date(2020, 1, 2), datetime.date(2020, 1, 2), datetime.date(2020, 1, 3)),

@@ -57,15 +57,15 @@ def test_what_is_no_file_is_no_study(tmp_path, name):
 WAYS = ["mode=rw", "mode=ro", "mode=ro&immutable=1"]
 
 
-@pytest.mark.parametrize("log", [False, True], ids=["without a log", "with a log"])
+@pytest.mark.parametrize("log", [None, b"", b"log"], ids=["without a log", "with an empty log", "with a log"])
 @pytest.mark.parametrize("name", ["SQLITE_CANTOPEN", "SQLITE_READONLY_DIRECTORY", "SQLITE_BUSY"])
 @pytest.mark.parametrize("fails", [0, 1, 2, 3])
 def test_a_file_is_opened_in_the_first_way_that_is_permitted(tmp_path, monkeypatch, fails, name, log):
     """For writing, for reading, and, without a log beside it, as one that does not change; other errors are raised."""
     path, tried, connect = tmp_path / "s.db", [], database.connect
     StudyStore.write(path, IDENTITY).close()
-    if log:
-        (tmp_path / "s.db-wal").write_bytes(b"log")
+    if log is not None:
+        (tmp_path / "s.db-wal").write_bytes(log)
 
     class Refused:
         def execute(self, _):
@@ -125,7 +125,10 @@ def test_what_is_no_error_of_the_file_is_passed_on():
 
 def test_a_study_is_written_while_its_lock_is_held(tmp_path):
     assert not is_written(tmp_path / "none.db")
+    others = os.umask(0o022)
     descriptor = lock(tmp_path / "s.db")
+    os.umask(others)
+    assert (tmp_path / "s.db").stat().st_mode & 0o777 == 0o644  # others may read what is searched
     assert is_written(tmp_path / "s.db")
     with pytest.raises(JumpcadError, match="is being written by another run"):
         lock(tmp_path / "s.db")
@@ -138,9 +141,10 @@ def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):
     for fine in (None, tmp_path / "new.db", tmp_path / "old.db"):
         require_study(fine)
     (tmp_path / "folder.db").mkdir()
+    (tmp_path / "nowhere.db").symlink_to(tmp_path / "gone" / "s.db")
     for wrong, said in (
         ("s.sqlite", "must end in .db"), ("none/s.db", "there is no folder"),
-        ("folder.db", "is there already and is no file"), ("a\0b.db", "cannot be a path: it has a NUL"),
+        ("folder.db", "is there already and is no file"), ("nowhere.db", "is there already and is no file"), ("a\0b.db", "cannot be a path: it has a NUL"),
     ):  # fmt: skip
         with pytest.raises(JumpcadError, match=said):
             require_study(tmp_path / wrong)
