@@ -87,6 +87,15 @@ def test_a_model_that_always_fails_ends_the_run(evaluator):
     assert one.store.trials() == []
 
 
+def test_failures_after_something_worked_are_rows(evaluator):
+    """The model works here, so designs are the cause, also where they are all of a batch."""
+    one = evaluator(model=Trap(way="bug"))
+    one.evaluate([design for design in designs(16) if design.rest_angle_deg < 60.0], "ga", 0)
+    found = one.evaluate([design for design in designs(32) if design.rest_angle_deg > 60.0], "ga", 1)
+    assert len(found) > 1
+    assert {trial.evaluation.verdict for trial in found} == {QUARANTINED}
+
+
 def test_a_single_bad_design_is_a_row(evaluator):
     one = evaluator(model=Trap(way="bug"))
     trials = one.evaluate(designs(32), "ga", 0)
@@ -100,6 +109,8 @@ def test_what_is_left_out_is_a_row_with_its_outcome_and_is_not_evaluated(evaluat
     one, (first, second, third) = evaluator(model=Hill(log)), designs(3)
     out = {Variant.of(second).key: Evaluation("screened", {"guessed": 0.5})}
     notes = [{"log_feasible": float(number)} for number in range(3)]
+    seen = []
+    one._watch = lambda trial, computed: seen.append((trial.place, computed))
     trials = one.evaluate([first, second, third], "bo", 4, proposals=notes, left_out=out)
     assert len(log.read_text().splitlines()) == 2
     assert [(trial.phase, trial.step, trial.place) for trial in trials] == [("bo", 4, place) for place in range(3)]
@@ -107,6 +118,7 @@ def test_what_is_left_out_is_a_row_with_its_outcome_and_is_not_evaluated(evaluat
     assert (trials[1].evaluation, trials[1].score) == (Evaluation("screened", {"guessed": 0.5}), None)
     assert [dict(trial.proposal) for trial in trials] == [notes[0], {}, notes[2]]
     assert {trial.model for trial in trials} == {one.model.digest}
+    assert seen == [(0, True), (1, True), (2, True)]  # decided now, not read from the file
     assert [one.holds(Variant.of(design)) for design in designs(4)] == [True, True, True, False]
 
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
-from support.shops import Shop
+from support.shops import SHOP, Shop
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.explore import (
@@ -217,6 +217,20 @@ def test_a_map_varies_the_first_along_its_lines_and_the_second_from_line_to_line
     for y, line in zip(found.y, found.trials, strict=True):
         for x, trial in zip(found.x, line, strict=True):
             assert trial.design == CENTRE.model_copy(update={"rest_angle_deg": x, "stiffness_nmm_per_deg": y})
+
+
+def test_a_map_has_the_names_of_its_axes_and_as_many_lines_as_the_second_has_values(evaluator):
+    """Two batteries along, three thicknesses of plates up, and the other way round; after sweeps of the same search."""
+    one = evaluator(model=Shop(), space=SHOP)
+    sweep(one, CENTRE, 2)
+    batteries, plates = ("lipo-2s-180", "lipo-1s-300"), np.linspace(1.2, 2.4, 3).tolist()
+    over = feasibility_map(one, CENTRE, "bought.battery", "body.plate_mm", 3)
+    turned = feasibility_map(evaluator(model=Shop(), space=SHOP), CENTRE, "body.plate_mm", "bought.battery", 3)
+    assert (over.x_names, over.y_names, turned.x_names, turned.y_names) == (batteries, (), (), batteries)
+    found = [[trial.workshop for trial in line] for line in over.trials]
+    assert found == [[{"body.plate_mm": y, "bought.battery": x} for x in batteries] for y in plates]
+    found = [[trial.workshop for trial in line] for line in turned.trials]
+    assert found == [[{"body.plate_mm": x, "bought.battery": y} for x in plates] for y in batteries]
 
 
 def test_the_elite_are_a_tenth_or_twenty(evaluator):
