@@ -144,7 +144,8 @@ def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):
     (tmp_path / "nowhere.db").symlink_to(tmp_path / "gone" / "s.db")
     for wrong, said in (
         ("s.sqlite", "must end in .db"), ("none/s.db", "there is no folder"),
-        ("folder.db", "is there already and is no file"), ("nowhere.db", "is there already and is no file"), ("a\0b.db", "cannot be a path: it has a NUL"),
+        ("folder.db", "is there already and is no file"), ("nowhere.db", "is there already and is no file"),
+        ("a\0b.db", "cannot be a path: it has a NUL"),
     ):  # fmt: skip
         with pytest.raises(JumpcadError, match=said):
             require_study(tmp_path / wrong)

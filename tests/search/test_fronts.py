@@ -19,7 +19,7 @@ from jumpcad.search.fronts import (
     front,
     hypervolume,
 )
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.objective import OBJECTIVES, Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
 
@@ -104,8 +104,10 @@ def test_of_two_designs_with_equal_energy_only_the_better_one_is_on_the_front(tr
     assert front([worse, better]) == front([better, worse]) == [better]
 
 
-@pytest.mark.parametrize(("against", "figure", "sign"), [("mass", "mass_kg", 1.0), ("rise", "com_rise_m", -1.0)])
-def test_a_front_of_two_figures_is_what_nothing_dominates(trials, against, figure, sign):
+@pytest.mark.parametrize(
+    ("against", "figure", "sign", "reference"), [("mass", "mass_kg", 1.0, 0.3), ("rise", "com_rise_m", -1.0, 0.0)]
+)
+def test_a_front_of_two_figures_is_what_nothing_dominates(trials, against, figure, sign, reference):
     """Of a cost less is better, of another objective more; a trial without the figure is on no front."""
     generator, cost = np.random.default_rng(1), find_cost(against)
     weighed = [replace(one, evaluation=Evaluation("jump", {figure: float(generator.random())})) for one in trials]
@@ -119,8 +121,17 @@ def test_a_front_of_two_figures_is_what_nothing_dominates(trials, against, figur
     assert all(cost.shown(cost.of(one)) == one.evaluation.metrics[figure] for one in weighed)
     theirs = reference_hypervolume(np.array([[s, -e] for s, e in points]), [0.0, -1.0])
     assert hypervolume(weighed, 1.0, cost) == pytest.approx(theirs, rel=1e-12)
+    below = np.array([[s, -e] for s, e in points if e < reference])  # 300 g at most; any rise
+    theirs = reference_hypervolume(below, [0.0, -reference])
+    assert hypervolume(weighed, cost=cost) == pytest.approx(theirs, rel=1e-12)
     assert cost.of(trials[0]) == np.inf
     assert str(cost.shown(0.0)) == "0.0"  # not -0
+
+
+@pytest.mark.parametrize("name", [*COSTS, *OBJECTIVES])
+def test_a_rejected_design_counts_as_dearer_than_all_that_are_compared(name):
+    """Or a genetic algorithm would keep it for its cost."""
+    assert find_cost(name).worst > find_cost(name).reference
 
 
 def test_costs_are_found_by_name_and_by_what_a_study_remembers():

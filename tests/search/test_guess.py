@@ -72,13 +72,18 @@ def test_a_guess_is_the_jump_of_the_robot_with_the_fitted_figures(monkeypatch):
     one = np.eye(45)[0]
     constant = {name: value * one for name, value in FIGURES.items() if name != "body_mass_kg"}
     fitted = {"size_m": 0.1 * one, "ballistic_range_m": 9.0 * one}  # a range is a figure of robots too: not of this one
+    fitted |= {"margin bed": 2.5 * one, "margin tips": 99.0 * one}
     fit = Fit(0, constant | fitted | {"log body_mass_kg": np.eye(45)[1] - 3.0 * one}, {})
     for share in (0.3, 0.8):
         point = SPACE.to_unit(BEST)
         point[0] = share
         variant = SPACE.to_variant(point)
         robot = stand_in(variant.design, FIGURES | {"body_mass_kg": np.exp(2.0 * share - 4.0)}, LIKE)
-        assert guesser(variant, fit).score == pytest.approx(simulate(robot).ballistic_range_m, rel=1e-6)
+        found, jump = guesser(variant, fit), simulate(robot)
+        assert found.score == pytest.approx(jump.ballistic_range_m, rel=1e-6)
+        statics = {one.name: one.margin for one in jump.findings if one.name in ("tips", "too_weak")}
+        assert len(statics) == 2  # what the jump itself tells is not fitted
+        assert found.margins == pytest.approx({"bed": 2.5} | statics, rel=1e-6)
 
 
 def test_what_the_gate_refuses_does_not_jump(monkeypatch):

@@ -1,5 +1,6 @@
 """Objectives that users write: what counts as the same function, and one line for each that fails."""
 
+import importlib.util
 import json
 import os
 import random
@@ -52,7 +53,12 @@ def test_a_file_finds_the_modules_beside_it_from_any_folder(tmp_path, monkeypatc
     monkeypatch.setattr(sys, "path", list(sys.path))
     (tmp_path / "weights_beside.py").write_text("MASS = 2.0\n")
     (tmp_path / "aims.py").write_text(f"from weights_beside import MASS as WEIGHT\n{FILE.partition(chr(10))[2]}")
+    (tmp_path / "colorsys.py").write_text("")  # of a name that Python has itself: the search's own is not hidden
     assert find_objective(f"{tmp_path}/aims.py:light").score(JUMP) == pytest.approx(3.8)
+    found = importlib.util.find_spec("colorsys")
+    assert found is not None
+    assert found.origin is not None
+    assert not found.origin.startswith(str(tmp_path))
 
 
 def test_the_hash_follows_the_code_and_the_values_that_it_uses(tmp_path):
@@ -102,7 +108,7 @@ def test_a_score_below_zero_is_better_than_a_rejected_design():
         (lambda m: sys.exit("bye"), "SystemExit: bye"),
         (lambda m: float("nan"), "returns nan"),
         (lambda m: float("inf"), "returns inf"),
-        (lambda m: 10**400, "returns a value too long|returns 1000"),
+        (lambda m: 10**400, "returns (a value too long|1000).*not a number within ±1e"),
         (lambda m: "far", r"returns 'far' \(str\), not a number"),
         (lambda m: True, r"returns True \(bool\)"),
         (lambda m: None, "returns None"),

@@ -29,6 +29,15 @@ def test_columns_of_numbers_and_bars_are_marked() -> None:
     assert "class" not in plain
 
 
+def test_on_a_phone_a_table_leaves_out_columns_or_has_its_cells_below_each_other() -> None:
+    """As the style says of both kinds: what has columns to leave out keeps its rows."""
+    whole, *_ = table(("name", "n"), [])
+    opening, head, *_ = table(("name", "n"), [], extra=(1,))
+    assert whole == '<div class="wide stacked"><table>'
+    assert opening == '<div class="wide"><table>'
+    assert [one.get("class") for one in ElementTree.fromstring(head)] == [None, "extra"]
+
+
 @pytest.mark.parametrize(
     ("name", "value", "label", "text"),
     [
