@@ -90,6 +90,13 @@ def test_neighbours_lie_along_the_axes_that_are_on_no_bound():
     assert points[:2, 0] == pytest.approx([0.4 + STEP, 0.4 - STEP])
     assert (points[:, 1:] == place[1:]).all()
     assert len(points) == 2 + DRAWN
+    names = ["", "any", "683"]
+    space = Space.make(fixed=fixed, choices={"bought.leg_bearing": names}, workshop=load_workshop())
+    middle = space.to_variant(np.where(np.array(space.categories) > 0, 0.5, 0.4))  # not on a bound, and yet no number
+    best = replace(best, design=middle.design, workshop=middle.workshop)
+    points = np.array(neighbours(space, best, np.random.default_rng(0)))
+    assert (points[:, np.array(space.categories) > 0] == 0.5).all()
+    assert len(points) == 4 + DRAWN
     whole = replace(best, design=SMALL.to_design(np.array([0.4, 0.5, 0.6])), workshop={})
     points = np.array(neighbours(SMALL, whole, np.random.default_rng(0)))
     assert len(points) == 6 + DRAWN

@@ -284,6 +284,41 @@ def test_workers_and_timeouts_have_ends_that_are_told(workers, limit_s, message)
         assert local_pool(256, limit).workers == 256
 
 
+class Wavering(Hill):
+    """A hill that fails otherwise every time."""
+
+    failures = iter(["one", "two"])
+
+    def __call__(self, design):
+        raise RuntimeError(next(self.failures))
+
+
+def test_a_design_that_fails_otherwise_when_it_is_repeated_is_told_with_both(tmp_path):
+    """Its own reason is the last one: then it was alone."""
+    (found,), (first, second) = evaluate(local_pool(0), Wavering(), GOOD[:1])
+    assert (found.verdict, found.detail) == (QUARANTINED, "RuntimeError: two")
+    assert first == "an evaluation failed and is repeated alone: RuntimeError: one"
+    assert second.startswith("a design is quarantined: RuntimeError: two; before: RuntimeError: one; design: ")
+
+
+def test_after_its_processes_were_lost_a_task_goes_to_new_ones_with_the_same_limit():
+    """What an executor says that has lost them: it takes no more tasks."""
+    limits, opened, ended = [], [], []
+
+    class Lost(InProcess):
+        def submit(self, fn, /, *args, **kwargs):
+            if self is opened[0]:
+                raise BrokenExecutor
+            limits.append(args[-1])
+            return super().submit(fn, *args[:-1], 0.0)
+
+    with Pool(lambda: opened.append(Lost()) or opened[-1], ended.append, 1, 12.5) as pool:
+        assert [outcome.evaluation for outcome in pool.evaluate(Hill(), GOOD[:1])] == [Hill()(GOOD[0])]
+    assert limits == [12.5]
+    assert ended == opened
+    assert len(opened) == 2
+
+
 @pytest.mark.parametrize(
     ("error", "said"),
     [

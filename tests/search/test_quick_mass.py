@@ -203,7 +203,10 @@ def test_a_section_is_solid_to_the_depth_of_its_walls_and_layers(
     body: str, role: str, width_mm: float, height_mm: float
 ) -> None:
     """Walls on both sides, layers above and below; within, the infill. Lines overlap by their round ends (Slic3r)."""
-    shop = changed(process__infill=0.1, process__perimeters=2, process__top_layers=2, process__bottom_layers=3)
+    shop = changed(
+        process__infill=0.1, process__perimeters=2, process__top_layers=2, process__bottom_layers=3, roles__body="PLA"
+    )  # fmt: skip
+    assert shop.material("body").density_g_cm3 != shop.material("links").density_g_cm3
     process, density = shop.process, shop.material(role).density_g_cm3
     line = process.line_width_mm - process.layer_height_mm * (1.0 - math.pi / 4.0)
     inside = (width_mm - 2.0 * 2.0 * line) / width_mm * (height_mm - 5.0 * process.layer_height_mm) / height_mm
@@ -292,6 +295,15 @@ def test_carried_parts_are_known_within_their_ranges() -> None:
         low, high = CARRIED_G["battery" if kind == "batteries" else kind]
         for mass, expected in ((low + 0.01, True), (high - 0.01, True), (low - 0.01, False), (high + 0.01, False)):
             assert known(DESIGN, own(kind, name, mass_g=mass - less)) is expected, (kind, mass)
+
+
+@pytest.mark.parametrize("kind", ["bearings", "springs", "pads"])
+def test_parts_of_one_s_own_are_not_known(kind: str) -> None:
+    """Also where they are the catalogue's by another name: what they weigh, or bear, was never compared."""
+    table = getattr(SHOP.catalogue, kind)
+    mine = next(iter(table.values())).model_dump(exclude_none=True)
+    assert known(DESIGN, SHOP)
+    assert not known(DESIGN, Workshop(**SHOP.model_dump(exclude_none=True) | {kind: {"own": mine}}))
 
 
 @pytest.mark.parametrize(

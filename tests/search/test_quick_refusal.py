@@ -172,6 +172,9 @@ def test_a_robot_that_stays_on_the_ground_is_not_built(monkeypatch):
     assert standing.margin == pytest.approx(standing.value - standing.limit)
     assert standing.margin < 0.0
     assert "by an estimate of the masses, with springs of up to 6 % more energy too" in standing.message
+    alone = simulate(sized_robot(named(LONG_TOES), DEFAULT), robot_model().guess_settings, "planar").findings
+    (missing,) = (one for one in alone if one.name == "no_takeoff")
+    assert standing.margin == pytest.approx(missing.margin)  # with its own springs
 
 
 @pytest.mark.parametrize(

@@ -89,8 +89,14 @@ def test_what_applies_to_bayesian_optimisation_alone_applies_to_every_search_tha
     """A widened search ends by it, whatever it began with."""
     widened = Request(SMALL, Hill(), method="ga", widen=True, **given)
     assert [stage.method for stage in plan_stages(widened)] == ["ga", "bo", "bo", "bo"]
+    Request(SMALL, Hill(), method="ga+bo", **given)
     with pytest.raises(JumpcadError, match=r"does not apply to ga, only to ga\+bo, bo"):
         Request(SMALL, Hill(), method="ga", **given)
+
+
+def test_the_genetic_algorithm_has_its_settings_also_where_another_method_follows():
+    for method, widen in (("ga", False), ("ga+bo", False), ("ga", True)):
+        assert Request(SMALL, Hill(), method=method, widen=widen, preset="published").preset == "published"
 
 
 def test_the_studys_stages_have_an_evaluation_each():

@@ -10,6 +10,7 @@ from support.hills import FIXED, SMALL, Hill
 from jumpcad.building import build
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.mechanism.variants import with_spring_factor
+from jumpcad.search import robust
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.robust import (
@@ -31,6 +32,7 @@ from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation import simulate
+from jumpcad.workshop import load_workshop
 
 
 @dataclass(frozen=True)
@@ -362,6 +364,48 @@ def test_what_joins_off_an_edge_stands_in_the_order_of_its_robustness(evaluator)
     # Of the eight steps that a pick takes, the last is theirs: the next pick begins with the ninth.
     first = 8 * (201 * (len(points) + 1) + 16)
     assert {trial.step for trial in one.trials if trial.phase == "robust"} == {first, first + 7}
+
+
+def test_designs_off_an_edge_do_not_join_a_front_whose_candidates_have_all_of_the_pick(evaluator):
+    """The same edge as above: whatever is not of the front is no candidate, and nothing is kept for it."""
+    one = evaluator()
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
+    one.evaluate([edge, *map(SMALL.to_design, SMALL.spread(12, np.random.default_rng(0)))], "nsga2", 0)
+    searched = one.trials
+    ranked = rank_candidates(one, searched, 0, LENGTHS_ALONE, 24, among=searched[:1])
+    assert [candidate.trial for candidate in ranked] == searched[:1]
+    assert ranked[0].rejections["loop"] > 0
+    assert {trial.phase for trial in one.trials} == {"nsga2", "robust"}
+
+
+def test_what_joins_is_proposed_for_neighbours_that_vary_evenly_within_a_per_cent(evaluator, monkeypatch):
+    """Their standard deviation is that of an even distribution: its half width over the root of 3."""
+    asked = []
+    monkeypatch.setattr(robust, "propose_robust", lambda *given: asked.append(given) or [])
+    one = evaluator()
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
+    one.evaluate([edge], "bo", 0)
+    (trial,) = one.trials
+    rank_candidates(one, [trial], 5, LENGTHS_ALONE, 16)
+    ((_, trials, _, seed, scatter),) = asked
+    assert (trials, seed) == ([trial], 5)
+    assert scatter == pytest.approx(np.linspace(-0.01, 0.01, 100_001).std(), rel=1e-4)
+
+
+def test_the_last_of_a_design_s_choices_is_a_bound_and_that_of_a_workshop_s_is_none(evaluator):
+    """Stiffnesses of 10, 12 and 20: beyond them springs may be made to order, a twentieth of 10 farther."""
+    choices = ["stiffness_nmm_per_deg=10,12,20", "process.perimeters=2,3"]
+    space = Space.parse(fix=FIXED, choose=choices, workshop=load_workshop())
+    one = evaluator(model=InAnyWorkshop(), space=space)
+    (trial,) = one.evaluate([space.to_variant([0.5, 0.5, 1.0, 1.0])], "bo", 0)
+    assert [(bound.name, bound.beyond) for bound in active_bounds(one, trial, 1)] == [("stiffness_nmm_per_deg", 20.5)]
+
+
+class InAnyWorkshop(Hill):
+    """A hill that is the same in every workshop."""
+
+    def __call__(self, design, workshop=None):
+        return super().__call__(design)
 
 
 def test_who_was_not_examined_is_no_candidate(evaluator):

@@ -67,6 +67,9 @@ def test_choices_snap_to_the_nearest():
     assert [space.to_design(p).stiffness_nmm_per_deg for p in space.snap(points)] == [10.0, 12.0, 20.0]
     assert Space.parse(fix=[f"{n}={SEARCH_BOUNDS[n].lower}" for n in PARAMETERS if n != "stiffness_nmm_per_deg"],
                        choose=["stiffness_nmm_per_deg=10,12,20"]).size == 3  # fmt: skip
+    choices = ["c_coef=0.9,1", "d_coef=0.6,0.7", "stiffness_nmm_per_deg=10,12,20"]
+    fixed = [f"{n}={SEARCH_BOUNDS[n].lower}" for n in PARAMETERS if not any(one.startswith(n) for one in choices)]
+    assert Space.parse(fix=fixed, choose=choices).size == 2 * 2 * 3
 
 
 def test_spread_points_of_choices_are_their_levels():

@@ -345,11 +345,15 @@ def test_each_parameter_stands_with_what_was_searched_and_won():
     store, found = made_up()
     with store:
         lines = list(study_page._asked(store, found))
+        store.remember("widened", Space.parse(fix=REST, bound=["compression_ratio=0.1:0.9"]).describe())
+        moved = words(study_page._asked(store, found))
         front = words(study_page._asked(made_up("nsga2")[0], found))
     with StudyStore.write(None, IDENTITY | {"method": "explore sample", "objective": "range"}) as sampled:
         view = replace(found, trials=[replace(trial, phase="sample") for trial in found.trials])
         sample = words(study_page._asked(sampled, view))
     said = words(lines)
+    assert "The search moved bounds" in moved
+    assert "The search moved bounds" not in said
     assert "The highest range (range of the jump, m), searched by ga, 3 designs, then bo, 4 designs." in said
     assert "against energy in the springs" in front
     assert front.count("highest") == 2
@@ -399,6 +403,8 @@ def test_designs_that_are_shown_are_the_front_the_candidates_or_the_best():
     assert study_page._shown(found, SPRING_ENERGY) == [TRIALS[0], TRIALS[3], TRIALS[1]]
     candidate = Candidate(TRIALS[3], 1.0, 2.0, {}, 4)
     assert study_page._shown(replace(found, candidates=[candidate]), None) == [TRIALS[3]]
+    alike = shown_trial(3.2, 4, rest_angle_deg=DESIGN.rest_angle_deg + 0.1)  # as the best, but for 0.1°
+    assert study_page._shown(replace(found, trials=[*TRIALS, alike]), None) == [TRIALS[1], TRIALS[3], TRIALS[0]]
     many = [shown_trial(1.0 + n, n, compression_ratio=0.2 + 0.001 * n) for n in range(199)]
     places = [trial.place for trial in study_page._shown(replace(found, trials=many), SPRING_ENERGY)]
     assert places == list(range(0, 199, 2))

@@ -88,11 +88,17 @@ def test_values_scatter_about_the_function_by_the_root_of_their_noise(data):
         assert (mean[0], deviation[0]) == pytest.approx((centre, spread))
 
 
-def test_values_that_are_all_equal_are_expected_everywhere(data):
-    x, _ = data
-    mean, deviation = Surrogate(x, np.full(40, 2.5)).predict(np.random.default_rng(1).random((9, 3)))
-    assert mean == pytest.approx(np.full(9, 2.5))
-    assert np.isfinite(deviation).all()
+@pytest.mark.parametrize("value", [2.5, 0.1])
+def test_values_that_are_all_equal_are_expected_everywhere(data, value):
+    """What rounding leaves between them, as of 39 times 0.1, is no scale: others may be anything."""
+    x, values = data[0][:39], np.full(39, value)
+    assert (values.std() > 0.0) == (value == 0.1)
+    theta = [0.0, *[np.log(0.2)] * 3, np.log(0.01)]
+    for known in (Surrogate(x, values), Surrogate(x, values, theta, fit=False)):
+        mean, deviation = known.predict(np.random.default_rng(1).random((9, 3)))
+        assert mean == pytest.approx(np.full(9, value))
+        assert np.isfinite(deviation).all()
+    assert known.predict(np.full((1, 3), 99.0))[1] == pytest.approx(1.0)
 
 
 def test_a_fit_finds_by_how_much_values_scatter(data):

@@ -110,6 +110,12 @@ def test_values_that_no_robot_has_are_refused(values: dict[str, float | str]) ->
         require_made(values)
 
 
+@pytest.mark.parametrize(("given", "missing"), [(SPRINGS, FLOOR), (FLOOR, SPRINGS)])
+def test_of_two_factors_the_one_that_is_missing_is_named(given: str, missing: str) -> None:
+    with pytest.raises(JumpcadError, match=f"^{missing}: missing$"):
+        require_made({given: 1.0})
+
+
 def test_values_that_a_robot_may_have_are_taken() -> None:
     require_made({})
     require_made({SPRINGS: 0.95, FLOOR: 1.1})

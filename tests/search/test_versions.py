@@ -37,7 +37,10 @@ def test_every_change_of_what_computes_is_noticed(package, name, counts):
     before = code_digest.__wrapped__()
     assert code_digest.__wrapped__() == before
     (package / name).write_text("changed = True\n")
-    assert (code_digest.__wrapped__() != before) == counts
+    after = code_digest.__wrapped__()
+    assert (after != before) == counts
+    (package / name).write_text("changed = None\n")  # as many letters
+    assert (code_digest.__wrapped__() != after) == counts
 
 
 def test_the_digest_is_part_of_what_a_study_is_about():

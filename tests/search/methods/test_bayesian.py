@@ -129,7 +129,8 @@ def test_a_prior_study_saves_the_first_points(evaluator):
 
 
 @pytest.mark.parametrize(
-    ("evaluations", "prior", "initial"), [(100, 0, 9), (10, 0, 5), (1, 0, 0), (100, 5, 4), (100, 50, 0)]
+    ("evaluations", "prior", "initial"),
+    [(100, 0, 9), (10, 0, 5), (1, 0, 0), (100, 5, 4), (100, 50, 0), (10, 3, 2)],
 )
 def test_first_points(evaluations, prior, initial):
     assert default_initial(SMALL, evaluations, prior) == initial
@@ -280,18 +281,19 @@ def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evalua
 
 
 @pytest.mark.parametrize(
-    ("rehearsal", "steps", "promised", "least_gain", "ended"),
+    ("rehearsal", "polls", "steps", "promised", "least_gain", "ended"),
     [
-        (None, PATIENCE - 1, -20.0, 0.01, False), (None, PATIENCE, -20.0, 0.01, True),
-        (None, PATIENCE, -20.0, 0.0, False), (None, 20, 2.0, 0.01, False),
-        ("guesses", IDLE - 1, -20.0, 0.01, False), ("guesses", IDLE, 2.0, 0.01, True),
-        ("guesses", IDLE, 2.0, 0.0, False),
+        (None, True, PATIENCE - 1, -20.0, 0.01, False), (None, True, PATIENCE, -20.0, 0.01, True),
+        (None, True, PATIENCE, -20.0, 0.0, False), (None, True, 20, 2.0, 0.01, False),
+        ("guesses", True, IDLE - 1, -20.0, 0.01, False), ("guesses", True, IDLE, 2.0, 0.01, True),
+        ("guesses", True, IDLE, 2.0, 0.0, False), ("guesses", False, IDLE, 2.0, 0.01, False),
+        ("guesses", False, PATIENCE, -20.0, 0.01, True),
     ],
 )  # fmt: skip
 def test_a_search_ends_after_so_many_steps_that_gained_too_little(
-    monkeypatch, rehearsal, steps, promised, least_gain, ended
+    monkeypatch, rehearsal, polls, steps, promised, least_gain, ended
 ):
-    """And promised too little, where no robots are guessed; with no least gain it goes on."""
+    """And promised too little, where no robots are guessed to look beside; with no least gain it goes on."""
     first = Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), Evaluation("jump"), 2.0, "m", 0.0)
     note = {"log_improvement": promised, "log_feasible": 0.0, "theta": {"score": [0.1] * 5}}
     one = SimpleNamespace(trials=[first], prior=[], space=SMALL)
@@ -302,7 +304,7 @@ def test_a_search_ends_after_so_many_steps_that_gained_too_little(
         return end(rehearsal)
 
     monkeypatch.setattr(bayesian, "run_steps", steps_of)
-    assert run_bayesian(one, Task(40, 0, least_gain=least_gain)) is ended
+    assert run_bayesian(one, Task(40, 0, least_gain=least_gain), polls) is ended
 
 
 def test_the_best_are_learned_from_however_far_away_they_are(monkeypatch):

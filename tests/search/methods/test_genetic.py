@@ -1,5 +1,6 @@
 """PyGAD through the evaluator."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -111,6 +112,37 @@ def test_a_prior_study_seeds_the_population_and_its_designs_cost_nothing(evaluat
     assert len(pupil.trials) == 60
     assert not {trial.key for trial in pupil.trials} & {trial.key for trial in teacher.trials}
     assert best(pupil.trials) > best(alone.trials)
+
+
+def test_what_a_prior_study_screened_is_no_measurement(evaluator):
+    """Such a design is evaluated here; one that was measured there is not."""
+    points = ([0.5, 0.5, 0.5], [0.4, 0.5, 0.5])
+    measured, screened = evaluator().evaluate([SMALL.to_design(point) for point in points], "ga", 0)
+    screened = replace(screened, evaluation=Evaluation(SCREENED, {GUESSED: 99.0}), score=None)
+    one = evaluator(prior=[replace(measured, score=77.0), screened])
+    found = Fitness(one, "ga", 9, rejected=-5.0)(SimpleNamespace(generations_completed=0), points, None)
+    assert found == [77.0, Hill()(screened.design).metrics["fitness"]]
+    assert [trial.key for trial in one.trials] == [screened.key]
+
+
+def test_a_screen_looks_at_each_candidate_once(monkeypatch):
+    """A study that holds all of a generation says what was left out: nothing is guessed or learned again."""
+    variants, asked, held = [SMALL.to_variant([share, 0.5, 0.5]) for share in (0.2, 0.4, 0.6)], [], set()
+    fitness = object.__new__(ScreenedFitness)
+    fitness._seen = set()
+    fitness.evaluator = SimpleNamespace(
+        holds=lambda one: one.key in held, trials=[], store=SimpleNamespace(recall=lambda _: None)
+    )
+    fitness._screen = SimpleNamespace(
+        learn=lambda *_: False, outcomes=lambda fresh, best: asked.append(([*fresh], best)) or {"some": "outcome"}
+    )
+    assert fitness.left_out(variants[:2]) == {"some": "outcome"}
+    assert fitness.left_out(variants) == {"some": "outcome"}
+    assert fitness.left_out(variants) == {}
+    assert asked == [(variants[:2], 0.0), (variants[2:], 0.0)]
+    again = SMALL.to_variant([0.8, 0.5, 0.5])
+    held.add(again.key)
+    assert fitness.left_out([again]) == {}
 
 
 def test_unknown_preset():
