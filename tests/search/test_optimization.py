@@ -86,7 +86,11 @@ def test_wrong_arguments_are_one_line(folder, options, message):
 
 @pytest.mark.parametrize(
     ("method", "more"),
-    [("bo", {"batch": 3, "until_percent": 1.0, "widen": True}), ("ga", {"screen": True, "preset": "published"})],
+    [
+        ("bo", {"batch": 3, "until_percent": 1.0, "widen": True}),
+        ("ga", {"screen": True, "preset": "published"}),
+        ("nsga2", {"against": "mass"}),
+    ],
 )
 def test_each_option_reaches_the_search(monkeypatch, method, more):
     """Every value is another than the usual one; the workshop's own spring is one to choose."""

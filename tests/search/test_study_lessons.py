@@ -9,6 +9,7 @@ import pytest
 from support.hills import SMALL
 
 from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search import study_lessons
 from jumpcad.search.explore import Importance
@@ -69,6 +70,31 @@ def test_the_longest_bar_is_full_and_two_hundred_designs_tell_evenly_chosen(monk
     page = "\n".join(study_lessons.importances(store, known(*trials)))  # type: ignore[arg-type]
     assert asked == [(store, trials[::3], 7)]
     assert [int(width) for width in re.findall(r"width: (\d+)%", page)] == [100, 67, 33, 17, 8]
+
+
+@pytest.mark.parametrize(
+    ("r_squared", "said"), [(0.5, "fall of R²"), (0.494, "(R² 0.49, at least 0.5 is asked for)"), (np.nan, "(R² nan, ")]
+)
+def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_important(
+    monkeypatch: pytest.MonkeyPatch, r_squared: float, said: str
+) -> None:
+    """Nor do designs that are too few, or that all score alike."""
+    monkeypatch.setattr(study_lessons, "Replay", lambda store: store)
+    monkeypatch.setattr(study_lessons, "importance", lambda *_: replace(LEARNED, r_squared=r_squared))
+    store = SimpleNamespace(identity={"seed": 7})
+    two, alike = known(WON, replace(WON, score=3.0), failed("tips")), known(WON, WON)
+    page = text(study_lessons.importances(store, two))  # type: ignore[arg-type]
+    assert said in page
+    assert ("From 40 designs the score of others cannot be predicted" in page) == (r_squared != 0.5)
+    assert ("c_<wbr" in page or "c_coef" in page) == (r_squared == 0.5)
+    assert list(study_lessons.importances(store, alike)) == []  # type: ignore[arg-type]
+
+    def refused(*_: object) -> None:
+        raise JumpcadError("too few")
+
+    monkeypatch.setattr(study_lessons, "importance", refused)
+    page = text(study_lessons.importances(store, two))  # type: ignore[arg-type]
+    assert page == "Importance 2 designs that jumped: too few to say what is important."
 
 
 @pytest.mark.parametrize(("share", "width"), [(0.0, 0), (0.25, 25), (1.0, 100), (-0.5, 0), (1.5, 100)])

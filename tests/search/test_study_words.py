@@ -31,6 +31,20 @@ def test_every_check_and_every_refusal_has_words():
     assert [name for name in sorted(names) if not reason_words(name)] == []
 
 
+def test_when_something_would_break_is_told_as_its_check_computes_it():
+    """At landing, at release, under a blocked motor: the words' moment stands in the reference too."""
+    reference = (ROOT / "docs/reference/checks.md").read_text(encoding="utf-8")
+    told = []
+    for check in reference.split("\n### ")[1:]:
+        name, _, text = check.partition("\n")
+        for moment in ("land", "release", "blocked"):
+            if moment in REASONS.get(name.strip("`"), ""):
+                assert moment in text, name
+                told.append(moment)
+    assert len(told) > 12
+    assert len({*told}) == 3
+
+
 def test_the_longest_name_counts_and_an_unknown_reason_has_no_words():
     assert reason_words("room_battery") == REASONS["room"]
     assert reason_words("gear_strength_2") == REASONS["gear_strength"]

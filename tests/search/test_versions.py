@@ -41,6 +41,9 @@ def test_every_change_of_what_computes_is_noticed(package, name, counts):
     assert (after != before) == counts
     (package / name).write_text("changed = None\n")  # as many letters
     assert (code_digest.__wrapped__() != after) == counts
+    before = code_digest.__wrapped__()
+    (package / name).rename((package / name).with_stem("renamed"))
+    assert (code_digest.__wrapped__() != before) == counts
 
 
 def test_the_digest_is_part_of_what_a_study_is_about():
