@@ -1,5 +1,6 @@
 """Views of the space show the known facts of the hill."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +9,7 @@ from support.hills import FIXED, SMALL, TOP, Hill
 from support.shops import SHOP, Shop
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search import explore
 from jumpcad.search.explore import (
     _grid,
     _r_squared,
@@ -80,6 +82,19 @@ def scored(scores):
 def test_equal_scores_do_not_say_what_is_important(evaluator):
     with pytest.raises(JumpcadError, match="20 of 20 designs jump, and score alike: nothing says what is important"):
         importance(evaluator(), scored(np.ones(20)), 0)
+
+
+@pytest.mark.parametrize(("count", "enough"), [(9, False), (10, True)])
+def test_two_designs_for_each_fifth_say_what_is_important(evaluator, monkeypatch, count, enough):
+    monkeypatch.setattr(explore, "Surrogate", lambda x, y, *_, **__: SimpleNamespace(
+        theta=None, predict=lambda points: (np.full(len(points), y.mean()), None)
+    ))  # fmt: skip
+    trials = [*scored(np.arange(1.0, 1.0 + count)), replace(scored([1.0])[0], score=None)]
+    if enough:
+        assert importance(evaluator(), trials, 0).designs == 10
+    else:
+        with pytest.raises(JumpcadError, match=r"^9 of 10 designs jump, which is too few .*; raise --samples$"):
+            importance(evaluator(), trials, 0)
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")

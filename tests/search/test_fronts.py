@@ -128,6 +128,17 @@ def test_a_front_of_two_figures_is_what_nothing_dominates(trials, against, figur
     assert str(cost.shown(0.0)) == "0.0"  # not -0
 
 
+@pytest.mark.parametrize("against", ["jumps-per-joule", "range-per-spring-joule", "electrical-energy"])
+def test_what_has_no_such_figure_or_divides_by_nothing_is_on_no_front(trials, against):
+    """As a winding that takes no electricity."""
+    without = {"ballistic_range_m": 1.0}
+    nothing = without | {"electrical_energy_j": 0.0, "spring_energy_j": 0.0}
+    cost = find_cost(against)
+    assert cost.of(replace(trials[0], evaluation=Evaluation("jump", without))) == np.inf
+    divided = cost.of(replace(trials[0], evaluation=Evaluation("jump", nothing)))
+    assert divided == (0.0 if against == "electrical-energy" else np.inf)
+
+
 @pytest.mark.parametrize("name", [*COSTS, *OBJECTIVES])
 def test_a_rejected_design_counts_as_dearer_than_all_that_are_compared(name):
     """Or a genetic algorithm would keep it for its cost."""

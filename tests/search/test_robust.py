@@ -378,6 +378,25 @@ def test_designs_off_an_edge_do_not_join_a_front_whose_candidates_have_all_of_th
     assert {trial.phase for trial in one.trials} == {"nsga2", "robust"}
 
 
+@pytest.mark.parametrize("evaluations", [24, 40])
+def test_what_is_kept_for_those_who_join_is_spent_once(evaluator, monkeypatch, evaluations):
+    """By three designs and two neighbours of each where the best lies on an edge; else by the last candidate."""
+    designs = [SMALL.to_design([0.5, 0.5, place]) for place in (0.1, 0.5, 0.9)]
+    monkeypatch.setattr(robust, "propose_robust", lambda one, _, step, *__: one.evaluate(designs, "margin", step))
+    spent = []
+    for ratio in (0.6999, 0.5):
+        one = evaluator()
+        edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": ratio})
+        edge = edge.model_copy(update={"rest_angle_deg": 55.0, "stiffness_nmm_per_deg": 20.0})
+        inside = [SMALL.to_design([0.3, 0.5, place]) for place in (0.2, 0.4, 0.6, 0.8)]
+        one.evaluate([edge, *inside], "bo", 0)
+        rank_candidates(one, one.trials, 0, LENGTHS_ALONE, evaluations)
+        spent.append(len(one.trials) - 5)
+        assert ("margin" in {trial.phase for trial in one.trials}) == (ratio > 0.69)
+    assert evaluations - 4 <= spent[0] <= evaluations
+    assert evaluations - 4 <= spent[1] <= evaluations
+
+
 def test_what_joins_is_proposed_for_neighbours_that_vary_evenly_within_a_per_cent(evaluator, monkeypatch):
     """Their standard deviation is that of an even distribution: its half width over the root of 3."""
     asked = []

@@ -519,6 +519,14 @@ def test_a_pick_leaves_a_quarter_for_bounds_or_one_evaluation_a_parameter(monkey
     assert shares == [evaluations // 4 - kept]
 
 
+def test_bounds_have_a_step_of_their_own_for_every_length_of_the_search_and_every_pick():
+    """Whoever asks for more has another winner perhaps, and other designs beyond its bounds."""
+    steps = [
+        study._bounds_step(SimpleNamespace(pick=pick), [None] * length) for pick in range(201) for length in range(9)
+    ]
+    assert len(set(steps)) == 201 * 9
+
+
 def test_bounds_get_what_the_neighbours_leave_of_the_pick(monkeypatch):
     given, look = [], study.active_bounds
     monkeypatch.setattr(study, "active_bounds", lambda *asked: given.append(asked) or look(*asked))

@@ -182,6 +182,29 @@ def test_a_cap_is_kept_as_probably_as_the_process_of_the_cost_says(evaluator):
     assert pareto._caps(SMALL, cost, []) == [(np.inf, None)] * 8
 
 
+def test_nsga2_begins_with_the_prior_s_front_against_its_own_cost_and_spread_designs_of_its_seed(
+    evaluator, monkeypatch
+):
+    """Of designs that jump, fewer are on a front against the mass, which is the stiffness, than against the energy."""
+    begun = []
+    monkeypatch.setattr(pareto, "evolve", lambda fitness, first, operators, seed: begun.append((first.tolist(), seed)))
+    points = SMALL.spread(32, np.random.default_rng(5))
+    prior = [trial_of(Weighed(), SMALL.to_design(point), n) for n, point in enumerate(points)]
+    for seed, against in ((3, "mass"), (3, "mass"), (4, "mass"), (3, "spring-energy")):
+        one = evaluator(model=Weighed(), prior=prior)
+        run_nsga2(one, Task(60, seed, against=against))
+    (mass, seed), again, (other, another), (energy, _) = begun
+    assert (seed, another) == (3, 4)
+    assert again == (mass, seed)
+    fronts = [front(prior, find_cost(name)) for name in ("mass", "spring-energy")]
+    assert 1 < len(fronts[0]) < len(fronts[1]) < 20
+    for found, best in ((mass, fronts[0]), (other, fronts[0]), (energy, fronts[1])):
+        assert len(found) == 40
+        assert found[: len(best)] == [SMALL.to_unit(trial.variant).tolist() for trial in best]
+    count = len(fronts[0])
+    assert not any(point in mass[count:] for point in other[count:])
+
+
 @pytest.mark.usefixtures("quick_proposals_once")
 def test_a_front_of_a_learned_cost_resumes(evaluator, tmp_path):
     whole, first = evaluator(model=Weighed()), evaluator(tmp_path / "s.db", model=Weighed())
