@@ -105,6 +105,16 @@ def test_a_function_uses_as_many_values_as_the_message_says(monkeypatch: pytest.
         code_hash(using(2000))
 
 
+def test_a_value_that_cannot_be_looked_at_is_told_by_its_error() -> None:
+    class Shy:
+        def __getattribute__(self, name: str) -> Any:
+            raise ZeroDivisionError
+
+    shy = Shy()
+    with pytest.raises(JumpcadError, match=r"cannot be looked at \(ZeroDivisionError\); make it in the function$"):
+        code_hash(lambda m: m["range"] + (shy is None))  # type: ignore[arg-type]
+
+
 def test_a_script_is_no_library_wherever_the_program_lies_that_runs_it() -> None:
     """What runs here as `__main__` is an installed package; its functions would be an objective's own code."""
     assert not code_hash_module._is_library("__main__")

@@ -227,6 +227,38 @@ def test_a_figure_that_there_is_not_is_named_with_those_that_there_are():
     assert "\n" not in str(error.value)
 
 
+class Mute(Exception):
+    """An error that cannot say what it is."""
+
+    def __str__(self):
+        raise RuntimeError
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (ValueError(), "fails for a design that jumps: ValueError; mend it"),
+        (Mute(), "fails for a design that jumps: Mute; mend it"),
+        (ValueError("a\x1b[31m\nb"), r"fails for a design that jumps: ValueError: a\x1b[31m\nb; mend it"),
+        (ValueError("x" * 500), f"fails for a design that jumps: ValueError: {'x' * 108}; mend it"),
+        (KeyError(), "asks for ''; a jump of this model has fitness, mass_kg; mend it"),
+    ],
+    ids=["no text", "no words", "controls", "long", "no key"],
+)
+def test_whatever_an_error_says_it_is_told_in_one_short_line(tmp_path, error, said):
+    """To 120 letters of its own; an error of a file that does not run too."""
+
+    def failing(m):
+        raise error
+
+    with pytest.raises(JumpcadError) as caught:
+        find_objective(failing).score(JUMP)
+    assert str(caught.value).startswith(f"the objective failing {said}")
+    (tmp_path / "aims.py").write_text("raise ValueError('x' * 500)\n")
+    with pytest.raises(JumpcadError, match=rf"does not run: ValueError: {'x' * 108}$"):
+        find_objective(f"{tmp_path}/aims.py:light")
+
+
 def test_an_interrupt_in_a_users_function_is_one(tmp_path):
     def interrupted(m):
         raise KeyboardInterrupt

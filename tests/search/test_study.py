@@ -317,9 +317,11 @@ def test_a_study_remembers_what_ended_it_and_forgets_it_while_it_goes_on(tmp_pat
             return store.recall("ended")
 
     assert held() == ended
-    seen = []
+    seen, watched = [], []
     with local_pool(0) as pool:
-        run_study(request, tmp_path / "s.db", pool, lambda *_: seen.append(held()))
+        run_study(request, tmp_path / "s.db", pool, lambda *told: seen.append(held()) or watched.append(told))
+    assert [trial for trial, _ in watched[: len(result.trials)]] == result.trials
+    assert not any(computed for _, computed in watched[: result.evaluations])  # all of it is read
     assert len(seen) >= len(result.trials)
     assert set(seen) == {None}
     assert held()["by"] == ended["by"]
@@ -389,7 +391,10 @@ def test_a_finished_study_is_read_whole_however_short_the_time(tmp_path, method)
 
 def test_everything_refused_has_no_best():
     space = Space.parse(fix=["compression_ratio=0.75"])
-    result = run(Request(space, Hill(), method="ga", evaluations=12))
+    result = run(Request(space, Hill(), method="ga", evaluations=67))
+    assert result.notes == [
+        "none of the first 50 designs jumps (loop 50): there may be no robot within these bounds"
+    ]  # fmt: skip
     assert result.best is None
     assert result.winner is None
     assert result.candidates == []
