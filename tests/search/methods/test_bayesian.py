@@ -263,17 +263,6 @@ def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as
     assert notes[10]["theta"] == {"score": pytest.approx([0.3] * 5)}
 
 
-def test_first_designs_follow_from_the_seed(evaluator):
-    keys = []
-    for seed in (4, 4, 5):
-        one = evaluator()
-        run_steps(one, "bo", Task(9, seed, initial=9), lambda *_: [])
-        keys.append({trial.key for trial in one.trials})
-    assert len(keys[0]) == 9
-    assert keys[0] == keys[1]
-    assert not keys[1] & keys[2]
-
-
 def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evaluator):
     def proposer(learner, trials, count, generator):
         point = np.array([0.01 * len(trials), 0.5, 0.5])

@@ -213,13 +213,6 @@ def test_a_search_stops_after_so_many_generations_without_a_new_design_or_when_i
     assert fitness.on_generation(None) == "stop"
 
 
-def test_a_first_population_follows_from_the_seed(evaluator):
-    """PyGAD's own random numbers come after it."""
-    first, again, other = (_first_population(evaluator(), 10, seed).tolist() for seed in (3, 3, 4))
-    assert first == again
-    assert not any(point in first for point in other)
-
-
 def test_half_of_a_first_population_are_the_best_of_a_prior_study(evaluator):
     """The best first, then evenly spread ones; all within the space, each coordinate free or one of its choices."""
     teacher = evaluator()
