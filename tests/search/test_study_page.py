@@ -317,6 +317,8 @@ def test_the_main_data_of_a_study_stand_on_its_cards():
     with store:
         lines = list(study_page._verdict(store, found))
         none = words(study_page._verdict(store, replace(found, winner=None)))
+        store.remember("stages", [{"method": "ga", "evaluations": 4}])
+        ended = words(study_page._verdict(store, found))
         candidate = Candidate(TRIALS[3], 1.0, 2.0, {}, 4)
         robust = words(study_page._verdict(store, replace(found, winner=TRIALS[3], candidates=[candidate])))
     cards = dict(re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", "".join(lines)))
@@ -327,6 +329,7 @@ def test_the_main_data_of_a_study_stand_on_its_cards():
     assert words(lines).startswith("The best of 4 designs: range of the jump 3.25 m.")
     assert robust.startswith("The most robust of the best designs: range of the jump 2 m.")
     assert none.startswith("None of 4 designs jumps.")
+    assert "designs of the search 4 of them jump" in ended  # all that were planned
 
 
 @pytest.mark.parametrize(
@@ -432,7 +435,11 @@ def test_candidates_stand_in_a_row_with_their_neighbours():
         "design", "trial", "score (m)", "±1 %", "as made", "rejected", "springs (J)", "compression_ratio",
         "rest_angle_deg (°)",
     ]  # fmt: skip
+    marks = [kind.split() for line in lines for kind in re.findall(r'<th(?: class="([^"]*)")?>', line)]
+    assert marks == [[], *[["number"]] * 5, *[["number", "extra"]] * 3]  # a phone has no room for the springs
     plain = "".join(study_page._designs(replace(found, candidates=[]), shown, [4, 2], making))
+    marks = [kind.split() for kind in re.findall(r'<th(?: class="([^"]*)")?>', plain)]
+    assert marks == [[], *[["number"]] * 3, *[["number", "extra"]] * 2]  # unless nothing is known of neighbours
     assert "rejected" not in plain
     assert "Most robust first" not in plain
 
@@ -468,6 +475,7 @@ def test_the_area_of_a_long_front_is_that_of_all_its_designs():
     assert f"{hypervolume(many):.4g}" != f"{hypervolume(study_page._shown(whole, SPRING_ENERGY)):.4g}"
     assert f"The area below its line, up to 1.5 J, is {hypervolume(many):.4g} m·J (hypervolume)" in said
     assert "100 of its 150 designs are shown, evenly chosen along it." in said
+    assert said.count("jumpcad studio F.db --trial") == 100  # the study is kept in memory: in a file of any name
     assert "The page opens on design 100 (trial 150), the one with the highest score" in said
 
 
