@@ -159,8 +159,9 @@ def test_a_bound_is_active_within_a_thousandth_of_the_range_and_no_design_lies_b
     assert active_sides(ratio, 0.8003, 0.25) == [("lower", 0.8, pytest.approx(0.7))]
     assert active_sides(ratio, 1.1997, 0.25) == [("upper", 1.2, pytest.approx(1.3))]
     assert active_sides(ratio, 0.8005, 0.25) == active_sides(ratio, 1.0, 0.25) == []
-    angle = SearchParameter("rest_angle_deg", 20.0, 90.0)  # a design has 90° at most
-    assert active_sides(angle, 90.0, 0.25) == []
+    angle = SearchParameter("rest_angle_deg", 5.0, 90.0)  # a design has 5° at least and 90° at most
+    assert active_sides(angle, 90.0, 0.25) == active_sides(angle, 5.0, 0.25) == []
+    assert active_sides(SearchParameter("rest_angle_deg", 6.0, 70.0), 6.0, 0.25) == [("lower", 6.0, 5.0)]
     assert active_sides(SearchParameter("rest_angle_deg", 20.0, 85.0), 85.0, 0.25) == [("upper", 85.0, 90.0)]
     plate = SearchParameter("body.plate_mm", 1.6, 2.4)
     assert active_sides(plate, 2.4, 0.5) == [("upper", 2.4, pytest.approx(2.8))]
