@@ -113,6 +113,8 @@ def test_rows_share_their_names(tmp_path: Path) -> None:
         ("UPDATE names SET names = '5' WHERE number = 2", "names.list[str]: Input should be a valid array"),
         ('UPDATE names SET names = \'[["=1+1", "mm"]]\' WHERE number = 2', "'=1+1' is not the name of a verdict"),
         ("UPDATE evaluations SET findings = '[1,\"i\",[1.0]]'", "findings: number 1 of the names is not that of"),
+        ("UPDATE evaluations SET findings = '[1,\"ii\",[1.0,1.0]]'", "number 1 of the names is not that of 2 findings"),
+        ("UPDATE evaluations SET metrics = '[2,[1.0]]'", "metrics: number 2 of the names is not that of 1 metrics"),
         ("UPDATE evaluations SET findings = '[2,\"x\",[1.0]]'", "findings: 'x' are not the severities of 1 findings"),
         ("UPDATE evaluations SET findings = '[2,\"ii\",[1.0]]'", "findings: 'ii' are not the severities"),
         ("UPDATE evaluations SET findings = '[2,\"i\",[NaN]]'", "the margin of loop is not a number"),
