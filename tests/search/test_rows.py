@@ -79,6 +79,9 @@ def test_only_neighbours_of_the_pick_are_made_otherwise_than_designed(trial: Tri
     assert again(robust) == robust
     with pytest.raises(JumpcadError, match=r"row 'ga'.*made\.spring_factor"):
         again(replace(robust, phase="ga"))
+    for wrong, said in (({"made.spring_factor": 0.9}, "missing"), (MADE | {"made.spring_factor": 1e3}, "0.01 to 100")):
+        with pytest.raises(JumpcadError, match=rf"row 'robust'.*made\..*{said}"):
+            again(replace(robust, workshop=wrong))
     varied = replace(trial, workshop={"body.plate_mm": 2.0})
     assert again(varied, ("body.plate_mm",)) == varied
     for keys in ((), ("body.stop_deg",)):
