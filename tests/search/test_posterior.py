@@ -302,7 +302,8 @@ def test_the_limits_that_reject_most_have_processes_with_the_verdict():
         return Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), found, None, "m", 0.0)
 
     every = [f"limit_{n}" for n in range(9)]
-    trials = [trial(), trial(*every, "never_met", "no_takeoff"), trial(*every[:7], "no_takeoff"), trial("limit_8")]
+    never = ("a_limit_that_none_meets", "no_takeoff")
+    trials = [trial(), trial(*every, *never), trial(*every[:7], *never), trial("limit_8")]
     margins = constraint_margins(trials)
     assert list(margins) == [*every[:6], "limit_6", VERDICT]
     assert margins["limit_0"][:3].tolist() == [0.5, -1.0, -1.0]
