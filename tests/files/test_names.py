@@ -40,6 +40,7 @@ def test_the_same_letters_are_one_name_wherever_they_stand_in_a_file() -> None:
 def test_free_text_is_one_line_of_moderate_length() -> None:
     assert TypeAdapter(Text).validate_python("ISO 15: 3 × 10 × 4 mm, 机器人") == "ISO 15: 3 × 10 × 4 mm, 机器人"
     assert refused(Text, "a\x07") == "contains the control character U+0007: leave it out"
+    assert TypeAdapter(Text).validate_python("a" * 1000) == "a" * 1000
     assert refused(Text, "a" * 1001) == "has 1001 characters, more than 1000: shorten it"
 
 

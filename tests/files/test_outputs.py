@@ -166,8 +166,11 @@ def test_a_folder_that_takes_no_file_is_known_beforehand(tmp_path: Path) -> None
     (tmp_path / "file").write_text("mine")
     with pytest.raises(JumpcadError, match=r"no file can be made in .*file \(Not a directory\)"):
         require_writable(tmp_path / "file")
+    (tmp_path / "nowhere").symlink_to("gone")  # no folder can be made in its place
+    with pytest.raises(JumpcadError, match=r"no file can be made in .*nowhere \("):
+        require_writable(tmp_path / "nowhere" / "new")
     require_writable(tmp_path / "new" / "newer")
-    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "nowhere"]
 
 
 def test_a_sealed_png_is_a_png_and_is_replaced_until_somebody_edits_it(tmp_path: Path) -> None:
@@ -178,6 +181,8 @@ def test_a_sealed_png_is_a_png_and_is_replaced_until_somebody_edits_it(tmp_path:
     read = Image.open(path)
     read.load()
     assert read.getpixel((0, 0)) == (255, 0, 0)
+    require_free(path)
+    path.write_bytes(sealed_png(sealed_png(stream.getvalue())))  # a picture that jumpcad took and wrote again
     require_free(path)
     for mine in (stream.getvalue(), path.read_bytes().replace(b"IDAT", b"IDAt", 1), b"", b"mine"):
         path.write_bytes(mine)
@@ -194,6 +199,7 @@ def test_outputs_are_apart_from_each_other_and_from_what_is_read(tmp_path: Path)
     require_apart({"-o": folder, "--plots": folder / "plots"}, {})
     require_apart({"--plots": tmp_path / "plots", "-o": tmp_path / "plots" / "x.toml"}, {})  # that is made first
     require_apart({"-o": tmp_path / "x.toml"}, {"design": "kenan-2.0", "bundle": str(folder)})
+    require_apart({"-o": tmp_path / "x.toml", "--plots": tmp_path / "x.toml.d" / "y"}, {})  # beside it
     (tmp_path / "a.urdf").write_text("")
     with pytest.raises(JumpcadError, match=r"-o .*: is robot itself; choose another name"):
         require_apart({"-o": tmp_path / "a.urdf"}, {"robot": str(tmp_path / "a.urdf")})
@@ -206,6 +212,10 @@ def test_outputs_are_apart_from_each_other_and_from_what_is_read(tmp_path: Path)
     ):
         with pytest.raises(JumpcadError, match="choose another name"):
             require_apart(outputs, {"design": str(read)})
+    inner, outer = ("--plots", tmp_path / "x.toml" / "plots"), ("-o", tmp_path / "x.toml")
+    for both in ((inner, outer), (outer, inner)):
+        with pytest.raises(JumpcadError, match=r"^--plots .*plots: lies below -o .*x\.toml, which is a file; choose"):
+            require_apart(dict(both), {})
 
 
 @pytest.mark.parametrize("path", ["a\0b.toml", "\0", "folder/\0.toml"])

@@ -11,6 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     read_json,
     read_toml,
+    real_path,
     to_toml,
 )
 
@@ -77,7 +78,7 @@ def test_a_file_that_grows_is_not_read_in_half(tmp_path: Path, monkeypatch: pyte
         ("[" * 5000 + "]" * 5000, "nested deeper"),
         ("[" * 21 + "]" * 21, "nested deeper"),
         ("9" * 6000, r"not valid JSON: [^;]*digits$"),  # without the way out that Python's own message names
-        ("{", "not valid JSON"),
+        ('{"a": 1,\n 3}', r"not valid JSON: Expecting property name.*: line 2 column 2 \(char 10\)$"),
         (r'{"a": ["\ud83d"]}', "half of a character"),
         (r'{"\udc00": 1}', "half of a character"),
     ],
@@ -137,3 +138,12 @@ def test_two_hundred_dots_are_the_most_of_a_line_but_comments_have_as_many_as_th
     file.write_text(f"a = 1\nb = [{numbers}, 0.5]\n")
     with pytest.raises(JumpcadError, match="line 2 has more than 200 dots"):
         read_toml(file)
+
+
+def test_a_path_that_cannot_be_is_told_why(tmp_path: Path) -> None:
+    """Too long a name as the system says it, without a number or the name once more; a NUL by Python's own words."""
+    assert real_path(tmp_path / "a" / ".." / "b") == tmp_path.resolve() / "b"
+    with pytest.raises(JumpcadError, match=r"^x{300}: cannot be a path: File name too long$"):
+        real_path("x" * 300)
+    with pytest.raises(JumpcadError, match=r": cannot be a path: embedded null"):
+        real_path("a\0b")

@@ -12,12 +12,14 @@ from jumpcad.files import (
 )
 
 
-def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path) -> None:
+def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert {"best-bo", "best-ga", "kenan-1.0", "kenan-2.0"} <= set(template_names("robots"))
     assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
     assert find_template("robots", tmp_path / "mine.toml") == tmp_path / "mine.toml"
     assert find_template("robots", "not-there/mine") == Path("not-there/mine")  # whoever reads it says what lacks
-    for wrong in ("kenan-3.0", "x" * 300):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "kenan").mkdir()
+    for wrong in ("kenan-3.0", "x" * 300, "kenan"):  # a folder is no design
         with pytest.raises(JumpcadError, match="neither a TOML file nor one of the robots best-bo"):
             find_template("robots", wrong)
 
