@@ -30,10 +30,11 @@ def openings(stack: Stack) -> tuple[np.ndarray, list[np.ndarray]]:
     "cuts",
     [
         [hole(2.0), hole(3.0), hole(4.0)],
+        [hole(0.8), hole(0.9), hole(1.0)],
         [rectangle((8.0, 3.0)), rectangle((9.0, 4.0))],
         [rectangle((8.0, 3.0), (2.0, 1.0)), rectangle((9.0, 4.0), (-3.0, 0.5))],
     ],
-    ids=["round", "square", "off their origins"],
+    ids=["round", "small", "square", "off their origins"],
 )
 def test_openings_are_evenly_apart_with_a_margin(cuts: list) -> None:
     plate, found = openings(joints._row(cuts, ["a"] * len(cuts), 5.0))
@@ -51,6 +52,8 @@ def test_openings_are_evenly_apart_with_a_margin(cuts: list) -> None:
     assert plate[1, 1] - max(box[1, 1] for box in found) == pytest.approx(MARGIN_MM, abs=2e-3)
     assert middles[0, 0] - plate[0, 0] == pytest.approx(plate[1, 0] - middles[-1, 0], abs=2e-3)
     assert middles[0, 0] - plate[0, 0] == pytest.approx(pitch[0] / 2.0, abs=2e-3)
+    label = text("-.15", 3.5).bounds()
+    assert pitch[0] > label[2] - label[0] + 1.0  # labels are apart too
     front = min(box[0, 1] for box in found) - plate[0, 1]
     assert MARGIN_MM + 3.5 < front < 2.0 * MARGIN_MM + 3.5  # letters of 3.5 mm, nearer to the opening than to the edge
 

@@ -12,7 +12,17 @@ from support.fits import with_fits_apart
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.joints import joint_pieces
-from jumpcad.coupon.pieces import Piece, _holder, _offsets, coupon_holes, pieces, pinion, series_of
+from jumpcad.coupon.pieces import (
+    Piece,
+    _holder,
+    _offsets,
+    coupon_holes,
+    engraved,
+    gauge_rows,
+    pieces,
+    pinion,
+    series_of,
+)
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
 from jumpcad.solids.stl import write_stl
@@ -95,6 +105,20 @@ def test_a_row_s_letter_stands_beside_the_middle_of_its_holes() -> None:
         letter = min(beside, key=lambda polygon: abs(polygon[:, 1].mean() - middle))
         assert (letter[:, 1].min() + letter[:, 1].max()) / 2.0 == pytest.approx(middle, abs=0.1)
         assert np.ptp(letter[:, 1]) == pytest.approx(5.0, abs=0.1)
+
+
+def test_a_letter_stands_at_the_first_row_of_its_kind_alone() -> None:
+    """Five holes a row: nine for the axle (A) go on in a second one; five for the bearing (B); pegs (P)."""
+    holes = coupon_holes(WORKSHOP)
+    rows = gauge_rows(holes, series_of(holes))
+    assert [(row.letter, len(row.places)) for row in rows] == [("A", 5), ("", 4), ("B", 5), ("P", 3)]
+
+
+@pytest.mark.parametrize(
+    ("offset", "label"), [(0.05, ".05"), (-0.05, "-.05"), (0.0, ".00"), (-0.3, "-.30"), (1.0, "1.00")]
+)
+def test_an_offset_is_engraved_without_the_zero_before_its_point(offset: float, label: str) -> None:
+    assert engraved(offset) == label
 
 
 @pytest.mark.parametrize("material", ["PETG", "PLA"])

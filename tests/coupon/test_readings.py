@@ -62,6 +62,10 @@ def test_the_reading_counts_with_which_every_material_still_works() -> None:
     ).fits
     assert (fits.press_mm, fits.sliding_mm, fits.loose_mm) == (0.10, 0.25, 0.35)
     assert fits.hole_allowance_diameter_mm == 0.30
+    bearing = read("[gauge.PETG]\naxle_press_mm = 0.10\n[gauge.PLA]\nbearing_press_mm = 0.05").fits
+    assert (bearing.press_mm, bearing.hole_allowance_diameter_mm) == (0.05, 0.20)
+    bearing = read("[gauge.PETG]\naxle_press_mm = 0.10\n[gauge.PLA]\nbearing_press_mm = 0.15").fits
+    assert (bearing.press_mm, bearing.hole_allowance_diameter_mm) == (0.10, 0.30)
 
 
 def test_a_floor_is_of_the_bodys_material_and_pegs_tell_of_the_gears() -> None:
@@ -153,6 +157,7 @@ def test_of_running_fits_the_widest_of_any_joint_counts(joint: str) -> None:
         ("[gauge.PETG]\npegs_mm = [4.0, 6.0]", r"r\.toml:2: gauge\.PETG\.pegs_mm = .*: must be 3 diameters, of the"),
         ("[gauge.PETG]\npegs_mm = [4.0, 6.0, 8.0, 10.0]", "must be 3 diameters, of the pegs 4, 6, 8 mm"),
         ("[gauge.PETG]\npegs_mm = [4.0, 6.6, 8.0]", r"pegs_mm = .*: 6\.6 for the peg of 6 mm is outside 5\.5…6\.5"),
+        ("[gauge.PETG]\npegs_mm = [3.4, 6.0, 8.0]", r"pegs_mm = .*: 3\.4 for the peg of 4 mm is outside 3\.5…4\.5"),
         ("[gauge.PETG]\npegs_mm = [4.0, 6.0, nan]", r"pegs_mm\.2 = nan: must be a finite number"),
         ("[gauge.PETG]\naxle_pres_mm = 0.1", r"axle_pres_mm: unknown key"),
         (

@@ -58,6 +58,13 @@ def test_points_of_a_circle_are_an_arc_only_in_order(sign: float) -> None:
     assert not _is_arc(4.0 * np.column_stack([np.cos(turns), np.sin(turns)]))
 
 
+@pytest.mark.parametrize(("whole_deg", "arc"), [(345.0, True), (355.0, False)])
+def test_an_arc_is_no_full_circle(whole_deg: float, arc: bool) -> None:
+    """Three points give no circle where the first and the last are nearly one."""
+    turns = np.radians(np.arange(0.0, whole_deg + 1.0, 5.0))
+    assert _is_arc(4.0 * np.column_stack([np.cos(turns), np.sin(turns)])) is arc
+
+
 def test_corners_stay_corners() -> None:
     assert kinds(rectangle((30.0, 20.0))) == [[Line]]
     hexagon = [(math.cos(turn), math.sin(turn)) for turn in np.arange(6) * math.pi / 3.0]

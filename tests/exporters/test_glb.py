@@ -47,6 +47,7 @@ def test_colours_are_linear_light() -> None:
     assert linear_light(0.5) == pytest.approx(0.214041, abs=1e-6)
     assert [linear_light(part) for part in (0.0, 1.0)] == [0.0, 1.0]
     assert linear_light(0.04045) == pytest.approx(0.0031308, rel=1e-4)
+    assert [linear_light(part) for part in (0.05, 0.2, 0.4)] == pytest.approx([0.003936, 0.033105, 0.132868], abs=1e-6)
     assert linear_light(0.02) == pytest.approx(0.02 / 12.92)
 
 

@@ -61,6 +61,21 @@ def test_a_quaternion_has_the_cosine_of_half_the_angle_first(axis: int, angle_de
     assert found * np.sign(found[0]) == pytest.approx(expected, abs=1e-12)
 
 
+def test_names_that_look_like_numbers_stay_as_they_are() -> None:
+    """A robot may be called 007, a part 1e3."""
+    root = ET.Element("a", {"name": "007", "mesh": "1e3", "class": "2.50", "pos": "007 2.50"})
+    shorten(root)
+    assert root.attrib == {"name": "007", "mesh": "1e3", "class": "2.50", "pos": "7 2.5"}
+
+
+def test_a_character_that_xml_cannot_hold_is_shown_with_what_stands_around_it() -> None:
+    """Twenty characters to either side, or as many as there are."""
+    with pytest.raises(JumpcadError, match=r"^'ab\\x01cd': XML cannot hold the character U\+0001: leave it out$"):
+        allowed("ab\x01cd")
+    with pytest.raises(JumpcadError, match=r"^'b{20}\\x01c{20}': XML"):
+        allowed("a" * 30 + "b" * 20 + "\x01" + "c" * 20 + "d" * 30)
+
+
 def test_surrogates_are_refused() -> None:
     with pytest.raises(JumpcadError, match=r"U\+D800"):
         allowed("\ud800")

@@ -2,9 +2,11 @@
 
 import pytest
 
+from jumpcad import published
 from jumpcad.bundle.compared import compared_of
 from jumpcad.design import load_design
 from jumpcad.files import template_names
+from jumpcad.paper import reproduction
 from jumpcad.paper.reproduction import HYPERPARAMETERS, PUBLISHED_RESULTS, Reproduction, reproduce
 
 
@@ -75,3 +77,15 @@ def test_a_row_says_what_was_measured_of_a_built_robot(rows: dict[str, Reproduct
         assert found["robot"] == name
         assert found["reproduced"]["distance_m"] == row.again.distance_m
         assert found["evaluated"]["touchdown_distance_m"] == row.jump.touchdown_distance_m
+
+
+@pytest.mark.parametrize("engine", ["pybullet", "planar"])
+def test_the_evaluators_jumps_are_of_the_engine_that_was_asked_for(
+    engine: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With the flight simulated, up to the touchdown."""
+    asked = []
+    monkeypatch.setattr(reproduction, "simulate", lambda robot, settings, engine: asked.append((settings, engine)))
+    monkeypatch.setattr(published, "simulate", lambda design: None)
+    assert len(reproduce(engine)) == 4
+    assert [(settings.flight, one) for settings, one in asked] == [("simulated", engine)] * 4
