@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from support.built import built
 
 from jumpcad.bundle.jump_motion import jump_motion
-from jumpcad.exporters.animation import _chunks, _continuous, _packed, animated
+from jumpcad.exporters.animation import BodyMotion, _chunks, _continuous, _packed, animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
@@ -152,3 +152,14 @@ def test_views_say_what_they_hold(glb: bytes) -> None:
         for accessor in (primitive.attributes.POSITION, primitive.attributes.NORMAL):
             kinds["vertices"].add(file.bufferViews[file.accessors[accessor].bufferView].target)
     assert kinds == {"vertices": {34962}, "indices": {34963}}
+
+
+def test_rotations_recorded_with_either_sign_are_written_without_jumps() -> None:
+    """Of one body, from 0 to 2 rad about y; its places stay as they are."""
+    bare = _packed({"nodes": [{"name": "leg_frame"}], "bufferViews": [], "accessors": [], "buffers": [{}]}, b"")
+    half = np.linspace(0.0, 1.0, 5)
+    smooth = np.column_stack([np.zeros(5), np.sin(half), np.zeros(5), np.cos(half)])
+    places, signs = np.arange(15.0).reshape(5, 3), np.array([[1.0], [-1.0], [-1.0], [1.0], [-1.0]])
+    film = Film(animated(bare, BodyMotion(half, {"leg": places}, {"leg": signs * smooth})), "jump")
+    np.testing.assert_allclose(film.quaternions, smooth, atol=1e-6)
+    np.testing.assert_allclose(film.places["leg"], places)

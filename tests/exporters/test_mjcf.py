@@ -133,6 +133,19 @@ def test_a_contact_that_only_spins_or_rolls_has_both_frictions(spinning: float, 
     assert model.pair_friction[0][2:] == pytest.approx([0.8 * spinning, 0.8 * rolling, 0.8 * rolling])
 
 
+@pytest.mark.parametrize("one_sided", [True, False])
+def test_dry_friction_in_joints_is_as_stiff_as_the_time_step_allows(one_sided: bool) -> None:
+    """Of every hinge, also of those without a stop: MuJoCo's own has a time constant of 20 ms."""
+    mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
+    robot = replace(robot, spring=replace(robot.spring, one_sided=one_sided))
+    model = mujoco.MjModel.from_xml_string(write_mjcf(robot, Settings(joint_friction_nm=0.01)))
+    for joint in robot.joints:
+        dof = model.joint(joint.name).dofadr[0]
+        assert model.dof_frictionloss[dof] == pytest.approx(0.01)
+        assert model.dof_solref[dof] == pytest.approx([2.0 * model.opt.timestep, 1.0])
+        assert model.dof_solimp[dof][:2] == pytest.approx([0.99, 0.9999])
+
+
 @pytest.mark.parametrize(("asked", "made"), [(10, 50), (50, 50), (60, 60), (100, 100), (200, 200)])
 def test_the_solver_takes_as_many_steps_as_the_settings_say_and_fifty_at_least(asked: int, made: int) -> None:
     """It ends earlier where it has converged, to 1e-12."""

@@ -1,6 +1,7 @@
 """MJCF for simulations by others, as MuJoCo compiles it: key frames, motor, latch, sensors, and who touches whom."""
 
 import math
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from typing import Any
@@ -76,6 +77,7 @@ def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any
     wind = robot.spring.wind_rad
     tendon = model.tendon("wound").id
     assert model.tendon_range[tendon, 0] == pytest.approx(-wind)
+    assert model.tendon_range[tendon, 1] > math.pi  # past rest nothing but the stop is in the leg's way
     assert model.tendon_limited[tendon] == 1
     assert at_key(model, "wound").ten_length[tendon] == pytest.approx(-wind)  # it is as long as the joint's angle
     latch = model.equality("latch")
@@ -98,6 +100,16 @@ def test_options_are_those_that_the_notes_name(robot: Robot, model: Any) -> None
     assert f"Its control {-1.25 * robot.spring.peak_torque_nm:.3g} N·m holds" in notes
     rubs = coefficients(robot, Settings())
     assert f"{rubs.contact('foot'):g} under the feet, {rubs.contact('body'):g}" in notes
+
+
+@pytest.mark.parametrize("keys", [("home", "wound", "released"), ("home", "wound")])
+def test_the_notes_name_the_key_frames_that_the_model_has(robot: Robot, keys: tuple[str, ...]) -> None:
+    """Where no roller leaves a cam, there is no key of that moment."""
+    own = robot if "released" in keys else replace(robot, roller_off=None)
+    root = ET.fromstring(write_robot(own))
+    assert tuple(key.get("name") for key in root.iter("key")) == keys
+    (line,) = (line for line in readme(own).splitlines() if line.startswith("Key frames: "))
+    assert tuple(re.findall(r"`(\w+)`", line)) == keys
 
 
 def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: Any) -> None:

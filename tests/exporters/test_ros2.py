@@ -210,8 +210,9 @@ def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.E
 
 @pytest.mark.parametrize(
     ("name", "model"),
-    [("Kenan-2.0", "kenan_2_0"), ("2nd", "robot_2nd"), ("--", "robot"), ("a__b", "a_b"), ("r2d2", "r2d2"), ("X", "x")],
-)
+    [("Kenan-2.0", "kenan_2_0"), ("2nd", "robot_2nd"), ("--", "robot"), ("a__b", "a_b"), ("r2d2", "r2d2"), ("X", "x"),
+     ("Kenan 2.0 (light)", "kenan_2_0_light"), ("_x", "x")],
+)  # fmt: skip
 def test_names_are_those_that_ros_allows(name: str, model: str) -> None:
     """REP 144: lower case, digits, single underscores, a letter first."""
     assert model_name(name) == model

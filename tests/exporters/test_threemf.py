@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from jumpcad.exporters.threemf import _in_words, threemf_files, write_threemf
+from jumpcad.exporters.threemf import _in_words, pad_plates, threemf_files, write_threemf
 from jumpcad.exporters.thumbnail import thumbnail
 from jumpcad.printing.plates import packed
 from jumpcad.workshop import load_workshop
@@ -167,3 +167,16 @@ def test_a_thumbnail_is_seen_from_the_printers_front(corner):
     rows, columns = np.nonzero(picture[..., 0] - picture[..., 2] > 60)
     assert np.sign(columns.mean() - 127.5) == corner[0]
     assert np.sign(127.5 - rows.mean()) == corner[1]
+
+
+@pytest.mark.parametrize("spacing_mm", [2.0, 11.0])
+def test_pads_lie_as_far_apart_as_the_workshops_parts(spacing_mm):
+    """On a plate of their own kind, by its name."""
+    shop = load_workshop("default")
+    process = shop.process.model_copy(update={"part_spacing_mm": spacing_mm})
+    pads = [Part(name, trimesh.creation.box((12.0, 12.0, 2.0)), "tpu-2") for name in ("one", "other")]
+    (only,) = pad_plates(pads, shop.model_copy(update={"process": process}))
+    assert only.name == "pads-1-tpu-2"
+    one, other = (trimesh.transform_points(item.part.mesh.bounds, item.T_bed_part) for item in only.items)
+    apart = np.maximum(other.min(axis=0) - one.max(axis=0), one.min(axis=0) - other.max(axis=0))[:2].max()
+    assert apart == pytest.approx(spacing_mm, abs=0.01)

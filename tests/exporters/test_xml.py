@@ -70,8 +70,8 @@ def test_names_that_look_like_numbers_stay_as_they_are() -> None:
 
 def test_a_character_that_xml_cannot_hold_is_shown_with_what_stands_around_it() -> None:
     """Twenty characters to either side, or as many as there are."""
-    with pytest.raises(JumpcadError, match=r"^'ab\\x01cd': XML cannot hold the character U\+0001: leave it out$"):
-        allowed("ab\x01cd")
+    with pytest.raises(JumpcadError, match=r"^'ab\\x01c{20}': XML cannot hold the character U\+0001: leave it out$"):
+        allowed("ab\x01" + "c" * 60)
     with pytest.raises(JumpcadError, match=r"^'b{20}\\x01c{20}': XML"):
         allowed("a" * 30 + "b" * 20 + "\x01" + "c" * 20 + "d" * 30)
 
