@@ -2,11 +2,13 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from support.built import built
 
 from jumpcad.building import build
+from jumpcad.bundle.article_order import _smooth_under_the_leg
 from jumpcad.bundle.ordering import order_lines
 from jumpcad.design import load_design
 from jumpcad.workshop import load_workshop
@@ -25,12 +27,15 @@ def test_the_motor_is_compared_with_its_data_sheet() -> None:
 def test_a_motor_known_less_surely_says_so(confidence: str, words: str) -> None:
     robot = built("kenan-2.0")
     layout, train = robot.layout, robot.layout.drive.train
-    motor = train.motor.model_copy(update={"confidence": confidence})
+    motor = train.motor.model_copy(update={"confidence": confidence, "article": "Maker 12, a motor"})
     drive = replace(layout.drive, train=replace(train, motor=motor))
     (line,) = (
         line for line in order_lines(replace(robot, layout=replace(layout, drive=drive))) if "gear motor" in line
     )
     assert words in line
+    assert line.startswith("- gear motor: Maker 12, a motor. Compare before you order")
+    (named,) = (line for line in order_lines(robot) if "gear motor" in line)
+    assert named.startswith(f"- gear motor: {train.motor.article or train.motor.name}. Compare")
 
 
 def test_bearings_and_tape_have_their_data_sheets_sizes() -> None:
@@ -64,6 +69,9 @@ def test_leg_and_front_link_turn_on_the_smooth_part_of_their_screws(motor: str, 
     low, high = robot.layout.lateral.outside
     assert (int(stand_ins[1]), int(stand_ins[2])) == (len(screws), round(high - low)), "one for each screw"
     assert [float(one) for one in cut] == ([longer] if longer else [])
+    stock = shop.catalogue.screws["M3 long"].model_copy(update={"lengths_mm": [35.0, 40.0, 45.0, 70.0]})
+    apart = replace(robot, workshop=SimpleNamespace(catalogue=SimpleNamespace(screws={"M3 long": stock})))
+    assert list(_smooth_under_the_leg(apart)) == []  # the nut of an M3 x 70 would stand on smooth shank
     if longer:
         assert longer - 20.5 >= left - leg
         assert longer - 18.0 <= left - robot.layout.lateral.right_plate[0]  # the nut is on thread

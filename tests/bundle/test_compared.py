@@ -40,4 +40,6 @@ def test_values_are_in_millimetres_or_joules() -> None:
 
 def test_a_draw_without_a_jump_is_told() -> None:
     assert "counts as 0" in verdict(row("distance", "first-touchdown", 0.3, (0.0, 0.3, 0.4)))
+    jumps = row("height", "rise", 0.1, (0.05, 0.1, 0.2))
+    assert "counts as 0" in verdict(jumps, row("distance", "first-touchdown", 0.3, (0.0, 0.3, 0.4)), jumps)
     assert "counts as 0" not in verdict(row("distance", "first-touchdown", 0.3, (0.1, 0.3, 0.4)))

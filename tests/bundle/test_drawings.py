@@ -11,11 +11,13 @@ import pytest
 from support.built import built, geared, placed
 
 from jumpcad.bundle.arrival import arrival_lines
-from jumpcad.bundle.spring_sheet import requirements, spring_sheets
+from jumpcad.bundle.lead_lines import leads_of
+from jumpcad.bundle.spring_sheet import requirements, scale_in_words, spring_sheets
 from jumpcad.bundle.springs import arms_off_deg, torque_shares
 from jumpcad.bundle.wiring import drawings_of
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
+from jumpcad.parts.lead_ways import plate_of
 from jumpcad.robot import Robot
 
 SPACE = "{http://www.w3.org/2000/svg}"
@@ -181,6 +183,8 @@ def test_a_springs_rate_may_scatter_as_the_parts_are_made_for(robot: Robot, scat
 def test_plates_are_drawn_to_scale_seen_from_outside(robot: Robot, drawings: dict[str, ET.Element]) -> None:
     """From the left the front, x, is on the left; standoffs, trays and words stand where they are on the robot."""
     root, layout = drawings["leads.svg"], robot.layout
+    titles = [one.text for one in root.iter(f"{SPACE}text") if "seen from" in (one.text or "")]
+    assert titles == [f"{side} plate, seen from the {side}: leads inside it are dashed" for side in ("left", "right")]
     outlines = [np.array(re.findall(r"(-?[\d.]+),(-?[\d.]+)", one.get("d")), dtype=float)
                 for one in root.iter(f"{SPACE}path") if one.get("fill") == "#e6e8eb"]  # fmt: skip
     heads = [(float(one.get("cx")), float(one.get("cy"))) for one in root.iter(f"{SPACE}circle")
@@ -297,6 +301,60 @@ def test_leads_leave_the_view_from_above_at_its_ends_alone(robot: Robot, monkeyp
     assert inside > 4000
 
 
+def views_of(root: ET.Element) -> list[list[ET.Element]]:
+    """What leads.svg shows of the left plate, of the right one, and from above, in its order."""
+    found: list[list[ET.Element]] = []
+    for one in root.iter():
+        if "are dashed" in (one.text or ""):
+            found.append([])
+        if found:
+            found[-1].append(one)
+    return found
+
+
+def test_a_lead_is_one_line_from_end_to_end_dashed_where_a_plate_or_the_tray_hides_it(
+    robot: Robot, drawings: dict[str, ET.Element]
+) -> None:
+    """Pieces of a lead meet, and dots are at its ends; heights and sides are those of the parts' meshes."""
+    leads, views = leads_of(robot), views_of(drawings["leads.svg"])
+    assert len(views) == 3
+    left, right = (placed(robot, f"body_plate_{side}").vertices[:, 1] for side in ("left", "right"))
+    tray = placed(robot, "electronics_tray_upper").vertices[:, 2]
+    shown = (
+        [(lead, lead.points_mm[:, 1] > left.max()) for lead in leads if plated(robot, lead.parts, "left")],
+        [(lead, lead.points_mm[:, 1] < right.min()) for lead in leads if plated(robot, lead.parts, "right")],
+        [(lead, lead.points_mm[:, 2] > tray.min()) for lead in leads],
+    )
+    for view, expected in zip(views, shown, strict=True):
+        lines = [one for one in view if one.tag == f"{SPACE}polyline"]
+        dots = [one for one in view if one.tag == f"{SPACE}circle" and one.get("r") == "0.7"]
+        ends = [(float(one.get("cx")), float(one.get("cy"))) for one in dots]
+        assert len(expected) > 1
+        assert len(ends) == 2 * len(expected)
+        for number, (lead, seen) in enumerate(expected):
+            pieces = [bool(a and b) for a, b in itertools.pairwise(seen)]
+            runs = [open_ for open_, _ in itertools.groupby(pieces)]
+            own, lines = lines[: len(runs)], lines[len(runs) :]
+            assert [one.get("stroke-dasharray") is None for one in own] == runs, lead.parts
+            ways = [points_of(one) for one in own]
+            assert sum(len(way) - 1 for way in ways) == len(pieces)
+            assert [way[-1] for way in ways[:-1]] == [way[0] for way in ways[1:]]
+            assert [ways[0][0], ways[-1][-1]] == ends[2 * number : 2 * number + 2]
+        assert lines == []
+
+
+def plated(robot: Robot, parts: tuple[str, str], side: str) -> bool:
+    return any(plate_of(robot.layout, part) == side for part in parts)
+
+
+def test_numbers_of_leads_cover_each_other_in_no_view(drawings: dict[str, ET.Element]) -> None:
+    for view in views_of(drawings["leads.svg"]):
+        badges = [points_of(one) for one in view if one.tag == f"{SPACE}circle" and one.get("r") == "1.7"]
+        middles = [np.mean(corners, axis=0) for corners in badges]
+        assert len(middles) > 1
+        assert min(math.dist(*two) for two in itertools.combinations(middles, 2)) > 2.0 * 1.7
+
+
 LONG_ARMS = [
     # wire, mean diameter, turns, arm from the coil to its pin (mm); the largest scale at which all is on the page
     (1.3, 7.57, 4.30, 10.9, "3:1"),
@@ -308,6 +366,8 @@ LONG_ARMS = [
     (2.0, 12.0, 30.5, 20.0, ""),
     (1.0, 8.0, 3.95, 28.0, ""),
     (2.5, 20.0, 4.61, 160.0, ""),
+    (1.6, 13.6, 5.17, 120.0, "1:2"),
+    (1.0, 6.68, 3.75, 17.2, "3:1"),
 ]
 
 
@@ -347,7 +407,8 @@ def test_springs_with_long_arms_are_drawn_smaller(
         boxes = {text: np.array([[a, b], [c, d]]) for text, a, b, c, d in words(root) if "arm" in text and d < 123.0}
         assert len(boxes) == 2
         for label, (low, high) in boxes.items():
-            assert (low > 5.0).all(), label
+            assert low[0] > 5.0, label
+            assert low[1] > 20.0, label  # below the titles, which stand at 16
             assert (high < [292.0, 121.0]).all(), label
             near = np.clip(drawn, low, high)
             assert np.hypot(*(drawn - near).T).min() >= half - 0.3, label
@@ -356,3 +417,9 @@ def test_springs_with_long_arms_are_drawn_smaller(
     assert len(said) == 1
     assert scale in ("", *said)
     assert f"(drawing in order/, {said.pop()}, ordered" in "\n".join(arrival_lines(own))
+
+
+@pytest.mark.parametrize(("lever", "scale"), [(160.0, "1:2"), (300.0, "1:5"), (900.0, "1:10"), (5000.0, "1:10")])
+def test_the_longest_arms_are_drawn_at_a_tenth_of_their_size_and_no_smaller(lever: float, scale: str) -> None:
+    spring = built("kenan-2.0").layout.drive.spring
+    assert scale_in_words(replace(spring, arms=replace(spring.arms, lever_mm=lever))) == scale

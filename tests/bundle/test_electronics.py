@@ -387,6 +387,30 @@ def test_the_drawing_names_resistors_in_kiloohms(robot: Robot) -> None:
     for name, ohm in wiring.resistors.items():
         (said,) = set(re.findall(rf"{name}: ([\d.]+) kΩ", drawn))
         assert 1000.0 * float(said) == ohm
+    (note,) = (one for one in _notes(chosen_parts(robot.workshop), wiring) if one.startswith("- resistors: "))
+    said = {f"{name} resistor": 1000.0 * float(kilo) for name, kilo in re.findall(r"([\w-]+) ([\d.]+) kΩ", note)}
+    assert said == wiring.resistors
+
+
+def test_parts_are_called_by_their_articles_in_the_drawing(robot: Robot) -> None:
+    chosen, texts = (
+        chosen_parts(robot.workshop),
+        ET.fromstring(wiring_svg(robot)).iter("{http://www.w3.org/2000/svg}text"),
+    )
+    titles = {element.text for element in texts if element.get("font-weight") == "bold"}
+    named = {"battery": chosen.battery, "motor": robot.layout.drive.train.motor, **chosen.boards, **chosen.components}
+    assert titles >= {f"{role}: {named[role].name}" for role in ("battery", "motor", "controller", "driver", "plug")}
+    assert {title.partition(": ")[0] for title in titles if title} <= {
+        *named,
+        *wiring_of(chosen, robot.workshop.bought.pins).resistors,
+    }
+
+
+def test_a_wire_is_cut_to_whole_millimetres_and_legs_of_parts_are_none(robot: Robot) -> None:
+    rows = [line.split(" | ") for line in wiring_lines(robot) if line.startswith("| ") and "no." not in line]
+    cut = [f"{length:.0f}" if length else "none" for *_, length in wires(robot)]
+    assert [row[4] for row in rows] == cut
+    assert "none" in cut
 
 
 def test_without_a_capacitor_no_note_speaks_of_one() -> None:

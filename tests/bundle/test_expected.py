@@ -10,13 +10,14 @@ from support.built import built, geared, part, placed
 
 from jumpcad.building import build
 from jumpcad.bundle import expected as module
-from jumpcad.bundle.expected import _near_stop, _prong_mm, expected, filled
+from jumpcad.bundle.expected import _measured, _near_stop, _prong_mm, expected, filled
 from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded, switching_off, to_stop, usb_out
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import Wiring
 from jumpcad.errors import CannotBuildError
 from jumpcad.workshop import load_workshop
 
@@ -85,6 +86,12 @@ def test_times_and_limits_are_those_of_the_program() -> None:
     assert words["divider_pin"] == "D1"
     for volts, share in zip(words["divider_v"].split(" to "), words["divider_share"].split(" to "), strict=True):
         assert float(volts) == pytest.approx(3.7 * float(share), abs=0.0071)
+
+
+def test_what_state_prints_is_off_by_that_of_the_battery_and_not_of_its_pin() -> None:
+    """680 over 200 kΩ on two cells: 2 % of 0.77 of 7.4 V, and 35 mV times 4.4, are 0.27 V together."""
+    words = _measured(Wiring((), {"battery": "D1"}, 680_000), 7.4)
+    assert (words["state_off"], words["divider_pin"]) == ("0.3", "D1")
 
 
 def test_one_pair_of_gears_turns_the_cam_against_the_motor_and_two_with_it() -> None:

@@ -72,6 +72,42 @@ def test_the_manifest_says_on_which_ground_the_robot_stands_and_with_which_frict
     assert bundle_module._facts(robot)["ground"] == {"friction": friction, "pad": pad, "surface": "dry oak"}
 
 
+@pytest.mark.parametrize(("step", "ros2"), [(False, False), (True, False), (False, True), (True, True)])
+def test_formats_are_written_on_request_each_by_its_own_option(
+    small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, step: bool, ros2: bool
+) -> None:
+    asked: list[str] = []
+    monkeypatch.setattr(bundle_module, "chosen", lambda names: asked.extend(names) or [])
+    monkeypatch.setattr(bundle_module, "write_folder", lambda *_: None)
+    export(small_robot, tmp_path / "b", step=step, ros2=ros2)
+    assert asked == ["step"] * step + ["ros2"] * ros2
+
+
+def test_a_bundle_with_pictures_shows_them_in_its_guide(small_robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By their names, and on the guide's page with the drawings, as the files that are written."""
+    told: dict[str, object] = {}
+    monkeypatch.setattr(bundle_module, "jump_motion", lambda robot: None)
+    monkeypatch.setattr(bundle_module, "all_pictures", lambda robot: {"rest": b"r", "step-1": b"1"})
+    monkeypatch.setattr(bundle_module, "drawings_of", lambda robot: {"wiring.svg": "<svg/>", "soldering.svg": ""})
+    monkeypatch.setattr(bundle_module, "write_guide", lambda robot, names=(): told.update(names=names) or "guide")
+    monkeypatch.setattr(bundle_module, "write_page", lambda guide, name, files: told.update(files=files) or "page")
+    seen: dict[str, bytes] = {}
+    written = dict(bundle_module._files_before_report(small_robot, [], True, seen))
+    assert list(seen) == told["names"] == ["rest", "step-1"]
+    shown = {"pictures/rest.png": b"r", "pictures/step-1.png": b"1", "wiring.svg": b"<svg/>"}
+    assert told["files"] == shown
+    assert {path for path in written if path.endswith((".png", ".svg")) and "order/" not in path} == set(shown)
+    assert (written["assembly.md"], written["assembly.html"]) == ("guide", "page")
+
+
+def test_the_manifest_has_every_body_with_its_mass_centre_and_inertia(small_robot: Robot) -> None:
+    bodies = bundle_module._facts(small_robot)["bodies"]
+    assert bodies == {
+        name: {"mass_kg": body.mass_kg, "com_m": [*body.com_m], "inertia_kg_m2": [[*row] for row in body.inertia_kg_m2]}
+        for name, body in small_robot.bodies.items()
+    }
+
+
 @pytest.mark.parametrize("jumps", [True, False])
 def test_only_of_a_jump_it_is_said_how_sure_it_is(
     small_robot: Robot, monkeypatch: pytest.MonkeyPatch, jumps: bool

@@ -184,6 +184,7 @@ def test_the_notes_have_the_numbers_of_the_program(robot: Robot) -> None:
         assert factor * found[name] == pytest.approx(values[key]), name
     assert found["EMPTY_V"] < found["MIN_V"]
     assert _filled("{LOW}", robot, values).startswith(f"Below {values['BATTERY_MIN_V']:g} V at rest it does not begin")
+    assert _filled("{LOW}", robot, values | {"PIN_BATTERY": 0}) == _filled("{LOW}", robot, values)  # GPIO 0 is a pin
     unmeasured = _filled("{LOW}", robot, values | {"PIN_BATTERY": None})
     assert unmeasured.startswith("Nothing stops it on an empty battery")
     assert unmeasured.endswith(f"below {values['BATTERY_MIN_V']:g} V at rest.")

@@ -51,6 +51,8 @@ def test_the_guide_names_all_that_the_bill_names(robot: Robot) -> None:
     assert "pictures/" not in guide
     assert "--no-pictures" in guide
     assert "--no-pictures" not in write_guide(robot, ["step-12"])
+    steps = write_guide(robot, ["step-1", "step-12"]).split("## 1. ")[1]
+    assert [part.count(".png") for part in re.split(r"^## ", steps, flags=re.M)[:12]] == [1, *[0] * 10, 1]
     assert "![Foot and front link](pictures/step-2-pads.png)" in write_guide(robot, ["step-2-pads", "step-12"])
 
 
@@ -510,6 +512,7 @@ def test_what_is_put_on_with_a_tool_names_it(name: str) -> None:
         lines = list(_put_on(step))
         for placed in step.placed:
             move = placed.move
+            assert lines == [] or not move.trial, "what is only tried on is not put on"
             if move.tool and not (move.trial or move.brings) and any("screw" in thing.name for thing in placed.things):
                 assert any(line.endswith(f"; {move.tool.name})") for line in lines), step.key
                 counted += 1
@@ -530,6 +533,7 @@ def test_the_guides_tables_say_grams_and_hours_each_and_the_price_of_all() -> No
         (
             BillLine("printed", "toe", 2, "PETG", 0.0015, "model", None, 5400.0),
             BillLine("printed", "cam", 1, "PLA", 0.0125, "model", None, 900.0),
+            BillLine("pad", "sole", 2, "TPU 95A", 0.0005, "solid"),
             BillLine("bought", "nut", 4, "", 0.00025, "catalogue", 0.75),
             BillLine("bought", "cell", 1, "", 0.0105, "catalogue", 6.5),
             BillLine("bought", "cord", 3, "", 0.0, "catalogue"),
@@ -539,14 +543,17 @@ def test_the_guides_tables_say_grams_and_hours_each_and_the_price_of_all() -> No
     lines = list(_tables(bill))
     rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines if line.startswith("| ")]
     assert rows[0] == ["part", "copies", "material", "g each", "time each"]
-    assert rows[1:3] == [["toe", "2", "PETG", "1.50", "1:30 h"], ["cam", "1", "PLA", "12.50", "0:15 h"]]
-    assert rows[3:7] == [
+    assert rows[1:4] == [
+        ["toe", "2", "PETG", "1.50", "1:30 h"], ["cam", "1", "PLA", "12.50", "0:15 h"],
+        ["sole", "2", "TPU 95A", "0.50"],
+    ]  # fmt: skip
+    assert rows[4:8] == [
         ["plate", "material", "time"], ["plate-1", "PETG", "3:00 h"], ["plate-2", "PLA", "0:15 h"],
         ["all", "", "3:15 h"],
     ]  # fmt: skip
-    assert rows[7] == ["article", "quantity", "g each", "€"]
-    assert rows[8:] == [["nut", "4", "0.25", "3.00"], ["cell", "1", "10.50", "6.50"], ["cord", "3", "0.00"]]
-    assert lines[-1].startswith("In all 27.0 g; ")
+    assert rows[8] == ["article", "quantity", "g each", "€"]
+    assert rows[9:] == [["nut", "4", "0.25", "3.00"], ["cell", "1", "10.50", "6.50"], ["cord", "3", "0.00"]]
+    assert lines[-1].startswith("In all 28.0 g; ")
     assert lines[-1].endswith(", 9.50 € together.")
 
 

@@ -1,5 +1,6 @@
 """assembly.html: one well-formed page that holds its pictures and asks for nothing else."""
 
+import base64
 import math
 import re
 from xml.etree import ElementTree as ET
@@ -20,7 +21,10 @@ def test_the_page_is_well_formed_and_needs_no_other_file() -> None:
     root = ET.fromstring(page.replace("<!DOCTYPE html>", "", 1))
     images = [image.get("src") or "" for image in root.iter("img")]
     assert len(images) == 5
-    assert all(source.startswith("data:image/") for source in images)
+    kinds = [source.partition(";")[0].removeprefix("data:image/") for source in images]
+    assert sorted(kinds) == ["png", "png", "svg+xml", "svg+xml", "svg+xml"]
+    read = {kind: base64.b64decode(source.partition(",")[2]) for kind, source in zip(kinds, images, strict=True)}
+    assert read == {"png": PNG, "svg+xml": b"<svg/>"}
     assert not re.search(r"(src|href)=\"(?!data:|#)", page)
 
 

@@ -101,6 +101,18 @@ def test_no_file_is_the_folder_of_another_whichever_is_named_first(tmp_path: Pat
     refused(tmp_path, json.dumps(GOOD | {"files": dict.fromkeys(paths, SHA)}))
 
 
+@pytest.mark.parametrize(
+    ("facts", "content"),
+    [
+        ({"bodies": {}}, "the robot frog"),
+        ({"masses": [LINE]}, "the frog"),
+        ({"masses": [], "bodies": {}}, "the robot frog"),
+    ],
+)
+def test_a_robot_has_bodies_and_a_coupon_has_masses_alone(facts: dict[str, Any], content: str) -> None:
+    assert Bundle(Path("b"), GOOD | facts).content == content
+
+
 @pytest.mark.parametrize("lost", ["urdf/frog.urdf", "urdf/frog.loop.json"])
 def test_a_robot_without_its_loop_is_none(tmp_path: Path, lost: str) -> None:
     """The URDF file is a tree; the leg's loop is closed by the other file."""

@@ -16,10 +16,11 @@ from scipy.spatial.transform import Rotation
 
 import jumpcad
 from jumpcad.building import build
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle import page as module
+from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials
 from jumpcad.bundle.compared import compared_of
 from jumpcad.bundle.limits import limits, verdict_on
-from jumpcad.bundle.page import ACCOUNT, _energy, _printing, write_report
+from jumpcad.bundle.page import ACCOUNT, _downloads, _energy, _parts, _printing, write_report
 from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.calibration.measurements import load_measurements
 from jumpcad.checks import constraint_findings
@@ -185,7 +186,9 @@ def test_each_figure_stands_beside_its_own_name(robot: Robot, jump: Jump) -> Non
     }  # fmt: skip
 
 
-@pytest.mark.parametrize(("infill", "words"), [(0.35, "35 % gyroid infill"), (1.0, "solid")])
+@pytest.mark.parametrize(
+    ("infill", "words"), [(0.35, "35 % gyroid infill"), (0.95, "95 % gyroid infill"), (1.0, "solid")]
+)
 def test_the_print_settings_are_those_of_the_workshop(robot: Robot, infill: float, words: str) -> None:
     changed = {
         "layer_height_mm": 0.15, "first_layer_mm": 0.25, "line_width_mm": 0.47, "perimeters": 4, "top_layers": 6,
@@ -252,6 +255,43 @@ def test_the_page_links_to_the_files_beside_it(robot: Robot, jump: Jump) -> None
     assert links.count("assembly.html") == 3  # at the top, where printing is told, and among the files
     anchors = {element.get("id") for element in root.iter()}
     assert {link[1:] for link in links if link[0] == "#"} <= anchors
+
+
+def test_files_stand_by_their_folders(robot: Robot) -> None:
+    """Each folder with its own count; what lies in a folder within another is not counted there."""
+    files = ["bom.csv", "print/plate-1-PLA.3mf", "print/README.md", "urdf/a.urdf", "urdf/meshes/a.stl", "urdf/b.json"]
+    page = "".join(_downloads(files))
+    assert re.findall(r"<summary>(.*?)</summary>", page) == [
+        "this folder (1)", "print (2)", "urdf (2)", "urdf/meshes (1)",
+    ]  # fmt: skip
+    assert re.findall(r'href="([^"]*)"', page) == [
+        "bom.csv", "print/plate-1-PLA.3mf", "print/README.md", "urdf/a.urdf", "urdf/b.json", "urdf/meshes/a.stl",
+    ]  # fmt: skip
+    told = "".join(_printing(robot, files))
+    assert re.findall(r'href="([^"]*)"', told) == ["print/plate-1-PLA.3mf", "print/README.md"]
+    assert "For other slicers than PrusaSlicer: <a" in told
+    assert "For other slicers" not in "".join(_printing(robot, files[:2]))
+
+
+@pytest.mark.parametrize("priced", [True, False])
+def test_parts_stand_in_two_tables_with_the_price_of_all_pieces(
+    robot: Robot, monkeypatch: pytest.MonkeyPatch, priced: bool
+) -> None:
+    """Pads are printed too. Without any price there is no column of prices."""
+    price = 0.25 if priced else None
+    items = (
+        BillLine("printed", "toe", 2, "PETG", 0.0015, "model", price),
+        BillLine("pad", "sole", 4, "TPU 95A", 0.0005, "solid"),
+        BillLine("bought", "nut", 8, "", 0.00025, "catalogue", price),
+    )
+    monkeypatch.setattr(module, "bill_of_materials", lambda robot: Bill(items))
+    page = "<x>" + "".join(_parts(robot)) + "</x>"
+    rows = [[cell.text or "" for cell in row] for row in ElementTree.fromstring(page).iter("tr")]
+    expected = [
+        ["part", "material", "quantity", "g each", "€"], ["toe", "PETG", "2", "1.50", "0.50"],
+        ["sole", "TPU 95A", "4", "0.50", ""], ["article", "quantity", "g each", "€"], ["nut", "8", "0.25", "2.00"],
+    ]  # fmt: skip
+    assert rows == (expected if priced else [row[:-1] for row in expected])
 
 
 def test_bars_stand_in_one_order_and_what_has_no_share_comes_last_with_its_reason() -> None:

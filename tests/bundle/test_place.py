@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -149,14 +150,17 @@ def test_where_there_are_no_hard_links_files_are_copied(tmp_path: Path, monkeypa
     assert [path.name for path in tmp_path.iterdir()] == ["robot"]
 
 
-def test_what_appears_during_the_write_is_not_lost(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("text", ["edited late", "new"])
+def test_what_appears_during_the_write_is_not_lost(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> None:
+    """Also where the edited file is as long as before."""
     target = tmp_path / "robot"
     old(target)
     whole = place.exchanged
 
     def late(fresh: Path, there: Path) -> bool:
         (there / "late.txt").write_text("mine")
-        (there / "a.md").write_text("edited late")
+        (there / "a.md").write_text(text)
+        os.utime(there / "a.md", (1e9, 1e9))
         return whole(fresh, there)
 
     monkeypatch.setattr(place, "exchanged", late)
@@ -165,10 +169,12 @@ def test_what_appears_during_the_write_is_not_lost(tmp_path: Path, monkeypatch: 
     assert verify(target) == []
     left = Path(str(error.value).split(" is in ")[1])
     assert listed(left) == ["a.md", "late.txt"]
-    assert (left / "a.md").read_text() == "edited late"
+    assert (left / "a.md").read_text() == text
 
 
-def test_a_folder_is_made_with_its_parents(tmp_path: Path) -> None:
+def test_a_folder_is_made_with_its_parents(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beside its place, on the same disk, whatever becomes of the system's folder for temporary files."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "gone"))
     write_folder(tmp_path / "a" / "deep" / "robot", "robot", {}, {"b.md": "new"}.items())
     assert verify(tmp_path / "a" / "deep" / "robot") == []
     assert [path.name for path in (tmp_path / "a" / "deep").iterdir()] == ["robot"]

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from jumpcad.bundle import renders as module
-from jumpcad.bundle.renders import exploded, jump_gif, renders
+from jumpcad.bundle.renders import exploded, gif, jump_gif, renders
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.camera import View, aimed
@@ -95,3 +95,10 @@ def test_the_caption_says_how_much_slower_the_jump_is_shown(
     shown_s = (gif.n_frames - 1) * gif.info["duration"] / 1000.0
     times = jump.trajectory.time_s
     assert caption == f"slow motion, {shown_s / (times[-1] - times[0]):.0f} times; stripes of 100 mm"
+
+
+@pytest.mark.parametrize("frame_ms", [40, 120])
+def test_frames_are_shown_for_as_long_as_asked(frame_ms: int) -> None:
+    """In hundredths of a second, as GIF has it."""
+    file = Image.open(io.BytesIO(gif([Image.new("RGB", (8, 8), colour) for colour in ("red", "blue")], frame_ms)))
+    assert (file.n_frames, file.info["duration"]) == (2, frame_ms)

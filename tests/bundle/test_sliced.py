@@ -8,8 +8,10 @@ import pytest
 import trimesh
 from support.slicers import OBEDIENT, pretend_slicer, three_parts
 
+from jumpcad.bundle import sliced
 from jumpcad.bundle.export import export
-from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, _modelled_grams, _StlPart, slice_bundle
+from jumpcad.bundle.folder import write_folder
+from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, _modelled_grams, _StlPart, slice_bundle, write_times
 from jumpcad.errors import JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
@@ -19,8 +21,14 @@ from jumpcad.workshop import load_workshop
 def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
     small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pretend_slicer(OBEDIENT.replace("TAMPER", ""), tmp_path, monkeypatch)
-    found = slice_bundle(export(three_parts(small_robot), tmp_path / "frog", pictures=False).folder)
+    """With a workshop that is equal to the bundle's, whose times belong in its bill; plates alone lose a setting."""
+    tamper = 'settings |= {"perimeters": "9"} if arguments[-1].endswith(".3mf") else {}'
+    pretend_slicer(OBEDIENT.replace("TAMPER", tamper), tmp_path, monkeypatch)
+    made = export(three_parts(small_robot), tmp_path / "frog", pictures=False)
+    found = slice_bundle(made.folder, load_workshop("default"))
+    assert found.billed
+    assert found.ignored == {"perimeters": (str(found.workshop.process.perimeters), "9")}
+    assert write_times(found).manifest["versions"] == made.manifest["versions"] | {"PrusaSlicer": "2.9.1"}
     files = {f"print/{plate.name}.3mf" for plate in found.plates}
     assert files == {name for name in found.bundle.files if name.endswith(".3mf")}
     assert all(plate.name.endswith(f"-{plate.material}") for plate in found.plates)
@@ -59,6 +67,25 @@ def test_no_part_reaches_further_than_two_metres(tmp_path: Path, axis: int, sign
         else:
             with pytest.raises(JumpcadError, match=r"part\.stl: reaches further than 2000 mm, so it is no part"):
                 _StlPart(tmp_path / "part.stl")
+
+
+def test_a_part_with_a_corner_that_is_no_number_is_none(tmp_path: Path) -> None:
+    """An STL file has its first corner at byte 96: header, count, normal."""
+    data = trimesh.creation.box((10.0, 10.0, 10.0)).export(file_type="stl")
+    (tmp_path / "part.stl").write_bytes(data[:96] + np.array([np.nan], "<f4").tobytes() + data[100:])
+    with pytest.raises(JumpcadError, match=r"part\.stl: reaches further than 2000 mm, so it is no part"):
+        _StlPart(tmp_path / "part.stl")
+
+
+def test_a_plate_of_a_material_that_the_workshop_lacks_is_told_before_it_is_sliced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sliced, "slicer_version", lambda: "2.9.1")
+    line = {"kind": "printed", "name": "a", "quantity": 1, "material": "PLA", "mass_kg": 0.1, "source": "printed"}
+    files = {"workshop.toml": load_workshop("default").to_toml(), "stl/a.stl": "", "print/plate-1-ABS.3mf": ""}
+    write_folder(tmp_path / "b", "frog", {"masses": [line]}, files.items())
+    with pytest.raises(JumpcadError, match="the bundle has parts of ABS, but the workshop only PETG, PLA"):
+        slice_bundle(tmp_path / "b")
 
 
 def test_sections_that_are_alike_are_one(tmp_path: Path) -> None:

@@ -1,8 +1,10 @@
 """Pictures of assembly: few colours, near those drawn."""
 
 import numpy as np
+import pytest
 from PIL import Image
 
+from jumpcad.bundle import step_pictures as module
 from jumpcad.bundle.step_pictures import paletted
 
 
@@ -17,3 +19,13 @@ def test_a_palette_keeps_the_ground_and_changes_no_colour_visibly() -> None:
     drawn, seen = (shades.astype(int), np.asarray(picture.convert("RGB")).astype(int))
     assert (seen[:10] == 255).all()
     assert np.abs(seen - drawn).max() <= 16
+
+
+def test_details_are_drawn_smaller_than_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    views = [("step-1", "whole"), ("step-1-pads", "pads"), ("step-12", "other"), ("step-12-springs", "springs")]
+    monkeypatch.setattr(module, "named_views", lambda robot: views)
+    monkeypatch.setattr(module, "_picture", lambda view, number, scene, size: (view, size))
+    found = module.step_pictures(None, (), None)  # type: ignore[arg-type]
+    large, small = found["step-1"][1], found["step-1-pads"][1]
+    assert found == {name: (view, small if name.count("-") == 2 else large) for name, view in views}
+    assert small[0] < large[0]

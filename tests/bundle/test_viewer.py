@@ -1,10 +1,12 @@
 """What a click on a part of the report's picture shows."""
 
+import json
+
 import pytest
 from support.built import built
 
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.bundle.viewer import parts_facts
+from jumpcad.bundle.viewer import _embedded, parts_facts
 
 
 def test_what_is_bought_in_one_piece_and_seen_as_several_has_the_mass_of_the_whole() -> None:
@@ -31,3 +33,11 @@ def test_a_printed_part_is_shown_with_its_material_file_and_mass() -> None:
             "file": f"stl/{part.name}.stl",
             "mass_g": round(1000.0 * part.mass.mass_kg, 3),
         }
+
+
+def test_data_in_a_page_can_neither_end_their_script_nor_begin_markup() -> None:
+    """HTML ends a script at `</script`, XML knows `&`; both read JSON's escapes as the same characters."""
+    data = {"a <b>": "</script><!-- & -->"}
+    text = _embedded(data)
+    assert not set("<>&") & set(text)
+    assert json.loads(text) == data
