@@ -5,6 +5,7 @@ import io
 import numpy as np
 import pytest
 from PIL import Image
+from support.built import built
 
 from jumpcad.bundle import renders as module
 from jumpcad.bundle.renders import exploded, gif, jump_gif, renders
@@ -33,6 +34,17 @@ def test_exploding_keeps_the_order_across_the_robot(small_robot: Robot) -> None:
     assert offset["leg_axle"] == offset["main_leg"] == 0.0
     assert 0.0 < offset["roller"] < offset["body_plate_left"] < offset["ring_1"]
     assert offset["ring_2"] < offset["body_plate_right"] < 0.0
+
+
+def test_pads_of_wide_toes_go_no_farther_aside_than_the_bodys_outermost_part() -> None:
+    """The toes reach 62 mm aside, the sensor's mount, which is outside of all else of the body, 27 mm."""
+    robot = built("kenan-2.0")
+    things, bodies = visuals(robot), body_poses(robot)
+    poses = [bodies[thing.body] @ thing.T_body_mesh for thing in things]
+    moved = exploded(things, poses)
+    offset = {thing.name: new[1, 3] - old[1, 3] for thing, new, old in zip(things, moved, poses, strict=True)}
+    assert offset["toe_left_pad"] == pytest.approx(offset["sensor_mount"]) == max(offset.values())
+    assert offset["toe_right_pad"] == pytest.approx(-offset["toe_left_pad"])
 
 
 def test_the_jump_is_an_endless_gif_of_few_colours(small_robot: Robot) -> None:
