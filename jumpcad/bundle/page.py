@@ -250,13 +250,11 @@ def _cell(item: BillLine, column: str) -> str:
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
-    """Yield a table; a row whose last cell begins with `error` or `warning` has its colour."""
+    """Yield a table."""
     classes = [' class="number"' if title in NUMERIC else "" for title in head]
     yield "<table>"
     yield "<tr>" + "".join(f"<th{kind}>{title}</th>" for kind, title in zip(classes, head, strict=True)) + "</tr>"
     for row in rows:
-        severity = row[-1].partition(":")[0]
-        start = f'<tr class="{severity}">' if severity in ("error", "warning") else "<tr>"
         cells = zip(classes, row, strict=True)
-        yield start + "".join(f"<td{kind}>{escape(allowed(cell))}</td>" for kind, cell in cells) + "</tr>"
+        yield "<tr>" + "".join(f"<td{kind}>{escape(allowed(cell))}</td>" for kind, cell in cells) + "</tr>"
     yield "</table>"

@@ -47,6 +47,8 @@ def robot(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 def test_the_manifest_says_what_each_part_gets_and_bears(robot: Robot) -> None:
     facts = electronics_facts(robot)
     cells = 2 if robot.workshop.bought.regulator else 1
+    assert facts["kit"] == {1: "light-1s", 2: "strong-2s"}[cells]
+    assert facts["battery"] == robot.workshop.bought.battery == {1: "lipo-1s-300", 2: "lipo-2s-180"}[cells]
     assert facts["battery_v"] == [pytest.approx(3.3 * cells), pytest.approx(4.2 * cells)]
     for part in (*facts["boards"], facts["motor"]):
         assert part["bears_v"][0] <= part["gets_v"][0] <= part["gets_v"][1] <= part["bears_v"][1]

@@ -119,6 +119,11 @@ def test_only_of_a_jump_it_is_said_how_sure_it_is(
     monkeypatch.setattr(bundle_module, "write_report", lambda robot, pictures, jump, glb, files, sure: sure)
     assert bundle_module._page(small_robot, {}, b"glb", []) is (sure if jumps else None)
     assert bundle_module._page(small_robot, {}, None, []) is None
+    shown: list[object] = []
+    monkeypatch.setattr(bundle_module, "write_report", lambda robot, *rest: shown.extend(rest))
+    bundle_module._page(small_robot, {"step-1": b"1", "exploded": b"e", "rest": b"r"}, None, iter(["bom.csv"]))
+    assert shown == [{"rest": b"r", "exploded": b"e"}, jump, None, ("bom.csv",), None]  # no steps of the assembly
+    del asked[2:]
     assert [(one.flight, one.trajectory) for one in asked] == [("simulated", True), ("simulated", False)]
 
 

@@ -36,6 +36,7 @@ def robot(request: pytest.FixtureRequest) -> Robot:
 
 def test_the_guide_names_all_that_the_bill_names(robot: Robot) -> None:
     guide = write_guide(robot)
+    assert guide.startswith(f"# {robot.name}\n\n{1000.0 * robot.mass_kg:.1f} g. Left and right are as seen from behind")
     tables, steps = guide.split("## 1. ")
     for item in bill_of_materials(robot).items:
         assert item.name in tables

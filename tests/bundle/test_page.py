@@ -70,6 +70,9 @@ def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:
         {
             "mass": {"ballistic_range_m": 0.25, "com_rise_m": 0.5},
             "floor": {"ballistic_range_m": 0.75, "com_rise_m": 0.0},
+            "lengths": {"ballistic_range_m": 0.01, "com_rise_m": 0.02},
+            "springs": {"ballistic_range_m": 0.03, "com_rise_m": 0.04},
+            "calibration": {"ballistic_range_m": 0.05, "com_rise_m": 0.06},
         },
         {},
         128,
@@ -84,6 +87,9 @@ def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:
     rows = re.findall(r"<tr><td>([^<]+)</td>(.*?)</tr>", section)
     shares = {name: re.findall(r"> (\d+) %", row) for name, row in rows}
     assert (shares["mass"], shares["friction of the floor"]) == (["25", "50"], ["75", "0"])  # of range, of rise
+    assert shares["lengths of the links, as printed"] == ["1", "2"]
+    assert shares["rate of the springs, as made"] == ["3", "4"]
+    assert shares["springs' efficiency and friction of the pins"] == ["5", "6"]
     assert "<dd>177 to 213 mm</dd>" in page
     assert page.index("friction of the floor") < page.index("<td>mass</td>")  # what matters most comes first
     assert 'width: 75%"' in page

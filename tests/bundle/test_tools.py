@@ -9,6 +9,7 @@ from support.built import built
 from jumpcad.bundle import tools
 from jumpcad.bundle.tools import tool_lines
 from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.scene.assembly_steps import assembly_steps
 
 
 def test_a_charger_is_needed_for_two_cells_alone(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -37,3 +38,13 @@ def test_a_rod_for_the_springs_pin_passes_its_hole(hole_mm: float) -> None:
     (rod,) = re.findall(r"rod of at most ([\d.]+) mm", text)
     assert hole_mm - 1.0 < float(rod) <= hole_mm - 0.5 + 1e-9
     assert 2.0 * float(rod) % 1.0 == 0.0
+
+
+def test_the_tools_of_all_steps_are_in_one_list() -> None:
+    """Each once, in the order of the alphabet."""
+    robot = built("kenan-2.0")
+    steps = assembly_steps(robot)
+    tools = {placed.move.tool.name for step in steps for placed in step.placed if placed.move.tool}
+    assert len(tools) > 3
+    (line,) = (line for line in tool_lines(robot, steps) if line.startswith(f"- {min(tools)}"))
+    assert line == f"- {', '.join(sorted(tools))}"

@@ -1,12 +1,14 @@
 """What a click on a part of the report's picture shows."""
 
 import json
+from collections.abc import Callable
 
 import pytest
-from support.built import built
+from support.built import built, geared, placed
 
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.bundle.viewer import _embedded, parts_facts
+from jumpcad.bundle.viewer import _embedded, parts_facts, turning_parts
+from jumpcad.robot import Robot
 
 
 def test_what_is_bought_in_one_piece_and_seen_as_several_has_the_mass_of_the_whole() -> None:
@@ -41,3 +43,14 @@ def test_data_in_a_page_can_neither_end_their_script_nor_begin_markup() -> None:
     text = _embedded(data)
     assert not set("<>&") & set(text)
     assert json.loads(text) == data
+
+
+@pytest.mark.parametrize("robot", [lambda: built("kenan-2.0"), geared], ids=["one pair", "two pairs"])
+def test_what_turns_turns_about_its_own_middle(robot: Callable[[], Robot]) -> None:
+    """Gears are round: the middle of a mesh, seen from the side, is its axle, in metres."""
+    axes = {one["node"]: one["axis_m"] for one in turning_parts(robot())}
+    assert axes["cam"] == axes["cam_gear"]
+    assert axes["motor_shaft"] == axes["motor_pinion"]
+    for node in axes.keys() & {"cam_gear", "motor_pinion", "idler"}:
+        middle = placed(robot(), node).bounds.mean(axis=0)[[0, 2]] / 1000.0
+        assert axes[node] == pytest.approx(middle, abs=4e-4), node

@@ -91,6 +91,7 @@ def test_gazebo_finds_the_model_by_its_config(small_robot: Robot) -> None:
     """Gazebo opens the file that `model.config` names, beside it, if it has the version given."""
     files = dict(sdf_files(small_robot))
     (named,) = ET.fromstring(files["sdf/model.config"]).iter("sdf")
+    assert ET.fromstring(files["sdf/model.config"]).findtext("name") == small_robot.name
     assert files.keys() == {"sdf/model.config", f"sdf/{named.text}"}
     assert ET.fromstring(files[f"sdf/{named.text}"]).get("version") == named.get("version")
 

@@ -52,6 +52,8 @@ def model(plate):
 
 def test_parts_are_named_objects_in_millimetres_and_copies_are_items(model):
     assert model.get("unit") == "millimeter"
+    said = {one.get("name"): one.text for one in model.iter(f"{CORE}metadata")}
+    assert said == {"Title": "plate-1-PETG", "Application": "jumpcad"}
     names = {o.get("id"): o.get("name") for o in model.iter(f"{CORE}object")}
     assert sorted(names.values()) == ["gear", "leg & lever"]
     assert sorted(names[item.get("objectid")] for item in model.iter(f"{CORE}item")) == ["gear", "gear", "leg & lever"]

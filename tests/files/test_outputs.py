@@ -2,6 +2,7 @@
 
 import io
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -216,6 +217,12 @@ def test_outputs_are_apart_from_each_other_and_from_what_is_read(tmp_path: Path)
     for both in ((inner, outer), (outer, inner)):
         with pytest.raises(JumpcadError, match=r"^--plots .*plots: lies below -o .*x\.toml, which is a file; choose"):
             require_apart(dict(both), {})
+
+
+@pytest.mark.parametrize(("path", "code"), [("a\ud800.toml", "U+D800"), ("\udfff/b.toml", "U+DFFF")])
+def test_a_path_with_half_of_a_character_is_refused_by_its_code(path: str, code: str) -> None:
+    with pytest.raises(JumpcadError, match=rf"cannot be a path: {re.escape(code)} cannot be part of a file's name"):
+        require_path(Path(path))
 
 
 @pytest.mark.parametrize("path", ["a\0b.toml", "\0", "folder/\0.toml"])

@@ -27,11 +27,12 @@ def test_file_that_is_not_text(tmp_path: Path) -> None:
     ("name", "reason"),
     [
         ("none.toml", "no such file"),
-        (".", "is a folder"),
+        (".", "is a folder, not a TOML file"),
+        ("a\0b.toml", "cannot be the name of a file$"),
         ("file.toml/inside.toml", "Not a directory"),
         ("x" * 300 + ".toml", "too long"),
     ],
-    ids=["missing", "folder", "file as folder", "too long a name"],
+    ids=["missing", "folder", "zero", "file as folder", "too long a name"],
 )
 def test_files_that_cannot_be_read(tmp_path: Path, name: str, reason: str) -> None:
     (tmp_path / "file.toml").write_text("")
@@ -147,3 +148,14 @@ def test_a_path_that_cannot_be_is_told_why(tmp_path: Path) -> None:
         real_path("x" * 300)
     with pytest.raises(JumpcadError, match=r": cannot be a path: embedded null"):
         real_path("a\0b")
+
+
+def test_a_file_of_somebody_elses_is_told_as_one_that_may_not_be_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(*_: object) -> int:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(os, "open", refused)
+    with pytest.raises(JumpcadError, match=r"a\.toml: may not be read \(permission denied\)$"):
+        read_toml(tmp_path / "a.toml")

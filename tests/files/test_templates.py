@@ -45,3 +45,8 @@ def test_a_bare_name_is_the_template_whatever_lies_in_the_current_folder(
     assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
     assert find_template("robots", "./kenan-2.0") == Path("kenan-2.0")
     assert find_template("robots", "mine") == Path("mine")
+
+
+def test_a_name_that_is_nearly_a_templates_is_told_which() -> None:
+    with pytest.raises(JumpcadError, match=r"^'kenan-20' is neither .*, kenan-2\.0 \(did you mean kenan-2\.0\?\)$"):
+        find_template("robots", "kenan-20")
