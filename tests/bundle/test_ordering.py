@@ -11,7 +11,7 @@ from support.built import built
 
 from jumpcad.building import build
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.bundle.ordering import order_lines, print_lines, weigh_lines
+from jumpcad.bundle.ordering import _stock, order_lines, print_lines, weigh_lines
 from jumpcad.bundle.tools import tool_lines
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
@@ -82,6 +82,12 @@ def test_tubes_are_not_ground_and_aluminium_gives_no_sparks(axle: str, sold: str
     for line in lines:
         assert re.search(rf"cut from {sold}", line)
     assert any("sparks" in line for line in order_lines(robot)) is (axle != "aluminium-7075")
+
+
+@pytest.mark.parametrize("bore_share", [0.0, 0.2, 0.8])
+def test_a_rod_with_a_bore_is_a_tube_however_thick_its_wall_is(bore_share: float) -> None:
+    rod = load_workshop().catalogue.rods["steel-tube"].model_copy(update={"bore_share": bore_share})
+    assert _stock(rod, "0.5").startswith("a tube of 0.5 m" if bore_share else "a rod of 0.5 m")
 
 
 def test_a_strip_is_as_long_as_its_pieces_with_a_cut_after_each() -> None:
