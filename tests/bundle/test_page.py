@@ -20,11 +20,12 @@ from jumpcad.bundle import page as module
 from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials
 from jumpcad.bundle.compared import compared_of
 from jumpcad.bundle.limits import limits, verdict_on
-from jumpcad.bundle.page import ACCOUNT, _downloads, _energy, _parts, _printing, write_report
+from jumpcad.bundle.page import ACCOUNT, _downloads, _energy, _no_jump, _parts, _printing, write_report
 from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.calibration.measurements import load_measurements
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
+from jumpcad.dimensions import unit_of_key
 from jumpcad.files import template_names
 from jumpcad.findings import at_least, at_most, limit
 from jumpcad.mechanism.poses import body_poses
@@ -62,6 +63,12 @@ def test_energies_are_shares_of_what_was_loaded_and_less_than_none_has_no_width(
     assert re.findall(r"width: ([\d.]+)%", page) == ["70.00", "31.00", "0.00"]
     assert "Of 1000.0 mJ" in page
     assert "-1.0 %" in page
+
+
+def test_without_a_take_off_there_is_no_account_and_a_verdict_is_told_in_words() -> None:
+    assert list(_energy(SimpleNamespace(energy_account_j=None))) == []
+    (said,) = _no_jump(SimpleNamespace(findings=[], verdict="falls_over"))
+    assert "It does not jump: falls over.</p>" in said
 
 
 def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:
@@ -180,6 +187,9 @@ def test_each_figure_stands_beside_its_own_name(robot: Robot, jump: Jump) -> Non
         digits = len(found[name][1].partition(".")[2])
         assert float(found[name][1]) == pytest.approx(value, abs=0.51 * 10.0**-digits), name
         assert found[name][2] == unit
+    for key, value in robot.design.model_dump().items():
+        ((name, told, unit),) = (row for row in found.values() if row[0].startswith(f"{key}: "))
+        assert (float(told), unit) == (pytest.approx(value), unit_of_key(key) or "ratio"), name
     assert found["gear motor"][1] == train.motor.name
     assert found["mass of the foot"][1] == f"{1000.0 * robot.bodies['foot'].mass_kg:.1f}"
     cards = dict(re.findall(r"<dt>([^<]*)</dt><dd>([^<]*)</dd>", page))
@@ -258,6 +268,9 @@ def test_the_page_links_to_the_files_beside_it(robot: Robot, jump: Jump) -> None
     root = parsed(page)
     links = [link.get("href") or "" for link in root.iter("a")]
     assert {"assembly.html", "bom.csv", "print/plate%201.3mf"} == {link for link in links if link[0] != "#"}
+    assert [(link.get("href"), link.text) for link in root.iter("a")][:2] == [
+        ("assembly.html", "Assembly guide"), ("bom.csv", "Bill of materials"),
+    ]  # fmt: skip
     assert links.count("assembly.html") == 3  # at the top, where printing is told, and among the files
     anchors = {element.get("id") for element in root.iter()}
     assert {link[1:] for link in links if link[0] == "#"} <= anchors

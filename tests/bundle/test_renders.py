@@ -1,6 +1,7 @@
 """The renders and the animated jump of a robot."""
 
 import io
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -24,6 +25,26 @@ def test_three_different_pictures_of_the_size_asked(small_robot: Robot) -> None:
     assert {(picture.format, picture.size) for picture in pictures} == {("PNG", (160, 120))}
     assert len(set(files.values())) == 3
     assert all(np.asarray(picture).min() < 100 for picture in pictures)
+
+
+def test_pictures_have_the_names_of_their_poses(small_robot: Robot) -> None:
+    """At rest, with loaded springs, and at rest with its parts apart, from another side."""
+    things, shown, seen = visuals(small_robot), [], []
+
+    def picture(poses: list[np.ndarray], size: tuple[int, int], view: View, corners: np.ndarray) -> Image.Image:
+        shown.append(np.array(poses))
+        seen.append((size, view, corners.min(axis=0).tolist()))
+        return Image.new("RGB", size)
+
+    found = module._renders(SimpleNamespace(picture=picture), small_robot, things, (16, 12))  # type: ignore[arg-type]
+    assert tuple(found) == ("rest", "compressed", "exploded")
+    for drawn, loaded in zip(shown[:2], (0.0, 1.0), strict=True):
+        bodies = body_poses(small_robot, loaded)
+        np.testing.assert_allclose(drawn, [bodies[thing.body] @ thing.T_body_mesh for thing in things], atol=1e-12)
+    np.testing.assert_allclose(shown[2], exploded(things, list(shown[0])))
+    assert [size for size, *_ in seen] == [(16, 12)] * 3
+    assert seen[0][1] == seen[1][1] != seen[2][1]
+    assert seen[2][2][1] < seen[0][2][1]  # the frame is that of what is drawn
 
 
 def test_exploding_keeps_the_order_across_the_robot(small_robot: Robot) -> None:

@@ -1,6 +1,7 @@
 """MJCF for simulations by others, as MuJoCo compiles it: key frames, motor, latch, sensors, and who touches whom."""
 
 import math
+import os
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -12,8 +13,9 @@ from support.built import built
 from support.machines import one_sided
 
 from jumpcad.exporters.collision import body_box, capsules
-from jumpcad.exporters.mjcf_robot import write_robot
+from jumpcad.exporters.mjcf_robot import mjcf_files, write_robot
 from jumpcad.exporters.mjcf_scene import readme, write_scene
+from jumpcad.exporters.urdf import urdf_files
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
@@ -110,6 +112,19 @@ def test_the_notes_name_the_key_frames_that_the_model_has(robot: Robot, keys: tu
     assert tuple(key.get("name") for key in root.iter("key")) == keys
     (line,) = (line for line in readme(own).splitlines() if line.startswith("Key frames: "))
     assert tuple(re.findall(r"`(\w+)`", line)) == keys
+
+
+def test_the_scene_lies_beside_the_robot_that_it_includes_and_meshes_beside_both(small_robot: Robot) -> None:
+    """By their paths in a bundle, whose URDF has the meshes."""
+    files = dict(mjcf_files(small_robot))
+    name = small_robot.name
+    assert set(files) == {f"mjcf/{name}.xml", "mjcf/scene.xml", "mjcf/README.md"}
+    root, scene = (ET.fromstring(files[f"mjcf/{file}.xml"]) for file in (name, "scene"))
+    assert [one.get("file") for one in scene.iter("include")] == [f"{name}.xml"]
+    folder = root.find("compiler").get("meshdir")
+    paths = {os.path.normpath(f"mjcf/{folder}/{mesh.get('file')}") for mesh in root.iter("mesh")}
+    assert paths == {path for path, _ in urdf_files(small_robot) if path.endswith(".stl")}
+    assert files["mjcf/README.md"].startswith(f"# {name} in MuJoCo")
 
 
 def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: Any) -> None:
