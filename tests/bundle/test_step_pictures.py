@@ -21,6 +21,17 @@ def test_a_palette_keeps_the_ground_and_changes_no_colour_visibly() -> None:
     assert np.abs(seen - drawn).max() <= 16
 
 
+@pytest.mark.parametrize("ground", [(255, 255, 255), (250, 249, 251), (10, 20, 30)])
+def test_a_ground_that_is_rare_keeps_its_colour_and_changes_no_other(ground: tuple[int, int, int]) -> None:
+    """One row of it, and shades of another colour and light greys."""
+    shades = np.full((40, 256, 3), ground, dtype=np.uint8)
+    shades[1:20] = np.arange(256)[:, None] * np.array([1.0, 0.6, 0.2])
+    shades[20:] = np.linspace(224, 254, 256)[:, None]
+    seen = np.asarray(paletted(Image.fromarray(shades)).convert("RGB")).astype(int)
+    assert (seen[0] == ground).all()
+    assert np.abs(seen - shades.astype(int)).max() <= 16
+
+
 def test_details_are_drawn_smaller_than_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     views = [("step-1", "whole"), ("step-1-pads", "pads"), ("step-12", "other"), ("step-12-springs", "springs")]
     monkeypatch.setattr(module, "named_views", lambda robot: views)
