@@ -169,3 +169,6 @@ def test_what_was_added_is_named_apart_and_printable(tmp_path: Path) -> None:
     (folder / "link").symlink_to("/")
     assert verify(folder) == []
     assert unlisted(folder) == ["\\x1b[2J", "album/empty", "deep/notes.txt", "link"]
+    for name in ("a.md", "notes.txt"):
+        (folder / "deep" / name).unlink()
+    assert unlisted(folder) == ["\\x1b[2J", "album/empty", "link"]  # an empty folder of the bundle is its own
