@@ -107,6 +107,14 @@ def test_a_floor_as_strong_as_the_material_says_changes_nothing_and_a_weaker_one
     }
 
 
+@pytest.mark.parametrize(("source", "begins"), [("maker.", "maker; "), ("maker", "maker; "), ("", "")])
+def test_what_a_floor_says_is_added_to_the_source_as_one_sentence(source: str, begins: str) -> None:
+    own = WORKSHOP.materials["PLA"].model_copy(update={"source": source})
+    shop = WORKSHOP.model_copy(update={"materials": {**WORKSHOP.materials, "PLA": own}})
+    found = read("[joints]\nfloor_n = 200", shop).materials["PLA"].source
+    assert found == f"{begins}strength in plane: a bore's floor broke at 200 N"
+
+
 @pytest.mark.parametrize(("floor_n", "between"), [(200.0, 30.0), (100.0, 23.0)])
 def test_layers_hold_each_other_no_better_than_a_floor_that_broke_holds_itself(floor_n: float, between: float) -> None:
     """By hand: 100 N·√3 on pi·3·0.8 mm² are 23.0 MPa, below the 30 MPa of PLA between its layers; 200 N are 45.9."""
