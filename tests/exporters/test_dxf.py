@@ -37,6 +37,8 @@ def test_a_plate_with_a_hole_is_cut_and_engraved_in_millimetres() -> None:
     plate = rectangle((40.0, 20.0)) - hole(10.0)
     document = read(write_dxf(plate, disc(2.0, (15.0, 0.0))))
     assert document.units == MILLIMETRES
+    colours = {name: document.layers.get(name).dxf.color for name in ("CUT", "ENGRAVE")}
+    assert colours == {"CUT": 1, "ENGRAVE": 5}  # AutoCAD's index: red and blue, by which laser programs tell them
     assert enclosed_mm2(document, "CUT") == pytest.approx(800.0 - np.pi * 25.0, rel=0.001)
     assert enclosed_mm2(document, "ENGRAVE") == pytest.approx(np.pi, rel=0.005)
 
