@@ -4,12 +4,14 @@ import math
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.documented import documented_bases
 from support.limits import default_limits
 
 from jumpcad.drive.cam_findings import BASIS, LIMITS, SCALES, Limit, _found, cam_findings, missed
-from jumpcad.drive.cam_limits import FIRST_ROWS
+from jumpcad.drive.cam_law import CamLaw
+from jumpcad.drive.cam_limits import FIRST_ROWS, measure
 
 CAM = default_limits().cam
 
@@ -63,6 +65,10 @@ def test_what_a_cam_misses_is_named_with_how_much_and_what_to_change() -> None:
     words = missed(CAM, margin)
     assert "(5° short)" in words
     assert "lower compression_ratio, or safety.pressure_angle_reserve_deg" in words
+    for undercut, worst in ((-0.8, "pressure angle"), (-0.95, "convex radius")):  # 5° are 0.87 of the scale
+        margin[names.index("cam_undercut")] = undercut
+        words = missed(CAM, margin)
+        assert min(("pressure angle", "convex radius"), key=words.index) == worst
 
 
 def test_what_is_missed_by_much_is_a_plain_number_and_hardly_anything_a_hundredth() -> None:
@@ -75,6 +81,34 @@ def test_what_is_missed_by_much_is_a_plain_number_and_hardly_anything_a_hundredt
     for short, said in figures.items():
         margin[place] = -short
         assert f"({said} MPa short)" in missed(CAM, margin)
+
+
+@pytest.mark.parametrize(
+    ("remedy", "law", "limits", "mends"),
+    [
+        ("lower compression_ratio", {"compression_rad": 0.95}, {}, ("hub", "place")),
+        ("lower stiffness_nmm_per_deg", {"stiffness_nm_per_rad": 0.9}, {}, ("contact", "roller_load")),
+        ("nmm_per_deg or compression_ratio", {"compression_rad": 0.9}, {}, ("contact", "roller_load")),
+        ("a smaller bought.roller", {}, {"roller_radius_mm": 0.9}, ("undercut", "drop", "next_lift")),
+        ("a wider bought.roller", {}, {"cam_width_mm": 1.1}, ("contact",)),
+        ("a larger bought.roller", {}, {"roller_load_n": 1.1}, ("roller_load",)),
+        ("a smaller bought.leg_bearing", {}, {"hub_radius_mm": 0.9}, ("hub",)),
+        ("a smaller body.stop_deg", {}, {"overshoot_rad": 0.9}, ("overshoot",)),
+    ],
+)  # fmt: skip
+def test_what_is_to_be_changed_makes_the_margin_greater(
+    remedy: str, law: dict[str, float], limits: dict[str, float], mends: tuple[str, ...]
+) -> None:
+    """Of one shape, by the change of the law or of the limits that the remedy brings about."""
+    before = CamLaw(math.radians(60.0), 1.0, CAM.lift_rad, CAM.ramp_rad)
+    laws = before, replace(before, **{key: share * getattr(before, key) for key, share in law.items()})
+    others = CAM, replace(CAM, **{key: share * getattr(CAM, key) for key, share in limits.items()})
+    rows = [measure(*pair, np.array([[16.0, 17.0, 0.25]]), 181)[1][:, 0] for pair in zip(laws, others, strict=True)]
+    less, more = (np.minimum.reduceat(of, FIRST_ROWS) for of in rows)
+    for number, checked in enumerate(LIMITS):
+        if checked.name.removeprefix("cam_") in mends:
+            assert remedy in checked.remedy
+            assert more[number] > less[number], checked.name
 
 
 def test_three_findings_have_their_value_and_limit() -> None:

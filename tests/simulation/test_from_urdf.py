@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.flights import make_lopsided
 from support.machines import let_go, one_sided, rubbing, stopped
 
 from jumpcad.design import load_design
@@ -251,6 +252,36 @@ def test_no_principal_moment_exceeds_the_other_two_together(turn_deg: float) -> 
     for order in itertools.permutations((1e-5, 2e-5, 3.1e-5)):
         assert "none can be more than the other two together" in refusal(*order)
     assert "must be more than 0" in refusal(-1e-9, 2e-5, 2e-5)
+
+
+def test_bodies_are_read_back_with_tensors_that_are_turned_out_of_their_frames(read: Callable[..., Robot]) -> None:
+    """The file has principal moments and the turn of their axes; masses, centres and spheres as they were."""
+    robot = make_lopsided(KENAN)
+    found = read(write_urdf(robot), write_loop(robot))
+    assert (found.name, found.design, found.foot_depth_m) == (robot.name, robot.design, robot.foot_depth_m)
+    for name, body in robot.bodies.items():
+        again = found.bodies[name]
+        assert again.mass_kg == pytest.approx(body.mass_kg)
+        np.testing.assert_allclose(again.com_m, body.com_m, atol=1e-9)
+        size = np.abs(body.inertia_kg_m2).max()
+        assert np.abs(body.inertia_kg_m2 - np.diag(np.diag(body.inertia_kg_m2))).max() > 0.01 * size
+        np.testing.assert_allclose(again.inertia_kg_m2, body.inertia_kg_m2, atol=1e-6 * size)
+        assert [(one.name, one.radius_m, one.surface) for one in again.contacts] == [
+            (one.name, one.radius_m, one.surface) for one in body.contacts
+        ]
+        for one, other in zip(again.contacts, body.contacts, strict=True):
+            np.testing.assert_allclose(one.centre_m, other.centre_m, atol=1e-9)
+
+
+@pytest.mark.parametrize(("radius_m", "refused"), [(9.99, False), (10.01, True), (1.01e-5, False), (0.99e-5, True)])
+def test_a_shell_is_a_body_from_a_hundredth_of_a_millimetre_to_ten_metres(radius_m: float, refused: bool) -> None:
+    """All of its mass is at its radius, the radius of gyration about its centre; 2·m·r²/3 about each axis."""
+    tensor = 2.0 / 3.0 * 0.1 * radius_m**2 * np.eye(3)
+    if refused:
+        with pytest.raises(JumpcadError, match=f"a radius of gyration of {radius_m:g} m: must be 1e-05…10"):
+            _require_inertia("body", 0.1, tensor)
+    else:
+        _require_inertia("body", 0.1, tensor)
 
 
 @pytest.mark.parametrize("machine", [stopped, let_go, rubbing, one_sided], ids=lambda make: make.__name__)
