@@ -22,6 +22,29 @@ def test_interrupt_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -
     assert run("new", "robot.toml") == (130, "", "jumpcad: interrupted\n")
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_is_exit_code_128_and_its_number(
+    run: Run, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
+) -> None:
+    """As shells have it: 130 for Ctrl-C, 143 for SIGTERM; afterwards Ctrl-C is ignored, and SIGTERM ends a process."""
+    usual = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL}
+    before = {one: signal.signal(one, handler) for one, handler in usual.items()}
+    told: list[tuple[object, ...]] = []
+
+    def complain(message: str, exit_code: int) -> int:
+        told.append((message, *map(signal.getsignal, usual)))
+        return exit_code
+
+    monkeypatch.setattr("jumpcad.cli.output.complain", complain)
+    monkeypatch.setattr("jumpcad.design.load_design", lambda _: signal.raise_signal(number))
+    try:
+        assert run("new", "robot.toml")[0] == 128 + number
+    finally:
+        for one, handler in before.items():
+            signal.signal(one, handler)
+    assert told == [("interrupted", signal.SIG_IGN, signal.SIG_DFL)]
+
+
 @pytest.mark.parametrize("interrupted", [False, True])
 def test_a_program_that_calls_the_command_has_its_own_hooks_afterwards(
     run: Run, monkeypatch: pytest.MonkeyPatch, interrupted: bool

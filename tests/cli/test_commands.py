@@ -125,13 +125,15 @@ def test_design_that_cannot_be_assembled_is_exit_code_1(run: Run, tmp_path: Path
 
 
 def test_a_document_of_a_refusal_names_limit_and_margin(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refused(*_: object) -> None:
-        raise CannotBuildError("too long", "room", -3.0)
+    for margin in (-3.0, 0.0):
 
-    monkeypatch.setattr("jumpcad.building.build", refused)
-    code, out, _ = run("check", "kenan-2.0", "--json")
-    document = {"verdict": "cannot_build", "message": "too long", "limit": "room", "margin": -3.0, "unit": "mm"}
-    assert (code, json.loads(out)) == (1, document)
+        def refused(*_: object, margin: float = margin) -> None:
+            raise CannotBuildError("too long", "room", margin)
+
+        monkeypatch.setattr("jumpcad.building.build", refused)
+        code, out, _ = run("check", "kenan-2.0", "--json")
+        document = {"verdict": "cannot_build", "message": "too long", "limit": "room", "margin": margin, "unit": "mm"}
+        assert (code, json.loads(out)) == (1, document)
 
     def refused_whole(*_: object) -> None:
         raise CannotBuildError("too long")

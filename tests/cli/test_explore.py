@@ -34,6 +34,26 @@ def test_views_of_the_space(folder):
     assert "did you mean sweep" in refusal("explore", "sweeps", *QUICK)
 
 
+@pytest.mark.parametrize("view", ["sweep", "pca", "importance", "feasibility"])
+@pytest.mark.parametrize(
+    ("option", "value", "views"),
+    [
+        ("samples", "50", "pca and importance"), ("points", "3", "sweep and feasibility"),
+        ("around", "best-ga", "sweep and feasibility"), ("over", "c_coef,e_coef", "feasibility"),
+    ],
+)  # fmt: skip
+def test_an_option_of_another_view_is_refused_and_not_ignored(folder, monkeypatch, view, option, value, views):
+    """As the help says what each is for; where it is for this view, the robot is looked for next."""
+
+    def begun(*_):
+        raise JumpcadError("begun")
+
+    monkeypatch.setattr("jumpcad.search.models.robot_model", begun)
+    said = refusal("explore", view, *QUICK, f"--{option}", value)
+    other = f"jumpcad: --{option} {value}: does not apply to {view}, only to {views}"
+    assert said == ("jumpcad: begun" if view in views.split(" and ") else other)
+
+
 @pytest.mark.parametrize(("option", "least", "most"), [("--samples", 20, 100_000), ("--points", 2, 1000)])
 def test_counts_have_ends_that_are_told(folder, option, least, most):
     """At an end they are taken, and something else is wrong."""
@@ -189,11 +209,19 @@ def test_components_say_whose_parts_they_are(monkeypatch):
     """A column of the directions belongs to a parameter; the text shows three components of the best designs."""
     directions = np.array([[0.6, 0.8, 0.0, 0.0], [-0.8, 0.6, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
     names, shares = ("a", "b", "c", "d"), np.array([0.5, 0.25, 0.125, 0.125])
-    found = SimpleNamespace(names=names, shares=shares, directions=directions, designs=20)
+    elite = SimpleNamespace(names=names, shares=shares, directions=directions, designs=1)
+    whole = SimpleNamespace(names=names, shares=shares[::-1], directions=np.eye(4), designs=3)
     monkeypatch.setattr("jumpcad.search.explore.sample", lambda *given: ["one", "two", "three"])
     monkeypatch.setattr("jumpcad.search.explore.elite", lambda trials: trials[:1])
-    monkeypatch.setattr("jumpcad.search.explore.components", lambda *given: found)
+    views = {("evaluator", 1): elite, ("evaluator", 3): whole}
+    monkeypatch.setattr("jumpcad.search.explore.components", lambda given, trials: views[given, len(trials)])
     data, lines, _ = explore._sampled("pca", 30, 5)("evaluator")
+    assert [line.split() for line in lines[1:3]] == [
+        ["sampled", "(3", "designs):", "0.125", "0.125", "0.250", "0.500"],
+        ["elite", "(1", "design):", "0.500", "0.250", "0.125", "0.125"],
+    ]
+    assert (data["sampled"]["directions"] == whole.directions).all()
+    assert (data["elite"]["directions"] == elite.directions).all()
     assert data["parameters"] == names
     assert [line.split() for line in lines[-5:-1]] == [
         ["a", "+0.600", "-0.800", "+0.000"], ["b", "+0.800", "+0.600", "+0.000"], ["c", "+0.000", "+0.000", "+1.000"],

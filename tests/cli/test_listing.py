@@ -1,11 +1,14 @@
 """`jumpcad list`: every name that it gives is taken where it says."""
 
 import json
+import re
 
 import pytest
 from support.commands import Run
+from typer.main import get_command
 
 from jumpcad.cli import listing
+from jumpcad.cli.commands import app
 from jumpcad.cli.listing import USED_AS, described
 from jumpcad.files import template_names
 from jumpcad.workshop import load_workshop
@@ -46,6 +49,23 @@ def test_kits_and_parts_are_those_of_the_catalogue(run: Run) -> None:
     assert names(run, "motors") == list(catalogue.motors)
     assert bought.sensor in names(run, "components")
     assert names(run, "templates") == template_names("robots")
+
+
+def test_names_are_used_under_keys_and_options_that_there_are() -> None:
+    """Keys of the default workshop, whose values are names of that kind; options of commands that take them."""
+    shop, commands = load_workshop(), get_command(app).commands  # type: ignore[attr-defined]
+    seen = 0
+    for kind, use in USED_AS.items():
+        for section, keys in re.findall(r"\[(bought|body|ground)\] (\w+(?:, \w+)*)", use):
+            table, known = getattr(shop, section), {"", "any", *described(kind)}
+            for key in keys.split(", "):
+                value = getattr(table, key)
+                assert known.issuperset([value] if isinstance(value, str) else value), key
+                seen += 1
+        for command, option in re.findall(r"jumpcad (\w+) .*?(--\w+) NAME", use):
+            assert any(option in parameter.opts for parameter in commands[command].params), use
+            seen += 1
+    assert seen > 20
 
 
 def test_an_unknown_kind_is_refused_with_a_hint(run: Run) -> None:

@@ -8,13 +8,14 @@ import subprocess
 import sys
 from io import StringIO
 from pathlib import Path
-from threading import Event
+from threading import Event, active_count
+from time import sleep
 
 import numpy as np
 import pytest
 from support.commands import Run, interruptible
 
-from jumpcad.cli.output import console, escaped, print_json, shortened, status
+from jumpcad.cli.output import Output, console, escaped, print_json, shortened, status
 from jumpcad.design import Design, load_design
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -96,6 +97,8 @@ def test_what_is_being_done_is_logged_without_a_terminal(
             asked.set()
             told.wait()
             told.clear()
+            if self.is_set():
+                sleep(0.02)  # the thread is late to see the end
             return self.is_set()
 
         def set(self) -> None:
@@ -103,12 +106,14 @@ def test_what_is_being_done_is_logged_without_a_terminal(
             told.set()
 
     monkeypatch.setattr("jumpcad.cli.output.Event", Waits)
+    threads = active_count()
     with status("slicing …") as tell:
         asked.wait()
         tell("slicing foot\n…")
         asked.clear()
         told.set()
         asked.wait()
+    assert active_count() == threads
     assert capsys.readouterr().err == "jumpcad: slicing foot\\n…\n"
 
 
@@ -247,6 +252,17 @@ def test_json_has_every_number_and_null_for_what_is_none(capsys: pytest.CaptureF
         "a": 1.5, "b": [0.0, -2], "3": [[1.0, None], [None, -4.5]], "c": 0.1, "d": None, "e": True, "f": "text",
         "g": {"h": [7, None]},
     }  # fmt: skip
+
+
+def test_colours_are_kept_where_they_are_asked_for_and_no_other_sequence_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    """ECMA-48: SGR (ESC [ numbers m) colours what follows; ED (ESC [ 2 J) would clear the screen, BEL rings."""
+    text = "\x1b[1;31mred\x1b[0m\n\ttab \x1b[2J\x07\u202e"
+    for coloured, start, end in ((True, "\x1b[1;31m", "\x1b[0m"), (False, r"\x1b[1;31m", r"\x1b[0m")):
+        stream = StringIO()
+        assert Output(stream, coloured).write(text) == len(text)
+        assert stream.getvalue() == start + "red" + end + "\n\ttab " + r"\x1b[2J\x07\u202e"
+        assert Output(stream, coloured).coloured().write("\x1b[0m") == 4
+        assert stream.getvalue().endswith("\x1b[0m")
 
 
 def test_of_a_line_that_is_too_long_both_ends_are_shown() -> None:

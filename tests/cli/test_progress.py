@@ -42,6 +42,8 @@ def test_what_is_read_does_not_count_for_the_rate():
     assert tally.per_second == pytest.approx(0.5)
     assert tally.left_s == pytest.approx((100 - 51) / 0.5)
     assert tally.line() == "bo: 51 of 100 evaluations, best 5, 0.5/s, about 2 min left"
+    tally.add(trial(51), computed=False)  # one that was there already: the clock goes on
+    assert tally.per_second == pytest.approx(0.5)
 
 
 def test_neighbours_of_the_best_count_and_are_not_the_best():
@@ -62,6 +64,8 @@ def test_one_line_a_minute_where_there_is_no_terminal(capfd):
         for number in range(30):
             clock.now += 7.0
             watch(trial(number), True)
+        clock.now += 70.0
+        watch(trial(30), False)  # read from the study file
     lines = capfd.readouterr().err.splitlines()
     assert len(lines) == 3  # 210 s
     assert lines[0].startswith("jumpcad: bo: 9 of 30 evaluations, best 5, 0.14/s, about 2 min left")

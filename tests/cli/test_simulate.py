@@ -161,6 +161,15 @@ def test_uncertain_inputs_are_drawn_by_the_seed_and_simulated_as_asked(monkeypat
     assert asked == [("robot", "settings", "planar", 7)]
 
 
+@pytest.mark.parametrize("name", ["fine", "default"])
+def test_what_is_uncertain_is_the_jump_and_not_its_flight(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """Hundreds of jumps by the settings that are named, without a simulated flight or a trajectory."""
+    monkeypatch.setattr("jumpcad.cli.uncertain.uncertain", lambda *given: given)
+    found: object = module._uncertain("robot", name, "planar", 7)  # type: ignore[arg-type]
+    assert found == ("robot", load_settings(name), "planar", 7)
+    assert (load_settings(name).flight, load_settings(name).trajectory) == ("ballistic", False)
+
+
 def test_the_uncertain_robot_is_built_in_the_workshop_that_is_named(
     command: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -178,6 +187,23 @@ def test_the_uncertain_robot_is_built_in_the_workshop_that_is_named(
     assert command("kenan-2.0", *words)[::2] == (2, "jumpcad: enough\n")
     assert built == [("kenan-2.0", "light")] * 2
     assert uncertain == [("fine", "planar", 0)]
+
+
+def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(
+    command: Run, bundle: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Tolerances are those of its workshop, of which the URDF says nothing."""
+
+    def begun(*_: object) -> None:
+        raise JumpcadError("begun")
+
+    monkeypatch.setattr(module, "_jumps", begun)
+    monkeypatch.setattr(module, "printed_robot", lambda *_: None)
+    urdf = bundle / "urdf" / "kenan-2.0.urdf"
+    assert command(bundle, "--uncertain")[2] == "jumpcad: begun\n"
+    assert command(bundle / "design.toml", "--uncertain")[2] == "jumpcad: begun\n"
+    refused = f"jumpcad: {urdf}: --uncertain is for printed robots: give the design, or its bundle\n"
+    assert command(urdf, "--uncertain") == (2, "", refused)
 
 
 def test_uncertain_jumps_and_trajectories_are_of_one_engine(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:

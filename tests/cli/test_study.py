@@ -27,7 +27,8 @@ def test_studies_compare_and_export(folder, monkeypatch):
     assert summary["evaluations"] + summary["other_evaluations"] == rows
     ranks = re.findall(r"^ *(\d+)\. ", run("study", "0.db", "--list", 3), re.M)
     assert ranks == ["1", "2", "3"]
-    assert "one study" in refusal("study", "0.db", "1.db", "--export", "u.csv")
+    for option, place in (("--export", "u.csv"), ("--plots", "u")):
+        assert "--export and --plots are for one study" in refusal("study", "0.db", "1.db", option, place)
     drawn = []
     monkeypatch.setattr("jumpcad.search.study_plots.plot_study", lambda store, pics: drawn.append(pics) or [pics / "a"])
     assert data("study", "0.db", "--plots", "pics") == summary | {"pictures": ["pics/a"]}

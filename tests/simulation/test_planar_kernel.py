@@ -594,6 +594,7 @@ def test_a_push_off_tells_how_near_the_body_came_to_the_ground(kenan: Robot) -> 
         gaps.append(moment.belly_gap_m)
     assert found.belly_gap_m == pytest.approx(min(gaps), rel=1e-12)
     assert found.belly_gap_m < 0.8 * found.moment.belly_gap_m
+    assert found.moment == moment  # it leaves after as many steps
 
 
 def test_how_near_the_body_comes_in_the_air_is_not_told(kenan: Robot) -> None:
