@@ -83,6 +83,15 @@ def test_the_least_cam_gear_turns_the_cam_alone_and_none_smaller_does(name):
         assert tip - 2.25 * max(LIMITS.modules_mm) < LIMITS.cam_gear_root_min_mm
 
 
+def test_the_least_cam_gear_is_that_of_the_motor_which_asks_for_least():
+    """A larger motor of the same figures needs more distance, wherever it stands in the list."""
+    law, small = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]
+    large = small.model_copy(update={"width_mm": 80.0, "height_mm": 80.0})
+    tips = [least_tip_mm(law, motors, LIMITS) for motors in ([small], [large], [small, large], [large, small])]
+    assert tips[1] > tips[0] + 1.0
+    assert tips[2:] == [tips[0]] * 2
+
+
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_a_motor_that_must_be_farther_away_asks_for_a_larger_cam_gear(name):
     """Of all single pairs that keep 40 mm to the motor, the one with the smallest cam gear."""

@@ -232,6 +232,9 @@ def test_a_play_beyond_the_window_fails_its_check() -> None:
     release = built("best-bo").release
     (found,) = [finding for finding in release.findings if finding.name == "release_window"]
     assert found.value < found.limit
+    turned = built("best-bo").layout.drive.train.cam_speed_rad_s * release.push_off_s
+    assert found.value == pytest.approx(math.degrees(release.free_play_rad + turned) + 3.0)
+    assert found.limit == pytest.approx(math.degrees(release.window_rad[1]))
     with pytest.raises(
         JumpcadError, match=r"roller's fall, with the dog's play.*release\.play_deg|smaller bought.roller"
     ):

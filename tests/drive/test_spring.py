@@ -182,6 +182,22 @@ def test_no_room_is_refused_with_what_to_change():
         synthesise_spring(on_leg, -1.0, WIRE, replace(LIMITS, body_lengths_max_mm=(5.0,)))
 
 
+def test_the_longest_room_is_told_where_none_is_enough():
+    with pytest.raises(CannotBuildError, match="in 18 mm diameter and 6 mm length"):
+        spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(6.0, 4.0)))
+
+
+def test_the_wire_of_each_side_turns_as_its_hand_says():
+    """A curve is right-handed where its torsion is positive, first x second · third derivative (Frenet).
+
+    From the plate outside to the leg inside, counter-clockwise from the robot's right; x forward, y left, z up.
+    """
+    _, spring = spring_of("kenan-2.0")
+    for side, hand in zip((1.0, -1.0), spring.hands, strict=True):
+        first, second, third = np.array([[0.0, -side, 1.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])  # at the front
+        assert hand == ("right" if np.cross(first, second) @ third > 0.0 else "left")
+
+
 def test_coils_are_neither_narrower_nor_wider_than_makers_wind_them():
     """Spring index, coil over wire, of 4 to 16 and three turns at least, whatever bushing it has to clear."""
     found = 0

@@ -11,6 +11,7 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.drive import DriveLimits, synthesis, synthesise
 from jumpcad.drive.corner import clear_window_rad
+from jumpcad.drive.train import NoTrainError
 from jumpcad.drive.train_limits import TrainLimits
 from jumpcad.errors import CannotBuildError
 
@@ -203,6 +204,17 @@ def test_springs_from_stock_say_their_rate_beside_the_drives_other_limits():
     assert "9.20" in said
 
 
+def test_a_leg_that_is_too_short_for_the_pin_of_its_springs_is_refused_by_what_is_missing():
+    """Half of the leg, 17.5 mm, may hold the pin."""
+    stock = dataclasses.replace(default_limits("kenan-1.0"), stock_spring=load_catalogue().springs["9271K589"])
+    with pytest.raises(CannotBuildError, match=r"in a leg of 35\.0 mm at most 17\.5 mm") as refused:
+        synthesise(load_design("kenan-1.0").model_copy(update={"carrying_link_mm": 35.0}), stock)
+    needed = float(str(refused.value).partition("leg's pin ")[2].partition(" mm")[0])
+    assert (refused.value.limit, refused.value.unit) == ("spring_pin", "mm")
+    assert refused.value.margin == pytest.approx(17.5 - needed, abs=0.051)
+    assert refused.value.margin < -1.0
+
+
 def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):
     """However often a farther axis is tried for one pair: a farther one is larger and heavier."""
     design = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 27.5, 36.353])
@@ -216,6 +228,26 @@ def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):
     farther = synthesise(design, dataclasses.replace(limits, more_gap_mm=(14.0,)))
     assert tried.cam.geometry.axis_distance_mm == only.cam.geometry.axis_distance_mm
     assert tried.cam.geometry.axis_distance_mm < farther.cam.geometry.axis_distance_mm
+
+
+def test_where_no_gears_fit_near_and_no_cam_is_possible_far_the_gears_are_told(monkeypatch):
+    """Wider teeth may help them: for each width gears are looked for again, and the last width's refusal is told."""
+    tried, near = [], LIMITS.cam.gap_min_mm
+
+    def cam(law, limits):
+        if limits.gap_min_mm > near:
+            raise CannotBuildError("no cam is possible there")
+
+    def train(law, motors, limits):
+        tried.append(limits.face_width_mm)
+        raise NoTrainError(f"no gears of {limits.face_width_mm:g} mm")
+
+    monkeypatch.setattr(synthesis, "synthesise_cam", cam)
+    monkeypatch.setattr(synthesis, "_train_limits", lambda cam, limits: limits.train)
+    monkeypatch.setattr(synthesis, "synthesise_train", train)
+    with pytest.raises(NoTrainError, match="no gears of 8 mm"):
+        synthesise(load_design("kenan-2.0"), LIMITS)
+    assert tried == [5.0, 6.5, 8.0]
 
 
 def test_the_cam_turns_no_farther_while_the_leg_falls_than_its_window_less_its_play():

@@ -14,8 +14,9 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive import train as train_module
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.drive.train import BASIS, synthesise_train
+from jumpcad.drive.gear_pair import GearPair, gear_pair
+from jumpcad.drive.gears import Gear
+from jumpcad.drive.train import BASIS, _gear_findings, synthesise_train
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
@@ -191,6 +192,17 @@ def test_the_gear_that_needs_room_beside_the_cam_is_the_cams_own():
         train = robot.layout.drive.train
         (room,) = (finding for finding in train.findings if finding.name == "cam_gear_room")
         assert room.value == pytest.approx(train.stages[-1].wheel.tip_radius_mm)
+
+
+@pytest.mark.parametrize("cut", [0.0, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5])
+def test_gears_mesh_with_a_tenth_more_than_one_pair_of_teeth(cut):
+    """However far from the fillets: tips that are cut leave more of the flanks unused, and fewer teeth in contact."""
+    pinion, wheel = (Gear(teeth, 1.0, 0.0, 5.0, 0.0, cut) for teeth in (24, 48))
+    pair = GearPair(pinion, wheel, 36.0)
+    (mesh,) = (one for one in _gear_findings((pair,), (0.1,), LIMITS) if one.name == "gear_mesh_1")
+    assert mesh.margin == pytest.approx(min(pair.involute_margin_mm, pair.contact_ratio - 1.1))
+    assert (mesh.severity == "error") == (pair.contact_ratio < 1.1)
+    assert (pair.contact_ratio < 1.1) == (cut >= 0.4)
 
 
 def test_formulas_and_limits_are_those_of_the_reference():

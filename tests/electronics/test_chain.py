@@ -1,5 +1,6 @@
 """Voltages from the battery to the motor's winding, part by part, by Ohm's law."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -60,6 +61,18 @@ def test_two_cells_pass_a_regulator_and_a_diode_to_the_controller() -> None:
     motor = load_workshop().catalogue.motors["n20-298"]
     (plain,) = (one for one in chain(alone, motor, supply_of(alone), PEAK_A, TORQUE_NM) if one.role == "controller")
     assert plain.gets_v == pytest.approx((chosen.regulator.output_v,) * 2)
+
+
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_what_gets_another_voltage_than_it_bears_is_to_be_exchanged(kit: str) -> None:
+    """Each remedy names the key of the part itself in `[bought]`, or of what feeds it."""
+    found, _ = links(kit)
+    for role, link in found.items():
+        own = {"motor": "motors", "controller": "regulator"}.get(role, role)  # a controller has one put before it
+        assert f"bought.{own}" in link.remedy
+        named = set(re.findall(r"bought\.(\w+)", link.remedy))
+        assert named <= {own, "kit", "battery"}, role
+        assert ("battery" in named) == (role not in ("switch", "plug", "capacitor"))
 
 
 def test_the_winding_gets_the_mean_of_the_pwm() -> None:

@@ -64,6 +64,18 @@ def test_one_number_that_is_none_is_a_robot_blown_up(kenan: Robot, key: str, val
         assert BulletWorld.blown_up(SimpleNamespace(state=lambda state=state: state)) == blown  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    ("forces", "loaded"), [((), False), ((0.0,), False), ((0.0, 0.0), False), ((0.0, 1e-6), True), ((2.0, 0.0), True)]
+)
+def test_the_ground_carries_what_a_contact_presses_on_it(forces: tuple[float, ...], loaded: bool) -> None:
+    """A sphere that is only near is a contact without a force."""
+    world = object.__new__(BulletWorld)
+    contacts = [[None] * 9 + [force] for force in forces]
+    world._bullet = SimpleNamespace(getContactPoints=lambda *_, **__: contacts)
+    world.robot_id, world._ground, world._client = 0, 1, 0
+    assert world.loaded() == loaded
+
+
 def test_slip_takes_the_contacts_force_times_the_foots_velocity_there() -> None:
     """v + w x r by numpy's cross product; the mean of before and after, against the force, for a time step."""
     rng = np.random.default_rng(5)

@@ -145,7 +145,7 @@ def test_a_missing_engine_is_said_with_the_way_out(kenan: Robot, monkeypatch: py
         simulate(kenan)
     assert default_engine() == "mujoco"
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    with pytest.raises(JumpcadError, match="pip install"):
+    with pytest.raises(JumpcadError, match=r"pip install \"jumpcad\[mujoco\]\"; --engine pybullet works without it"):
         simulate(kenan, engine="mujoco")
     with pytest.raises(JumpcadError, match="no physics engine is installed"):
         default_engine()

@@ -429,6 +429,22 @@ def test_a_step_on_the_ground_obeys_the_laws_of_contact(either: Robot, held: boo
     assert {two for _, two in modes} == {False, True}
 
 
+@pytest.mark.parametrize("sunk_m", [1e-6, 1e-4])
+def test_a_foot_that_has_sunk_in_is_stopped_and_not_thrown_out(either: Robot, sunk_m: float) -> None:
+    """Rounding, or another engine's state, may leave a sphere below the ground: it goes no deeper, and no faster up."""
+    model, rng, stopped_feet = model_of(either), np.random.default_rng(5), 0
+    for _ in range(40):
+        ground = Stance(complex(0.0, either.foot_depth_m - sunk_m), 1.0 + 0j, 1e-4)
+        inertia = kernel.inertia_at(model, kernel.links_at(model, rng.uniform(-0.7, 0.1)), ground.turn)
+        free = PlanarMotion(complex(rng.normal(), rng.normal(-0.5, 0.5)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0))
+        after, contact, _ = kernel.settle(model, ground, kernel.gains_of(inertia), free, NO_CONTACT, False)
+        for index in (contact.first, contact.second):
+            if index >= 0:
+                stopped_feet += 1
+                assert after.ankle.imag - kernel.arm_m(model, ground, index) * after.foot == pytest.approx(0, abs=1e-9)
+    assert stopped_feet > 20
+
+
 def test_no_third_sphere_goes_below_the_ground_that_two_touch(lopsided: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     """Spheres in a row, the middle one lower, level or higher: two of them carry, whatever pushes there are."""
     monkeypatch.setitem(sys.modules, "numba", None)  # compiling it for three spheres costs seconds
