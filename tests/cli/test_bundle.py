@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
 from unittest.mock import ANY
@@ -17,7 +18,7 @@ from support.pictures import with_few_pictures
 from jumpcad import checks
 from jumpcad.bundle import export as bundle_export
 from jumpcad.checks import COSTLY
-from jumpcad.cli.bundle import _facts, _print_facts
+from jumpcad.cli.bundle import _facts, _print_facts, _require_same_design_file
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import at_most
@@ -242,6 +243,25 @@ def test_a_design_is_edited_and_built_again_but_not_over_another_of_its_name(
     assert "carrying_link_mm = 102.0" in (bundle / "design.toml").read_text()
     assert run("build", other, "--no-pictures", "--force")[0] == 0
     assert "carrying_link_mm = 104.0" in (bundle / "design.toml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("name", "design", "age_s", "refused"),
+    [
+        ("kenan-2.0", "best-ga", 60, True), ("kenan-2.0", "best-ga", -60, False), ("kenan-2.0", "best-ga", 0, False),
+        ("kenan-2.0", "kenan-2.0", 60, False), ("frog", "best-ga", 60, False),
+    ],
+)  # fmt: skip
+def test_an_older_file_of_another_design_is_not_built_over_the_robot_of_its_name(
+    bundle: Path, tmp_path: Path, name: str, design: str, age_s: int, refused: bool
+) -> None:
+    """One that was edited since is; of a robot of another name the export says that its place is taken."""
+    file, kept = tmp_path / "robot.toml", (bundle / "design.toml").stat().st_mtime_ns
+    file.touch()
+    os.utime(file, ns=(kept, kept - 10**9 * age_s))
+    robot = SimpleNamespace(name=name, design=load_design(design))
+    with pytest.raises(JumpcadError, match="holds another design, built after") if refused else nullcontext():
+        _require_same_design_file(robot, file, bundle)  # type: ignore[arg-type]
 
 
 def edit(file: Path, length_mm: float) -> None:
