@@ -68,6 +68,8 @@ def test_pwm_keeps_a_winding_at_its_voltage() -> None:
     """Two full cells have 40 % more than the 6 V of an LP winding."""
     supply = Supply(6.6, 7.4, 8.4, 0.0, 0.0, 1.0)
     assert supply.duty(MOTORS["n20-30"], 0.196) == pytest.approx(6.0 / 8.4)
+    bears_more = MOTORS["n20-30"].model_copy(update={"bears_v": (3.0, 7.5)})  # than what it is rated for
+    assert supply.duty(bears_more, UNLIMITED) == pytest.approx(7.5 / 8.4)
 
 
 def test_boards_take_their_current_through_the_regulator() -> None:
