@@ -51,6 +51,7 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
     shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 48, "-o", "best.toml")
     assert "next: jumpcad build best.toml" in shown
     assert "evaluations: 36 for the search, 12 for the robust pick" in shown
+    assert f"study s.db: {found['method']} on the capsule robot, free parameters: {len(PARAMETERS)}\n" in shown
     summary = data("study", "s.db")
     assert summary["evaluations"] == summary["planned"] == 36
     assert summary["evaluations"] + summary["other_evaluations"] == found["evaluations"]

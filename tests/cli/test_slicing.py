@@ -67,8 +67,9 @@ def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(
 
 def test_grams_and_times_are_told_in_tables(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
     pretend(OBEDIENT.replace("TAMPER", ""))
-    code, out, err = run("slice", str(bundle))
+    code, out, err = run("slice", str(bundle), "--write-masses", "weighed.toml")
     assert (code, err) == (0, "")
+    assert out.endswith("written   weighed.toml: try jumpcad build DESIGN --workshop weighed.toml\n")
     # 100 mm of filament of 1.75 mm are 0.24053 cm³
     petg, pla = (f"{0.24053 * density:.2f}" for density in (1.27, 1.24))
     rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line}

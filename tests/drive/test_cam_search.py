@@ -30,8 +30,12 @@ def test_a_wider_clearance_never_makes_a_smaller_cam():
 
 
 def test_what_no_cam_can_do_is_refused_with_what_to_change():
-    with pytest.raises(CannotBuildError, match=r"no cam winds the leg by 75\.0° .*short.*compression_ratio"):
+    torque = f"{math.radians(75.0) * 1.7:.2f} N·m"
+    with pytest.raises(
+        CannotBuildError, match=rf"winds the leg by 75\.0° against {torque}.*short.*compression_ratio"
+    ) as no:
         synthesised(75, 1.7)
+    assert (no.value.limit, no.value.unit) == ("cam", "")
 
 
 @pytest.mark.parametrize(("limit", "met"), [("pressure_angle_rad", 0.16), ("pressure_mpa", 20.0)])

@@ -172,7 +172,9 @@ def test_a_short_body_is_preferred_to_a_thin_one_where_it_fits():
 
 
 def test_no_room_is_refused_with_what_to_change():
-    with pytest.raises(CannotBuildError, match=r"no wire of 0\.5 to 2\.5 mm .* 780 N·mm .* stiffness_nmm_per_deg"):
+    with pytest.raises(
+        CannotBuildError, match=r"no wire of 0\.5 to 2\.5 mm .* 780 N·mm .* lower stiffness_nmm_per_deg or compr"
+    ):
         spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(5.0,)))
     design, preload = load_design("best-bo"), math.radians(10.0)
     on_leg = springs_on_leg(design, None, preload)

@@ -66,8 +66,12 @@ def test_what_cannot_be_driven_is_refused_with_a_parameter_to_change():
     with pytest.raises(CannotBuildError, match=r"(compression_ratio|stiffness_nmm_per_deg)"):
         synthesise(design, LIMITS)
     flat = load_design("kenan-2.0").model_copy(update={"c_coef": 0.3, "d_coef": 0.6, "rest_angle_deg": 40.0})
-    with pytest.raises(CannotBuildError, match=r"loaded by -3\.9\d°, less than 0\.5°: raise compression_ratio"):
+    with pytest.raises(
+        CannotBuildError, match=r"loaded by -3\.9\d°, less than 0\.5°: raise compression_ratio"
+    ) as refused:
         synthesise(flat, LIMITS)
+    assert (refused.value.limit, refused.value.unit) == ("compression", "°")
+    assert refused.value.margin == pytest.approx(math.degrees(flat.compression_rad) - 0.5)
     with pytest.raises(CannotBuildError, match=r"no lever from 56\.\d mm .* to 45 mm"):
         synthesise(
             load_design("kenan-2.0"),

@@ -16,7 +16,7 @@ from jumpcad.drive import train as train_module
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
-from jumpcad.drive.train import BASIS, _gear_findings, synthesise_train
+from jumpcad.drive.train import BASIS, _gear_findings, finished_train, synthesise_train
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
@@ -203,6 +203,32 @@ def test_gears_mesh_with_a_tenth_more_than_one_pair_of_teeth(cut):
     assert mesh.margin == pytest.approx(min(pair.involute_margin_mm, pair.contact_ratio - 1.1))
     assert (mesh.severity == "error") == (pair.contact_ratio < 1.1)
     assert (pair.contact_ratio < 1.1) == (cut >= 0.4)
+
+
+def test_what_is_to_be_changed_makes_a_trains_margins_greater():
+    """Wider or larger teeth bear more, a larger ratio spares the motor and slows the cam, more teeth mesh longer."""
+    law, motor = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]
+
+    def margins(pinion=14, wheel=28, module=1.0, width=5.0):
+        limits = dataclasses.replace(LIMITS, face_width_mm=width)
+        return {one.name: one for one in finished_train(
+            law, motor, (gear_pair(pinion, wheel, module, width, 0.15),), limits
+        ).findings}  # fmt: skip
+
+    plain = margins()
+    for name, remedy, change in (
+        ("gear_strength_1", "wider gears", {"width": 6.0}),
+        ("gear_strength_1", "a larger module", {"module": 1.25}),
+        ("motor_torque", "a larger ratio", {"wheel": 42}),
+        ("cam_speed", "a larger ratio", {"wheel": 42}),
+    ):
+        assert remedy in plain[name].remedy
+        assert margins(**change)[name].margin > plain[name].margin, (name, remedy)
+    few, many = (gear_pair(teeth, 2 * teeth, 1.0, 5.0, 0.15).contact_ratio for teeth in (14, 28))
+    assert (plain["gear_mesh_1"].remedy, few < many) == ("more teeth", True)
+    assert "a stronger motor" in plain["motor_torque"].remedy
+    assert "a slower motor" in plain["cam_speed"].remedy
+    assert "a stronger motor" in plain["cam_gear_room"].remedy  # it needs a smaller ratio
 
 
 def test_formulas_and_limits_are_those_of_the_reference():

@@ -50,6 +50,19 @@ def test_refused_designs_are_not_simulated(vector: list[float], verdict: str) ->
     assert refusal.remedy
 
 
+def test_the_first_test_that_fails_is_the_verdict(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the loop does not close, what follows of the pose means nothing; both are told."""
+    found = [
+        Finding("loop", "error", -1.0, "°", "open", "close it"), Finding("below_ground", "info", 1.0, "mm", "", ""),
+        Finding("tips", "error", -2.0, "mm", "falls", "turn it"),
+    ]  # fmt: skip
+    monkeypatch.setattr("jumpcad.simulation.simulator.geometry_findings", lambda _: found)
+    jump = simulate(kenan, engine="planar")
+    assert (jump.verdict, jump.findings) == ("loop", tuple(found))
+    monkeypatch.setattr("jumpcad.simulation.simulator.geometry_findings", lambda _: found[::-1])
+    assert simulate(kenan, engine="planar").verdict == "tips"
+
+
 def test_a_robot_that_only_stands_up_does_not_take_off() -> None:
     """1.4 times the work of standing up is feasible, and is lost before the feet leave the ground."""
     design = Design.from_vector([171.289, 1.139, 0.66, 1.043, 0.436, 67.926, 12.932, 38.146])
