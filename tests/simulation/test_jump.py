@@ -10,7 +10,7 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.jump import EnergyBudget, Jump, Trajectory
+from jumpcad.simulation.jump import ACCOUNT, EnergyBudget, Jump, Trajectory
 
 
 @pytest.fixture(scope="module")
@@ -62,6 +62,19 @@ def test_the_account_has_every_entry_of_the_budget_once() -> None:
         "contact": 256.0,
     }  # fmt: skip
     assert sum(account.values()) == 511.0
+
+
+def test_each_entry_of_the_account_is_told_in_words_of_its_own() -> None:
+    """What it is of: as the budget's attributes are described."""
+    told = {
+        "useful": "the jump", "internal": "about the centre of mass", "springs": "still in the springs",
+        "release": "between cam and roller", "pins": "the joints' friction", "slip": "slipping on the ground",
+        "contact": "impacts and rounding",
+    }  # fmt: skip
+    assert list(ACCOUNT) == list(EnergyBudget(*[0.0] * 9).account_j) == list(told)
+    for name, words in ACCOUNT.items():
+        assert [other for other, own in told.items() if own in words] == [name]
+        assert ("lost" in words) == (name in ("release", "pins", "slip", "contact"))
 
 
 def test_a_jump_has_the_account_of_its_budget_and_none_without() -> None:
