@@ -113,7 +113,7 @@ def test_what_is_being_done_is_logged_without_a_terminal(
         asked.clear()
         told.set()
         asked.wait()
-    assert active_count() == threads
+    assert active_count() <= threads
     assert capsys.readouterr().err == "jumpcad: slicing foot\\n…\n"
 
 
