@@ -109,6 +109,15 @@ def test_silent_on_what_prints(kenan: Robot, slabs: Slabs) -> None:
             assert findings[name].margin == pytest.approx(findings[name].value - least_mm)
 
 
+@pytest.mark.parametrize(("high_mm", "seen"), [(0.79, False), (0.81, True), (2.4, True)])
+def test_walls_are_looked_for_in_all_that_is_as_high_as_the_least_of_them(
+    kenan: Robot, high_mm: float, seen: bool
+) -> None:
+    """0.8 mm: engravings and chamfers are lower, plates of 2.4 mm are not."""
+    findings = found(kenan, Stack.of([(0.0, 5.0, BLOCK), (5.0, 5.0 + high_mm, rectangle((30.0, 0.5)))]))
+    assert (findings["walls"].severity == "error") == seen
+
+
 @pytest.mark.parametrize(("less_mm", "accepted"), [(0.03, True), (0.05, False)])
 def test_walls_and_holes_may_be_four_hundredths_narrower(kenan: Robot, less_mm: float, accepted: bool) -> None:
     """As docs/limits.md says; so may columns. Polygons of circles are narrower than these."""

@@ -106,6 +106,17 @@ def test_without_a_socket_or_a_known_switch_there_is_no_opening_for_them() -> No
         assert (found.usb_mm, found.usb_size_mm, found.switch, found.switch_mm) == (None, (0.0, 0.0), None, None)
 
 
+def test_openings_lie_above_the_pivots_line_however_low_the_boards_are() -> None:
+    """With all of their room, since the plates end below it."""
+    layout = built("kenan-2.0").layout
+    low = layout.tray_mm - np.array([0.0, layout.tray_mm[1] + 30.0])
+    found = fittings_of([], layout.lateral, layout.electronics, low, layout.fittings.switch, [], 4.5)
+    assert layout.electronics.middle_mm(low)[1] < 0.0
+    halves = (8.0, 8.0, switch_half_mm(layout.fittings.switch)[1])
+    for place, half in zip((found.left_mm, found.right_mm, found.switch_mm), halves, strict=True):
+        assert place[1] > half
+
+
 @pytest.mark.parametrize(("behind_mm", "stays"), [(5.1, True), (4.9, False)])
 def test_5_mm_behind_the_switch_are_for_its_wires(behind_mm: float, stays: bool) -> None:
     layout = built("kenan-2.0").layout

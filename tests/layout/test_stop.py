@@ -156,17 +156,20 @@ def test_a_gap_that_leg_and_front_link_have_moves_no_stop_and_one_that_they_lack
         stop_angle_rad(*given, wanted, apart + 0.01)
 
 
-@pytest.mark.parametrize(("closes_deg", "stop_deg"), [(12.1, 9.0), (10.3, 7.0), (7.6, 4.5), (6.2, 3.0)])
+@pytest.mark.parametrize(
+    ("wanted_deg", "closes_deg", "stop_deg"),
+    [(9.0, 12.1, 9.0), (9.0, 10.3, 7.0), (9.0, 7.6, 4.5), (9.0, 6.2, 3.0), (9.2, 6.1, 3.0)],
+)
 def test_the_stop_is_nearer_to_rest_by_half_degrees_until_the_loop_closes(
-    robot: Robot, closes_deg: float, stop_deg: float
+    robot: Robot, wanted_deg: float, closes_deg: float, stop_deg: float
 ) -> None:
-    """From 9° on, with 3° more for the pad; at 3° at least."""
+    """From where it is wanted on, with 3° more for the pad; at 3° at least."""
 
     class Short(Linkage):
         def diagonal_mm(self, leg_rad: float) -> np.ndarray:
             return np.asarray(self.l3 + self.l4 + (leg_rad - math.radians(closes_deg)) * 10.0)
 
-    found = stop_angle_rad(Short(robot.design), robot.layout.sections, math.radians(9.0), -50.0)
+    found = stop_angle_rad(Short(robot.design), robot.layout.sections, math.radians(wanted_deg), -50.0)
     assert math.degrees(found) == pytest.approx(stop_deg)
 
 

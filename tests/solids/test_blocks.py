@@ -121,6 +121,13 @@ def test_a_box_around_a_finger_is_that_of_its_solid():
     assert finger.bounds_mm[1] == pytest.approx([5.0, 10.5, 8.0], abs=0.01)
 
 
+def test_a_box_around_a_turned_block_is_that_of_its_solid() -> None:
+    """Turned about z it is as high as before."""
+    turned = Turned(FINGER, 0.7, np.array([5.0, -2.0]))
+    np.testing.assert_allclose(turned.bounds_mm, np.array(turned.solid().bounding_box()).reshape(2, 3), atol=1e-6)
+    assert turned.bounds_mm[:, 2].tolist() == [0.0, 9.0]
+
+
 def test_a_box_around_a_bar_in_two_pieces_is_around_both() -> None:
     """From 3 to 5 and from -4 to 1 along y, in either order."""
     pieces = ((3.0, 5.0), (-4.0, 1.0))

@@ -61,6 +61,17 @@ def test_every_edge_has_two_faces_however_near_outlines_are(gap_mm):
     assert trimesh.Trimesh(vertices.astype(np.float32), faces).is_watertight
 
 
+@pytest.mark.parametrize("corner", [(10.0, 4.0), (10.0, 5.0), (-2.0, 4.0)])
+def test_a_side_whose_middle_is_as_high_as_a_corner_beside_it_is_outside(corner):
+    """A triangle with that corner and an upright side 4 mm away on a square whose upright sides have theirs at 4 mm."""
+    away = 4.0 if corner[0] > 0.0 else -4.0
+    ends = [(corner[0] + away, corner[1] + side * np.sign(away)) for side in (-2.0, 2.0)]
+    beside = mesh([(0.0, 1.0), (1.0, 2.0)], [[SQUARE], [np.array([corner, *ends])]])
+    assert beside.is_volume
+    assert beside.body_count == 2
+    assert beside.volume == pytest.approx(64 + 4 * 4 / 2)
+
+
 def stars(rng, count):
     """Return outlines of random stars, counter-clockwise, as contours of one region each (mm)."""
     turns = np.sort(rng.uniform(0.0, 2.0 * np.pi, (count, 9)), axis=1)

@@ -99,6 +99,20 @@ def test_a_chamfer_as_deep_as_the_bottom_slab_leaves_nothing_of_it():
     np.testing.assert_allclose([(slab.z0_mm, slab.z1_mm) for slab in block.slabs], [(0.0, 0.2), (0.2, 0.4), (0.4, 3.0)])
     below = 0.2 * ((20.0 - 2 * 0.3) ** 2 + (20.0 - 2 * 0.1) ** 2)
     assert block.volume_mm3 == pytest.approx(below + 2.6 * disc(10).area(), rel=1e-4)
+    assert block.bounds_mm[:, :2].tolist() == [[-9.9, -9.9], [9.9, 9.9]]  # of its upper step
+
+
+def test_a_step_of_a_chamfer_ends_where_the_bottom_slab_does():
+    """0.35 mm of slab and of chamfer, in layers of 0.2 mm."""
+    block = Stack.of([(0, 0.35, rectangle((20, 20))), (0.35, 3, disc(10))]).chamfered(0.35, 0.2)
+    np.testing.assert_allclose([(slab.z0_mm, slab.z1_mm) for slab in block.slabs], [(0, 0.2), (0.2, 0.35), (0.35, 3)])
+
+
+def test_at_the_edge_of_two_slabs_a_section_is_the_upper_ones():
+    """At the bottom that of the lowest; at the top nothing."""
+    stack = Stack.of([(0, 2, rectangle((10, 10))), (2, 5, disc(4))])
+    areas = [region.area() for region in stack.regions_at([-1e-9, 0.0, 2.0 - 1e-9, 2.0, 5.0])]
+    assert areas == pytest.approx([0.0, 100.0, 100.0, disc(4).area(), 0.0])
 
 
 def test_steps_of_a_chamfer_are_one_outline_set_back():
