@@ -34,6 +34,23 @@ def test_the_last_pinion_gets_the_motors_torque_and_the_dog_all_of_the_ratio(pai
     assert dog.limit == pytest.approx(gears.strength_interlayer_mpa / BLOCKED_FACTOR)
 
 
+@pytest.mark.parametrize("weak", [0, 1])
+def test_of_two_pairs_the_one_with_the_larger_stress_is_told(weak: int) -> None:
+    """A face of a tenth of the width has ten times the stress of teeth, in the first pair or in the last."""
+    robot = geared()
+    layout, train = robot.layout, robot.layout.drive.train
+    first, last = (
+        replace(pair, pinion=replace(pair.pinion, face_width_mm=0.5 if number == weak else 50.0))
+        for number, pair in enumerate(train.stages)
+    )
+    drive = replace(layout.drive, train=replace(train, stages=(first, last)))
+    teeth, _ = blocked_findings(replace(robot, layout=replace(layout, drive=drive)))
+    supply, allowed = supply_of(chosen_parts(robot.workshop)), robot.workshop.safety.motor_torque_max_nm
+    torque = supply.driven(train.motor, supply.full_v, allowed).stall_torque_nm
+    expected = last.pinion.lewis_stress_mpa(torque * first.ratio) if weak else first.pinion.lewis_stress_mpa(torque)
+    assert teeth.value == pytest.approx(expected)
+
+
 def test_weak_gears_do_not_bear_a_blocked_motor() -> None:
     robot = built("kenan-2.0")
     teeth, dog = (finding.value for finding in blocked_findings(robot))

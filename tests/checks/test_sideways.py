@@ -130,6 +130,8 @@ def test_narrow_toes_tip_and_bars_across_them_help() -> None:
     (held,) = sideways_findings(build(NARROW, workshop(toe_half_width_mm=advised)))
     assert held.severity == "info", "the width that is advised holds"
     assert advised < 45.0
+    spared = replace(narrow.layout, toe_half_width_mm=advised - 1.0)  # wider bars are heavier
+    assert min(roll.margin_deg for roll in rolls(narrow, spared)) >= finding.limit
     wide = build(NARROW, workshop(toe_half_width_mm=30.0))
     (finding,) = sideways_findings(wide)
     assert finding.severity == "info"
