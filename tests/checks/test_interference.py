@@ -118,7 +118,7 @@ def test_what_turns_as_one_is_looked_at_anew_only_where_the_cam_has_run_ahead(
 ) -> None:
     """Large discs, so that all boxes always meet: cam and gear differ by none, half and all of the dog's play."""
     slab, seen = Stack.of([(0.0, 4.0, disc(300.0))]), Counter[tuple[str, str]]()
-    names = ("cam", "cam_gear", "motor_pinion", "post", "plate")
+    names = ("post", "cam", "cam_gear", "motor_pinion", "plate")
     discs = [Piece(name, BODY, slab, lying_on_left(2.0, 0.0, 0.0)) for name in names]
     monkeypatch.setattr(interference, "pieces_of", lambda _: discs)
     monkeypatch.setattr(interference, "shared_volume_mm3", lambda a, _, b, __: seen.update([(a.name, b.name)]) or 0.0)
