@@ -16,6 +16,16 @@ def test_distance_from_a_box_to_a_disc():
     assert clearance([inside], np.zeros((1, 2)), (4.0, 2.0), 0.0, (0.0, 1.0), 10.0) == pytest.approx([-1.0 - 1.0])
 
 
+@pytest.mark.parametrize("turn_deg", [30.0, -30.0, 130.0])
+def test_a_box_is_turned_from_x_towards_z(turn_deg):
+    """A disc of 1 mm is 5 mm before the end of a box of 8 x 4 mm, in the direction of its long side, and 1 mm aside."""
+    turn = math.radians(turn_deg)
+    along, across = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
+    place = np.array([[3.0, -7.0]])
+    ahead = disc("d", place[0] + 9.0 * along + across, 1.0, EVERYWHERE)
+    assert clearance([ahead], place, (4.0, 2.0), turn, (0.0, 1.0), 20.0) == pytest.approx([4.0])
+
+
 def test_what_is_beside_it_across_the_robot_is_not_in_the_way():
     wheel = disc("wheel", (0.0, 0.0), 5.0, (2.0, 4.0))
     assert clearance([wheel], np.zeros((1, 2)), (1.0, 1.0), 0.0, (4.0, 6.0)) == [np.inf]

@@ -23,6 +23,7 @@ from jumpcad.parts.toes import (
     _holes,
     joint_height_mm,
     lying_hole,
+    on_the_foot,
     toes,
     toes_apart,
 )
@@ -203,6 +204,20 @@ def test_screws_pass_a_toe_from_side_to_side() -> None:
                     wide for at, wide in opened.items() if abs(at[0] - x) < 0.1 and abs(at[1] - middle) < 0.5
                 )
                 assert width_mm == pytest.approx(3.4, abs=0.02)
+
+
+def test_screws_of_toes_cut_their_thread_into_the_stubs() -> None:
+    """Holes as wide as the workshop taps for M3, at 16 and 30 mm from the root of either toe."""
+    robot = built(LONG_TOES)
+    holes = HoleSizes.of(robot.workshop, None)
+    holes = replace(holes, fits=holes.fits.model_copy(update={"m3_tap_mm": 2.7}))
+    _, cuts = on_the_foot(robot.layout, holes)
+    assert len(cuts) == 2
+    for toe, stub in zip(toes(robot.layout), cuts, strict=True):
+        (x0, y0, _), (x1, y1, _) = stub.block.bounds_mm  # type: ignore[attr-defined]
+        assert (x0, x1) == pytest.approx((16.0 - 1.35, 30.0 + 1.35), abs=0.01)
+        assert y0 == -y1 < -robot.layout.sections.toe_width_mm / 2.0
+        assert (stub.angle_rad, stub.place_mm) == (toe.angle_rad, pytest.approx(toe.root_mm))  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("more_mm", [0.5, 20.0])
