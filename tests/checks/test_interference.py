@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.built import body_in_plane, checked, in_body
 from support.documented import documented_bases
+from support.said import says_its_numbers
 
 from jumpcad.checks import interference
 from jumpcad.checks.interference import (
@@ -50,6 +51,7 @@ def test_fires_on_a_lever_that_meets_a_misplaced_motor(kenan: Robot) -> None:
     assert any("motor" in finding.message and "main_leg" in finding.message for finding in found)
     assert all(finding.margin == 0.05 - finding.value < 0.0 for finding in found)
     assert {finding.limit for finding in found} == {0.05}
+    assert all(map(says_its_numbers, found))
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

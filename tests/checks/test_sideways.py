@@ -164,7 +164,10 @@ def test_the_state_in_which_least_is_left_is_told(kenan: Robot, state: str, monk
     told = tuple(Roll(one, 9.0, 5.0) if one == state else Roll(one, 8.0, 1.0) for one in states)
     monkeypatch.setattr(sideways, "rolls", lambda *_: told)
     (finding,) = sideways_findings(kenan)
-    assert finding.message.startswith(f"{state}, the robot tips sideways at 9.0°")
+    assert finding.message == (
+        f"{state}, the robot tips sideways at 9.0° of roll, of which play of the joints takes 5.0°; 4.0° are left, of 2° "
+        "at least"
+    )
     assert (finding.value, finding.limit) == (4.0, 2.0)
 
 

@@ -10,6 +10,7 @@ import pytest
 from support.built import built
 from support.documented import documented_bases
 from support.fits import LOADS
+from support.said import said, says_its_numbers
 from support.strengths import changed, margins
 
 from jumpcad.building import build
@@ -180,6 +181,18 @@ def test_the_rollers_screw_is_a_cantilever_beside_the_lever(robot: str, request:
     force = strong.layout.drive.cam.peak_contact_n
     assert screw.value == pytest.approx(32.0 * force * 2.5 / (math.pi * 2.387**3), rel=0.01)
     assert screw.limit == pytest.approx(640.0 / 1.5 / LOADS)  # property class 8.8
+
+
+@pytest.mark.parametrize("robot", ["kenan", "strongest"])
+def test_what_is_told_of_steel_has_value_and_limit(robot: str, request: pytest.FixtureRequest) -> None:
+    """And what they are for: so many jumps, and a bearing's rating over its factor."""
+    safety = {"jumps": 43210.0, "bearing_factor": 0.625}
+    case = LoadCase(changed(request.getfixturevalue(robot), "safety", **safety))
+    found = {one.name: one for one in steel.steel_findings(case)}
+    assert [name for name, one in found.items() if not says_its_numbers(one)] == []
+    assert said(found["spring_fatigue"].message, 43210.0)
+    assert said(found["axle_fatigue"].message, 43210.0)
+    assert said(found["hub_bearing_load"].message, 0.625)
 
 
 @pytest.mark.parametrize("jumps", [1e3, 3000.0, 1e6])
