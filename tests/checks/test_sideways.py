@@ -165,8 +165,8 @@ def test_the_state_in_which_least_is_left_is_told(kenan: Robot, state: str, monk
     monkeypatch.setattr(sideways, "rolls", lambda *_: told)
     (finding,) = sideways_findings(kenan)
     assert finding.message == (
-        f"{state}, the robot tips sideways at 9.0° of roll, of which play of the joints takes 5.0°; 4.0° are left, of 2° "
-        "at least"
+        f"{state}, the robot tips sideways at 9.0° of roll, of which play of the joints takes 5.0°; 4.0° are left, "
+        "of 2° at least"
     )
     assert (finding.value, finding.limit) == (4.0, 2.0)
 
