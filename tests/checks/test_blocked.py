@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from support.built import built, geared
 from support.documented import documented_bases
-from support.said import says_its_numbers
+from support.said import well_told
 from support.strengths import changed
 
 from jumpcad.checks.blocked import BASIS, BLOCKED_FACTOR, blocked_findings
@@ -33,8 +33,8 @@ def test_the_last_pinion_gets_the_motors_torque_and_the_dog_all_of_the_ratio(pai
     gears = robot.workshop.material("gears")
     assert teeth.limit == pytest.approx(gears.strength_in_plane_mpa / BLOCKED_FACTOR)
     assert dog.limit == pytest.approx(gears.strength_interlayer_mpa / BLOCKED_FACTOR)
-    assert says_its_numbers(teeth)
-    assert says_its_numbers(dog)
+    assert well_told(teeth)
+    assert well_told(dog)
 
 
 @pytest.mark.parametrize("weak", [0, 1])

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from support.built import built
 from support.documented import documented_bases
-from support.said import says_its_numbers
+from support.said import well_told
 
 from jumpcad.building import build
 from jumpcad.checks.electronics import BASIS, _voltage, electronics_findings, links
@@ -58,7 +58,7 @@ def wiring(shop: Workshop) -> Wiring:
 def test_both_kits_meet_every_limit(kit: str) -> None:
     findings = found(f'[bought]\nkit = "{kit}"')
     assert not [f"{f.name}: {f.message}" for f in findings.values() if f.severity != "info"]
-    assert [name for name, finding in findings.items() if not says_its_numbers(finding)] == []
+    assert [name for name, finding in findings.items() if not well_told(finding)] == []
     assert {"supply_voltage_controller", "supply_voltage_driver", "supply_voltage_motor"} <= findings.keys()
     assert ("supply_voltage_regulator" in findings) == (kit == "strong-2s")
 

@@ -8,7 +8,7 @@ import pytest
 from manifold3d import Manifold
 from support.built import body_in_plane, built, geared
 from support.documented import documented_bases
-from support.said import says_its_numbers
+from support.said import well_told
 
 from jumpcad.checks import ground
 from jumpcad.checks.ground import BASIS, _body_discs, foot_findings, ground_findings
@@ -46,7 +46,7 @@ def test_ground_clearance_is_below_every_solid(strongest: Robot, share: float) -
     assert finding.severity == "info"
     assert finding.margin + 0.6 <= measured + 1e-3
     assert finding.margin + 0.6 == pytest.approx(measured, abs=0.05)  # the legs' ends, in every pose
-    assert says_its_numbers(finding)
+    assert well_told(finding)
     assert "the legs' ends above the ground" in finding.message
 
 
@@ -102,7 +102,7 @@ def test_gaps_of_up_to_3_mm_are_measured_on_all_sides_of_the_foot(
     (finding,) = foot_findings(kenan)
     assert finding.value == (pytest.approx(2.9, abs=1e-4) if abs(gap_mm) < 3.0 else None)
     assert ("cube" in finding.message) == (abs(gap_mm) < 3.0)
-    assert says_its_numbers(finding)
+    assert well_told(finding)
     assert finding.limit == 0.5
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.built import body_in_plane, checked, in_body
 from support.documented import documented_bases
-from support.said import says_its_numbers
+from support.said import well_told
 
 from jumpcad.checks import interference
 from jumpcad.checks.interference import (
@@ -51,7 +51,7 @@ def test_fires_on_a_lever_that_meets_a_misplaced_motor(kenan: Robot) -> None:
     assert any("motor" in finding.message and "main_leg" in finding.message for finding in found)
     assert all(finding.margin == 0.05 - finding.value < 0.0 for finding in found)
     assert {finding.limit for finding in found} == {0.05}
-    assert all(map(says_its_numbers, found))
+    assert all(map(well_told, found))
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

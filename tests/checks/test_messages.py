@@ -2,7 +2,7 @@
 
 import pytest
 from support.built import built
-from support.said import says_its_numbers
+from support.said import well_told
 
 from jumpcad.checks import constraint_findings
 from jumpcad.robot import Robot
@@ -23,7 +23,7 @@ def test_messages_have_value_and_limit_in_the_unit_that_they_name(robot: Robot) 
     """And the margin is the difference of the two."""
     compared = 0
     for finding in constraint_findings(robot):
-        assert says_its_numbers(finding), (finding.name, finding.value, finding.limit, finding.message)
+        assert well_told(finding), (finding.name, finding.value, finding.limit, finding.message, finding.remedy)
         if finding.value is not None and finding.limit is not None:
             compared += 1
             assert abs(finding.limit - finding.value) == pytest.approx(abs(finding.margin), abs=1e-9), finding.name

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from support.built import checked
 from support.documented import documented_bases
-from support.said import says_its_numbers
+from support.said import well_told
 
 from jumpcad.checks.printability import (
     BASIS,
@@ -87,7 +87,7 @@ def test_fires_alone_with_its_margin(kenan: Robot, name: str, slabs: Slabs, marg
     assert [finding.name for finding in errors(findings.values())] == [name]
     assert findings[name].margin == pytest.approx(margin, abs=0.08)
     assert "piece" in findings[name].message
-    assert says_its_numbers(findings[name])
+    assert well_told(findings[name])
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from support.built import built, geared, placed
 from support.documented import documented_bases
-from support.said import said, says_its_numbers
+from support.said import said, well_told
 
 from jumpcad.building import build
 from jumpcad.bundle.firmware import numbers
@@ -124,7 +124,7 @@ def test_what_is_told_of_the_sensor_has_all_angles_of_the_cam_and_their_scatter(
     """Positions and tolerances of the data sheet; the lift takes 310°, the motor runs on for 0.06 s."""
     robot = built("best-bo")
     sensor, found = robot.layout.sensor, {one.name: one for one in sensor_findings(robot)}
-    assert all(map(says_its_numbers, found.values()))
+    assert all(map(well_told, found.values()))
     pressed = OPERATES_MM - (OPERATES_MM - TOLERANCE_MM + TOTAL_MM) / 2.0
     assert f"({pressed:.2f} +- {0.45 + TOLERANCE_MM:.2f} mm)" in found["sensor_press"].message
     scatter, ready, opens = (math.degrees(angle) for angle in (sensor.scatter_rad, sensor.ready_rad, sensor.open_rad))

@@ -10,7 +10,7 @@ import pytest
 from support.built import built
 from support.documented import documented_bases
 from support.fits import LOADS
-from support.said import said, says_its_numbers
+from support.said import said, well_told
 from support.strengths import changed, margins
 
 from jumpcad.building import build
@@ -189,7 +189,7 @@ def test_what_is_told_of_steel_has_value_and_limit(robot: str, request: pytest.F
     safety = {"jumps": 43210.0, "bearing_factor": 0.625}
     case = LoadCase(changed(request.getfixturevalue(robot), "safety", **safety))
     found = {one.name: one for one in steel.steel_findings(case)}
-    assert [name for name, one in found.items() if not says_its_numbers(one)] == []
+    assert [name for name, one in found.items() if not well_told(one)] == []
     assert said(found["spring_fatigue"].message, 43210.0)
     assert said(found["axle_fatigue"].message, 43210.0)
     assert said(found["hub_bearing_load"].message, 0.625)

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 from support.built import built, placed
 from support.documented import documented_bases
-from support.said import says_its_numbers
+from support.said import well_told
 
 from jumpcad.building import build
 from jumpcad.checks import check, constraint_findings
@@ -154,7 +154,7 @@ def test_a_leg_that_is_quick_enough_breaks_every_limit(name: str) -> None:
 def test_what_is_told_of_the_stop_has_the_blows_energy_and_the_stops_angle_too(name: str) -> None:
     robot = built(name)
     findings = found(robot)
-    assert all(map(says_its_numbers, findings.values()))
+    assert all(map(well_told, findings.values()))
     assert f" at {1000.0 * robot.stop_blow.energy_j:.0f} mJ; " in findings["stop_pad"].message
     angle = math.degrees(robot.layout.stop.angle_rad)
     assert f" beyond its stop at {angle:.1f}° past rest; " in findings["stop_clearance"].message

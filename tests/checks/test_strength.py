@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.documented import documented_bases
 from support.fits import LOADS, with_fits_apart
-from support.said import says_its_numbers
+from support.said import well_told
 from support.strengths import changed, margins, with_own
 
 from jumpcad.building import build
@@ -194,7 +194,7 @@ def test_a_margin_is_what_is_left_to_the_limit(robot: str, request: pytest.Fixtu
     assert {"leg_strength", "leg_flex"} <= {one.name for one in findings}
     for one in findings:
         assert abs(one.margin) == pytest.approx(abs(one.limit - one.value), rel=1e-9, abs=1e-9), one.name
-        assert says_its_numbers(one), one.name
+        assert well_told(one), one.name
 
 
 def test_the_leg_takes_its_share_of_the_springs_energy(kenan: Robot) -> None:

@@ -9,7 +9,7 @@ import pytest
 from manifold3d import CrossSection
 from support.documented import documented_bases
 from support.fits import chamfered, with_fits_apart
-from support.said import says_its_numbers
+from support.said import well_told
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.catalogue import load_catalogue
@@ -270,7 +270,7 @@ def test_glue_bears_the_pull_along_a_bar_and_the_twist_of_a_landing_on_one_toe(l
         {name: strength / factor for name, strength in limits.items()}
     )
     assert found["front_bar_buckling"].value == case.landing_n
-    assert all(map(says_its_numbers, found.values()))
+    assert all(map(well_told, found.values()))
     flex = found["leg_bar_flex"]
     assert flex.limit == pytest.approx(100.0 * case.workshop.safety.leg_flex_share)
     bent = leg_bar._bent_nmm(case, place_of(case)) / (1000.0 * case.robot.spring.energy_j)

@@ -1,9 +1,15 @@
-"""What a finding says in words of its value and its limit."""
+"""What a finding says in words: its value and its limit, and what can be changed."""
 
 import math
 import re
+from functools import cache
 
+from pydantic import BaseModel
+
+from jumpcad.catalogue import Battery, Board
+from jumpcad.design import Design
 from jumpcad.findings import Finding
+from jumpcad.workshop import Workshop
 
 SHOWN = {"rad": 180.0 / math.pi, "rad/s": 180.0 / math.pi, "N·m": 1000.0}
 """Angles are said in degrees, torques in mN·m."""
@@ -18,7 +24,20 @@ def said(message: str, value: float) -> bool:
     return False
 
 
-def says_its_numbers(finding: Finding) -> bool:
-    """Whether a finding's message has its value and its limit, as far as they are known, in the unit that it names."""
+@cache
+def keys() -> frozenset[str]:
+    """Return the names of a design's numbers and of a workshop's settings, with and without their section."""
+    found = {*Design.model_fields, *Battery.model_fields, *Board.model_fields}
+    for section, field in Workshop.model_fields.items():
+        if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
+            for key in field.annotation.model_fields:
+                found |= {key, f"{section}.{key}"}
+    return frozenset(found)
+
+
+def well_told(finding: Finding) -> bool:
+    """Whether a message has value and limit in the unit that it names, and a remedy names settings that there are."""
     known = [value for value in (finding.value, finding.limit) if value is not None]
-    return all(said(finding.message, SHOWN.get(finding.unit, 1.0) * value) for value in known)
+    named = re.findall(r"\b[a-z]+(?:\.[a-z0-9_]+)+\b|\b[a-z0-9]+(?:_[a-z0-9]+)+\b", finding.remedy)
+    factor = SHOWN.get(finding.unit, 1.0)
+    return all(said(finding.message, factor * value) for value in known) and keys().issuperset(named)
