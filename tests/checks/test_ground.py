@@ -8,7 +8,7 @@ import pytest
 from manifold3d import Manifold
 from support.built import body_in_plane, built, geared
 from support.documented import documented_bases
-from support.said import well_told
+from support.said import ways, well_told
 
 from jumpcad.checks import ground
 from jumpcad.checks.ground import BASIS, _body_discs, foot_findings, ground_findings
@@ -57,6 +57,19 @@ def test_the_body_is_measured_where_it_is_lowest(strongest: Robot) -> None:
     measured = lowest_above_ground_mm(strongest, -strongest.design.compression_rad, (FOOT, MAIN_LEG, FRONT_LINK))
     assert "the body" in finding.message
     assert measured - 1.0 < finding.margin + 0.6 <= measured + 1e-3
+
+
+def test_what_is_advised_to_lower_or_to_raise_lifts_the_body(strongest: Robot) -> None:
+    """By 3 % of what lies between the springs' loaded pose and the ground."""
+    legless = replace(strongest.layout, sections=replace(strongest.layout.sections, eye_radius_mm=-1000.0))
+    (finding,) = ground_findings(replace(strongest, layout=legless))
+    advised = ways(finding)
+    assert {name for name, _ in advised} == {"compression_ratio", "rest_angle_deg"}
+    for name, factor in advised:
+        design = strongest.design.model_copy(update={name: factor * getattr(strongest.design, name)})
+        layout = replace(legless, linkage=Linkage(design))
+        (after,) = ground_findings(replace(strongest, design=design, layout=layout))
+        assert after.margin > finding.margin, name
 
 
 def test_ground_clearance_fires_on_a_shallow_foot(kenan: Robot) -> None:

@@ -41,3 +41,14 @@ def well_told(finding: Finding) -> bool:
     named = re.findall(r"\b[a-z]+(?:\.[a-z0-9_]+)+\b|\b[a-z0-9]+(?:_[a-z0-9]+)+\b", finding.remedy)
     factor = SHOWN.get(finding.unit, 1.0)
     return all(said(finding.message, factor * value) for value in known) and keys().issuperset(named)
+
+
+def ways(finding: Finding) -> list[tuple[str, float]]:
+    """Return the numbers of a design that a remedy tells to lower or to raise, each with a factor that does so."""
+    told = re.findall(r"\b(lower|raise) ([\w.]+)(?:,? or (?!lower|raise)([\w.]+))?", finding.remedy)
+    return [
+        (name, 0.97 if way == "lower" else 1.03)
+        for way, *names in told
+        for name in names
+        if name in Design.model_fields
+    ]
