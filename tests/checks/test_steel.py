@@ -11,7 +11,7 @@ from support.built import built
 from support.documented import documented_bases
 from support.fits import LOADS
 from support.said import said, well_told
-from support.strengths import changed, margins
+from support.strengths import changed, helped, margins
 
 from jumpcad.building import build
 from jumpcad.checks import steel
@@ -193,6 +193,11 @@ def test_what_is_told_of_steel_has_value_and_limit(robot: str, request: pytest.F
     assert said(found["spring_fatigue"].message, 43210.0)
     assert said(found["axle_fatigue"].message, 43210.0)
     assert said(found["hub_bearing_load"].message, 0.625)
+
+
+def test_what_is_advised_to_lower_or_to_raise_helps_the_steel(strongest: Robot) -> None:
+    """Of what the landing's force bends; the springs' own arms and the cam stay as they are."""
+    assert "foot_pin_strength" in helped(strongest, lambda robot: steel.steel_findings(LoadCase(robot)))
 
 
 @pytest.mark.parametrize("jumps", [1e3, 3000.0, 1e6])
