@@ -1,11 +1,13 @@
 """Articles of the catalogue: rules that every motor, bearing, battery and board keeps."""
 
+from contextlib import nullcontext
+
 import pytest
 from pydantic import TypeAdapter, ValidationError
 from support.documented import documented_ranges, wrongly_taken
 
 from jumpcad.catalogue import Pad, load_catalogue
-from jumpcad.catalogue.articles import OwnParts
+from jumpcad.catalogue.articles import OwnParts, Volts
 
 
 def test_shipped_parts_keep_the_rules_of_own_ones() -> None:
@@ -41,3 +43,9 @@ def test_an_article_of_ones_own_has_the_name_of_its_table() -> None:
     for wrong in (3, {"soft": 3}):
         with pytest.raises(ValidationError):
             TypeAdapter(OwnParts[Pad]).validate_python(wrong)
+
+
+@pytest.mark.parametrize(("volts", "taken"), [((3.0, 3.001), True), ((3.0, 3.0), False), ((4.2, 3.0), False)])
+def test_a_range_of_voltages_has_room_between_its_ends(volts: tuple[float, float], taken: bool) -> None:
+    with nullcontext() if taken else pytest.raises(ValidationError, match=r"must be \[lowest, highest\] in volts"):
+        assert TypeAdapter(Volts).validate_python(volts) == volts
