@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from collections import Counter
 from dataclasses import replace
 
@@ -142,6 +143,11 @@ def test_lifting_work_of_a_parallelogram() -> None:
     legs = robot.bodies["main_leg"].mass_kg + robot.bodies["front_link"].mass_kg
     work = GRAVITY_M_S2 * rise * (robot.bodies["body"].mass_kg + legs / 2)
     assert weak.margin == pytest.approx(design.spring_energy_j - TAKEOFF_ENERGY_FACTOR * work, rel=1e-9)
+    held, takes, needed = (1000.0 * joules for joules in (design.spring_energy_j, work, TAKEOFF_ENERGY_FACTOR * work))
+    assert weak.message == (
+        f"the springs hold {held:.1f} mJ; standing up against gravity takes {takes:.1f} mJ, and a jump needs 1.3 times "
+        f"that, {needed:.1f} mJ"
+    )
     moon = statics_findings(robot, 1.62)[1]
     assert moon.limit == pytest.approx(TAKEOFF_ENERGY_FACTOR * work * 1.62 / GRAVITY_M_S2)
 
@@ -173,6 +179,23 @@ def test_a_findings_margin_is_how_far_its_value_is_on_the_right_side_of_its_limi
             assert found.limit == 0.0 or found.name == "too_weak"
             seen.add((found.name, found.severity))
     assert {name for name, _ in seen} == {"winding", "loop", "below_ground", "tips", "too_weak"}
+
+
+def test_a_finding_tells_the_figures_that_it_is_about() -> None:
+    """Heights and places in mm, the tilt and what is left of the legs' angle in degrees; the margin among them."""
+    design = load_design("kenan-2.0")
+    loop, below = geometry_findings(design)
+    assert f"closes with {loop.margin:.2f} mm margin" in loop.message
+    assert f"lowest body pivot with loaded springs is {below.margin:.1f} mm above the line" in below.message
+    tips = statics_findings(capsule_robot(design))[0]
+    back, front = support_span_mm(design)
+    told = [float(figure) for figure in re.findall(r"-?\d+\.\d", tips.message)]
+    assert told[1:] == [round(back, 1), round(front, 1), round(tips.margin, 1)]
+    assert min(told[0] - back, front - told[0]) == pytest.approx(tips.margin, abs=0.06)
+    tilted = Design.from_vector([47.2223, 0.3388, 0.5689, 0.263, 0.3217, 53.5764, 200, 28.8995])
+    (winding,) = geometry_findings(tilted)
+    tilt = math.degrees(math.asin((0.3388 - 1.0) * math.sin(math.radians(53.5764)) / 0.5689))
+    assert f"tilts by {tilt:.1f}° at rest, which leaves {53.5764 + tilt:.1f}° of rest_angle_deg = 53.5764" in winding.message
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

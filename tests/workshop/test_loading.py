@@ -95,6 +95,27 @@ def test_a_chain_of_workshops_has_an_end(written):
     assert load_workshop(written("", "1499.toml").with_name("1490.toml")) == load_workshop("default")
 
 
+@pytest.mark.parametrize(("files", "refused"), [(20, False), (21, True)])
+def test_twenty_workshops_build_on_each_other_and_on_the_default_one(files, refused, written):
+    for number in range(files - 1):
+        written(f'base = "{number + 1}.toml"\n', f"{number}.toml")
+    lowest = written("[fits]\nloose_mm = 0.41\n", f"{files - 1}.toml")
+    first = lowest.with_name("0.toml")
+    if refused:
+        with pytest.raises(JumpcadError, match=r"0\.toml: more than 20 workshops build on each other; join some of"):
+            load_workshop(first)
+    else:
+        assert load_workshop(first).fits.loose_mm == 0.41
+
+
+@pytest.mark.parametrize("files", [1, 2, 3, 4])
+def test_files_that_build_on_each_other_in_a_circle_are_told(files, written):
+    for number in range(files):
+        path = written(f'base = "{(number + 1) % files}.toml"\n', f"{number}.toml")
+    with pytest.raises(JumpcadError, match=rf"{files - 1}\.toml: base = '0\.toml': leads back to a file that builds on"):
+        load_workshop(path.with_name("0.toml"))
+
+
 def test_links_that_lead_round_in_a_circle(written):
     path = written('base = "loop.toml"\n')
     path.with_name("loop.toml").symlink_to("loop.toml")
@@ -164,6 +185,7 @@ def test_another_printer_and_one_material_for_all(written):
             r"'pettg' is neither a table under \[materials\] nor one of .*did you mean petg\?",
         ),
         ("[materials.PTEG]\nmodulus_mpa = 1.0", r"materials.PTEG: no role uses it.*did you mean PETG\?"),
+        ("[materials.pla]\nmodulus_mpa = 3000.0", r"materials.pla: no role uses it; the roles use PETG, PLA$"),
         ('printer = "mk5"', r"'mk5' is neither a TOML file nor one of the printers .*did you mean mk4\?"),
         ('base = "my.toml"', r"leads back to a file that builds on it"),
         ('[pads.own]\nlike = "rubber-3"', r"pads.own.like = 'rubber-3': is no shipped part of this kind .*rubber-2"),
