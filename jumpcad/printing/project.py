@@ -62,5 +62,6 @@ def settings_in_words(printer: Printer, process: Process) -> list[str]:
 
 def temperatures_in_words(material: Material) -> str:
     """Return a material's temperatures, or that they are the user's to enter."""
-    known = [f"{part} {heat:g} °C" for part, heat in (("nozzle", material.nozzle_c), ("bed", material.bed_c)) if heat]
+    heats = ("nozzle", material.nozzle_c), ("bed", material.bed_c)
+    known = [f"{part} {heat:g} °C" for part, heat in heats if heat is not None]
     return ", ".join(known) or "no temperatures in the workshop: enter your filament's"

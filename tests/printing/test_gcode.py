@@ -64,6 +64,13 @@ def test_absolute_feed_begins_at_zero():
     assert path.filament_mm == pytest.approx([1.5, 0.5])
 
 
+def test_absolute_feed_goes_on_after_moves_that_feed_nothing():
+    """2 mm of filament are fed, then the nozzle travels, then the fed length is 3 mm: 1 mm more."""
+    lines = ["M82", ";HEIGHT:0.2", "G1 X0 Y0 Z.2", "G1 X10 E2", "G1 Z.6", "G0 Y5", "G1 Z.2", "G1 X0 E3"]
+    path = read_gcode("\n".join([*lines, "; filament_diameter = 1.75"]))
+    assert path.filament_mm == pytest.approx([2.0, 1.0])
+
+
 @pytest.mark.parametrize(("mode", "back", "on"), [("M82", "E.5", "E1.5"), ("M83", "E-.5", "E1")])
 def test_filament_that_is_drawn_back_on_the_way_lays_no_line(mode, back, on):
     """As wiping does: the nozzle goes on while filament is drawn back; moving in height alone lays none either."""

@@ -8,7 +8,12 @@ from jumpcad.workshop import load_workshop
 
 @pytest.mark.parametrize(
     ("nozzle_c", "bed_c", "words"),
-    [(240.0, 85.0, "nozzle 240 °C, bed 85 °C"), (None, 60.0, "bed 60 °C"), (215.0, None, "nozzle 215 °C")],
+    [
+        (240.0, 85.0, "nozzle 240 °C, bed 85 °C"),
+        (None, 60.0, "bed 60 °C"),
+        (215.0, None, "nozzle 215 °C"),
+        (215.0, 0.0, "nozzle 215 °C, bed 0 °C"),
+    ],
 )
 def test_temperatures_that_are_known_are_said(nozzle_c: float | None, bed_c: float | None, words: str) -> None:
     material = load_workshop().material("links").model_copy(update={"nozzle_c": nozzle_c, "bed_c": bed_c})
@@ -38,6 +43,8 @@ def test_instructions_have_the_numbers_of_the_process() -> None:
     solid = settings_in_words(shop.printer, process.model_copy(update={"infill": 1.0, "solid_below_area_mm2": 0.0}))
     assert "infill: 100 %, rectilinear" in solid
     assert any("filled like the others" in line for line in solid)
+    tiny = settings_in_words(shop.printer, process.model_copy(update={"solid_below_area_mm2": 0.5}))
+    assert any("areas below 0.5 mm² filled solid" in line for line in tiny)
     hollow = settings_in_words(shop.printer, process.model_copy(update={"infill": 0.0}))
     assert any(line.startswith("infill: none but solid layers") for line in hollow)
 
@@ -52,6 +59,8 @@ def test_a_project_has_the_materials_temperatures_of_every_layer(name: str) -> N
         assert float(settings[f"{layer}temperature"]) == material.nozzle_c
         assert float(settings[f"{layer}bed_temperature"]) == material.bed_c
         assert float(settings[f"{layer}temperature"]) > 150.0 > float(settings[f"{layer}bed_temperature"])
+    cold = project_settings(shop.printer, shop.process, material.model_copy(update={"bed_c": 0.0}), name)
+    assert cold["bed_temperature"] == cold["first_layer_bed_temperature"] == "0"  # not PrusaSlicer's default
     unknown = material.model_copy(update={"nozzle_c": None, "bed_c": None})
     assert not any("temperature" in key for key in project_settings(shop.printer, shop.process, unknown, name))
     assert settings["filament_type"] == name
