@@ -22,6 +22,10 @@ def found(standing_m: float = 0.05, **measured: object) -> list[str]:
             {"pull_n": (1.0,), "slope_deg": (46.0,)},
             "floor.pull_n = 1 is a friction of 0.50, and floor.slope_deg = 46 one of 1.04",
         ),
+        (
+            {"pull_n": (1.5, 0.4, 1.0)},
+            "floor.pull_n = 0.4 is a friction of 0.20, and floor.pull_n = 1.5 one of 0.75",
+        ),
         ({"pull_n": (1.0, 1.9)}, None),
         ({"pull_n": (0.21, 0.41)}, None),
         ({"slope_deg": (45.0,), "pull_n": (1.1,)}, None),
@@ -40,8 +44,12 @@ def jumps(kind: str, *values: float) -> Jumps:
 
 def test_distances_of_one_robot_agree_within_a_factor_of_three() -> None:
     assert found(jumps=(jumps("first-touchdown", 100.0, 299.0),)) == []
-    (said,) = found(jumps=(jumps("first-touchdown", 100.0), jumps("first-touchdown", 310.0)))
-    assert "100 and 310, both first-touchdown: one robot does not jump 3.1 times" in said
+    for series in (
+        (jumps("first-touchdown", 100.0), jumps("first-touchdown", 310.0)),
+        (jumps("first-touchdown", 200.0, 310.0), jumps("first-touchdown", 100.0, 150.0)),
+    ):
+        (said,) = found(jumps=series)
+        assert "100 and 310, both first-touchdown: one robot does not jump 3.1 times" in said
 
 
 def test_a_robot_does_not_rest_far_before_its_touchdown() -> None:

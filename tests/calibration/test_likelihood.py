@@ -223,6 +223,8 @@ def test_parameters_are_what_the_measurements_leave_open() -> None:
     shared = ["spring_efficiency", "pin_friction"]
     assert keys(measured_robot()) == [*shared, "rate:a", "mass:a", "floor:a"]
     assert keys(measured_robot(release="fixed")) == [*shared, "back_efficiency", "rate:a", "mass:a", "floor:a"]
+    mixed = keys(measured_robot(), measured_robot("b", release="unknown"))
+    assert mixed == [*shared, "back_efficiency", *(f"{what}:{of}" for of in "ab" for what in ("rate", "mass", "floor"))]
     both = keys(
         measured_robot(jumps=JUMPED), measured_robot("b", jumps=({"height_mm": (9.0,), "height_of": "unknown"},))
     )

@@ -35,6 +35,7 @@ def test_shipped_files_have_the_published_figures_and_say_what_is_unknown() -> N
         ('[[jumps]]\nheight_of = "rise"', r"height_of = 'rise': is of nothing: give height_mm too"),
         ("[[jumps]]", r"holds no value: give distance_mm, height_mm or battery_j"),
         ('[[jumps]]\ndistance_mm = [1.0, 2.0]\ndistance_of = "unknown"\njumps = 1', r"jumps = 1: must be at least 2"),
+        ("[[jumps]]\nbattery_j = [1.0, 2.0, 3.0]\njumps = 2", r"jumps = 2: must be at least 3, the values given"),
         ("[spring]\nrate_nmm_per_deg = 9.2", r"rate_nmm_per_deg = 9.2: of one spring or of both\? say springs = 1"),
         ("[mass]\nrobot_error_g = 1.0", r"is the error of nothing: give robot_g too"),
         ("[mass]\nrobot_g = 58.0\nrobot_error_g = 30.0", r"robot_error_g = 30.0: .* must be at most a half of it, 29$"),

@@ -151,6 +151,40 @@ def test_what_is_not_weighed_keeps_the_models_error(tmp_path: Path, subject: Sub
     assert some.mass.second == pytest.approx(math.hypot(0.2 * open_share, 0.01))
 
 
+def test_each_copy_of_a_weighed_part_counts(subject: Subject) -> None:
+    """Of a part that the robot has twice, twice its weight is known."""
+    (foot,) = (part for part in subject.robot.parts if part.name == "foot")
+    copies = replace(foot.drawing, placements=2 * foot.drawing.placements)
+    found = []
+    for drawing in (foot.drawing, copies):
+        parts = (replace(foot, drawing=drawing, mass_source="weighed"),)
+        measured = Measurements(design="kenan-2.0", source="a test", release="dog")
+        found.append(Subject("twice", measured, replace(subject.robot, parts=parts), ()).mass.second)
+    shares = [1.0 - count * foot.mass_kg / subject.robot.mass_kg for count in (1, 2)]
+    assert found == pytest.approx([math.hypot(0.2 * share, 0.01) for share in shares])
+
+
+@pytest.mark.parametrize(("battery_j", "refused"), [(0.49, True), (0.51, False)])
+def test_a_battery_gives_more_than_the_springs_hold(
+    monkeypatch: pytest.MonkeyPatch, battery_j: float, refused: bool
+) -> None:
+    """Of a drive that would need 1 J for springs of 0.5 J."""
+    monkeypatch.setattr(subject_module, "simulate", lambda *_: SimpleNamespace(ballistic_range_m=0.2, com_rise_m=0.1))
+    jumps = ({"battery_j": (0.8, battery_j)},)
+    one = SimpleNamespace(first=1.0)
+    robot: Any = SimpleNamespace(
+        measured=Measurements(design="kenan-2.0", source="a test", release="dog", jumps=jumps), mass=one, rate=one,
+        robot=SimpleNamespace(mass_kg=0.1, spring=SimpleNamespace(energy_j=0.5)), electrical_j=1.0, standing_m=0.05,
+    )  # fmt: skip
+    if refused:
+        with pytest.raises(
+            JumpcadError, match=r"jumps\.battery_j = 0\.49: the springs alone hold 0\.5 J: measure volt"
+        ):
+            _require_plausible(robot, "mine.toml")
+    else:
+        _require_plausible(robot, "mine.toml")
+
+
 def test_weighed_parts_count_in_the_model(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(HEAD + "[mass.parts_g]\nmain_leg = 20.0\n")
@@ -184,7 +218,8 @@ def test_a_pull_along_the_floor_is_compared_with_the_weight_on_the_scale(
 
 
 def test_names_of_robots_differ(subject: Subject) -> None:
-    assert [one.name for one in renamed([subject, subject])] == ["kenan-2.0", "kenan-2.0 2"]
+    names = [one.name for one in renamed([subject, subject, replace(subject, name="other"), subject])]
+    assert names == ["kenan-2.0", "kenan-2.0 2", "other", "kenan-2.0 3"]
 
 
 MISTAKES = [
@@ -287,6 +322,7 @@ def test_a_flight_may_need_a_tenth_more_than_the_springs_hold(
     [
         (0.0, None, None, None),
         (0.005, 9.2, 9.9, None),
+        (0.0, 9.2, 10.3, None),  # 1.1 apart, and three times the root of 0.276² and 0.309² are 1.24
         (0.05, None, None, "have 8.74 N·mm/° together, those of kenan-2.0 9.2: give both designs"),
         (0.0, 9.2, 7.0, "have 7 N·mm/° together, those of kenan-2.0 9.2"),
     ],

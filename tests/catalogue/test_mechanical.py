@@ -46,7 +46,15 @@ def test_a_bearing_has_room_for_its_balls() -> None:
 def test_a_bearing_weighs_less_than_a_ring_of_steel_of_its_size() -> None:
     """That of a 623, of 3 to 10 mm and 4 mm wide: 7.85 mg/mm³ of pi/4·91·4 mm³ are 2.24 g; SKF gives 1.5 g."""
     bearing = load_catalogue().bearings["623"]
-    for mass_g, refused in ((1.5, False), (2.24, False), (2.25, True), (0.25, False), (0.15, True), (0.0016, True), (800.0, True)):
+    for mass_g, refused in (
+        (1.5, False),
+        (2.24, False),
+        (2.25, True),
+        (0.25, False),
+        (0.15, True),
+        (0.0016, True),
+        (800.0, True),
+    ):
         found = bearing.model_copy(update={"mass_g": mass_g}).contradictions()
         assert [place for place, *_ in found] == [("mass_g",)] * refused, mass_g
 

@@ -195,7 +195,10 @@ def test_a_finding_tells_the_figures_that_it_is_about() -> None:
     tilted = Design.from_vector([47.2223, 0.3388, 0.5689, 0.263, 0.3217, 53.5764, 200, 28.8995])
     (winding,) = geometry_findings(tilted)
     tilt = math.degrees(math.asin((0.3388 - 1.0) * math.sin(math.radians(53.5764)) / 0.5689))
-    assert f"tilts by {tilt:.1f}° at rest, which leaves {53.5764 + tilt:.1f}° of rest_angle_deg = 53.5764" in winding.message
+    assert (
+        f"tilts by {tilt:.1f}° at rest, which leaves {53.5764 + tilt:.1f}° of rest_angle_deg = 53.5764"
+        in winding.message
+    )
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

@@ -112,7 +112,9 @@ def test_twenty_workshops_build_on_each_other_and_on_the_default_one(files, refu
 def test_files_that_build_on_each_other_in_a_circle_are_told(files, written):
     for number in range(files):
         path = written(f'base = "{(number + 1) % files}.toml"\n', f"{number}.toml")
-    with pytest.raises(JumpcadError, match=rf"{files - 1}\.toml: base = '0\.toml': leads back to a file that builds on"):
+    with pytest.raises(
+        JumpcadError, match=rf"{files - 1}\.toml: base = '0\.toml': leads back to a file that builds on"
+    ):
         load_workshop(path.with_name("0.toml"))
 
 
