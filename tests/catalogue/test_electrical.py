@@ -85,7 +85,8 @@ def test_a_battery_in_ampere_hours_or_kilograms_is_refused() -> None:
     battery = load_catalogue().batteries["lipo-1s-300"]
     for key, value, refused in (
         ("capacity_mah", 200.0, False), ("capacity_mah", 550.0, False), ("capacity_mah", 0.3, True),
-        ("capacity_mah", 3e5, True), ("capacity_mah", 3000.0, True), ("capacity_mah", 30.0, True), ("mass_g", 6.0, False), ("mass_g", 0.008, True), ("mass_g", 80.0, True),
+        ("capacity_mah", 3e5, True), ("capacity_mah", 3000.0, True), ("capacity_mah", 30.0, True),
+        ("mass_g", 6.0, False), ("mass_g", 0.008, True), ("mass_g", 80.0, True),
     ):  # fmt: skip
         found = battery.model_copy(update={key: value}).contradictions()
         assert [place for place, *_ in found] == [("capacity_mah",)] * refused, (key, value)

@@ -13,6 +13,7 @@ from support.built import LONG_TOES, built, geared
 from support.built import placed as placed_mesh
 
 from jumpcad.building import build
+from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
@@ -443,8 +444,54 @@ def test_springs_with_a_preload_are_put_on_with_a_screwdriver(preload_rad: float
     layout = robot.layout
     drive = replace(layout.drive, spring=replace(layout.drive.spring, preload_rad=preload_rad))
     steps = assembly_steps(replace(robot, layout=replace(layout, drive=drive)))
-    words = " ".join(text for step in steps for text in step.text)
-    assert ("The springs are loaded by" in words) == (preload_rad > 0.0)
+    words = " ".join(text for step in steps for text in (*step.text, *step.warnings))
+    for said, with_preload in (
+        ("The springs are loaded by", True), ("On the stop, too, the springs are loaded", True),
+        ("An arm may be up to", False),
+    ):  # fmt: skip
+        assert words.count(said) == (with_preload == (preload_rad > 0.0)), said
+
+
+@pytest.mark.parametrize(
+    ("key", "names", "said", "unsaid"),
+    [
+        ("foot", ("nose_pad_1",), ("Degrease the soles with alcohol. Cut the pads",), ("Roughen soles",)),
+        ("foot", ("nose_pad_1", "printed_nose_pad_1"), ("Roughen soles and printed pads",), ("Cut the pads to size",)),
+        ("foot", (), ("Open the eyes of the front link",), ("Degrease", "Roughen", "The toes, with their pads")),
+        ("foot", ("front_link_bar",), ("The holes of the foot must let",), ("Open the eyes of the front link",)),
+        ("stop", ("printed_stop_pad",), ("Glue the pad into its seat", "The pad is printed"), ()),
+        ("stop", (), ("Glue the pad into its seat",), ("The pad is printed",)),
+    ],
+)
+def test_pads_and_eyes_are_made_ready_as_they_are_made(
+    key: str, names: tuple[str, ...], said: tuple[str, ...], unsaid: tuple[str, ...]
+) -> None:
+    """Pads that are cut and pressed on, or printed and glued, feet without; a front link whole or of a bar."""
+    (plan,) = (plan for plan in ORDER if plan.key == key)
+    words = " ".join(_texts(plan.text, list(names)))
+    assert [words.count(one) for one in (*said, *unsaid)] == [1] * len(said) + [0] * len(unsaid)
+
+
+@pytest.mark.parametrize(
+    ("button", "regulator", "readable"),
+    [("D9", "", True), ("", "s7v7f5", True), ("D9", "s7v7f5", True), ("", "", False)],
+)
+def test_the_current_is_read_where_the_battery_alone_feeds_the_driver(
+    button: str, regulator: str, readable: bool
+) -> None:
+    """Without a button USB stays in, and feeds the driver too where no regulator is between."""
+    robot, boards = built("kenan-2.0"), load_catalogue().boards
+    assert "switch" in {thing.name for thing in visuals(robot)}
+    held = robot.layout.electronics
+    changed = replace(
+        held,
+        controller=held.controller.model_copy(update={"button": button}),
+        regulator=boards[regulator] if regulator else None,
+    )
+    steps = assembly_steps(replace(robot, layout=replace(robot.layout, electronics=changed)))
+    words = " ".join(text for step in steps for text in (*step.text, *step.checks))
+    assert words.count("multimeter on its 10 A range") == words.count("the 10 A range shows") == readable
+    assert words.count("reaches the board's button") == bool(button)
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,14 @@ def test_a_detail_shows_what_it_frames_of_parts_that_are_there(inset: Inset) -> 
     assert inset.room >= 1.0
 
 
+@pytest.mark.parametrize("inset", INSETS, ids=lambda inset: inset.name)
+def test_a_detail_is_seen_from_where_its_title_says(inset: Inset) -> None:
+    """The camera is where the picture's third axis points: y to the left, z up."""
+    _, y, z = inset.view.axes[2]
+    for words, towards in (("from the left", y), ("from the right", -y), ("from below", -z)):
+        assert words not in inset.title or towards > 0.4
+
+
 def test_details_belong_to_steps_and_what_a_plate_hides_has_one() -> None:
     assert {inset.step for inset in INSETS} <= {plan.key for plan in ORDER}
     assert len({inset.name for inset in INSETS}) == len(INSETS)

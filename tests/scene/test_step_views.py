@@ -30,6 +30,13 @@ def test_labels_name_what_is_put_on_and_lead_to_its_place(views: dict[str, list[
     assert {"left-hand spring", "right-hand spring"} <= {label.text for label in views["legs"][0].labels}
 
 
+def test_what_is_put_on_is_drawn_near_its_place(views: dict[str, list[StepView]]) -> None:
+    """Of many parts on one axle the last would be far off: at most 110 mm from its place, along its way."""
+    labels = [label for pictures in views.values() for view in pictures for label in view.labels]
+    apart = [np.linalg.norm(label.at_m - label.place_m) for label in labels]
+    assert 0.05 < max(apart) <= 0.11 + 1e-6
+
+
 def test_assemblies_on_the_bench_lie_apart(views: dict[str, list[StepView]]) -> None:
     """Plates and trays that wires join, each with its own parts after it: 12 mm or more between any two."""
     view = views["power"][0]

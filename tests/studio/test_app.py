@@ -149,6 +149,7 @@ def test_a_point_of_a_study_brings_its_design_and_workshop(study: Path, tmp_path
     assert "best 1: 2 body lengths (trial 1)" in points.listed
     assert (shown.trial.min, shown.trial.max, shown.trial.step) == (1, 4, 1)
     shown._run_action(lambda: shown.open(4))
+    assert shown.status.content == "as trial 4"
     assert (shown.design, shown.workshop) == (points.trial(4).design, load_workshop())
     assert "trial 4 of 4" in shown.point.content
     assert shown.best.value == "best 3: 1 body lengths (trial 4)"
@@ -321,8 +322,10 @@ def test_a_saved_design_says_with_which_workshop_it_is_the_robot(
     assert studio._save() == f"saved {file}; this robot: `jumpcad build {file} --workshop fine`"
     assert not shop.exists()
     points = Points(study)
-    monkeypatch.setattr(points, "workshop_of", lambda _: load_workshop("light"))
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    usual = Studio(points.trial(1).design, "usual", ["of the study"], server, tmp_path, points)
+    assert usual._save() == f"saved {tmp_path / 'usual-studio.toml'}"  # the study's is the default one
+    monkeypatch.setattr(points, "workshop_of", lambda _: load_workshop("light"))
     shown = Studio(points.trial(1).design, "kenan-2.0", ["of the study"], server, tmp_path, points)
     assert shown._save() == f"saved {file}; this robot: `jumpcad build {file} --workshop {shop}`"
     assert load_workshop(str(shop)) == load_workshop("light")

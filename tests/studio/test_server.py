@@ -35,6 +35,11 @@ def handshake(server: "viser.ViserServer", origin: str | None) -> int:
     return status
 
 
+def test_no_other_computer_reaches_it(server: "viser.ViserServer") -> None:
+    """It listens at the address of this computer for itself (RFC 6890, 127.0.0.0/8), not at that of its network."""
+    assert server.get_host() == "127.0.0.1"
+
+
 def test_the_own_page_connects(server: "viser.ViserServer") -> None:
     for host in ("127.0.0.1", "localhost"):
         assert handshake(server, f"http://{host}:{server.get_port()}") == 101

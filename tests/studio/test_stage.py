@@ -14,6 +14,7 @@ from support.built import built
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.studio.playback import ShownMoment
 from jumpcad.studio.stage import StudioStage
@@ -115,6 +116,16 @@ def test_every_part_stands_where_the_robot_has_it_and_says_its_name(stage: Studi
         (node,) = [node for path, node in shown.items() if path.endswith(f"/{name}")]
         assert np.ptp(node.vertices, axis=0) == pytest.approx(np.ptp(named(name).corners_m, axis=0), abs=1e-4)
     assert clicked == [one.name for one in visuals(built(NAME))]
+
+
+def test_copies_of_a_part_say_their_own_names(stage: StudioStage, clicked: list[str], small_robot: Robot) -> None:
+    """Of which the studio looks up what the part is."""
+    stage._put("robot", visuals(small_robot))
+    copies = [one for one in visuals(small_robot) if one.name != one.mesh_name]
+    assert len(copies) >= 2
+    for one in copies:
+        stage.server.scene.nodes[f"/robot/{one.body}/{one.name}"].acts[0](None)
+    assert clicked == [one.name for one in copies]
 
 
 def test_a_robot_that_cannot_be_built_leaves_the_last_one_pale_and_a_ghost_as_it_is(stage: StudioStage) -> None:
