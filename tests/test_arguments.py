@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
@@ -104,6 +104,8 @@ def test_what_makes_an_object_is_called_by_its_class() -> None:
         Leg("long")  # type: ignore[arg-type]
     with pytest.raises(JumpcadError, match=r"Leg\(self, length_mm\): missing a required argument: 'length_mm'"):
         Leg()  # type: ignore[call-arg]
+    with pytest.raises(JumpcadError, match=r"Leg\(\) takes no 'colour', only length_mm$"):
+        Leg(3.0, colour="red")  # type: ignore[call-arg]
 
 
 def test_missing_and_unknown_arguments_are_named() -> None:
@@ -252,6 +254,7 @@ def test_a_record_checks_its_fields() -> None:
     class Leg:
         length_mm: float
         name: str = "leg"
+        bent: bool = field(init=False)  # which is found out afterwards
 
         def __post_init__(self) -> None:
             require_fields(self)
@@ -273,9 +276,14 @@ def test_a_number_of_numpy_is_taken_as_python_s() -> None:
     def drawn(seed: int, share: float = 1.0, *more: Any) -> tuple[Any, ...]:
         return seed, share, *more
 
+    @typed
+    def kept(one: Any) -> Any:
+        return one
+
     taken = drawn(np.int64(3), np.float32(0.5), np.int64(4))
     assert taken == (3, 0.5, 4)
     assert [type(one) for one in taken] == [int, float, np.int64]
+    assert kept(np.float32(0.5)).dtype == np.float32  # where anything is taken, it is taken as it is
     assert type(drawn(1, share=np.int32(2))[1]) is int
     for odd in (np.float64(3.0), np.True_, np.array([3])):
         with pytest.raises(JumpcadError, match=r"drawn\(\) takes a whole number as seed"):

@@ -5,8 +5,9 @@ import re
 from pathlib import Path
 
 import pytest
+from support.places import ROOT
 
-from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of, load_design
+from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of, load_design, unit_of
 from jumpcad.errors import CannotBuildError, JumpcadError
 
 KENAN_2 = [100.0, 1.0, 0.833, 0.934, 0.46145125, 88.2, 9.2, 40.0]
@@ -55,6 +56,23 @@ def test_a_parameter_has_the_limits_within_which_a_design_is_one(name: str) -> N
     assert low <= SEARCH_BOUNDS[name].lower < SEARCH_BOUNDS[name].upper <= high
 
 
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_limits_and_searched_ranges_are_those_that_users_are_told(name: str) -> None:
+    """docs/robot.md: the searched ones are the published study's."""
+    page = (ROOT / "docs" / "robot.md").read_text(encoding="utf-8")
+    (row,) = re.findall(rf"^\| `{name}` \|[^|]*\| ([\d.]+) to ([\d.]+) \| ([\d.]+) to ([\d.]+) \|", page, re.M)
+    bounds = SEARCH_BOUNDS[name]
+    assert (*limits_of(name), bounds.lower, bounds.upper) == tuple(map(float, row))
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [("carrying_link_mm", "mm"), ("rest_angle_deg", "°"), ("stiffness_nmm_per_deg", "N·mm/°"), ("c_coef", "")],
+)
+def test_a_parameter_s_name_says_its_unit(name: str, unit: str) -> None:
+    assert unit_of(name) == unit
+
+
 def test_work_of_the_springs_is_the_integral_of_their_torque() -> None:
     design = load_design("best-bo")
     degrees = math.degrees(design.compression_rad)
@@ -66,6 +84,7 @@ def test_longest_link() -> None:
     assert changed().l_max_mm == 100.0
     assert changed(c_coef=1.1).l_max_mm == pytest.approx(110.0)
     assert changed(e_coef=1.2).l_max_mm == pytest.approx(120.0)
+    assert changed(d_coef=1.3).l_max_mm == 100.0  # the foot is none of the study's lengths of a body
 
 
 def test_vector_keeps_the_order_of_the_study() -> None:

@@ -15,6 +15,7 @@ from jumpcad.findings import SHOWN_AS, Finding, at_least, at_most, bare, is_bare
         (40.0, 40.0, 0.0, 1.0, "info"),
         (50.0, 40.0, -10.0, 1.25, "error"),
         (0.0, 40.0, 40.0, 0.0, "info"),
+        (-5.0, 40.0, 45.0, None, "info"),
         (1.0, 0.0, -1.0, None, "error"),
         (5.0, math.inf, math.inf, 0.0, "info"),
         (math.inf, 5.0, -math.inf, math.inf, "error"),

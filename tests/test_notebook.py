@@ -17,6 +17,7 @@ from support.hills import SMALL, Hill
 import jumpcad
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.renders import renders, rest_picture
+from jumpcad.findings import at_most
 from jumpcad.search import Request, Result, Space, StudyStore, Trial, robot_model
 from jumpcad.search.robust import Candidate
 
@@ -128,6 +129,16 @@ def test_a_rejected_design_says_why():
     assert shown["verdict"] == "too_weak (pybullet)"
     assert "error: too_weak" in shown
     assert "ballistic range" not in shown
+
+
+def test_an_evaluation_says_what_rejects_its_robot(result):
+    """What the checks of the robot found, not of its jump alone."""
+    weak = at_most("leg_strength", 50.0, 40.0, "MPa", "the leg has 50 MPa", "make it thicker")
+    kept = at_most("toe_strength", 30.0, 40.0, "MPa", "the toes have 30 MPa", "make them thicker")
+    shown = table(replace(result, findings=(*result.findings, weak, kept))._repr_html_())
+    assert {name: said for name, said in shown.items() if name.startswith("error")} == {
+        "error: leg_strength": "the leg has 50 MPa; make it thicker"
+    }
 
 
 def test_names_are_escaped():

@@ -17,3 +17,10 @@ def test_a_generator_decides_the_points_and_two_differ() -> None:
     one, again, other = (sobol(4, 16, np.random.default_rng(seed)) for seed in (1, 1, 2))
     assert np.array_equal(one, again)
     assert not np.array_equal(one, other)
+
+
+def test_points_are_scrambled() -> None:
+    """Those of the sequence itself begin with the cube's corner and its middle, whatever the generator."""
+    first = sobol(3, 2, np.random.default_rng(1))
+    assert not np.array_equal(first, [[0.0] * 3, [0.5] * 3])
+    assert (first > 0.0).all()
