@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from support.places import ROOT
 
 from jumpcad import dimensions
 from jumpcad.catalogue import load_catalogue
@@ -10,6 +11,7 @@ from jumpcad.dimensions import unit_of_key
 from jumpcad.parts.small import CAP_HEAD_DEPTH_MM
 from jumpcad.workshop import load_workshop
 
+DOCS = (ROOT / "docs" / "limits.md").read_text(encoding="utf-8")
 LINE_MM, LAYER_MM = 0.4, 0.2
 """Width of a nozzle's line and height of a layer."""
 
@@ -54,6 +56,22 @@ def test_plays_and_gaps_add_up() -> None:
     assert dimensions.TRAY_LENGTH_MIN_MM == 2.0 * (1.0 + dimensions.TAB_MM) + 8.0 == 30.0
     assert dimensions.STRAP_SLOT_MM[1] == 10.0 + 1.0
     assert all(slot > tie for slot, tie in zip(dimensions.TIE_SLOT_MM, (1.1, 2.5), strict=True))
+
+
+def test_heads_and_pads_have_room_in_what_is_made_for_them() -> None:
+    """A head of 3.8 mm (ISO 14580 M2) in its counterbore, one of 5.7 mm (ISO 7380-1 M3) on its pad, each with play."""
+    catalogue, fits = load_catalogue(), load_workshop().fits
+    head, button = catalogue.screws["M2"].cylinder_head_mm, catalogue.screws["M3"].button_head_mm
+    assert (head, button) == (3.8, 5.7)
+    assert head < dimensions.CAP_HEAD_MM < head + 2.0 * fits.loose_mm
+    assert button + 2.0 * fits.wall_mm < dimensions.STANDOFF_PAD_MM < button + 4.0 * fits.wall_mm
+    assert dimensions.STOP_SEAT_MM < 1.5 < dimensions.STOP_PAD_MM  # the thinnest pad stands out of its seat
+
+
+def test_an_axle_has_the_play_at_its_end_that_users_are_told() -> None:
+    """docs/limits.md: of a plate's blind bore it leaves so much empty; more than the cut of a rod by hand is off."""
+    assert f"axle's end play leaves {dimensions.AXLE_END_PLAY_MM:g} mm empty" in DOCS
+    assert 0.1 < dimensions.AXLE_END_PLAY_MM < dimensions.GAP_MM
 
 
 def test_a_pin_in_the_springs_boss_and_the_plate_hardly_leans() -> None:
