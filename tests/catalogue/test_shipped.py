@@ -109,8 +109,7 @@ def test_parts_of_ones_own_stand_after_the_shipped_ones():
     # every kind that one may have of one's own, by name and in the order in which they are given
     kinds = ("motors", "bearings", "batteries", "boards", "springs", "pads")
     parts = {kind: next(iter(getattr(CATALOGUE, kind).values())) for kind in kinds}
-    joined = CATALOGUE.with_own(**{kind: {f"own {kind}": part} for kind, part in parts.items()})
+    joined = CATALOGUE.with_own(**{kind: {f"own {kind} {n}": part for n in "ab"} for kind, part in parts.items()})
     for kind, part in parts.items():
-        assert {name: one for name, one in getattr(joined, kind).items() if name.startswith("own")} == {
-            f"own {kind}": part
-        }
+        found = {name: one for name, one in getattr(joined, kind).items() if name.startswith("own")}
+        assert found == {f"own {kind} a": part, f"own {kind} b": part}
