@@ -225,6 +225,8 @@ def test_the_camera_stands_farther_off_large_robots_and_on_a_high_page() -> None
     for one in (design, larger, toes):
         stage.look_at(one)
         places.append(np.array([server.initial_camera.position, server.initial_camera.look_at]))
+    size_m = (design.l2_mm + design.l5_mm) / 1000.0
+    assert 1.5 * size_m < np.linalg.norm(places[0][0] - places[0][1]) < 4.0 * size_m
     assert places[1] == pytest.approx(2.0 * places[0])
     assert places[2] == pytest.approx(2.0 * places[0])
     for aspect, moved in ((1.5, False), (0.6, True)):

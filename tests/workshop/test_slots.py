@@ -88,3 +88,14 @@ def test_an_empty_name_leaves_out_what_a_robot_can_be_without(key: str) -> None:
     assert ('"" for ' in said) is not is_needed
     words = said.partition(": choose ")[2].replace(" or ", ", ").split(", ")
     assert set(words) >= set(SLOTS[key].fitting(catalogue)) | ({"any"} if name == "leg_bearing" else set())
+
+
+def test_of_a_board_that_is_several_things_all_are_said() -> None:
+    """One board may control and drive; it is neither of what regulates."""
+    boards = load_catalogue().boards
+    pins = boards["xiao-esp32c3"].pins | boards["drv8833"].pins
+    both = boards["drv8833"].model_copy(update={"name": "both", "pins": pins})
+    catalogue = load_catalogue().with_own({}, {}, {}, {"both": both}, {}, {})
+    assert SLOTS["bought.regulator"].misfit(catalogue, "both").startswith("is a controller or driver, no regulator: ")
+    for key in ("bought.controller", "bought.driver"):
+        assert SLOTS[key].misfit(catalogue, "both") == ""
