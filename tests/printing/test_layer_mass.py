@@ -69,6 +69,16 @@ def test_blocks_that_share_no_place_have_tops_and_bottoms_of_their_own():
     )
 
 
+def test_a_piece_that_is_filled_for_being_small_leaves_the_others_as_they_are():
+    """A post of 5 mm beside a block: below 30 mm² inside its perimeters is solid, which the block is not."""
+    post, far = rectangle((5.0, 5.0)), rectangle((5.0, 5.0), (100.0, 0.0))
+    beside = Stack.of([(0, 4, rectangle((40.0, 30.0)) + far)])
+    solid = grams(Stack.of([(0, 4, post)]), bottom_layers=50)
+    assert solid > 1.05 * grams(Stack.of([(0, 4, post)]))
+    found = grams(beside, solid_below_area_mm2=30.0)
+    assert found == pytest.approx(grams(BOX) + solid, rel=1e-6)
+
+
 def test_what_is_all_solid_weighs_its_volume_within_three_percent():
     for changes in ({"infill": 1.0}, {"top_layers": 50}, {"bottom_layers": 50}):
         assert grams(BOX, **changes) == pytest.approx(4.8, rel=0.03)

@@ -178,6 +178,19 @@ def test_parts_of_ones_own_have_names_of_their_own():
     assert told == [("motors", "mine", "mass_g")]
 
 
+def test_each_motor_that_may_be_chosen_is_one_of_the_catalogue():
+    """The last one of a list as well as the first; an empty list allows all."""
+    shop = load_workshop()
+    for motors, wrong in ((("n20-30", "n20-298"), []), (("n20-30", "n20-299"), ["n20-299"]), ((), [])):
+        bought = shop.bought.model_copy(update={"motors": motors})
+        found = [
+            value
+            for place, value, _ in shop.model_copy(update={"bought": bought}).contradictions()
+            if place == ("bought", "motors")
+        ]
+        assert found == wrong
+
+
 def test_each_name_of_a_bought_part_is_that_of_its_own_part():
     """Foot, stop, springs and legs; an empty name is none."""
     shop, catalogue = load_workshop(), load_catalogue()
