@@ -34,14 +34,16 @@ def test_a_parallelogram_carries_its_body_on_a_circle() -> None:
     assert found.weight_nm == pytest.approx(rise, abs=2e-4)
 
 
-def test_legs_add_what_turns_about_the_ankle() -> None:
-    """Norton, 10.12: a link that turns about a fixed end adds its inertia about that end."""
+@pytest.mark.parametrize("name", [MAIN_LEG, FRONT_LINK])
+def test_legs_add_what_turns_about_the_foot(name: str) -> None:
+    """Norton, 10.12: a link that turns about a fixed end adds its inertia about that end; its middle rises half."""
     design = load_design("kenan-2.0")
     alone, length = bodies(0.1, (0.0, 0.0)), design.l2_mm / 1000.0
-    leg = Body(MAIN_LEG, 0.02, np.array([length / 2.0, 0.0, 0.0]), np.diag([0.0, 0.02 * length**2 / 12.0, 0.0]))
-    more = reflected_mass(alone | {MAIN_LEG: leg}, Linkage(design)).inertia_kg_m2
-    less = reflected_mass(alone, Linkage(design)).inertia_kg_m2
-    assert more - less == pytest.approx(0.02 * length**2 / 3.0, rel=5e-3)
+    link = Body(name, 0.02, np.array([length / 2.0, 0.0, 0.0]), np.diag([0.0, 0.02 * length**2 / 12.0, 0.0]))
+    more, less = (reflected_mass(alone | own, Linkage(design)) for own in ({name: link}, {}))
+    assert more.inertia_kg_m2 - less.inertia_kg_m2 == pytest.approx(0.02 * length**2 / 3.0, rel=5e-3)
+    rise = -0.02 * GRAVITY_M_S2 * length / 2.0 * np.cos(math.radians(design.rest_angle_deg) - more.wind_rad)
+    assert more.weight_nm - less.weight_nm == pytest.approx(rise, abs=2e-5)
 
 
 @pytest.mark.parametrize("past", [0.0, 0.1])

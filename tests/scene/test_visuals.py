@@ -9,6 +9,7 @@ import pytest
 from jumpcad.mechanism.mass import combined
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import BOUGHT_COLOURS, PRINTED_COLOURS, STEEL, visuals
+from jumpcad.solids.tube import DrawnWire
 
 
 def test_each_copy_is_seen_once_under_a_name_of_its_own(small_robot: Robot) -> None:
@@ -47,3 +48,12 @@ def test_colours_tell_roles_and_articles_apart(small_robot: Robot) -> None:
     assert colours["battery"] == BOUGHT_COLOURS["battery"]
     assert colours["roller"] == BOUGHT_COLOURS["bearing"]
     assert colours["antenna"] == STEEL
+
+
+def test_what_is_bent_of_wire_has_the_wire_s_shape_and_all_else_its_own(small_robot: Robot) -> None:
+    wire = DrawnWire(np.array([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0], [5.0, 15.0, 0.0]]), 1.2)
+    bent, *others = small_robot.hardware
+    shapes = {one.name: one.shape for one in visuals(replace(small_robot, hardware=(bent.seen_as(wire), *others)))}
+    assert shapes[bent.name] is wire
+    assert all(shapes[one.name] is one.shape for one in others)
+    assert all(shapes[part.name] is part.drawing.shape for part in small_robot.parts if part.quantity == 1)

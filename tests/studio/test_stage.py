@@ -1,7 +1,7 @@
 """The studio's scene on a server that only keeps what it is given: places in metres, colours, what is removed again."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,6 +16,7 @@ from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.solids.tube import DrawnWire
 from jumpcad.studio.playback import ShownMoment
 from jumpcad.studio.stage import StudioStage
 
@@ -126,6 +127,19 @@ def test_copies_of_a_part_say_their_own_names(stage: StudioStage, clicked: list[
     for one in copies:
         stage.server.scene.nodes[f"/robot/{one.body}/{one.name}"].acts[0](None)
     assert clicked == [one.name for one in copies]
+
+
+def test_a_spring_of_thicker_wire_or_in_another_place_is_sent_again(stage: StudioStage) -> None:
+    spring = named("spring_left")
+    wire = spring.shape
+    assert isinstance(wire, DrawnWire)
+    thick = replace(wire, diameter_mm=1.1 * wire.diameter_mm)
+    away = replace(wire, points_mm=wire.points_mm + 0.1)
+    sent = [
+        stage._put("robot", (replace(spring, source=spring.source.seen_as(one)),))  # type: ignore[union-attr]
+        for one in (wire, replace(wire, points_mm=wire.points_mm.copy()), thick, thick, away)
+    ]
+    assert sent == [1, 0, 1, 0, 1]
 
 
 def test_a_robot_that_cannot_be_built_leaves_the_last_one_pale_and_a_ghost_as_it_is(stage: StudioStage) -> None:
