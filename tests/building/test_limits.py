@@ -101,6 +101,9 @@ def test_reserves_are_kept_on_the_side_where_it_is_harder() -> None:
     stiffest = safety.motor_torque_max_nm / (1.0 + safety.spring_rate_scatter)
     assert none.train.torque_max_nm == pytest.approx(stiffest)
     assert much.train.torque_max_nm == pytest.approx(0.7 * stiffest)
+    assert (
+        none.train.blocked_nm == much.train.blocked_nm == safety.motor_torque_max_nm
+    )  # that of a blocked motor itself
     assert none.train.stall_share == pytest.approx(safety.motor_stall_share / (1.0 + safety.spring_rate_scatter))
     assert much.train.stall_share == pytest.approx(0.7 * none.train.stall_share)
 
