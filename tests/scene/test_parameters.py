@@ -84,3 +84,12 @@ def test_loaded_springs_have_turned_the_leg_away_from_where_it_was(name: str) ->
     below = [math.degrees(cmath.phase(leg / (front - back))) for leg in (before, ankle - back)]
     assert below[0] == pytest.approx(design.rest_angle_deg, abs=0.2)
     assert below[0] - below[1] == pytest.approx(math.degrees(design.compression_rad), abs=0.3)
+
+
+def test_a_foot_with_long_toes_far_apart_is_drawn_within_its_panel() -> None:
+    """230 px wide; its centre line is as long as foot and toes together."""
+    wide = load_design("kenan-2.0").model_copy(update={"e_coef": 3.0, "ground_link_angle_deg": 85.0})
+    for design in (wide, load_design("kenan-2.0")):
+        (foot,) = ET.fromstring(parameter_drawing(design)).findall(f"{SVG}g")[2:]
+        ends = [float(line.get(key, "")) for line in foot.findall(f"{SVG}line") for key in ("x1", "x2")]
+        assert max(ends) - min(ends) <= 230.2
