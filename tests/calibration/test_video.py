@@ -66,6 +66,8 @@ def test_gravity_tells_a_wrong_unit(scale: tuple[float, float, float], message: 
 def test_a_flight_backwards() -> None:
     with pytest.raises(JumpcadError, match="x must point forwards"):
         seen_takeoff(flight() * np.array([1.0, -1.0, 1.0]), "here")
+    with pytest.raises(JumpcadError, match="z upwards"):  # the way down alone
+        seen_takeoff(flight()[13:], "here")
 
 
 @pytest.mark.parametrize(
