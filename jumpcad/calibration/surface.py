@@ -150,8 +150,9 @@ def _figures(jump: Jump) -> tuple[float, ...]:
 def _refined(grid: Array, nodes: Nodes) -> Array:
     """Return the grid refined to even points, by monotone cubic interpolation along one axis after the other."""
     for axis, (known, count) in enumerate(zip(_axes(nodes), FINE, strict=True), start=1):
-        grid = np.apply_along_axis(_line, axis, grid, known, np.linspace(known[0], known[-1], count))
-    return grid
+        even = np.linspace(known[0], known[-1], count)
+        grid = np.moveaxis(_lines(np.moveaxis(grid, axis, 0), known, even), 0, axis)
+    return np.ascontiguousarray(grid)
 
 
 def _axes(nodes: Nodes) -> tuple[Array, Array, Array]:
@@ -160,10 +161,16 @@ def _axes(nodes: Nodes) -> tuple[Array, Array, Array]:
     return np.log(energy), np.array(pins), np.array(floors)
 
 
-def _line(values: Array, nodes: Array, even: Array) -> Array:
-    """Return values (k,) at nodes (k,) interpolated on even points; NaN outside the nodes at which there is a jump."""
-    known = np.isfinite(values)
-    if known.sum() < 2:
-        return np.full(len(even), np.nan)
-    found: Array = PchipInterpolator(nodes[known], values[known], extrapolate=False)(even)
-    return found
+def _lines(values: Array, nodes: Array, even: Array) -> Array:
+    """Return values (k, ...) at nodes (k,) interpolated on even points; NaN outside the nodes at which there is a jump.
+
+    Lines that have a jump at the same nodes are interpolated together.
+    """
+    lines = values.reshape(len(nodes), -1)
+    found = np.full((len(even), lines.shape[1]), np.nan)
+    jumps, which = np.unique(np.isfinite(lines), axis=1, return_inverse=True)
+    for number, known in enumerate(jumps.T):
+        alike = which.ravel() == number
+        if known.sum() >= 2:
+            found[:, alike] = PchipInterpolator(nodes[known], lines[known][:, alike], extrapolate=False)(even)
+    return found.reshape(len(even), *values.shape[1:])

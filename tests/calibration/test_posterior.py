@@ -19,9 +19,9 @@ from jumpcad.calibration.surface import JumpAt
 from jumpcad.errors import JumpcadError
 
 SAID: dict[str, Any] = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
-STEPS = 600
-SHORT = {"steps": 300, "most_steps": 300, "walkers_each": 16}
-"""Some 500 independent draws."""
+STEPS = 450
+SHORT = {"steps": 150, "most_steps": 150, "walkers_each": 16}
+"""Some 500 to 700 independent draws."""
 SHORTEST = {"steps": 20, "most_steps": 20, "walkers_each": 8}
 
 

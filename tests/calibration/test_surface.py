@@ -8,7 +8,7 @@ import pytest
 from jumpcad.calibration import surface as module
 from jumpcad.calibration.priors import FLOOR
 from jumpcad.calibration.subject import Subject
-from jumpcad.calibration.surface import CHECKED_POINTS, DT_S, FINE, NODES, Surface, _line, surface_of
+from jumpcad.calibration.surface import CHECKED_POINTS, DT_S, FINE, NODES, Surface, _lines, surface_of
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
@@ -106,16 +106,28 @@ def test_a_line_on_log_energy_pins_and_floor_is_met_everywhere(surface: Surface)
 def test_between_the_nodes_at_which_it_jumps_a_line_is_met_and_outside_there_is_nothing() -> None:
     """Interpolation is exact on a straight line; what does not jump at a node is not guessed from its neighbours."""
     nodes, even = np.array([0.0, 1.0, 2.5, 3.0, 4.0]), np.linspace(0.0, 4.0, 17)
-    found = _line(np.array([np.nan, 3.0, 6.0, 7.0, np.nan]), nodes, even)
+    found = _lines(np.array([np.nan, 3.0, 6.0, 7.0, np.nan]), nodes, even)
     inside = (even >= 1.0) & (even <= 3.0)
     assert np.isnan(found[~inside]).all()
     assert found[inside] == pytest.approx(1.0 + 2.0 * even[inside])
-    hole = _line(np.array([1.0, 3.0, np.nan, 7.0, 9.0]), nodes, even)
+    hole = _lines(np.array([1.0, 3.0, np.nan, 7.0, 9.0]), nodes, even)
     assert hole == pytest.approx(1.0 + 2.0 * even)
     for known in ([], [2]):  # one node is no line
         values = np.full(5, np.nan)
         values[known] = 1.0
-        assert np.isnan(_line(values, nodes, even)).all()
+        assert np.isnan(_lines(values, nodes, even)).all()
+
+
+def test_lines_that_are_interpolated_together_are_those_of_each_alone() -> None:
+    """Bytes alike, in whatever order lines with and without holes lie; two axes of them keep their places."""
+    nodes, even = np.array([0.0, 1.0, 2.5, 3.0, 4.0]), np.linspace(0.0, 4.0, 17)
+    rng = np.random.default_rng(3)
+    values = np.where(rng.random((5, 4, 6)) < 0.3, np.nan, rng.random((5, 4, 6)))
+    found = _lines(values, nodes, even)
+    assert found.shape == (17, 4, 6)
+    assert 0.2 < np.isfinite(found).mean() < 0.9
+    for i, j in np.ndindex(4, 6):
+        assert found[:, i, j].tobytes() == _lines(values[:, i, j], nodes, even).tobytes()
 
 
 def test_a_robot_that_never_jumps_has_no_surface(subject: Subject, monkeypatch: pytest.MonkeyPatch) -> None:
