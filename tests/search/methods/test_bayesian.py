@@ -9,6 +9,7 @@ from support.hills import FIXED, SMALL, TOP, Hill
 from support.told import told
 
 from jumpcad.search.acquisition import Proposal
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task, bayesian
 from jumpcad.search.methods.bayesian import (
@@ -22,9 +23,11 @@ from jumpcad.search.methods.bayesian import (
     run_steps,
     unproposed,
 )
-from jumpcad.search.objective import SCREENED, Evaluation
+from jumpcad.search.objective import SCREENED, Evaluation, find_objective
 from jumpcad.search.polling import FARTHEST
+from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial
 
 
@@ -32,12 +35,24 @@ def best(trials):
     return max(trial.score or 0.0 for trial in trials)
 
 
-def test_the_top_is_found_in_few_evaluations(evaluator):
-    for seed in range(3):
-        one = evaluator()
+def found(seed):
+    """Return the trials of a search for the hill's top."""
+    with StudyStore.write(None, {"space": SMALL.describe()}) as store, local_pool(0) as pool:
+        one = Evaluator(SMALL, find_objective("fitness"), Hill(), store, pool)
         run_bayesian(one, Task(24, seed, initial=9))
-        assert len(one.trials) == 24
-        assert best(one.trials) > 9.99
+        return one.trials
+
+
+@pytest.fixture(scope="module")
+def taught():
+    """Return the trials of a search to learn from."""
+    return found(0)
+
+
+def test_the_top_is_found_in_few_evaluations(taught):
+    for trials in (taught, found(1), found(2)):
+        assert len(trials) == 24
+        assert best(trials) > 9.99
 
 
 def test_batches_find_it_too_and_do_not_repeat_themselves(evaluator):
@@ -119,12 +134,10 @@ def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
         assert len(log.read_text().splitlines()) == 18 - cut
 
 
-def test_a_prior_study_saves_the_first_points(evaluator):
-    teacher = evaluator()
-    run_bayesian(teacher, Task(20, 0, initial=9))
-    pupil = evaluator(prior=teacher.trials)
+def test_a_prior_study_saves_the_first_points(evaluator, taught):
+    pupil = evaluator(prior=taught[:20])
     run_bayesian(pupil, Task(4, 1, initial=default_initial(SMALL, 4, prior=20)))
-    assert not {trial.key for trial in pupil.trials} & {trial.key for trial in teacher.trials}
+    assert not {trial.key for trial in pupil.trials} & {trial.key for trial in taught[:20]}
     assert best(pupil.trials) > 9.9
 
 
@@ -136,12 +149,10 @@ def test_first_points(evaluations, prior, initial):
     assert default_initial(SMALL, evaluations, prior) == initial
 
 
-def test_a_search_knows_what_a_prior_study_gained(evaluator):
+def test_a_search_knows_what_a_prior_study_gained(evaluator, taught):
     """Its first step gains nothing over that study's best: seven such steps are enough."""
-    teacher = evaluator()
-    run_bayesian(teacher, Task(20, 0, initial=9))
-    assert best(teacher.trials) > 9.9
-    pupil = evaluator(prior=teacher.trials)
+    assert best(taught[:20]) > 9.9
+    pupil = evaluator(prior=taught[:20])
     assert run_bayesian(pupil, Task(20, 1, least_gain=0.02)) is True
     assert len(pupil.trials) == 7
 
