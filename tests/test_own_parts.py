@@ -19,7 +19,6 @@ from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
-from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import OWN_PARTS, load_workshop
@@ -228,15 +227,10 @@ def test_a_heavy_motor_is_not_taken_where_a_light_one_turns_the_cam(written: Wri
     assert build(KENAN, load_workshop(written(heavy))).layout.drive.train.motor.name != "own"
 
 
-@pytest.fixture(scope="module")
-def example(tmp_path_factory: pytest.TempPathFactory) -> Robot:
-    """The documentation's own parts in Kenan 2.0."""
-    path = tmp_path_factory.mktemp("example") / "my.toml"
-    path.write_text(EXAMPLE, encoding="utf-8")
-    return build(KENAN, load_workshop(path))
-
-
-def test_the_example_of_the_documentation_passes_every_check_and_its_parts_are_listed(example: Robot) -> None:
+@pytest.mark.usefixtures("built_once", "checked_once")
+def test_the_example_of_the_documentation_passes_every_check_and_its_parts_are_listed(written: Write) -> None:
+    """With a spring that is not used: it is the robot of the bundle below."""
+    example = build(KENAN, load_workshop(written(EXAMPLE + SPRING)), "kenan-2.0")
     assert not errors(check(example))
     lines = {line.name: line for line in bill_of_materials(example).items}
     assert lines["gear motor square-16"].mass_kg == pytest.approx(0.032)
@@ -279,7 +273,9 @@ def test_a_study_with_other_own_parts_is_another_study(written: Write) -> None:
     assert len(digests) == 3
 
 
+@pytest.mark.usefixtures("built_once", "checked_once")
 def test_a_bundle_with_own_parts_builds_again_from_itself(written: Write, tmp_path: Path) -> None:
+    """What it read back otherwise would be another workshop, whose robot is built and checked anew."""
     first, second = tmp_path / "first", tmp_path / "second"
     quick = ("kenan-2.0", "--no-pictures", "--json")
     assert exit_code_of("build", *quick, "--workshop", str(written(EXAMPLE + SPRING)), "-o", str(first)) == 0
