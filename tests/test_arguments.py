@@ -181,6 +181,7 @@ def test_a_function_that_takes_any_names_beside_its_own_is_given_them() -> None:
         noted("red", colour=1)  # type: ignore[arg-type]
 
 
+@pytest.mark.usefixtures("built_once")
 def test_a_design_is_built_where_a_robot_is_wanted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))  # without solids
     robot = jumpcad.build(DESIGN)
