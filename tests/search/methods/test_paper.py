@@ -4,12 +4,14 @@ from dataclasses import replace
 
 import pytest
 from support.hills import SMALL, Hill
+from support.pictures import with_plain_figures
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import STEPS, Task, paper
 from jumpcad.search.methods.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
@@ -21,13 +23,20 @@ from jumpcad.search.trial import Trial
 pytestmark = pytest.mark.usefixtures("quick_proposals")
 
 
-def test_each_stage_moves_what_it_should(evaluator):
+@pytest.fixture(scope="module")
+def trials(quick_proposals):
+    """Return the trials of a search with seed 3."""
     space = Space.default()
-    one = evaluator(space=space)
-    run_paper(one, Task(140, 3))
-    trials = one.trials
+    with StudyStore.write(None, {"space": space.describe()}) as store, local_pool(0) as pool:
+        one = Evaluator(space, find_objective("fitness"), Hill(), store, pool)
+        run_paper(one, Task(140, 3))
+        assert one.space is space
+        return one.trials
+
+
+def test_each_stage_moves_what_it_should(trials):
+    space = Space.default()
     assert len(trials) <= 140
-    assert one.space is space
     assert {trial.step // STEPS for trial in trials if trial.phase == "ga"} == set(range(RUNS))
 
     def moved(mode):
@@ -62,21 +71,18 @@ def test_the_sample_follows_from_the_seed(evaluator, monkeypatch):
     assert not set(drawn[1]) & set(drawn[2])
 
 
-def test_every_run_begins_with_designs_of_its_own(evaluator):
+def test_every_run_begins_with_designs_of_its_own(trials):
     """Ten each, of the published preset; the same ones would be evaluated once."""
-    one = evaluator(space=Space.default())
-    run_paper(one, Task(140, 3))
-    first = [trial for trial in one.trials if trial.phase == "ga" and trial.step % STEPS == 0]
+    first = [trial for trial in trials if trial.phase == "ga" and trial.step % STEPS == 0]
     assert [sum(trial.step == run * STEPS for trial in first) for run in range(RUNS)] == [10] * RUNS
 
 
-def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(evaluator):
-    """Else several searches are no independent repetitions."""
-    keys = []
-    for seed in (3, 4):
-        one = evaluator(space=Space.default())
-        run_paper(one, Task(140, seed))
-        keys.append({trial.key for trial in one.trials if trial.phase == "ga"})
+def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(trials, evaluator, monkeypatch):
+    """Else several searches are no independent repetitions; of the second only the genetic runs are made."""
+    monkeypatch.setattr(paper, "run_bayesian", lambda *_, **__: False)
+    one = evaluator(space=Space.default())
+    run_paper(one, Task(140, 4))
+    keys = [{trial.key for trial in some if trial.phase == "ga"} for some in (trials, one.trials)]
     assert min(map(len, keys)) > 30
     assert not keys[0] & keys[1]
 
@@ -87,7 +93,9 @@ def test_it_takes_the_largest_seed(evaluator):
     assert {trial.step // STEPS for trial in one.trials if trial.phase == "ga"} == set(range(RUNS))
 
 
-def test_it_resumes_and_its_study_is_read(tmp_path):
+def test_it_resumes_and_its_study_is_read(tmp_path, monkeypatch):
+    with_plain_figures(monkeypatch)
+
     def rows(path, evaluations):
         with local_pool(0) as pool:
             run_study(Request(SMALL, Hill(), method="paper", evaluations=evaluations), path, pool)
