@@ -20,6 +20,7 @@ from jumpcad.bundle.operation import (
     to_stop,
 )
 from jumpcad.catalogue import load_catalogue
+from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
@@ -93,6 +94,11 @@ def test_a_battery_is_wound_from_0_2_v_a_cell_over_empty_or_from_its_nominal_vol
     assert start_v(battery) == pytest.approx(6.6 + 2 * 0.2)
     assert start_v(battery.model_copy(update={"empty_v": 7.3})) == 7.4
     assert decimals(start_v(battery.model_copy(update={"empty_v": 6.12345}))) == 3
+
+
+def test_the_motor_runs_on_as_long_as_the_check_of_the_sensor_allows_for(robot: Robot) -> None:
+    assert numbers(robot)["AFTER_RELEASE_MS"] / 1000.0 == RUN_ON_S
+    assert 0.02 < RUN_ON_S < 0.2  # longer than a switch bounces, and a small part of a turn of the cam
 
 
 def test_without_a_sensor_a_quarter_of_a_turn_is_a_release(robot: Robot) -> None:
