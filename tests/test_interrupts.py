@@ -1,6 +1,7 @@
 """Interrupts that wait for the end of a block, and one that a library took for an error."""
 
 import signal
+from collections.abc import Iterator
 
 import pytest
 
@@ -11,8 +12,12 @@ pytestmark = pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="
 
 
 @pytest.fixture(autouse=True)
-def none_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+def none_seen(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Begin without an interrupt, with Python's own handler: what runs in the background ignores them."""
     monkeypatch.setattr(interrupts, "seen", [])
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def blocked() -> bool:
