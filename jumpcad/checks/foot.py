@@ -17,6 +17,8 @@ from jumpcad.strength.sizing import TWIST_FACTOR, rail_middle_mm
 from jumpcad.strength.stress import STATIONS, VON_MISES, Beam, bar_shear_mpa, eye_stress_mpa, tapered_stress_mpa
 
 WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the links"
+SOFTER = f"raise e_coef (longer toes), or {WEAKER}"
+"""A tip that is farther from the body's mass is met by less of it."""
 TIPS = "F largest load of both toes' tips in the push-off"
 BASIS = {
     "toe_strength": Basis(
@@ -67,7 +69,7 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
     toes = case.toes_n
     toe, rail = sections.toe(case.shell), sections.rail(case.shell)
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, toes))
-    remedy = f"shorten the toes (e_coef), or {WEAKER}"
+    remedy = f"lower e_coef (shorter toes), or {WEAKER}"
     yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, remedy, "toe")
     stress = tapered_stress_mpa(rail, rail_moment_nmm(design, toes))
     yield stress_finding(
@@ -82,7 +84,7 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
     )  # fmt: skip
     blow = case.toe_blow_n
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
-    yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, remedy, "toe")
+    yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, SOFTER, "toe")
     if bar := case.layout.toe_bar_mm:
         stress = _toe_bar_mpa(case, blow * bar)
         yield stress_finding(
@@ -126,7 +128,6 @@ def _sideways(case: LoadCase) -> Iterator[Finding]:
     bending = Beam(heights, sections.thickness_mm, case.shell, upright=True).stress_mpa(moment * math.sin(angle))
     shear = VON_MISES * bar_shear_mpa(moment * math.cos(angle), heights, sections.thickness_mm)
     stress = float(np.max(np.hypot(bending, shear)))
-    remedy = f"shorten the toes (e_coef), lower ground_link_angle_deg, or {WEAKER}"
     yield stress_finding(
-        "leg_sideways", "main leg bent sideways by one toe's tip", stress, case.allowable_mpa, remedy, "thickness"
+        "leg_sideways", "main leg bent sideways by one toe's tip", stress, case.allowable_mpa, SOFTER, "thickness"
     )

@@ -56,9 +56,10 @@ def place(source: str, text: str, key: str) -> str:
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return a hint at the most similar known word, or nothing."""
-    near = difflib.get_close_matches(word[:LONGEST], list(known), n=1, cutoff=0.6)
-    return f" (did you mean {near[0]}?)" if near else ""
+    """Return a hint at the most similar known word, by its letters in whatever case, or nothing."""
+    words = {one.casefold(): one for one in known}
+    near = difflib.get_close_matches(word[:LONGEST].casefold(), list(words), n=1, cutoff=0.6)
+    return f" (did you mean {words[near[0]]}?)" if near else ""
 
 
 def shown(value: Any) -> str:

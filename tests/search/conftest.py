@@ -1,6 +1,7 @@
 """Evaluators of hills."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -27,9 +28,8 @@ def quick_proposals_once(monkeypatch: pytest.MonkeyPatch) -> None:
     with_less_work(monkeypatch)
 
 
-@pytest.fixture
-def evaluator():
-    """Return a function that makes an evaluator that computes in this process; all are closed at the end."""
+@contextmanager
+def _evaluators() -> Iterator[Callable[..., Evaluator]]:
     stores = []
 
     def make(path: Path | None = None, model=None, space=SMALL, prior=(), pool=None) -> Evaluator:
@@ -47,3 +47,17 @@ def evaluator():
     yield make
     for store in stores:
         store.close()
+
+
+@pytest.fixture
+def evaluator() -> Iterator[Callable[..., Evaluator]]:
+    """Return a function that makes an evaluator that computes in this process; all are closed at the end."""
+    with _evaluators() as make:
+        yield make
+
+
+@pytest.fixture(scope="module")
+def kept_evaluator() -> Iterator[Callable[..., Evaluator]]:
+    """Return such a function for searches that several tests of a module look at."""
+    with _evaluators() as make:
+        yield make

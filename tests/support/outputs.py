@@ -116,8 +116,12 @@ def _read_xml(content: str | bytes) -> None:
 
 def formulas(text: str) -> Iterator[str]:
     """Yield the cells of a CSV table that a spreadsheet computes; signed numbers are not among them."""
-    csv.field_size_limit(10_000_000)
-    for row in csv.reader(text.splitlines()):
+    usual = csv.field_size_limit(10_000_000)
+    try:
+        rows = list(csv.reader(text.splitlines()))
+    finally:
+        csv.field_size_limit(usual)
+    for row in rows:
         yield from (f"a formula: {cell[:60]!a}" for cell in row if FORMULA.match(cell) and not _is_number(cell))
 
 

@@ -44,11 +44,10 @@ def margins(robot: Robot) -> dict[str, float]:
 def helped(robot: Robot, find: Callable[[Robot], Iterable[Finding]]) -> set[str]:
     """Return the findings that what they advise to lower or to raise helps, by 3 %, the parts staying as they are.
 
-    None may be worse for it. Narrower toes meet a harder blow, though, which may bend the leg no less.
+    None may be worse for it.
     """
     usual, better = list(find(robot)), set()
     advised = {(finding.name, *way) for finding in usual for way in ways(finding)}
-    advised.discard(("leg_sideways", "ground_link_angle_deg", 0.97))
     for name, factor in {(name, factor) for _, name, factor in advised}:
         design = robot.design.model_copy(update={name: factor * getattr(robot.design, name)})
         layout = replace(robot.layout, linkage=Linkage(design), toe_half_width_mm=float(toe_tip_mm(design)[1]))

@@ -9,7 +9,6 @@ from support.hills import FIXED, SMALL, TOP, Hill
 from support.told import told
 
 from jumpcad.search.acquisition import Proposal
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task, bayesian
 from jumpcad.search.methods.bayesian import (
@@ -23,11 +22,9 @@ from jumpcad.search.methods.bayesian import (
     run_steps,
     unproposed,
 )
-from jumpcad.search.objective import SCREENED, Evaluation, find_objective
+from jumpcad.search.objective import SCREENED, Evaluation
 from jumpcad.search.polling import FARTHEST
-from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial
 
 
@@ -35,22 +32,19 @@ def best(trials):
     return max(trial.score or 0.0 for trial in trials)
 
 
-def found(seed):
-    """Return the trials of a search for the hill's top."""
-    with StudyStore.write(None, {"space": SMALL.describe()}) as store, local_pool(0) as pool:
-        one = Evaluator(SMALL, find_objective("fitness"), Hill(), store, pool)
-        run_bayesian(one, Task(24, seed, initial=9))
-        return one.trials
-
-
 @pytest.fixture(scope="module")
-def taught():
+def taught(kept_evaluator):
     """Return the trials of a search to learn from."""
-    return found(0)
+    one = kept_evaluator()
+    run_bayesian(one, Task(24, 0, initial=9))
+    return one.trials
 
 
-def test_the_top_is_found_in_few_evaluations(taught):
-    for trials in (taught, found(1), found(2)):
+def test_the_top_is_found_in_few_evaluations(taught, evaluator):
+    others = [evaluator() for _ in range(2)]
+    for seed, one in enumerate(others, start=1):
+        run_bayesian(one, Task(24, seed, initial=9))
+    for trials in (taught, *(one.trials for one in others)):
         assert len(trials) == 24
         assert best(trials) > 9.99
 

@@ -8,10 +8,9 @@ from support.pictures import with_plain_figures
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import STEPS, Task, paper
 from jumpcad.search.methods.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
-from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
@@ -24,19 +23,17 @@ pytestmark = pytest.mark.usefixtures("quick_proposals")
 
 
 @pytest.fixture(scope="module")
-def trials(quick_proposals):
-    """Return the trials of a search with seed 3."""
-    space = Space.default()
-    with StudyStore.write(None, {"space": space.describe()}) as store, local_pool(0) as pool:
-        one = Evaluator(space, find_objective("fitness"), Hill(), store, pool)
-        run_paper(one, Task(140, 3))
-        assert one.space is space
-        return one.trials
+def searched(quick_proposals, kept_evaluator):
+    """Return the evaluator of a search with seed 3."""
+    one = kept_evaluator(space=Space.default())
+    run_paper(one, Task(140, 3))
+    return one
 
 
-def test_each_stage_moves_what_it_should(trials):
-    space = Space.default()
+def test_each_stage_moves_what_it_should(searched):
+    space, trials = Space.default(), searched.trials
     assert len(trials) <= 140
+    assert searched.space == space
     assert {trial.step // STEPS for trial in trials if trial.phase == "ga"} == set(range(RUNS))
 
     def moved(mode):
@@ -71,18 +68,18 @@ def test_the_sample_follows_from_the_seed(evaluator, monkeypatch):
     assert not set(drawn[1]) & set(drawn[2])
 
 
-def test_every_run_begins_with_designs_of_its_own(trials):
+def test_every_run_begins_with_designs_of_its_own(searched):
     """Ten each, of the published preset; the same ones would be evaluated once."""
-    first = [trial for trial in trials if trial.phase == "ga" and trial.step % STEPS == 0]
+    first = [trial for trial in searched.trials if trial.phase == "ga" and trial.step % STEPS == 0]
     assert [sum(trial.step == run * STEPS for trial in first) for run in range(RUNS)] == [10] * RUNS
 
 
-def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(trials, evaluator, monkeypatch):
+def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(searched, evaluator, monkeypatch):
     """Else several searches are no independent repetitions; of the second only the genetic runs are made."""
     monkeypatch.setattr(paper, "run_bayesian", lambda *_, **__: False)
     one = evaluator(space=Space.default())
     run_paper(one, Task(140, 4))
-    keys = [{trial.key for trial in some if trial.phase == "ga"} for some in (trials, one.trials)]
+    keys = [{trial.key for trial in some if trial.phase == "ga"} for some in (searched.trials, one.trials)]
     assert min(map(len, keys)) > 30
     assert not keys[0] & keys[1]
 
