@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.built import built
 from support.documented import documented_bases
 from support.limits import default_limits
+from support.said import well_told
 
 from jumpcad.drive.cam_findings import BASIS, LIMITS, SCALES, Limit, _found, cam_findings, missed
 from jumpcad.drive.cam_law import CamLaw
@@ -119,6 +121,13 @@ def test_three_findings_have_their_value_and_limit() -> None:
     limits = {"cam_pressure_angle": (0.4, CAM.pressure_angle_rad), "cam_contact": (30.0, CAM.pressure_mpa)}
     assert compared == limits | {"cam_roller_load": (20.0, CAM.roller_load_n)}
     assert [one.name for one in found.values()] == [checked.name for checked in LIMITS]
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_what_is_found_of_a_cam_has_value_and_limit_in_words(name: str) -> None:
+    findings = built(name).layout.drive.cam.findings
+    assert [finding.message for finding in findings if not well_told(finding)] == []
+    assert [finding.name for finding in findings] == [checked.name for checked in LIMITS]
 
 
 def test_formulas_and_limits_are_those_of_the_reference() -> None:

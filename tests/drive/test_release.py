@@ -8,6 +8,7 @@ import pytest
 from support.built import built, geared
 from support.decimals import decimals
 from support.documented import documented_bases
+from support.said import well_told
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.building.limits import release_limits
@@ -43,6 +44,7 @@ def test_every_template_keeps_its_energy_and_its_motor(name: str) -> None:
     assert 1.1 * release.kick_nm <= release.kick_limit_nm
     assert math.degrees(release.free_play_rad) == pytest.approx(math.degrees(release.roll_over_rad) + 3.0, abs=1e-3)
     assert release.window_rad[0] < release.free_play_rad < release.window_rad[1]
+    assert all(map(well_told, release.findings))
 
 
 def test_a_simulation_starts_with_figures_that_do_not_differ_between_processors() -> None:

@@ -9,6 +9,7 @@ import pytest
 from support.built import built, geared
 from support.documented import documented_bases
 from support.limits import LP6, default_limits
+from support.said import well_told
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
@@ -192,6 +193,13 @@ def test_the_gear_that_needs_room_beside_the_cam_is_the_cams_own():
         train = robot.layout.drive.train
         (room,) = (finding for finding in train.findings if finding.name == "cam_gear_room")
         assert room.value == pytest.approx(train.stages[-1].wheel.tip_radius_mm)
+
+
+@pytest.mark.parametrize("make", [lambda: built("kenan-2.0"), lambda: built("best-bo"), geared])
+def test_what_is_found_of_a_train_has_value_and_limit_in_words(make):
+    findings = make().layout.drive.train.findings
+    assert [finding.message for finding in findings if not well_told(finding)] == []
+    assert sum(finding.value is not None for finding in findings) >= 4
 
 
 @pytest.mark.parametrize("cut", [0.0, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5])

@@ -268,6 +268,19 @@ def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as
     assert notes[10]["theta"] == {"score": pytest.approx([0.3] * 5)}
 
 
+def test_what_was_evaluated_before_a_stage_costs_it_nothing(evaluator):
+    """Six designs of an earlier stage, then ten of this one."""
+
+    def proposer(learner, trials, count, generator):
+        points = [np.array([0.01 * (len(trials) + n), 0.5, 0.5]) for n in range(count)]
+        return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0) for point in points]
+
+    one = evaluator()
+    one.evaluate([SMALL.to_design([0.9, 0.1 * n, 0.5]) for n in range(6)], "ga", 0)
+    assert run_steps(one, "bo", Task(10, 0, initial=3, batch=4, first_step=20), proposer) is False
+    assert [trial.phase for trial in one.trials] == ["ga"] * 6 + ["bo"] * 10
+
+
 def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evaluator):
     def proposer(learner, trials, count, generator):
         point = np.array([0.01 * len(trials), 0.5, 0.5])
