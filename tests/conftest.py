@@ -5,7 +5,6 @@ import hashlib
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from dataclasses import replace
 from functools import cache, cached_property, wraps
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import Any
 
 import pytest
 import support.threads  # noqa: F401  # before numpy
+from support.alone import alone, compiled_by_one
 from support.built import built
 from support.costs import Costs
 from support.kept import once as once_of
@@ -41,8 +41,17 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # else every program that a tes
 sys.dont_write_bytecode = False
 
 
+@pytest.fixture(scope="session")
+def of_all_workers(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
+    """Return a folder that all workers have in common."""
+    own = tmp_path_factory.getbasetemp()
+    shared = (own if worker_id == "master" else own.parent) / "of-all-workers"
+    shared.mkdir(exist_ok=True)
+    return shared
+
+
 @pytest.fixture(scope="session", autouse=True)
-def shapes() -> Iterator[None]:
+def shapes(of_all_workers: Path) -> Iterator[None]:
     """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before.
 
     So are a report's hundred jumps and its pictures: of equal robots they are the same. So are files of plates, with
@@ -73,6 +82,7 @@ def shapes() -> Iterator[None]:
         seen, printability._undersides, lambda drawing, *shop: (drawing.shape, *(one.model_dump_json() for one in shop))
     )
     with pytest.MonkeyPatch.context() as patch:
+        compiled_by_one(patch, of_all_workers)
         for module in (finish, printability):
             patch.setattr(module, "faults", faults)
         patch.setattr(printability, "_undersides", undersides)
@@ -136,24 +146,22 @@ def small_robot() -> Robot:
 
 
 @pytest.fixture(scope="session")
-def bundle_of(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Callable[..., Path]:
+def bundle_of(tmp_path_factory: pytest.TempPathFactory, of_all_workers: Path) -> Callable[..., Path]:
     """Return a function that gives a template's bundle, made once for all workers; not to be changed.
 
-    It has no pictures unless they are asked for. A worker that makes one while another does uses that of the first to
-    finish.
+    It has no pictures unless they are asked for. A worker that needs one while another makes it waits.
     """
     own = tmp_path_factory.mktemp("bundles")
-    shared = (own if worker_id == "master" else own.parent.parent) / "of-templates"
-    shared.mkdir(exist_ok=True)
 
     @cache
     def made(name: str, pictures: bool = False) -> Path:
         folder = f"{name} with pictures" if pictures else name
-        if not (shared / folder).exists():
-            export(built(name), own / folder, pictures=pictures)
-            with suppress(OSError):
-                (own / folder).rename(shared / folder)
-        return shared / folder
+        bundle = of_all_workers / folder
+        with alone(of_all_workers / f"{folder}.lock"):
+            if not bundle.exists():
+                export(built(name), own / folder, pictures=pictures)
+                (own / folder).rename(bundle)
+        return bundle
 
     return made
 

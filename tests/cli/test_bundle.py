@@ -18,7 +18,7 @@ from support.pictures import with_few_pictures
 from jumpcad import checks
 from jumpcad.bundle import export as bundle_export
 from jumpcad.checks import COSTLY
-from jumpcad.cli.bundle import _facts, _print_facts, _require_same_design_file
+from jumpcad.cli.bundle import LABEL, _facts, _print_facts, _require_same_design_file, _say
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import at_most
@@ -161,6 +161,26 @@ def test_render_draws_stills_and_the_jump_of_a_bundle(
     assert code == 0
     assert json.loads(out)["files"] == ["compressed.png", "exploded.png", "jump.gif", "rest.png"]
     assert sorted(path.name for path in (tmp_path / "p").iterdir()) == json.loads(out)["files"]
+
+
+@pytest.mark.parametrize(("columns", "longest"), [(60, 60), (LABEL + 1, 2 * LABEL)])
+def test_on_a_terminal_text_is_folded_beside_its_label(
+    columns: int, longest: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Where there is hardly room, a line still has some words."""
+    words = "the foot is long-winded and " * 8
+    screen = SimpleNamespace(is_terminal=True, width=columns)
+    monkeypatch.setattr("jumpcad.cli.bundle.console", lambda: screen)
+    _say("note", words)
+    first, *others = capsys.readouterr().out.splitlines()
+    assert first.startswith("note" + " " * (LABEL - len("note")) + "the foot")
+    assert others
+    assert all(line[:LABEL].isspace() and line[LABEL] != " " for line in others)
+    assert longest - len("long-winded") - 1 <= max(map(len, (first, *others))) <= longest
+    assert " ".join(line[LABEL:] for line in (first, *others)).split() == words.split()
+    screen.is_terminal = False
+    _say("note", words)
+    assert capsys.readouterr().out.count("\n") == 1
 
 
 def test_a_folder_in_the_way_is_refused_in_one_line(run: Run, tmp_path: Path) -> None:
