@@ -14,13 +14,13 @@ from typing import Any
 
 import numpy as np
 from scipy import optimize
-from threadpoolctl import ThreadpoolController
 
 from jumpcad.drive.cam import Cam, CamGeometry
 from jumpcad.drive.cam_findings import SCALES, cam_findings, missed
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits, axis_range, measure
 from jumpcad.errors import CannotBuildError
+from jumpcad.one_thread import one_thread
 from jumpcad.transforms import Array
 
 
@@ -194,18 +194,12 @@ def _constrained_minimum(
 ) -> Array:
     """Return where a function is least with every margin positive; both come with their gradients."""
     constraints: Any = {"type": "ineq", "fun": lambda x: margins(x)[0], "jac": lambda x: margins(x)[1]}
-    with _libraries().limit(limits=1):
+    with one_thread():
         found = optimize.minimize(
             objective, start, jac=True, bounds=bounds, constraints=constraints, method="SLSQP",
             options={"maxiter": 60, "ftol": 1e-9},
         )  # fmt: skip
     return np.asarray(found.x)
-
-
-@lru_cache(maxsize=1)
-def _libraries() -> ThreadpoolController:
-    """Return the linear algebra underneath: the order of its sums depends on the number of its threads."""
-    return ThreadpoolController()
 
 
 def _geometry(law: CamLaw, limits: CamLimits, shape: Array, outer: Array) -> CamGeometry:

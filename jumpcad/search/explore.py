@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from jumpcad.arguments import typed
 from jumpcad.counting import counted
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
+from jumpcad.one_thread import one_thread
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.posterior import warped
@@ -171,7 +171,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
     generator = np.random.default_rng([seed, 6])
     fold = generator.permutation(len(y)) % FOLDS
     theta, scores, falls = None, [], []
-    with threadpool_limits(1):
+    with one_thread():
         for part in range(FOLDS):
             known = fold != part
             if np.ptp(y[~known]) == 0.0:

@@ -8,8 +8,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
+from jumpcad.one_thread import one_thread
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods.bayesian import incumbent, learned_trials, unproposed
@@ -58,7 +58,7 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
     )
     generator = np.random.default_rng([seed, 7, step])
     proposals: list[Proposal] = []
-    with threadpool_limits(1):
+    with one_thread():
         posterior = SearchPosterior.from_trials(space, learned_trials(space, known, best=0), thetas, fit=())
         for confidence in CONFIDENCES:
             admits, penalty = unproposed(evaluator, proposals), _missed(space, posterior, confidence, scatter)

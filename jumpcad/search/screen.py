@@ -8,8 +8,7 @@ that were held out. A guess is never a score: what is proposed as the best was b
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
+from jumpcad.one_thread import one_thread
 from jumpcad.search.fitting import MARK, learned_rows
 from jumpcad.search.guess import Fit, Guesser
 from jumpcad.search.models import RobotModel
@@ -51,7 +50,7 @@ class Screen:
             guesser = Guesser.quick(self.space, self.model, self.objective, known[0])
             self.tiers = {laid: Tier(self.space, guesser, laid) for laid in (False, True)}
         new = False
-        with threadpool_limits(1):  # sums in a fixed order give the same bits however many cores there are
+        with one_thread():
             for laid, tier in self.tiers.items():
                 if rows != self._rows and kept is not None and kept["rows"] == rows:
                     tier.take(Fit.from_record(kept["laid" if laid else "plain"]))

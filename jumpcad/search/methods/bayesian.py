@@ -11,9 +11,9 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from jumpcad.counting import counted
+from jumpcad.one_thread import one_thread
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.learner import Learner
@@ -133,8 +133,7 @@ def run_steps(
             thetas = dict(finished[-1].proposal["theta"])
         else:
             known = known_trials(evaluator)
-            # One thread: sums in a fixed order give the same bits however many cores there are.
-            with threadpool_limits(1):
+            with one_thread():
                 always = len(known) <= REFIT_AFTER and rehearsal is None
                 refit = always or step % REFIT_EVERY == 1
                 if rehearsal:

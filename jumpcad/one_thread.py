@@ -1,0 +1,20 @@
+"""Linear algebra in one thread: sums in a fixed order give the same bits however many cores there are."""
+
+from contextlib import AbstractContextManager
+from functools import cache
+from typing import Any
+
+from threadpoolctl import ThreadpoolController
+
+
+def one_thread() -> AbstractContextManager[Any]:
+    """Return a context in which numpy's and scipy's linear algebra has one thread."""
+    return _libraries().limit(limits=1)
+
+
+@cache
+def _libraries() -> ThreadpoolController:
+    """Return the linear algebra underneath. To look for it at each step of a search took a tenth of the step."""
+    import scipy.linalg  # noqa: F401  # has libraries of its own
+
+    return ThreadpoolController()

@@ -1,0 +1,40 @@
+"""One thread of linear algebra, in all libraries that have it, and as many as before after that."""
+
+import subprocess
+import sys
+
+from threadpoolctl import threadpool_info, threadpool_limits
+
+from jumpcad.one_thread import one_thread
+
+FIRST_OF_ALL = """
+import numpy
+from threadpoolctl import threadpool_info
+from jumpcad.one_thread import one_thread
+with one_thread():
+    import scipy.linalg, sklearn.gaussian_process
+    print(*{pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"})
+"""
+
+
+def threads() -> set[int]:
+    return {pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"}
+
+
+def test_there_is_one_within_and_as_many_as_before_afterwards() -> None:
+    with threadpool_limits(2, user_api="blas"):
+        for _ in range(2):
+            with one_thread():
+                assert threads() == {1}
+            assert threads() == {2}
+
+
+def test_scipys_own_is_among_them_where_nothing_has_loaded_it_yet() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", FIRST_OF_ALL],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={"OPENBLAS_NUM_THREADS": "2"},
+    )
+    assert done.stdout.strip() == "1"
