@@ -68,7 +68,7 @@ def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg
     """
     limits = CAM_LIMITS
     law = CamLaw(math.radians(45), 1.0, limits.lift_rad, limits.ramp_rad, math.radians(preload_deg))
-    lever, gap, lead = 14.0 * scale, 15.0 * scale, 0.3
+    lever, gap, lead = 14.0 * scale, 15.0 * scale, 0.4
     outer, rows, numbers = measure(law, limits, np.array([[lever, gap, lead]]), 4000)
     shape = CamGeometry(law, lever, lever + gap, 1.4, lead, limits.roller_radius_mm, limits.clearance_mm,
                         limits.overshoot_rad)  # fmt: skip
