@@ -9,7 +9,8 @@ from threadpoolctl import ThreadpoolController
 
 def one_thread() -> AbstractContextManager[Any]:
     """Return a context in which numpy's and scipy's linear algebra has one thread."""
-    return _libraries().limit(limits=1)
+    context: AbstractContextManager[Any] = _libraries().limit(limits=1)
+    return context
 
 
 @cache

@@ -172,6 +172,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--costs", type=int, metavar="N", help="print the N tests that need most CPU time, and packages")
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Give one of few workers the tests of robots."""
+    from support.workers import scheduler
+
+    return scheduler(config, log)
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Measure what tests cost, if asked."""
     if config.getoption("--costs") is not None:
