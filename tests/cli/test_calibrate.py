@@ -163,7 +163,7 @@ def test_jumps_count_once(run: Run, tmp_path: Path, arguments: tuple[str, ...], 
 
 
 def test_a_calibration_is_told_in_millimetres_joules_and_per_cent() -> None:
-    """Documents hold metres and shares; distances and heights are read in mm, energies in J."""
+    """Documents hold metres and shares; distances and heights are read in mm, energies in J, speeds in m/s."""
     row = {"what": "distance", "as": "resting-place", "measured": 0.25, "predicted": [0.2, 0.24, 0.3]}
     battery = {"what": "battery", "as": "battery", "measured": 1.5, "predicted": [1.2, 1.4, 1.7]}
     residual = {"robot": "k", "of": "distance", "readings": {"resting-place": 0.75}, "off_by_deviations": -1.25}
@@ -172,7 +172,10 @@ def test_a_calibration_is_told_in_millimetres_joules_and_per_cent() -> None:
             {"label": "pins", "prior": [0.1, 0.2, 0.3], "posterior": [0.11, 0.22, 0.33], "verdict": "stays"}
         ],
         "energy_per_mass": {"k": [0.8, 0.9, 1.0]}, "together": [["a", "b", -0.813]],
-        "residuals": [residual | row, residual | battery | {"of": "battery"}],
+        "residuals": [
+            residual | row, residual | battery | {"of": "battery"},
+            *(residual | battery | {"what": what, "of": "battery"} for what in ("height", "speed", "angle")),
+        ],
         "predictions": {"j": {
             "ballistic_range_m": [0.1, 0.12, 0.14], "com_rise_m": [0.05, 0.06, 0.07],
             "beside": [row | {"below_share": 0.6296}],
@@ -189,6 +192,9 @@ def test_a_calibration_is_told_in_millimetres_joules_and_per_cent() -> None:
         "k: distance 250 mm, calibrated model 200…240…300, likeliest as resting-place (75 %), "
         "off by -1.2 standard deviations",
         "k: battery 1.5 J, calibrated model 1.2…1.4…1.7, off by -1.2 standard deviations",
+        "k: height 1.5e+03 mm, calibrated model 1.2e+03…1.4e+03…1.7e+03, off by -1.2 standard deviations",
+        "k: speed 1.5 m/s, calibrated model 1.2…1.4…1.7, off by -1.2 standard deviations",
+        "k: angle 1.5 °, calibrated model 1.2…1.4…1.7, off by -1.2 standard deviations",
         "j, predicted: range 100…120…140 mm, rise 50…60…70 mm",
         "distance as resting-place: 200…240…300 mm predicted with its errors, measured 250, "
         "above 62 % of the predictions",

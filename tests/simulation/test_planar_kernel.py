@@ -542,7 +542,10 @@ def test_the_bodys_gap_and_rise_are_those_of_the_robot_in_space(either: Robot) -
         assert kernel._belly_gap_m(model, links, Stance(moment.ankle_m, turn_of(moment), 1e-4)) == pytest.approx(gap)
         assert kernel.gap_m(model, moment._replace(belly_gap_m=gap)) == pytest.approx(mechanics.clearance_m(state))
         assert kernel.gap_m(model, moment._replace(belly_gap_m=0.001)) == 0.001  # a body below its foot
-        assert kernel.rising(model, moment) == (mechanics.velocity_m_s(state)[2] > 0.0)
+        for faster in np.linspace(-3.0, 3.0, 61):
+            moment = moment._replace(speed=PlanarMotion(0.4 + 1j * faster, 2.1, 9.0))
+            state = world_at(either, moment).state()
+            assert kernel.rising(model, moment) == (mechanics.velocity_m_s(state)[2] > 0.0)
 
 
 @pytest.mark.parametrize(("more_s", "flown"), [(0.0035, False), (0.0045, True)])
