@@ -160,9 +160,10 @@ def test_errors_are_in_what_a_measurement_is_predicted_as(posterior: Calibration
     assert middle == pytest.approx(np.median(plain), abs=0.004)
     spread = np.hypot(plain.std(), np.hypot(0.015, np.hypot(0.08, 0.03) * plain.mean()))
     assert (high - low) / 2.0 == pytest.approx(1.2816 * spread, rel=0.15)
-    assert row["below_share"] == pytest.approx(
-        0.5 * (1.0 + math.erf((0.08 - middle) / spread / math.sqrt(2.0))), abs=0.05
-    )
+    (datum,) = CalibrationModel([found.subject]).data
+    for value in (0.08, middle - spread, middle + spread):
+        share = found._beside(replace(datum, value=value), "absolute")["below_share"]
+        assert share == pytest.approx(0.5 * (1.0 + math.erf((value - middle) / spread / math.sqrt(2.0))), abs=0.05)
 
 
 def test_the_share_of_draws_that_jump_is_said(posterior: CalibrationPosterior, subject: Subject) -> None:

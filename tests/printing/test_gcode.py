@@ -41,6 +41,12 @@ def test_only_moves_that_lay_a_line_count(text):
     assert path.remarks["estimated printing time (normal mode)"] == "1m 5s"
 
 
+def test_a_line_begins_at_the_origin_where_nothing_was_said_before():
+    path = read_gcode("M83\n;HEIGHT:0.2\nG1 X10 Y5 E1\n")
+    np.testing.assert_array_equal(path.starts_mm, [[0.0, 0.0, 0.0]])
+    np.testing.assert_array_equal(path.ends_mm, [[10.0, 5.0, 0.0]])
+
+
 def test_lines_turn_like_thin_rods():
     path = read_gcode(ABSOLUTE)
     found = mass_of(path.moments(), 1.0)
