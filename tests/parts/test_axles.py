@@ -212,6 +212,9 @@ def test_a_clevis_pin_is_the_shortest_from_stock_whose_split_pin_is_outside() ->
         along, _, up = np.ptp(item.look.copy().apply_transform(item.T_body_part).bounds, axis=0)
         assert (along > up) == (name != "leg_spring_pin")  # along the foot, and across the leg
         assert max(along, up) == pytest.approx(5.0, abs=0.05)
+        x, y = item.look.vertices[:, :2].T
+        bent = np.abs(y) > pin.cotter_mm / 2.0 + 0.01
+        assert np.hypot(x, y)[bent].min() == pytest.approx(1.5 + 0.1, abs=0.01)  # beside the pin, not in it
 
 
 @pytest.mark.parametrize(("more_mm", "longer_mm"), [(0.0, 0.0), (0.01, 2.0), (-0.01, 0.0)])
