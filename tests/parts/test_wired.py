@@ -169,6 +169,7 @@ def test_what_holds_the_boards_lies_on_them_and_under_them(name: str) -> None:
             x - electronics.battery.length_mm / 2.0 <= wire[0, 0] < wire[1, 0] <= x + electronics.battery.length_mm / 2
         )
         assert wire[:, 1].mean() == pytest.approx(sum(robot.layout.lateral.inside) / 2.0, abs=2e-3)
+        assert np.ptp(wire[:, 1]) == pytest.approx(np.ptp(battery[:, 1]) / 2.0, abs=2e-3)
     assert all(one[1, 0] < other[0, 0] for one, other in itertools.pairwise(wires))
 
 
