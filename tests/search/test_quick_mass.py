@@ -68,6 +68,7 @@ def test_masses_and_centres_are_near_those_of_the_built_robot(robot: Robot) -> N
         assert 0.65 < guess.bodies[name].mass_kg / body.mass_kg < 1.2, name
         assert guess.bodies[name].com_m[[0, 2]] == pytest.approx(body.com_m[[0, 2]], abs=0.012), name
         assert guess.bodies[name].com_m[1] == 0.0
+        np.testing.assert_array_equal(guess.bodies[name].inertia_kg_m2, np.zeros((3, 3)))  # which statics do not need
     assert [guess.bodies[name].com_m[2] for name in (MAIN_LEG, FRONT_LINK, FOOT)] == [0.0, 0.0, 0.0]
     link = guess.bodies[FRONT_LINK].com_m[0]
     assert link == pytest.approx(robot.bodies[FRONT_LINK].com_m[0], abs=2e-4)
