@@ -211,6 +211,22 @@ def test_after_a_rebound_the_release_goes_on_from_where_it_was_and_at_least_by_a
     assert begun == list(range(0, 400, max(steps, 1)))
 
 
+@pytest.mark.parametrize(("at", "touches", "fallen"), [(3, False, [300]), (350, False, [350]), (3, True, [])])
+def test_a_roller_that_is_off_the_corner_meets_it_where_the_rotor_joins_or_later(
+    monkeypatch: pytest.MonkeyPatch, at: int, touches: bool, fallen: list[int]
+) -> None:
+    release, falls = _Release(arc(0.2), parts()), []
+
+    def pushed(stop: int) -> None:
+        release.at, release.touches = stop, True
+
+    monkeypatch.setattr(release, "_push_to", pushed)
+    monkeypatch.setattr(release, "_fall_to", falls.append)
+    release.at, release.touches = at, touches
+    release._push_off(300)
+    assert (falls, release.at) == (fallen, 400)
+
+
 def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:
     """With the leg's moment of inertia where the roller leaves."""
     robot = built("best-ga")
