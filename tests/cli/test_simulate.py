@@ -206,6 +206,22 @@ def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(
     assert command(urdf, "--uncertain") == (2, "", refused)
 
 
+def test_a_jump_says_of_which_model_it_is(command: Run, bundle: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Masses of a URDF are as it says, those of a design as it is printed; capsules are the study's."""
+    headings = []
+
+    def told(heading: dict[str, str], *_: object) -> None:
+        headings.append(heading["model"])
+
+    monkeypatch.setattr(module, "_jumps", lambda *_: [])
+    monkeypatch.setattr(module, "printed_robot", lambda *_: None)
+    monkeypatch.setattr(module, "_report", told)
+    urdf = bundle / "urdf" / "kenan-2.0.urdf"
+    for arguments in ((urdf,), (urdf, "--capsule"), ("kenan-2.0",), ("kenan-2.0", "--capsule")):
+        command(*arguments)
+    assert headings == ["URDF", "capsule", "printed", "capsule"]
+
+
 def test_uncertain_jumps_and_trajectories_are_of_one_engine(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """By default, or named: what is asked for is begun."""
 
