@@ -91,6 +91,10 @@ def test_a_robot_has_picture_and_figures(result):
     assert table(html)["spring energy"] == f"{result.robot.spring.energy_j:.3f} J"
     assert table(html)["longest link"] == f"{result.robot.design.l_max_mm:.1f} mm"
     assert int(table(html)["printed parts"]) == sum(len(part.placements) for part in result.robot.parts)
+    first, *others = result.robot.parts
+    twice = replace(first, drawing=replace(first.drawing, placements=first.placements * 2))
+    more = table(replace(result.robot, parts=(twice, *others))._repr_html_())
+    assert int(more["printed parts"]) == int(table(html)["printed parts"]) + 1
     assert int(table(html)["bought parts"]) == len(result.robot.hardware)
     assert table(html)["printer"] == "Original Prusa MK4"
     assert len(html) < 100_000
