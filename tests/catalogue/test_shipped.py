@@ -32,6 +32,13 @@ def test_screws_and_nuts_have_the_sizes_of_iso_4762_and_4032():
     assert (CATALOGUE.nuts["M2"].across_flats_mm, CATALOGUE.nuts["M2"].height_mm) == (4.0, 1.6)
 
 
+def test_a_screws_low_head_is_that_of_its_standard():
+    """Of ISO 7380-1 5.7 mm wide and 1.65 mm high at M3; with the collar of part 2, 6.9 mm. M2 is a cheese head."""
+    m3, m2 = CATALOGUE.screws["M3"], CATALOGUE.screws["M2"]
+    assert (m3.norm, m3.button_head_mm, m3.button_head_height_mm) == ("ISO 7380-1", 5.7, 1.65)
+    assert (m2.norm, m2.button_head_mm, m2.button_head_height_mm) == ("ISO 14580", 3.8, 1.55)
+
+
 def test_nuts_weigh_their_hexagon_less_the_thread():
     for name, thread in (("M3", 3.0), ("M2", 2.0)):
         nut = CATALOGUE.nuts[name]
