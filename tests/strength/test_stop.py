@@ -73,7 +73,7 @@ def test_a_lossless_pad_stepped_through_gives_as_far_and_presses_as_hard() -> No
     assert hardest * PEAK_SHARE == pytest.approx(found.torque_nm, rel=1e-3)
 
 
-def test_the_share_of_the_peak_is_about_that_of_a_pad_which_throws_nothing_back() -> None:
+def test_the_share_of_the_peak_is_no_less_than_the_least_that_a_dashpot_leaves() -> None:
     """Spring and dashpot in parallel: the least peak of all dampings is 0.81 of the undamped one's.
 
     Damping ratio 0.26; with less the spring is pressed further, with more the dashpot resists at once.
