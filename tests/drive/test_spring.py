@@ -1,4 +1,4 @@
-"""Torsion springs against beam theory, Winkler's curved bar, EN 13906-3, the wire's length, and a search by force."""
+"""Torsion springs against beam theory, Winkler's curved bar, EN 13906-3, and the wire's length."""
 
 import math
 from dataclasses import replace

@@ -4,6 +4,7 @@ import ast
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -91,7 +92,7 @@ def test_the_sky_is_blue_above_and_white_below(scene: Any) -> None:
     assert down.max() <= 1.0
 
 
-def test_the_light_is_the_suns_from_above(scene: Any) -> None:
+def test_the_light_comes_from_above_as_the_suns_does(scene: Any) -> None:
     """Of one direction, and as far from its place as from anywhere else: down, and from the right, where -y is."""
     light = scene.light(0)
     assert scene.light_type[0] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
@@ -171,6 +172,30 @@ def test_the_notes_programs_are_python_and_use_what_there_is(robot: Robot) -> No
     assert "cam" in named["motor"] | named["general"]
     held, until = map(float, re.findall(r"data\.time < ([\d.]+)", jump))
     assert held < until
+
+
+@pytest.mark.filterwarnings("ignore:Attach conflict")  # MuJoCo 4 says which options it does not take
+def test_the_notes_programs_run_and_the_robot_jumps_when_the_motor_lets_go(
+    robot: Robot, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Held for 0.1 s, it is in the air 0.3 s after; in another scene it has a prefix. From texts instead of files."""
+    monkeypatch.chdir(tmp_path)  # where MuJoCo writes its log
+    jump, attach = re.findall(r"```python\n(.*?)```", readme(robot), re.DOTALL)
+    alone, held = write_robot(robot), at_key(mujoco.MjModel.from_xml_string(write_robot(robot)), "wound")
+    given = {"scene": write_scene(robot), "files": {f"{robot.name}.xml": alone.encode()}, "alone": alone}
+    own = "<mujoco><worldbody><geom type='plane' size='0 0 0.05'/></worldbody></mujoco>"
+    exec(jump.replace('from_xml_path("scene.xml")', "from_xml_string(scene, files)"), given)
+    place = np.array([float(one) for one in re.findall(r"-?\d+\.\d+(?:e-?\d+)?", capsys.readouterr().out)])
+    assert place.shape == (3,)
+    assert place[2] > held.sensor("com").data[2] + 0.01
+    assert place[0] > held.sensor("com").data[0] + 0.05  # x is forward
+    program = attach.replace('from_file("your_scene.xml")', "from_string(own)")
+    exec(
+        program.replace(f'from_file("{robot.name}.xml")', "from_string(alone)"),
+        found := given | {"own": own, "mujoco": mujoco},
+    )
+    assert found["model"].joint("jumper-leg").id >= 0
+    assert found["model"].ngeom == mujoco.MjModel.from_xml_string(alone).ngeom + 1
 
 
 def test_the_versions_that_the_notes_name_reach_up_to_the_installed_one(robot: Robot) -> None:
