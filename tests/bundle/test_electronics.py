@@ -1,28 +1,24 @@
-"""Firmware, wiring and the manifest's `electronics` of a bundle, for both kits."""
+"""Firmware, drawings of leads and the manifest's `electronics` of a bundle, for both kits."""
 
 import itertools
 import math
-import re
 import xml.etree.ElementTree as ET
-from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from support.built import built, placed
+from support.built import built, of_kit, placed
 
 from jumpcad.building import build
 from jumpcad.bundle.electronics import electronics_facts, jumps_per_charge
 from jumpcad.bundle.export import export
 from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.lead_lines import leads_of
-from jumpcad.bundle.wiring import _notes, drawings_of, wires, wiring_lines, wiring_svg
+from jumpcad.bundle.wiring import drawings_of, wiring_lines
 from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import BODY
@@ -31,17 +27,11 @@ from jumpcad.parts.lead_ways import plate_of
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import chained
-from jumpcad.workshop import load_workshop
-
-NO_LEADS = {"upper resistor", "lower resistor", "pull-up resistor", "diode"}
-"""Parts whose own legs reach the controller, where they lie; the battery's plug is on its own cable."""
 
 
 @pytest.fixture(scope="module", params=["light-1s", "strong-2s"])
-def robot(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Robot:
-    path = tmp_path_factory.mktemp("kit") / "my.toml"
-    path.write_text(f'[bought]\nkit = "{request.param}"', encoding="utf-8")
-    return build(load_design("best-printable"), load_workshop(path), "best-printable")
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return of_kit(request.param)
 
 
 def test_the_manifest_says_what_each_part_gets_and_bears(robot: Robot) -> None:
@@ -82,24 +72,6 @@ def test_the_firmware_has_time_to_wind_on_an_empty_battery_and_pins_of_the_chip(
     assert found["BATTERY_EMPTY_V"] == pytest.approx(3.3 * cells)
     driver = next(board for board in electronics_facts(robot)["boards"] if board["role"] == "driver")
     assert found["BATTERY_EMPTY_V"] - found["BATTERY_SAG_V"] == pytest.approx(driver["gets_v"][0], abs=0.001)
-
-
-def test_the_drawing_names_every_terminal_and_is_the_same_each_time(robot: Robot) -> None:
-    drawing = wiring_svg(robot)
-    assert drawing == wiring_svg(robot)
-    words = [element.text for element in ET.fromstring(drawing).iter("{http://www.w3.org/2000/svg}text")]
-    for _, start, end, _, length in wires(robot):
-        assert start.pin in words
-        assert end.pin in words
-        ends = {start.part, end.part}
-        if (ends & NO_LEADS and "controller" in ends) or ends == {"battery", "plug"}:
-            assert length == 0.0
-        else:
-            assert 30.0 <= length <= 250.0
-    resistors = [end for _, start, end, _, _ in wires(robot) if end.part == "pull-up resistor"]
-    assert {(end.pin) for end in resistors} == {"1", "2"}
-    table = [line for line in wiring_lines(robot) if line.startswith("| ")]
-    assert len(table) == len(wires(robot)) + 1
 
 
 def test_the_leads_drawing_has_every_number_of_the_table_in_its_colour(robot: Robot) -> None:
@@ -328,46 +300,6 @@ def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> Non
         assert beside.any(axis=1).all(), name
 
 
-def test_what_a_jump_takes_is_told_in_its_shares(robot: Robot) -> None:
-    """Joules of motor and boards add up; the boards' are their share of the time that winding takes."""
-    text, train = "\n".join(wiring_lines(robot)), robot.layout.drive.train
-    found = re.search(
-        r"takes ([\d.]+) J from the battery: ([\d.]+) J the motor, ([\d.]+) J the boards while it winds for ([\d.]+) "
-        r"s; .* lasts for about (\d+) jumps",
-        text,
-    )
-    assert found is not None
-    whole, motor, boards, seconds, jumps = map(float, found.groups())
-    assert whole == pytest.approx(motor + boards, abs=0.011)
-    assert (motor, boards) == pytest.approx((train.motor_j, train.boards_j), abs=0.0051)
-    assert seconds == pytest.approx(train.winding_s, abs=0.051)
-    assert jumps == pytest.approx(jumps_per_charge(robot), rel=0.05)
-
-
-def test_which_ground_is_used_is_said_where_there_are_two(robot: Robot) -> None:
-    """The controller's battery pads are joined to its ground; behind a regulator they stay empty."""
-    text = "\n".join(wiring_lines(robot))
-    one = not robot.workshop.bought.regulator
-    assert ("BAT- and GND of the controller are connected on the board" in text) == one
-    assert ("The controller's battery pads stay empty" in text) != one
-    assert ("diode: K is the end with the ring" in text) != one
-    chosen = chosen_parts(robot.workshop)
-    pins = {name: uses for name, uses in chosen.controller.pins.items() if name != "BAT-"}
-    alone = replace(chosen, controller=chosen.controller.model_copy(update={"pins": pins}))
-    assert len(alone.controller.with_function("ground")) == 1
-    assert "are connected on the board" not in "\n".join(_notes(alone, wiring_of(chosen, robot.workshop.bought.pins)))
-
-
-@pytest.mark.parametrize("level", [0, 1])
-def test_the_notes_on_the_sensor_are_those_of_its_contact(robot: Robot, level: int) -> None:
-    """A contact that opens at the ready position leaves its pin pulled up, at 1: that of COM and NC."""
-    chosen = chosen_parts(robot.workshop)
-    resistors = wiring_of(chosen, robot.workshop.bought.pins).resistors
-    text = "\n".join(_notes(chosen, SimpleNamespace(ready_level=level, resistors=resistors)))  # type: ignore[arg-type]
-    assert ("use COM and NC: pressed, the contact opens" in text) == (level == 1)
-    assert ("known limit: this sensor has no contact that opens" in text) == (level == 0)
-
-
 def test_leads_between_the_boards_run_in_the_gap_between_them(robot: Robot) -> None:
     """Seen from above, no lead from one board to the other is drawn across a third, nor beyond the gap."""
     electronics, tray = robot.layout.electronics, robot.layout.tray_mm[0]
@@ -381,43 +313,3 @@ def test_leads_between_the_boards_run_in_the_gap_between_them(robot: Robot) -> N
         assert ((low <= lead.points_mm[1:-1, 0]) & (lead.points_mm[1:-1, 0] <= high)).all()
     places = [round(float(lead.points_mm[1, 0]), 6) for lead in between]
     assert len({*places}) == len(places)
-
-
-def test_the_drawing_names_resistors_in_kiloohms(robot: Robot) -> None:
-    wiring = wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)
-    drawn = wiring_svg(robot)
-    for name, ohm in wiring.resistors.items():
-        (said,) = set(re.findall(rf"{name}: ([\d.]+) kΩ", drawn))
-        assert 1000.0 * float(said) == ohm
-    (note,) = (one for one in _notes(chosen_parts(robot.workshop), wiring) if one.startswith("- resistors: "))
-    said = {f"{name} resistor": 1000.0 * float(kilo) for name, kilo in re.findall(r"([\w-]+) ([\d.]+) kΩ", note)}
-    assert said == wiring.resistors
-
-
-def test_parts_are_called_by_their_articles_in_the_drawing(robot: Robot) -> None:
-    chosen, texts = (
-        chosen_parts(robot.workshop),
-        ET.fromstring(wiring_svg(robot)).iter("{http://www.w3.org/2000/svg}text"),
-    )
-    titles = {element.text for element in texts if element.get("font-weight") == "bold"}
-    named = {"battery": chosen.battery, "motor": robot.layout.drive.train.motor, **chosen.boards, **chosen.components}
-    assert titles >= {f"{role}: {named[role].name}" for role in ("battery", "motor", "controller", "driver", "plug")}
-    assert {title.partition(": ")[0] for title in titles if title} <= {
-        *named,
-        *wiring_of(chosen, robot.workshop.bought.pins).resistors,
-    }
-
-
-def test_a_wire_is_cut_to_whole_millimetres_and_legs_of_parts_are_none(robot: Robot) -> None:
-    rows = [line.split(" | ") for line in wiring_lines(robot) if line.startswith("| ") and "no." not in line]
-    cut = [f"{length:.0f}" if length else "none" for *_, length in wires(robot)]
-    assert [row[4] for row in rows] == cut
-    assert "none" in cut
-
-
-def test_without_a_capacitor_no_note_speaks_of_one() -> None:
-    """Then a beep between the plug's poles is a short circuit."""
-    shop, kenan = load_workshop(), load_design("kenan-2.0")
-    without = shop.model_copy(update={"bought": shop.bought.model_copy(update={"capacitor": ""})})
-    assert "a short beep is the capacitor" in "\n".join(wiring_lines(built("kenan-2.0")))
-    assert "capacitor" not in "\n".join(wiring_lines(build(kenan, without)))

@@ -14,7 +14,6 @@ from support.commands import Run
 
 from jumpcad.calibration import plots
 from jumpcad.cli.calibrate import _document, _lines, _pictures
-from jumpcad.cli.uncertain import uncertain_lines
 from jumpcad.errors import JumpcadError
 from jumpcad.files.templates import templates_folder
 from jumpcad.simulation import uncertain
@@ -202,25 +201,6 @@ def test_a_calibration_is_told_in_millimetres_joules_and_per_cent() -> None:
         "not in the settings file: k, in its workshop: [ground] friction = 0.79",
         "mine.toml: jumpcad simulate DESIGN --uncertain --settings mine.toml",
     ]
-
-
-def test_what_is_uncertain_is_told_in_millimetres_the_largest_share_first() -> None:
-    found = {
-        "calibrated": True, "jumps": 128, "jumps_share": 0.953,
-        "quantiles": {name: [0.1, 0.2, 0.3] for name in uncertain.FIGURES},
-        "first_order": {
-            "mass": {"ballistic_range_m": 0.1, "com_rise_m": 0.3},
-            "floor": {"ballistic_range_m": 0.8, "com_rise_m": 0.2},
-        },
-    }  # fmt: skip
-    lines = [" ".join(line.split()) for line in uncertain_lines(found)]
-    assert lines[0] == "uncertainty (128 jumps, the calibration's draws), quantiles 10…50…90 %:"
-    assert all(line.endswith(" 100…200…300 mm") for line in lines[1:-4])
-    assert lines[-4:] == [
-        "jumps at all 95 %", "first-order indices: share of the variance of range, of rise",
-        "floor 0.80, 0.20", "mass 0.10, 0.30",
-    ]  # fmt: skip
-    assert not any("at all" in line for line in uncertain_lines(found | {"jumps_share": 1.0}))
 
 
 def test_a_document_has_every_figure_of_the_posterior_under_its_name() -> None:

@@ -4,13 +4,11 @@ import csv
 import json
 import re
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from support.commands import Run
 
 from jumpcad.cli import simulate as module
-from jumpcad.cli.uncertain import uncertain, uncertain_lines
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
@@ -141,24 +139,6 @@ def test_the_other_engine_steps_in_with_one_line(command: Run, monkeypatch: pyte
     assert code == 0
     assert json.loads(out)["engine"] == "mujoco"
     assert err == "jumpcad: pybullet is not installed; simulated with mujoco\n"
-
-
-def test_quantiles_are_printed_in_millimetres():
-    both = {"ballistic_range_m": 0.5, "com_rise_m": 0.25}
-    found = {
-        "calibrated": False, "jumps": 8, "jumps_share": 1.0, "first_order": {"mass": both},
-        "quantiles": {"ballistic_range_m": [0.2, 0.3, 0.4], "com_rise_m": [0.05, 0.06, 0.07]},
-    }  # fmt: skip
-    lines = uncertain_lines(found)
-    assert [line.split()[-2:] for line in lines[1:3]] == [["200…300…400", "mm"], ["50…60…70", "mm"]]
-
-
-def test_uncertain_inputs_are_drawn_by_the_seed_and_simulated_as_asked(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = []
-    found = SimpleNamespace(to_dict=lambda: {"jumps": 8})
-    monkeypatch.setattr("jumpcad.simulation.uncertain_jump", lambda *given: asked.append(given) or found)
-    assert uncertain("robot", "settings", "planar", 7) == {"jumps": 8}  # type: ignore[arg-type]
-    assert asked == [("robot", "settings", "planar", 7)]
 
 
 @pytest.mark.parametrize("name", ["fine", "default"])

@@ -14,7 +14,7 @@ from support.machines import one_sided
 
 from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.mjcf_robot import mjcf_files, write_robot
-from jumpcad.exporters.mjcf_scene import readme, write_scene
+from jumpcad.exporters.mjcf_scene import readme
 from jumpcad.exporters.urdf import urdf_files
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
@@ -166,28 +166,6 @@ def test_collisions_and_limits_are_as_stiff_as_the_time_step_allows(model: Any) 
     ):
         assert solref == pytest.approx(soft)
         assert solimp == pytest.approx(hard)
-
-
-def test_in_its_scene_the_robot_stands_on_the_floor_alone(robot: Robot) -> None:
-    """A plane through the world's origin, up; the robot touches it with its foot and rests there."""
-    scene, alone = write_scene(robot), write_robot(robot)
-    model = mujoco.MjModel.from_xml_string(scene, {f"{robot.name}.xml": alone.encode()})
-    floor = model.geom("floor")
-    assert mujoco.mjtGeom(int(floor.type[0])) == mujoco.mjtGeom.mjGEOM_PLANE
-    assert (floor.pos.tolist(), floor.quat.tolist()) == ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0])
-    assert floor.bodyid[0] == 0
-    data = at_key(model, "home")
-    start = data.body(BODY).xpos.copy()
-    for _ in range(400):  # in which it would fall by 49 mm
-        mujoco.mj_step(model, data)
-    assert data.body(BODY).xpos == pytest.approx(start, abs=0.001)
-    assert data.ncon > 0
-    for contact in data.contact:
-        assert floor.id in contact.geom
-        (other,) = set(contact.geom.tolist()) - {floor.id}
-        assert model.body(model.geom_bodyid[other]).name == FOOT
-    names = [one.split(b"\0", 1)[0].decode() for one in (model.names, mujoco.MjModel.from_xml_string(alone).names)]
-    assert names == [f"{robot.name} scene", robot.name]
 
 
 def test_bodies_do_not_touch_each_other(model: Any) -> None:

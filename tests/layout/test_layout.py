@@ -23,7 +23,7 @@ from jumpcad.layout import layout as layout_module
 from jumpcad.layout.drive_places import require_gear_room
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout, moving_obstacles
-from jumpcad.layout.obstacles import LEVER_HEAD_MM, hub_obstacles
+from jumpcad.layout.obstacles import LEVER_HEAD_MM
 from jumpcad.layout.room import EVERYWHERE, Obstacle, disc
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
@@ -324,17 +324,6 @@ def test_what_moves_occupies_its_share_across_the_robot() -> None:
             assert found[one].points_mm.tolist() == [layout.idler_mm.tolist()]
         assert found["pinion"].radius_mm == layout.drive.train.stages[0].pinion.tip_radius_mm
         assert found["front link"].radius_mm == layout.sections.eye_radius_mm  # without a clearance
-
-
-def test_springs_and_axles_keep_the_usual_clearance() -> None:
-    """0.8 mm around coils, or the gap that is asked for, and around spacers of 3.2 mm from plate to plate."""
-    layout = plans()["kenan-2.0"]
-    lateral, coil = layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
-    for given, gap in (((), 0.8), ((0.5,), 0.5)):
-        left, right, axle = hub_obstacles(layout.hub_mm, layout.drive, lateral, *given)
-        assert (left.radius_mm, right.radius_mm) == pytest.approx((coil + gap, coil + gap))
-        assert (left.y_mm, right.y_mm) == (lateral.spring_left, lateral.spring_right)
-        assert (axle.radius_mm, axle.y_mm) == (pytest.approx(3.2 + 0.8), lateral.inside)
 
 
 def test_openings_keep_off_what_stands_in_the_body_and_off_the_standoffs_pads(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,37 +7,19 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 from support.machines import let_go
 
-from jumpcad.design import load_design
-from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Friction
-from jumpcad.mechanism.poses import body_poses, release_pose
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.robot import Robot
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.bullet import BulletEngine, BulletWorld
 from jumpcad.simulation.bullet_robot import LINKS
 from jumpcad.simulation.engines import engine_named
-from jumpcad.simulation.mechanics import Mechanics, loaded_state
+from jumpcad.simulation.mechanics import loaded_state
 from jumpcad.simulation.run import Run
-from jumpcad.strength.pin_friction import pin_torque_nm
 
 pytest.importorskip("pybullet")
-
-
-def test_pybullet_has_the_robots_inertia(lopsided: Robot) -> None:
-    """Masses, centres and tensors read back from PyBullet (createMultiBody alone takes them from the colliders)."""
-    bullet = pytest.importorskip("pybullet")
-    with engine_named("pybullet").world(lopsided, Settings()) as world:
-        for link, name in enumerate((BODY, *LINKS), start=-1):
-            info = bullet.getDynamicsInfo(world.robot_id, link, physicsClientId=world._client)
-            axes = np.array(bullet.getMatrixFromQuaternion(info[4])).reshape(3, 3)
-            body = lopsided.bodies[name]
-            assert info[0] == pytest.approx(body.mass_kg, rel=1e-12)
-            np.testing.assert_allclose(info[3], body.com_m, rtol=1e-9)
-            np.testing.assert_allclose(axes @ np.diag(info[2]) @ axes.T, body.inertia_kg_m2, rtol=1e-9, atol=1e-15)
 
 
 @pytest.mark.filterwarnings("error")
@@ -124,26 +106,6 @@ def test_every_step_pushes_with_springs_and_pad_and_counts_what_the_joints_take(
     assert world.joint_damping_j == pytest.approx(0.1 + lost)
 
 
-def test_the_body_moves_as_the_roller_leaves_the_cam() -> None:
-    """Bullet is given the velocity of the centre of mass: that of the frame's origin, and the turn about y with it.
-
-    Of a robot whose links are not parallel: else the body does not turn.
-    """
-    bullet, uneven = pytest.importorskip("pybullet"), capsule_robot(load_design("best-ga"))
-    body = replace(uneven.bodies[BODY], com_m=np.array([0.012, 0.0, -0.007]))  # the links' are elsewhere
-    robot = let_go(replace(uneven, bodies={**uneven.bodies, BODY: body}))
-    release = release_pose(robot)
-    assert abs(release.body_rad_s) > 0.05
-    with engine_named("pybullet").world(robot, Settings()) as world:
-        velocity, spin = bullet.getBaseVelocity(world.robot_id, physicsClientId=world._client)
-        place, _ = bullet.getBasePositionAndOrientation(world.robot_id, physicsClientId=world._client)
-    np.testing.assert_allclose(spin, [0.0, release.body_rad_s, 0.0], atol=1e-9)
-    arm = np.array(place) - release.body_position_m
-    assert np.abs(arm[[0, 2]]).min() > 1e-3
-    expected = np.array(release.body_m_s) + release.body_rad_s * np.array([arm[2], 0.0, -arm[0]])
-    np.testing.assert_allclose(velocity, expected, atol=1e-6)
-
-
 @pytest.mark.parametrize("friction", [0.37, 1.1])
 def test_pybullets_ground_has_the_settings_friction_and_leaves_bounces_to_the_robot(
     kenan: Robot, friction: float
@@ -154,18 +116,6 @@ def test_pybullets_ground_has_the_settings_friction_and_leaves_bounces_to_the_ro
         info = bullet.getDynamicsInfo(world._ground, -1, physicsClientId=world._client)
         assert bullet.getPhysicsEngineParameters(physicsClientId=world._client)["gravityAccelerationZ"] == -9.81
     assert (info[0], info[1], info[5]) == (0.0, friction, 1.0)
-
-
-def test_the_pins_rub_once_and_at_the_leg() -> None:
-    """Their torque is that of the leg's joint (`pin_torque_nm`), beside what the settings ask of every joint."""
-    plain = capsule_robot(load_design("kenan-2.0"))
-    robot = replace(plain, friction=Friction(0.7, 0.5, 0.2, (0.0015, 0.002, 0.002, 0.002)))
-    pins = pin_torque_nm(robot, 0.2)
-    assert pins > 1e-4
-    with engine_named("pybullet").world(robot, Settings(joint_friction_nm=0.003)) as world:
-        assert world._dry_nm == pytest.approx([0.003 + pins, 0.003, 0.003])
-    with engine_named("pybullet").world(plain, Settings()) as world:
-        assert world._dry_nm == [0.0, 0.0, 0.0]
 
 
 def test_a_foot_that_slides_loses_energy_also_without_pads_of_its_own(kenan: Robot) -> None:
@@ -202,33 +152,6 @@ def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:
     assert bullet.getNumBodies(physicsClientId=client) == 1  # the ground
 
 
-def test_the_loop_and_the_joints_are_closed_in_pybullet_at_release(lopsided: Robot) -> None:
-    """Bodies stand where the release pose has them, and the loop's two points are one."""
-    with engine_named("pybullet").world(lopsided, Settings()) as world:
-        state = world.state()
-    mechanics = Mechanics(lopsided, 9.81)
-    assert mechanics.loop_gap_m(state) < 1e-6
-    assert state.leg_rad == pytest.approx(-lopsided.spring.wind_rad)
-    for index, (name, pose) in enumerate(body_poses(lopsided, 1.0).items()):
-        at = BODY_NAMES.index(name)
-        np.testing.assert_allclose(mechanics.frame_positions_m(state)[at], pose[:3, 3], atol=1e-6, err_msg=str(index))
-        np.testing.assert_allclose(state.rotation[at], pose[:3, :3], atol=1e-6)
-    assert np.abs(state.velocity_m_s).max() == 0.0
-
-
-def test_the_loop_stays_closed_in_pybullet_while_the_leg_turns(lopsided: Robot) -> None:
-    """Its two points are those of front link and foot, however the axes of their inertia are turned."""
-    turn = Rotation.from_rotvec([-0.9, 0.2, 0.4]).as_matrix()
-    foot = lopsided.bodies[FOOT]
-    other = replace(foot, inertia_kg_m2=turn @ foot.inertia_kg_m2 @ turn.T)
-    robot = replace(lopsided, bodies={**lopsided.bodies, FOOT: other})
-    with engine_named("pybullet").world(robot, Settings()) as world:
-        world.advance(60)
-        state = world.state()
-    assert state.leg_rad > -lopsided.spring.wind_rad + 0.05
-    assert Mechanics(lopsided, 9.81).loop_gap_m(state) < 2e-4
-
-
 def test_the_foots_motion_is_that_of_the_state(kenan: Robot) -> None:
     """Centre of mass, its velocity, and the spin, of a robot that has just been let go."""
     robot = let_go(kenan)
@@ -241,53 +164,6 @@ def test_the_foots_motion_is_that_of_the_state(kenan: Robot) -> None:
     np.testing.assert_allclose(velocity, state.velocity_m_s[foot], atol=5e-5)
     np.testing.assert_allclose(spin, state.angular_rad_s[foot], atol=0.01)
     assert np.abs(velocity).max() > 1e-3
-
-
-def test_pybullet_has_every_contact_sphere_where_it_is_and_as_large(lopsided: Robot) -> None:
-    """Read back in the principal axes at the centre of mass, where Bullet has them."""
-    bullet = pytest.importorskip("pybullet")
-    bodies = {
-        name: replace(
-            body,
-            contacts=tuple(
-                replace(contact, radius_m=0.003 + 0.001 * number) for number, contact in enumerate(body.contacts)
-            ),
-        )
-        for name, body in lopsided.bodies.items()
-    }
-    robot, seen = replace(lopsided, bodies=bodies), 0
-    with engine_named("pybullet").world(robot, Settings()) as world:
-        for link, name in enumerate((BODY, *LINKS), start=-1):
-            client, body = world._client, bodies[name]
-            axes = bullet.getDynamicsInfo(world.robot_id, link, physicsClientId=client)[4]
-            turn = np.array(bullet.getMatrixFromQuaternion(axes)).reshape(3, 3)
-            shapes = bullet.getCollisionShapeData(world.robot_id, link, physicsClientId=client)
-            assert len(shapes) == len(body.contacts)
-            for shape, contact in zip(shapes, body.contacts, strict=True):
-                assert shape[2] == bullet.GEOM_SPHERE
-                assert shape[3][0] == pytest.approx(contact.radius_m)
-                np.testing.assert_allclose(turn @ shape[5], contact.centre_m - body.com_m, atol=1e-7)
-                seen += 1
-    assert seen == 5
-
-
-def test_drag_slows_travel_and_turning() -> None:
-    """In the air, about the upright axis, about which nothing of the robot pushes."""
-    bullet, robot = pytest.importorskip("pybullet"), capsule_robot(load_design("kenan-2.0"))
-    left = []
-    for drag in (0.0, 20.0):
-        with engine_named("pybullet").world(robot, Settings(drag_per_s=drag)) as world:
-            client = world._client
-            bullet.resetBasePositionAndOrientation(world.robot_id, [0, 0, 1], [0, 0, 0, 1], physicsClientId=client)
-            bullet.resetBaseVelocity(world.robot_id, [0, 1, 0], [0, 0, 5], physicsClientId=client)
-            world.advance(round(0.005 / Settings().dt_s))
-            velocity, spin = bullet.getBaseVelocity(world.robot_id, physicsClientId=client)
-            left.append((velocity[1], spin[2] / 5.0))
-    (free_m_s, free_spin), (slowed_m_s, slowed_spin) = left
-    assert free_m_s == pytest.approx(1.0, abs=0.02)
-    assert free_spin == pytest.approx(1.0, abs=0.02)
-    assert slowed_m_s < math.exp(-0.1) + 0.02  # 20/s for 5 ms
-    assert slowed_spin < math.exp(-0.1)
 
 
 def test_pybullet_is_told_how_long_steps_are_and_when_its_solver_may_end(
@@ -341,23 +217,3 @@ def test_bullet_runs_alike_in_another_client_and_leaves_the_first_alone(kenan: R
     assert elsewhere.takeoff == usual.takeoff
     assert usual.takeoff is not None
     assert usual.takeoff.energy.slip_j > 0.0
-
-
-def test_joints_turn_faster_than_bullets_own_limit_of_100_rad_s(other: BulletEngine) -> None:
-    """Let go with the leg at 150 rad/s, it goes on so."""
-    robot = let_go(capsule_robot(load_design("best-ga")), leg_rad_s=150.0)
-    with other.world(robot, Settings()) as world:
-        before = world.state()
-        world.advance(5)
-        after = world.state()
-    assert after.leg_rad - before.leg_rad == pytest.approx(150.0 * 5 * Settings().dt_s, rel=0.1)
-
-
-def test_every_link_is_seen_as_one_small_box(kenan: Robot, other: BulletEngine) -> None:
-    """One that Bullet makes of the contacts' spheres costs more than the whole robot."""
-    bullet = pytest.importorskip("pybullet")
-    with other.world(kenan, Settings()) as world:
-        seen = bullet.getVisualShapeData(world.robot_id, physicsClientId=other._client)
-    assert [shape[1] for shape in seen] == [-1, 0, 1, 2]
-    assert {shape[2] for shape in seen} == {bullet.GEOM_BOX}
-    assert np.array([shape[3] for shape in seen]) == pytest.approx(0.002)

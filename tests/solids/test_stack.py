@@ -9,7 +9,6 @@ from support.stacks import random_stack
 from jumpcad.errors import JumpcadError
 from jumpcad.solids.finish import faults, to_trimesh
 from jumpcad.solids.outline import disc, hole, polygon, rectangle, tapered_bar
-from jumpcad.solids.slab import Slab
 from jumpcad.solids.stack import Stack
 
 
@@ -203,7 +202,3 @@ def test_sections_of_pocketed_stacks_are_outlines_less_pockets():
     assert [pocket.area() for _, pocket in found] == pytest.approx([disc(4).area(), *[disc(5).area()] * 3])
     assert which[2] == which[3]
     assert len(hollow) == 3
-
-
-def test_a_slab_is_as_high_as_its_faces_are_apart() -> None:
-    assert Slab(2.0, 5.0, rectangle((1.0, 1.0))).height_mm == 3.0

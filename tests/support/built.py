@@ -14,6 +14,7 @@ from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
+from jumpcad.workshop.varied import varied
 
 LONG_TOES = "long toes"
 """A 183 mm robot whose foot is larger than any common bed."""
@@ -29,6 +30,12 @@ def built(name: str, workshop: str = "default", mass_model: str = "printed", mot
     mass = shop.mass.model_copy(update={"model": mass_model})
     bought = shop.bought.model_copy(update={"leg": leg} | ({"motors": (motor,)} if motor else {}))
     return build(design(name), shop.model_copy(update={"mass": mass, "bought": bought}), name)
+
+
+@lru_cache(maxsize=2)
+def of_kit(kit: str) -> Robot:
+    """Return the robot of best-printable with the electrical parts of a kit, built once."""
+    return build(load_design("best-printable"), varied(load_workshop(), {"bought.kit": kit}), "best-printable")
 
 
 @lru_cache(maxsize=8)
