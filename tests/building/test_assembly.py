@@ -16,6 +16,7 @@ from support.workshops import changed
 
 from jumpcad.building import assembly, build
 from jumpcad.building.assembly import _sensor_needs, assembled, layout_of
+from jumpcad.catalogue import load_catalogue
 from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -201,6 +202,14 @@ def test_springs_for_a_free_direction_of_their_pin_are_tried_as_long_as_there_is
     asked.clear()
     with pytest.raises(NoPinRoomError, match=r"bought\.spring"):  # springs from stock are of one stiffness
         layout_of(KENAN, changed(bought={"spring": "any"}))
+
+
+def test_springs_that_are_bought_are_as_stiff_as_their_maker_says() -> None:
+    """Two of them, whatever stiffness the design has."""
+    stock = load_catalogue().springs["9271K589"]
+    robot = build(load_design("kenan-1.0"), changed(bought={"spring": stock.name}))
+    assert math.radians(robot.spring.stiffness_nm_per_rad * 1000.0) == pytest.approx(2.0 * stock.rate_nmm_per_deg)
+    assert robot.design.stiffness_nmm_per_deg != pytest.approx(2.0 * stock.rate_nmm_per_deg, rel=0.01)
 
 
 def test_plates_grow_by_their_own_factor_and_boards_keep_their_places() -> None:
