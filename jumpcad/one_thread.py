@@ -15,7 +15,7 @@ def one_thread() -> AbstractContextManager[Any]:
 
 @cache
 def _libraries() -> ThreadpoolController:
-    """Return the linear algebra underneath. To look for it at each step of a search took a tenth of the step."""
+    """Return the linear algebra underneath, which it takes some milliseconds to look for."""
     import scipy.linalg  # noqa: F401  # has libraries of its own
 
     return ThreadpoolController()
