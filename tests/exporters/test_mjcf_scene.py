@@ -77,9 +77,8 @@ def test_the_floors_squares_are_light_and_a_little_apart(scene: Any) -> None:
     colours, counts = np.unique(shown.reshape(-1, 3), axis=0, return_counts=True)
     assert shown.shape == (256, 256, 3)
     assert counts.tolist() == [256 * 256 / 2] * 2
-    dark, light = colours
-    assert dark == pytest.approx([0.75, 0.77, 0.80], abs=1 / 255)
-    assert light == pytest.approx([0.85, 0.86, 0.88], abs=1 / 255)
+    assert 0.03 < np.ptp(colours, axis=0).max() < 0.2
+    assert colours.min() > 0.7
 
 
 def test_the_sky_is_blue_above_and_white_below(scene: Any) -> None:
@@ -96,9 +95,8 @@ def test_the_light_comes_from_above_as_the_suns_does(scene: Any) -> None:
     """Of one direction, and as far from its place as from anywhere else: down, and from the right, where -y is."""
     light = scene.light(0)
     assert scene.light_type[0] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
-    direction = np.array([-0.1, 0.3, -1.0])
-    assert light.dir == pytest.approx(direction / np.linalg.norm(direction))
-    assert light.pos.tolist() == [0.2, -0.5, 1.5]
+    assert light.dir[2] < -0.9
+    assert light.dir[1] > 0.1
     # it is aimed at the robot, which stands about the origin
     aimed = light.pos - light.pos[2] / light.dir[2] * light.dir
     assert np.hypot(aimed[0], aimed[1]) < 0.2
@@ -108,15 +106,11 @@ def test_the_camera_starts_where_a_robot_of_some_decimetres_fills_the_view(robot
     """About a point at half of its height, from above and from the side; the sky fades to its lower colour."""
     assert scene.stat.center.tolist() == [0.0, 0.0, 0.05]
     assert scene.stat.extent == pytest.approx(0.3)
-    assert scene.vis.global_.azimuth == 120.0
     assert -30.0 < scene.vis.global_.elevation < 0.0
-    assert scene.vis.global_.elevation == -15.0
     head = scene.vis.headlight
-    assert head.diffuse == pytest.approx([0.6] * 3)
-    assert head.ambient == pytest.approx([0.3] * 3)
-    assert head.specular.tolist() == [0.0, 0.0, 0.0]
     assert max(head.diffuse) + max(head.ambient) <= 1.0  # nothing is overexposed
-    assert scene.vis.rgba.haze == pytest.approx([0.85, 0.88, 0.92, 1.0])
+    down = pixels(scene, mujoco.mjtTexture.mjTEXTURE_SKYBOX)[256 * 3 : 256 * 4].mean(axis=(0, 1))
+    assert scene.vis.rgba.haze[:3] == pytest.approx(down, abs=0.05)
     assert attributes(robot, "visual") == {}
 
 
