@@ -1,5 +1,6 @@
 """One thread of linear algebra, in all libraries that have it, and as many as before after that."""
 
+import os
 import subprocess
 import sys
 
@@ -30,11 +31,6 @@ def test_there_is_one_within_and_as_many_as_before_afterwards() -> None:
 
 
 def test_scipys_own_is_among_them_where_nothing_has_loaded_it_yet() -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", FIRST_OF_ALL],
-        capture_output=True,
-        text=True,
-        check=True,
-        env={"OPENBLAS_NUM_THREADS": "2"},
-    )
+    command, environment = [sys.executable, "-c", FIRST_OF_ALL], os.environ | {"OPENBLAS_NUM_THREADS": "2"}
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
     assert done.stdout.strip() == "1"
