@@ -14,7 +14,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from jumpcad.bundle.manifest import FORMAT, MANIFEST, Bundle, open_bundle, require_ours
+from jumpcad.bundle.manifest import (
+    FORMAT,
+    KEEP_LINE_ENDS,
+    LINE_ENDS,
+    MANIFEST,
+    Bundle,
+    open_bundle,
+    require_ours,
+)
 from jumpcad.bundle.place import write_in_place
 from jumpcad.bundle.tree import Tree, above, few, shown, tree
 from jumpcad.errors import JumpcadError
@@ -188,6 +196,8 @@ def _kept(old: Bundle, there: Tree, files: Mapping[str, bytes], gone: set[str], 
         raise JumpcadError(f"{old.folder}: {shown(path)}: must be a folder; move it away")
     lost = [path for path in sorted(touched - {MANIFEST}) if not force and not old.is_unchanged(path)]
     lost = [path for path in lost if (old.folder / path).read_bytes() != files.get(path)]
+    if lost and all(map(old.has_other_line_ends, lost)):
+        raise JumpcadError(f"{old.folder}: {few(lost)}: {LINE_ENDS}; {KEEP_LINE_ENDS}")
     if lost:
         raise JumpcadError(
             f"{old.folder}: {few(lost)}: edited or added since the bundle was written; "

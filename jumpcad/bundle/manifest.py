@@ -19,6 +19,11 @@ from jumpcad.files.names import Text
 
 MANIFEST = "manifest.json"
 FORMAT = 1
+LINE_ENDS = "other line ends, nothing else"
+KEEP_LINE_ENDS = (
+    "Git writes such line ends with core.autocrlf: put `* -text` into .gitattributes and check out again, "
+    "or build again with --force"
+)
 LARGEST_BYTES = 16_000_000
 """A manifest has some 30 kB; a file that is far larger is not read."""
 
@@ -159,6 +164,11 @@ class Bundle:
         """Tell whether a plain file has the manifest's sha256."""
         return bool(self.manifest["files"].get(path) == _sha256(self.folder / path))
 
+    def has_other_line_ends(self, path: str) -> bool:
+        """Tell whether a file is as it was written, but for CR LF in the place of LF."""
+        unix = (self.folder / path).read_bytes().replace(b"\r\n", b"\n")
+        return bool(self.manifest["files"].get(path) == hashlib.sha256(unix).hexdigest())
+
 
 def open_bundle(folder: str | Path) -> Bundle:
     """Return the bundle in a folder.
@@ -199,7 +209,9 @@ def verify(folder: str | Path) -> list[str]:
     wrong = []
     for path in bundle.files:
         try:
-            reason = trouble(bundle.folder, path) or ("" if bundle.is_unchanged(path) else "changed")
+            reason = trouble(bundle.folder, path)
+            if not reason and not bundle.is_unchanged(path):
+                reason = LINE_ENDS if bundle.has_other_line_ends(path) else "changed"
         except OSError as error:
             reason = f"cannot be read ({error.strerror})"
         if reason:

@@ -158,7 +158,7 @@ def verify(
 
     Added files are named, but are no difference.
     """
-    from jumpcad.bundle.manifest import open_bundle, unlisted
+    from jumpcad.bundle.manifest import KEEP_LINE_ENDS, LINE_ENDS, open_bundle, unlisted
     from jumpcad.bundle.manifest import verify as differences
 
     wrong, added = differences(bundle), unlisted(bundle)
@@ -166,7 +166,10 @@ def verify(
         print_json({"bundle": str(bundle), "differences": wrong, "added": added})
     else:
         whole = f"{escaped(str(bundle))}: {counted(len(open_bundle(bundle).files), 'file')}, none changed or missing"
-        print("\n".join([*(wrong or [whole]), *(f"{path}: added, not in the manifest" for path in added)]))
+        lines = [line for line in wrong if not line.endswith(LINE_ENDS)]
+        if others := len(wrong) - len(lines):
+            lines.append(f"{counted(others, 'file')}: {LINE_ENDS}; {KEEP_LINE_ENDS}")
+        print("\n".join([*(lines or [whole]), *(f"{path}: added, not in the manifest" for path in added)]))
     if wrong:
         raise typer.Exit(1)
 

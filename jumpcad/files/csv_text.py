@@ -1,8 +1,9 @@
 """Tables as CSV text in which no cell is a formula for a spreadsheet."""
 
 import csv
+import io
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 
 from jumpcad.errors import without_controls
 
@@ -10,23 +11,19 @@ FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
 """First characters of formulas (OWASP, CSV injection), also in full-width form."""
 
 
+BOM = "\ufeff"
+"""Byte order mark: without it, Excel on Windows reads a file in the system's old character set."""
+
+
 def to_csv(rows: Iterable[Sequence[object]]) -> str:
-    """Return rows as CSV; the first is the heading. Text that would be a formula is preceded by an apostrophe."""
-    return "".join(csv_lines(rows))
+    """Return rows as CSV; the first is the heading. Text that would be a formula is preceded by an apostrophe.
 
-
-def csv_lines(rows: Iterable[Sequence[object]]) -> Iterator[str]:
-    """Yield the rows of `to_csv` one by one, for a table that is longer than memory."""
-    writer = csv.writer(_Returned(), lineterminator="\n")
-    for row in rows:
-        yield writer.writerow([_cell(value) for value in row])
-
-
-class _Returned:
-    """A file whose `write` returns the text."""
-
-    def write(self, text: str) -> str:
-        return text
+    A table with other characters than ASCII begins with a byte order mark: read it as `utf-8-sig`.
+    """
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
+    text = stream.getvalue()
+    return text if text.isascii() else BOM + text
 
 
 def _cell(value: object) -> object:

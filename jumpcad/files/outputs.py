@@ -12,7 +12,7 @@ import shutil
 import stat
 import struct
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -23,8 +23,8 @@ PNG_END = 12
 """Bytes of the chunk that ends a PNG file."""
 
 
-def write_atomically(path: Path, data: str | bytes | Iterator[str]) -> None:
-    """Write a file so that `path` has either the new or the old content; text, also in parts, is written in UTF-8.
+def write_atomically(path: Path, data: str | bytes) -> None:
+    """Write a file so that `path` has either the new or the old content; text is written in UTF-8.
 
     Raises
     ------
@@ -232,14 +232,13 @@ def _sha256(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def _write_all(files: Mapping[Path, str | bytes | Iterator[str]]) -> None:
+def _write_all(files: Mapping[Path, str | bytes]) -> None:
     """Write files under temporary names in the same folders, then rename them all."""
     waiting = {path: path.parent / f".jumpcad-{secrets.token_hex(8)}" for path in files}
     try:
         for path, data in files.items():
             with waiting[path].open("xb") as stream:  # with the permissions that the user's umask allows
-                parts = [data] if isinstance(data, str | bytes) else data
-                stream.writelines(part.encode() if isinstance(part, str) else part for part in parts)
+                stream.write(data.encode() if isinstance(data, str) else data)
             if path.exists():
                 shutil.copymode(path, waiting[path])
         for path in files:

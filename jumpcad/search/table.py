@@ -8,7 +8,7 @@ from typing import Any
 
 from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
-from jumpcad.files.csv_text import csv_lines
+from jumpcad.files.csv_text import to_csv
 from jumpcad.files.outputs import require_target, write_atomically
 from jumpcad.search.trial import Trial
 
@@ -38,7 +38,7 @@ def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) 
     if path.suffix == ".csv":
         first = next(records, {"phase": None})
         lines = itertools.chain([first] if trials else [], records)
-        write_atomically(path, csv_lines(itertools.chain([list(first)], (list(record.values()) for record in lines))))
+        write_atomically(path, to_csv(itertools.chain([list(first)], (list(record.values()) for record in lines))))
     else:
         write_atomically(path, _parquet(list(records)))
 

@@ -13,6 +13,7 @@ from jumpcad.building import build
 from jumpcad.bundle.bom import BilledPlate, bill_of_facts, bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.guide import write_guide
 from jumpcad.design import load_design
+from jumpcad.files.csv_text import BOM
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -29,7 +30,7 @@ def rows(robot: Robot) -> list[dict[str, str]]:
 
 
 def table(bom: str) -> list[dict[str, str]]:
-    return list(csv.DictReader(io.StringIO(bom)))
+    return list(csv.DictReader(io.StringIO(bom.removeprefix(BOM))))
 
 
 def test_the_bill_weighs_what_the_robot_weighs(robot: Robot) -> None:

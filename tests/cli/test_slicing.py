@@ -88,7 +88,7 @@ def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, prete
     code, out, err = run("slice", "frog")
     assert (code, err) == (0, "")
     assert "written   the times, into bom.csv and assembly.md of frog" in out
-    lines = {line["item"]: line for line in csv.DictReader((bundle / "bom.csv").open())}
+    lines = {line["item"]: line for line in csv.DictReader((bundle / "bom.csv").open(encoding="utf-8-sig"))}
     assert lines["ring"]["print_time_s"] == lines["plate-1-PLA"]["print_time_s"] == "3750"
     assert {line["print_time_s"] for line in lines.values() if line["kind"] == "bought"} == {""}
     assert [line["print_time_s"] for line in lines.values() if line["kind"] == "total"] == ["7500"]

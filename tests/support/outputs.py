@@ -100,7 +100,7 @@ def _file_faults(suffix: str, content: bytes) -> Iterator[str]:
         if suffix == ".json":
             strict_json(text)
         elif suffix == ".csv":
-            yield from formulas(text)
+            yield from formulas(text.removeprefix("\ufeff"))
         elif suffix == ".py":
             ast.parse(text)
         elif suffix in XMLS:
