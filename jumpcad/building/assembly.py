@@ -11,7 +11,6 @@ from jumpcad.building.weighing import require_parts, weighed_part
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM
 from jumpcad.drive import Drive
-from jumpcad.drive.socket import cap_ear_mm
 from jumpcad.drive.stock_spring import of_stock, springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
@@ -22,12 +21,10 @@ from jumpcad.layout.sensor import GEAR_PLAY_MM, SensorNeeds
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import five_bar
 from jumpcad.parts import axles, body_plate, foot, links, sensor, shopping, small, stop, toes, train, trays
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.pads import pads
 from jumpcad.parts.part import Drawing, Part
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import pin_head_mm
-from jumpcad.strength.bearings import roller_screw_mm
 from jumpcad.strength.growth import Growth, grown_mm
 from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.workshop import Workshop
@@ -42,17 +39,17 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
     `before` is the robot of the same design, workshop and name with other factors: where only its lever differs, as in
     most robots that grow, all but the main leg is taken from it.
     """
-    layout, holes = layout_of(design, workshop, growth)
+    layout = layout_of(design, workshop, growth)
     kept: tuple[Part, ...] = ()
     if before is not None and _same_but_for_lever(layout, before.layout):
-        drawn, hardware = links.main_leg(layout, holes), before.hardware
+        drawn, hardware = links.main_leg(layout, workshop), before.hardware
         kept = before.parts[len(drawn) :]
     else:
-        drawn = drawings(layout, holes, name)
+        drawn = drawings(layout, workshop, name)
         hardware = (
-            *shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought),
+            *shopping.bought_parts(layout, workshop),
             *pads(layout, workshop.foot_pad),
-            *links.bars(layout, holes),
+            *links.bars(layout, workshop),
         )
         require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
@@ -60,7 +57,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
     parts = (*(weighed_part(drawing, workshop) for drawing in drawn), *kept)
     bodies = bodies_of(layout, parts, hardware)
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
-    release = release_of(layout, workshop, holes, parts, hardware, bodies, spring)
+    release = release_of(layout, workshop, parts, hardware, bodies, spring)
     blow = leg_blow(bodies, layout.linkage, spring, layout.stop.angle_rad)
     held = _held(layout, blow)
     leg_range = (-design.compression_rad, held.stop.angle_rad + held.give_rad)
@@ -91,8 +88,8 @@ def _same_but_for_lever(one: Layout, other: Layout) -> bool:
     return pickle.dumps(replace(one, sections=sections)) == pickle.dumps(other)
 
 
-def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> tuple[Layout, HoleSizes]:
-    """Return the layout of a design in a workshop, and the hole sizes of its parts.
+def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> Layout:
+    """Return the layout of a design in a workshop.
 
     If there is no room for the springs' pin, springs for a free direction of the pin are found instead.
     """
@@ -104,8 +101,8 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> 
         raise
 
 
-def _with_pin_room(design: Design, workshop: Workshop, growth: Growth) -> tuple[Layout, HoleSizes]:
-    """Return layout and hole sizes with springs whose pin has room."""
+def _with_pin_room(design: Design, workshop: Workshop, growth: Growth) -> Layout:
+    """Return the layout with springs whose pin has room."""
     if workshop.bought.retention == "nuts":  # of all axles one is right: a thinner one is no way out
         axles.require_retention(workshop.catalogue, workshop.bought)
     small.require_axle(workshop)
@@ -120,13 +117,10 @@ def _with_pin_room(design: Design, workshop: Workshop, growth: Growth) -> tuple[
     return _laid_out(design, workshop, growth, directions)
 
 
-def _laid_out(
-    design: Design, workshop: Workshop, growth: Growth, plate_pins_rad: tuple[float, ...]
-) -> tuple[Layout, HoleSizes]:
-    """Return layout and hole sizes with springs for one of the directions of the plates' pin."""
+def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad: tuple[float, ...]) -> Layout:
+    """Return the layout with springs for one of the directions of the plates' pin."""
     settled = settle(design, workshop, growth, plate_pins_rad)
     axles.require_retention(workshop.catalogue, workshop.bought)
-    chosen = workshop.bought
     carried = chosen_parts(workshop)
     parts = carried.components
     electronics = Electronics(
@@ -139,31 +133,22 @@ def _laid_out(
         settled.holes.fits.wall_min_mm,
         settled.holes.fits.sliding_mm,
     )
-    layout = make_layout(
+    return make_layout(
         settled.linkage,
         settled.sections,
         settled.drive,
         electronics,
+        workshop,
         hub_bearing=settled.holes.bearing,
+        roller=settled.roller,
         toes_apart=not foot.in_one_piece(
             design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm
         ),
         plate_mm=grown_mm(workshop.body.plate_mm, growth.plate),
-        roller_width_mm=settled.roller.width_mm,
-        roller_screw_mm=roller_screw_mm(settled.sections.thickness_mm, settled.roller, workshop.catalogue),
-        axle_mm=chosen.axle_mm,
-        cap_ear_mm=cap_ear_mm(settled.holes.fits.wall_min_mm),
-        stop_rad=math.radians(workshop.body.stop_deg),
-        stop_pad=workshop.stop_pad,
-        leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, chosen)),
-        reserve_mm=workshop.safety.room_reserve_mm,
-        retention=chosen.retention,
-        toe_half_width_mm=workshop.body.toe_half_width_mm,
-        leg_bar=workshop.leg_bar,
+        leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, workshop.bought)),
         sensor=_sensor_needs(workshop, carried, settled.drive),
         switch=parts.get("switch"),
     )
-    return layout, settled.holes
 
 
 def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNeeds | None:
@@ -192,7 +177,7 @@ def _held(layout: Layout, blow: Blow) -> StopBlow:
     )
 
 
-def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
+def drawings(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
     """Return every printed part of a layout, those of the main leg first."""
     lateral = layout.lateral
     half = layout.sections.thickness_mm / 2.0
@@ -201,28 +186,28 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     front_right = (layout.front_mm, low + GAP_MM / 2.0, -half - GAP_MM / 2.0)
     cam_right = (layout.cam_axis_mm, low, lateral.cam[0] - GAP_MM / 2.0)
     made = [
-        *links.main_leg(layout, holes),
-        links.front_link(layout, holes),
-        foot.foot(layout, holes),
-        *toes.toes_apart(layout, holes),
-        *body_plate.plates(layout, holes, name),
-        train.cam(layout, holes),
-        *train.gears(layout, holes),
-        small.motor_cap(layout, holes),
-        small.spring_bushing(layout, holes, "left"),
-        small.spring_bushing(layout, holes, "right"),
-        small.spacer(layout, holes, "front_spacer_left", [front_left]),
-        small.spacer(layout, holes, "front_spacer_right", [front_right]),
-        small.spacer(layout, holes, "cam_spacer_right", [cam_right]),
-        *trays.trays(layout, holes),
-        stop.stop_bar(layout, holes),
-        *sensor.sensor_mount(layout, holes),
+        *links.main_leg(layout, workshop),
+        links.front_link(layout, workshop),
+        foot.foot(layout, workshop),
+        *toes.toes_apart(layout, workshop),
+        *body_plate.plates(layout, workshop, name),
+        train.cam(layout, workshop),
+        *train.gears(layout, workshop),
+        small.motor_cap(layout, workshop),
+        small.spring_bushing(layout, workshop, "left"),
+        small.spring_bushing(layout, workshop, "right"),
+        small.spacer(layout, workshop, "front_spacer_left", [front_left]),
+        small.spacer(layout, workshop, "front_spacer_right", [front_right]),
+        small.spacer(layout, workshop, "cam_spacer_right", [cam_right]),
+        *trays.trays(layout, workshop),
+        stop.stop_bar(layout, workshop),
+        *sensor.sensor_mount(layout, workshop),
     ]
     if layout.idler_mm is not None:
         cam_left = (layout.cam_axis_mm, lateral.gears[0][1] + GEAR_PLAY_MM, high)
         idler_right = (layout.idler_mm, low + GAP_MM / 2.0, lateral.gears[0][0] - GAP_MM / 2.0)
         made += [
-            small.spacer(layout, holes, "cam_spacer_left", [cam_left]),
-            small.spacer(layout, holes, "idler_spacer_right", [idler_right]),
+            small.spacer(layout, workshop, "cam_spacer_left", [cam_left]),
+            small.spacer(layout, workshop, "idler_spacer_right", [idler_right]),
         ]
     return made

@@ -24,7 +24,6 @@ LEVER_SHARE = 33.0 / 140.0
 def release_of(
     layout: Layout,
     workshop: Workshop,
-    holes: HoleSizes,
     parts: tuple[Part, ...],
     hardware: tuple[BoughtPart, ...],
     bodies: Mapping[str, Body],
@@ -40,7 +39,7 @@ def release_of(
         cam_kg_m2=_about_axle(by_name["cam"], layout.cam_axis_mm),
         cam_gear_kg_m2=_about_axle(by_name["cam_gear"], layout.cam_axis_mm),
         pinion_kg_m2=_about_axle(by_name["motor_pinion"], layout.motor_mm),
-        bore_mm=holes.running(layout.axle_mm),
+        bore_mm=HoleSizes.of(workshop, layout.hub_bearing).running(layout.axle_mm),
         lever_n_per_m=1000.0 * tip_stiffness_n_per_mm(lever, length, workshop.material("links").modulus_mpa),
         roller_kg=sum(item.mass.mass_kg for item in hardware if item.name.startswith("roller")) + LEVER_SHARE * mass,
     )

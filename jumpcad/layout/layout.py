@@ -3,10 +3,11 @@
 In-plane places are in the body frame's x-z plane; intervals of y come from the lateral stack.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
-from jumpcad.catalogue import Bearing, Component, LegBar, Pad
+from jumpcad.catalogue import Bearing, Component, LegBar
 from jumpcad.design import Design
 from jumpcad.dimensions import (
     AXLE_BOSS_MM,
@@ -18,6 +19,7 @@ from jumpcad.dimensions import (
     STANDOFF_PAD_MM,
 )
 from jumpcad.drive import Drive
+from jumpcad.drive.socket import cap_ear_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
     idler_obstacles,
@@ -46,8 +48,10 @@ from jumpcad.layout.stop import (
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.layout.tray_places import electronics_obstacle, standoff_places, tray_place
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
+from jumpcad.strength.bearings import roller_screw_mm
 from jumpcad.strength.sizing import Sections, beside_leg_mm
 from jumpcad.transforms import Array
+from jumpcad.workshop import Workshop
 
 Retention = Literal["plates", "clips", "nuts"]
 """What keeps the axles in place: blind bores of the plates, clips in grooves, or screws as axles with lock nuts."""
@@ -146,29 +150,20 @@ def make_layout(
     sections: Sections,
     drive: Drive,
     electronics: Electronics,
+    workshop: Workshop,
     *,
     hub_bearing: Bearing | None,
+    roller: Bearing,
     toes_apart: bool,
     plate_mm: float,
-    roller_width_mm: float,
-    roller_screw_mm: float,
-    axle_mm: float,
-    cap_ear_mm: float,
-    stop_rad: float,
-    stop_pad: Pad,
     leg_pin_hole_mm: float,
-    reserve_mm: float,
-    retention: Retention = "plates",
-    toe_half_width_mm: float = 0.0,
-    leg_bar: LegBar | None = None,
     sensor: SensorNeeds | None = None,
     switch: Component | None = None,
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
-    `stop_rad` is how far past rest the leg shall meet its stop; `reserve_mm` is kept in the room for the stop, and
-    between leg and front link. `leg_pin_hole_mm` is the diameter of the left plate's hole through which the pin goes
-    into the leg. Without `sensor` no switch says when the robot is wound.
+    `plate_mm` is the plates' thickness as grown, `leg_pin_hole_mm` the diameter of the left plate's hole through which
+    the pin goes into the leg. Without `sensor` no switch says when the robot is wound.
 
     Raises
     ------
@@ -178,19 +173,21 @@ def make_layout(
     lateral = lateral_stack(
         sections.thickness_mm,
         sections.lug_thickness_mm,
-        roller_width_mm,
+        roller.width_mm,
         drive.spring.body_length_mm,
         tuple(stage.face_width_mm for stage in reversed(drive.train.stages)),
         drive.train.motor,
         plate_mm,
         electronics.width_mm,
-        roller_screw_mm,
+        roller_screw_mm(sections.thickness_mm, roller, workshop.catalogue),
     )
+    bought, reserve_mm, axle_mm = workshop.bought, workshop.safety.room_reserve_mm, workshop.bought.axle_mm
+    ear_mm = cap_ear_mm(workshop.fits.wall_min_mm)
     inside, pin_radius = lateral.inside, drive.spring.pin_radius_mm
     hub, front = linkage.back_pivot_mm, linkage.front_pivot_mm
     cam_axis = hub + drive.cam.cam_axis_mm
     _require_legs_apart(linkage, sections, GAP_MM + reserve_mm)
-    stop_rad = stop_angle_rad(linkage, sections, stop_rad, GAP_MM + reserve_mm)
+    stop_rad = stop_angle_rad(linkage, sections, math.radians(workshop.body.stop_deg), GAP_MM + reserve_mm)
     moving = swept_obstacles(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD)
     require_shaft(drive.train.motor, lateral)
     beside_hub, front_axle = hub_obstacles(hub, drive, lateral), axle_obstacle("front axle", front, lateral)
@@ -200,15 +197,17 @@ def make_layout(
     # close to the springs and to what moves, and without the leg, which meets the stop
     around_leg = swept_obstacles(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
     around_leg += [*hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
-    stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, inside, lateral.left_plate, reserve_mm)
+    stop = stop_place(
+        around_leg, linkage, sections, stop_rad, workshop.stop_pad, inside, lateral.left_plate, reserve_mm
+    )
     beside_hub += stop_obstacles(stop, inside)
     spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
     obstacles = [*moving, *beside_hub, front_axle, *cam_things]
     through = pin_hole(linkage, around_leg, stop, lateral, pin_radius, leg_pin_hole_mm, axle_mm)
     obstacles += spring_obstacles(hub, spring_pin, drive.spring, inside)
     obstacles.append(through.obstacle((lateral.leg[1], lateral.left_plate[1])))
-    idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis, cap_ear_mm)
-    obstacles += train_obstacles(motor, angle, idler, drive, lateral, cap_ear_mm)
+    idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis, ear_mm)
+    obstacles += train_obstacles(motor, angle, idler, drive, lateral, ear_mm)
     seats = {"leg": hub, "front": front, "cam": cam_axis, "spring": spring_pin}
     seats |= {} if idler is None else {"idler": idler}
     felt = None
@@ -231,15 +230,15 @@ def make_layout(
         hub_bearing=hub_bearing,
         toes_apart=toes_apart,
         axle_mm=axle_mm,
-        retention=retention,
-        toe_half_width_mm=max(toe_half_width_mm, float(toe_tip_mm(linkage.design)[1])),
+        retention=bought.retention,
+        toe_half_width_mm=max(workshop.body.toe_half_width_mm, float(toe_tip_mm(linkage.design)[1])),
         hub_mm=hub,
         front_mm=front,
         cam_axis_mm=cam_axis,
         idler_mm=idler,
         motor_mm=motor,
         motor_angle_rad=angle,
-        cap_ear_mm=cap_ear_mm,
+        cap_ear_mm=ear_mm,
         spring_pin_mm=spring_pin,
         spring_boss_mm=boss,
         leg_pin_mm=pin_radius,
@@ -247,7 +246,7 @@ def make_layout(
         tray_mm=tray,
         standoffs_mm=standoffs,
         stop=stop,
-        leg_bar=leg_bar,
+        leg_bar=workshop.leg_bar,
         fittings=fittings,
         sensor=felt,
     )

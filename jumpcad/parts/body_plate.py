@@ -19,9 +19,10 @@ from jumpcad.parts.sensor import plate_opening, plate_pad
 from jumpcad.parts.stop import stop_slot
 from jumpcad.solids.outline import Region, hole, rectangle, ring, union
 from jumpcad.solids.text import engravable
+from jumpcad.workshop import Workshop
 
 
-def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
+def plates(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
     """Return the left plate, at the side of the gears, and the right one with the socket that holds the motor.
 
     The socket has a floor at the motor's rear end, open in the middle for terminals and wires, and ends a little below
@@ -30,6 +31,7 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
 
     Without a name nothing is engraved; letters that the engraving's font lacks are left out.
     """
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     label = engravable(name).strip() if name else ""
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm

@@ -20,6 +20,7 @@ from jumpcad.printing.bed import fit_to_bed
 from jumpcad.solids.blocks import Bar, Block, Blocks
 from jumpcad.solids.outline import Region, circle_points, disc, hull, polygon, rectangle, union
 from jumpcad.strength.sizing import Sections, beside_leg_mm
+from jumpcad.workshop import Workshop
 
 WEB_MM = 10.0
 """Length along x of the web that joins the rails in front of the ankle; judgement."""
@@ -42,8 +43,9 @@ SOLE_HEIGHT_MM = 1.0
 """Height of a lug's straight sole; judgement."""
 
 
-def foot(layout: Layout, holes: HoleSizes) -> Drawing:
+def foot(layout: Layout, workshop: Workshop) -> Drawing:
     """Return the foot."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     sections, l4 = layout.sections, layout.design.l4_mm
     depth, lug = sections.foot_depth_mm, sections.lug_thickness_mm
     inner = beside_leg_mm(sections.thickness_mm)

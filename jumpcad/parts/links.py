@@ -17,6 +17,7 @@ from jumpcad.parts.part import Drawing, Placement, laid
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.solids.outline import Region, disc, filleted, hole, rectangle, stadium, tapered_bar, union
 from jumpcad.solids.stack import Stack
+from jumpcad.workshop import Workshop
 
 HEEL_MORE_MM = 0.5
 """By how much the heel that touches the stop is longer than its pad, at each end; judgement: the bar's play."""
@@ -26,12 +27,13 @@ FILLET_MM = 3.0
 """Radius between eyes and beam; judgement: half of the least height."""
 
 
-def main_leg(layout: Layout, holes: HoleSizes) -> list[Drawing]:
+def main_leg(layout: Layout, workshop: Workshop) -> list[Drawing]:
     """Return the main leg: hub on the leg axle, beam to the ankle, lever with the roller's screw, springs' pin, heel.
 
     The heel is a flat face behind the beam that touches the rest stop's pad. With a bar the leg ends in a socket, and
     the end with the ankle's eye is a separate part.
     """
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     sections, cam = layout.sections, layout.drive.cam
     half = sections.thickness_mm / 2.0
     ankle = (layout.design.l2_mm, 0.0)
@@ -70,8 +72,9 @@ def main_leg(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     ]
 
 
-def front_link(layout: Layout, holes: HoleSizes) -> Drawing:
+def front_link(layout: Layout, workshop: Workshop) -> Drawing:
     """Return the front link: two eyes and a beam; with a bar, two equal ends."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     sections = layout.sections
     half, length = sections.thickness_mm / 2.0, layout.design.l3_mm
     eye = (length, 0.0)
@@ -112,8 +115,9 @@ def front_bar_place(layout: Layout, holes: HoleSizes) -> BarPlace | None:
     return bar_place("front link", layout.leg_bar, first, 0.0, layout.design.l3_mm - first, bends=False)
 
 
-def bars(layout: Layout, holes: HoleSizes) -> Iterator[BoughtPart]:
+def bars(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     """Yield the bars of main leg and front link, with the length to cut."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     places = {MAIN_LEG: leg_bar_place(layout, holes), FRONT_LINK: front_bar_place(layout, holes)}
     for body, place in places.items():
         if place is None:

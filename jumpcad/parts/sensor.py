@@ -19,6 +19,7 @@ from jumpcad.parts.part import Drawing, Placement, lying_on_right
 from jumpcad.solids.outline import Region, disc, hole, rectangle, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import Array, pose_about_z
+from jumpcad.workshop import Workshop
 
 CEILING_MM = 1.2
 """Thickness of the mount over the switch's base: six layers."""
@@ -34,7 +35,7 @@ SCREWS_MM = (4.0, 5.0, 6.0)
 """Lengths of M2 screws (ISO 14580)."""
 
 
-def sensor_mount(layout: Layout, holes: HoleSizes) -> Iterator[Drawing]:
+def sensor_mount(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
     """Yield the mount, if there is a sensor.
 
     Raises
@@ -42,6 +43,7 @@ def sensor_mount(layout: Layout, holes: HoleSizes) -> Iterator[Drawing]:
     CannotBuildError
         If the plate is so thick that the switch has no base outside it.
     """
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     sensor = layout.sensor
     if sensor is None:
         return

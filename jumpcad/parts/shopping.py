@@ -22,7 +22,7 @@ from jumpcad.parts.train import gear_turns
 from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring, stadium
 from jumpcad.strength.bearings import roller_washer
 from jumpcad.transforms import Array
-from jumpcad.workshop import BoughtParts
+from jumpcad.workshop import BoughtParts, Workshop
 
 TOE_THREAD_MM = 4.0
 """Least length of thread of a toe's screw in the foot's stub."""
@@ -34,8 +34,9 @@ SCREW_END_MM = 4.0
 lengths are 2 mm apart, so that it stays below the 6 mm that are tapped."""
 
 
-def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> list[BoughtPart]:
+def bought_parts(layout: Layout, workshop: Workshop) -> list[BoughtPart]:
     """Return every bought part at its place, in the assembled pose."""
+    holes, catalogue, chosen = HoleSizes.of(workshop, layout.hub_bearing), workshop.catalogue, workshop.bought
     return [
         *axles.axles(layout, catalogue, chosen),
         *_leg_things(layout, holes, catalogue, chosen),

@@ -19,8 +19,9 @@ from jumpcad.workshop import Workshop
 CAP_HEAD_DEPTH_MM = 1.6
 
 
-def motor_cap(layout: Layout, holes: HoleSizes) -> Drawing:
+def motor_cap(layout: Layout, workshop: Workshop) -> Drawing:
     """Return the cap that closes the motor's socket in front of the gearbox."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     y0, y1 = layout.lateral.motor_cap
     motor = layout.drive.train.motor
     pose = lying_on_right(y0, *layout.motor_mm) @ pose_about_z(-layout.motor_angle_rad)
@@ -41,8 +42,9 @@ def _cap(
     return Stack.of([(0.0, seat, outline - screws), (seat, thickness_mm, outline - heads)])
 
 
-def spring_bushing(layout: Layout, holes: HoleSizes, side: str) -> Drawing:
+def spring_bushing(layout: Layout, workshop: Workshop, side: str) -> Drawing:
     """Return the bushing inside one spring: a mandrel from the leg under the coil, then a spacer out to the plate."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     lateral, spring = layout.lateral, layout.drive.spring
     inner, outer = lateral.leg[1] + BUSHING_PLAY_MM, lateral.spring_left[1]
     wall = (lateral.inside[1] if side == "left" else -lateral.inside[0]) - layout.boss_mm
@@ -74,8 +76,9 @@ def require_axle(workshop: Workshop) -> None:
         )
 
 
-def spacer(layout: Layout, holes: HoleSizes, name: str, places: list[tuple[np.ndarray, float, float]]) -> Drawing:
+def spacer(layout: Layout, workshop: Workshop, name: str, places: list[tuple[np.ndarray, float, float]]) -> Drawing:
     """Return tubes on axles: copies of one length, each at a place (2,) from y0 to y1."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     length = places[0][2] - places[0][1]
     tube = _tube(2.0 * SPACER_RADIUS_MM, holes.running(layout.axle_mm), length)
     placements = tuple(Placement(BODY, lying_on_right(y0, place[0], place[1])) for place, y0, _ in places)

@@ -11,6 +11,7 @@ from jumpcad.parts.part import Drawing, Placement
 from jumpcad.solids.outline import Region, hull, rectangle, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import Array
+from jumpcad.workshop import Workshop
 
 END_SHARE = 0.6
 """Depth of the bar at the plates over that in its middle, where the impact bends it most; judgement."""
@@ -20,11 +21,12 @@ GLUE_MM = 0.02
 """Gap between pad and seat."""
 
 
-def stop_bar(layout: Layout, holes: HoleSizes) -> Drawing:
+def stop_bar(layout: Layout, workshop: Workshop) -> Drawing:
     """Return the bar: its face towards the leg with the pad's seat, deepest in the middle, a tab through each plate.
 
     In its printing frame x is the robot's left, y points towards the leg, z along the leg.
     """
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     stop, lateral = layout.stop, layout.lateral
     low, high = lateral.inside
     outer_low, outer_high = lateral.outside

@@ -21,6 +21,7 @@ from jumpcad.solids.blocks import Bar, Block, Blocks, Finger, Turned
 from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
 from jumpcad.strength.sizing import beside_leg_mm
 from jumpcad.transforms import Array
+from jumpcad.workshop import Workshop
 
 JOINT_MM = (12.0, 34.0)
 """Where a separate toe and its stub overlap, from the root; judgement."""
@@ -99,8 +100,9 @@ def on_the_foot(layout: Layout, holes: HoleSizes) -> tuple[list[Block], list[Blo
     return added, removed
 
 
-def toes_apart(layout: Layout, holes: HoleSizes) -> list[Drawing]:
+def toes_apart(layout: Layout, workshop: Workshop) -> list[Drawing]:
     """Return the toes that are separate parts."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     return [_drawing(layout, holes, toe) for toe in toes(layout)] if layout.toes_apart else []
 
 

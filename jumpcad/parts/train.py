@@ -24,6 +24,7 @@ from jumpcad.solids.outline import Region, d_bore, disc, hole, polygon, rectangl
 from jumpcad.solids.stack import Stack
 from jumpcad.strength.sizing import dog_inside_mm
 from jumpcad.transforms import pose_about_z
+from jumpcad.workshop import Workshop
 
 WEB_RIM_MM = 3.0
 """Material kept inside the root circle and around the hub of a gear with web holes."""
@@ -36,8 +37,9 @@ RIB_MM, RIB_ROOT_MM = 0.6, 0.2
 """Width of a crush rib, and how far it reaches into the gear; judgement: little more than a printed line."""
 
 
-def cam(layout: Layout, holes: HoleSizes) -> Drawing:
+def cam(layout: Layout, workshop: Workshop) -> Drawing:
     """Return the cam with its boss and the dog's jaws."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     centre = layout.cam_axis_mm
     profile = polygon(layout.drive.cam.profile_mm).translate(centre)
     bore = hole(holes.running(layout.axle_mm), centre)
@@ -53,12 +55,13 @@ def cam(layout: Layout, holes: HoleSizes) -> Drawing:
     return Drawing("cam", "gears", holes.chamfered(stack), (Placement(BODY, pose),))
 
 
-def gears(layout: Layout, holes: HoleSizes) -> list[Drawing]:
+def gears(layout: Layout, workshop: Workshop) -> list[Drawing]:
     """Return motor pinion, compound idler where there is one, and cam gear.
 
     Each is drawn with a tooth on +x and turned where it is placed, so that equal gears are one shape in every robot.
     The cam gear stands as it is and prints with its left face up, in which the sensor's track is.
     """
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     stages, motor = layout.drive.train.stages, layout.drive.train.motor
     cam_y, motor_y = layout.lateral.gears[0], layout.lateral.gears[-1]
     turns = gear_turns(layout)

@@ -13,6 +13,7 @@ from jumpcad.parts.part import Drawing, Placement, upright
 from jumpcad.parts.plate_outline import tray_slots
 from jumpcad.solids.outline import Region, rectangle, union
 from jumpcad.solids.stack import Stack
+from jumpcad.workshop import Workshop
 
 EDGE_MM, LEDGE_MM = 5.0, 2.0
 """Of the battery's window: distance from the tray's ends, and width left under the battery; judgement."""
@@ -30,8 +31,9 @@ RIM_SHARE = 0.6
 """Length of a rim over the board's width; judgement: wires leave beside it."""
 
 
-def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
+def trays(layout: Layout, workshop: Workshop) -> list[Drawing]:
     """Return the lower and the upper tray."""
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
     electronics, inside = layout.electronics, layout.lateral.inside
     battery, middle, rim = electronics.battery, sum(inside) / 2.0, electronics.rim_mm
     strap_y, seat = battery.width_mm / 2.0 + STRAP_SLOT_MM[0], electronics.seats(inside)["battery"]

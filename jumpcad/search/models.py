@@ -196,7 +196,7 @@ class RobotModel:
 
         try:
             model = self.varied(variant.workshop) if variant.workshop else self
-            return laid_out(layout_of(variant.design, model.workshop or load_workshop())[0])
+            return laid_out(layout_of(variant.design, model.workshop or load_workshop()))
         except CannotBuildError as error:
             return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
         except JumpcadError as error:  # the values of the workshop do not go together

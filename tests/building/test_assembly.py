@@ -214,7 +214,7 @@ def test_springs_that_are_bought_are_as_stiff_as_their_maker_says() -> None:
 
 def test_plates_grow_by_their_own_factor_and_boards_keep_their_places() -> None:
     usual, shop = built("kenan-2.0").layout, load_workshop()
-    grown, _ = layout_of(KENAN, shop, Growth(plate=1.25))
+    grown = layout_of(KENAN, shop, Growth(plate=1.25))
     assert np.ptp(grown.lateral.left_plate) == pytest.approx(1.25 * np.ptp(usual.lateral.left_plate), abs=0.01)
     for role, board in grown.electronics.boards.items():
         assert board.name == getattr(shop.bought, role)
@@ -231,20 +231,20 @@ def test_stop_plates_and_toes_are_those_of_the_workshops_body() -> None:
     """A degree farther and 0.4 mm thicker than in the default workshop, and toes with bars across them."""
     usual = load_workshop().body
     wanted = {"stop_deg": usual.stop_deg + 1.0, "plate_mm": usual.plate_mm + 0.4, "toe_half_width_mm": 65.0}
-    layout, _ = layout_of(KENAN, changed(body=wanted, bought={"axle_mm": 2.0, "leg_bearing": ""}))
+    layout = layout_of(KENAN, changed(body=wanted, bought={"axle_mm": 2.0, "leg_bearing": ""}))
     assert layout.axle_mm == 2.0
     assert math.degrees(layout.stop.angle_rad) == pytest.approx(wanted["stop_deg"])
     for low, high in (layout.lateral.left_plate, layout.lateral.right_plate):
         assert high - low == pytest.approx(wanted["plate_mm"])
     assert layout.toe_half_width_mm == 65.0
     assert not layout.toes_apart
-    wide, holes = layout_of(KENAN, changed(body={"toe_half_width_mm": 170.0}, bought={"retention": "nuts"}))
+    wide = layout_of(KENAN, changed(body={"toe_half_width_mm": 170.0}, bought={"retention": "nuts"}))
     assert wide.toes_apart  # 340 mm from side to side
     assert wide.retention == "nuts"
     # its pin's head passes the left plate with a loose fit, 0.3 mm all around; ears beside a counterbore of 4 mm
     shop = load_workshop()
     assert wide.pin_hole.diameter_mm == pytest.approx(pin_head_mm(shop.catalogue, shop.bought) + 2.0 * 0.3)
-    assert wide.cap_ear_mm == pytest.approx(4.0 + 2.0 * holes.fits.wall_min_mm)
+    assert wide.cap_ear_mm == pytest.approx(4.0 + 2.0 * shop.fits.wall_min_mm)
 
 
 def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
@@ -349,5 +349,5 @@ def test_nothing_that_is_bought_is_left_out() -> None:
 def test_trays_have_the_walls_and_the_play_of_the_workshop() -> None:
     shop = load_workshop()
     fits = shop.fits.model_copy(update={"wall_min_mm": 0.95, "sliding_mm": 0.23})
-    electronics = layout_of(load_design("kenan-2.0"), shop.model_copy(update={"fits": fits}))[0].electronics
+    electronics = layout_of(load_design("kenan-2.0"), shop.model_copy(update={"fits": fits})).electronics
     assert (electronics.wall_mm, electronics.play_mm) == (0.95, 0.23)

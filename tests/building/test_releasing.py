@@ -12,9 +12,7 @@ from support.strengths import with_own
 from jumpcad.building import releasing
 from jumpcad.building.releasing import release_of
 from jumpcad.drive.release import MovingParts
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
-from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.workshop import Role
 
@@ -33,11 +31,9 @@ def moving(robot: Robot) -> MovingParts:
 def moving_in(robot: Robot, workshop: Workshop) -> MovingParts:
     """Return what moves of a robot, its lever printed in a workshop."""
     seen: list[Any] = []
-    bearing = next(one for one in hub_bearings(workshop) if one is not None)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(releasing, "release", lambda *given: seen.append(given))
-        holes = HoleSizes.of(workshop, bearing)
-        release_of(robot.layout, workshop, holes, robot.parts, robot.hardware, robot.bodies, robot.spring)
+        release_of(robot.layout, workshop, robot.parts, robot.hardware, robot.bodies, robot.spring)
     ((drive, found, _),) = seen
     assert drive is robot.layout.drive
     assert isinstance(found, MovingParts)

@@ -83,9 +83,9 @@ def test_weights_of_one_robot_do_not_hinder_another() -> None:
 
 def test_parts_of_which_a_workshops_choice_decides_may_be_weighed_for_all_robots() -> None:
     """Ends of legs of bars, and the mount of a sensor: for a robot without them their weights are of no use."""
-    whole, holes = layout_of(load_design("kenan-2.0"), load_workshop())
-    barred, _ = layout_of(load_design("kenan-2.0"), changed(bought={"leg": "carbon-tube-4x2"}))
-    few, more = ({one.name for one in drawings(layout, holes, "")} for layout in (replace(whole, sensor=None), barred))
+    whole = layout_of(load_design("kenan-2.0"), shop := load_workshop())
+    barred = layout_of(load_design("kenan-2.0"), changed(bought={"leg": "carbon-tube-4x2"}))
+    few, more = ({one.name for one in drawings(layout, shop, "")} for layout in (replace(whole, sensor=None), barred))
     assert more - few == {"main_leg_end", "sensor_mount"}
     require_parts(more, sorted(few))
 

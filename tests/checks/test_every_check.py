@@ -27,7 +27,6 @@ from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.drive.train import finished_train
 from jumpcad.findings import errors
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 
 USUAL = default_limits()
@@ -105,8 +104,7 @@ def test_release(kenan: Robot) -> None:
     train = kenan.layout.drive.train
     quick = replace(train, cam_speed_rad_s=10.0 * train.cam_speed_rad_s)
     layout = replace(kenan.layout, drive=replace(kenan.layout.drive, train=quick))
-    holes = HoleSizes.of(shop, layout.hub_bearing)
-    found = release_of(layout, shop, holes, kenan.parts, kenan.hardware, kenan.bodies, kenan.spring)
+    found = release_of(layout, shop, kenan.parts, kenan.hardware, kenan.bodies, kenan.spring)
     assert [finding.name for finding in errors(found.findings)] == ["release_window"]
 
 

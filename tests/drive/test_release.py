@@ -18,7 +18,6 @@ from jumpcad.drive.corner import roll_over
 from jumpcad.drive.release import BASIS, Release, _kick_limit_nm, _told_apart
 from jumpcad.drive.rolling import ReleaseParts, Rolled, _Release, roll
 from jumpcad.errors import JumpcadError
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
@@ -305,8 +304,7 @@ def test_the_worst_of_both_corners_and_both_motors_counts(worst: int, monkeypatc
     told = iter(rolled)
     monkeypatch.setattr(release_module, "roll", lambda *_: next(told))
     layout = robot.layout
-    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
-    found = release_of(layout, robot.workshop, holes, robot.parts, robot.hardware, robot.bodies, robot.spring)
+    found = release_of(layout, robot.workshop, robot.parts, robot.hardware, robot.bodies, robot.spring)
     assert next(told, None) is None
     assert (found.blow_nm, found.kick_nm) == pytest.approx((7.0, 9.0 / layout.drive.train.ratio))
     assert (found.energy_ratio, found.rounded_ratio) == pytest.approx((0.8, 0.9) if worst < 2 else (0.9, 0.8))

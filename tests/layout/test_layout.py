@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import shapely
 from support.built import LONG_TOES, built, geared, in_body
+from support.workshops import changed
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import SEARCH_BOUNDS, Design
@@ -49,8 +50,8 @@ def plans() -> dict[str, Layout]:
         design = Design.from_vector(rng.uniform(lower, upper).tolist())
         if not errors(geometry_findings(design)):
             with suppress(CannotBuildError):  # one folds its foot so far that nothing has room below the springs
-                found[f"random {number}"] = layout_of(design, workshop)[0]
-    found["narrow"] = layout_of(NARROW, load_workshop("fine"))[0]
+                found[f"random {number}"] = layout_of(design, workshop)
+    found["narrow"] = layout_of(NARROW, load_workshop("fine"))
     for name in NAMES:  # so that there is something to step aside for
         carried, drive = found[name].electronics, found[name].drive
         long = carried.battery.model_copy(update={"length_mm": found[name].design.l1_mm + 30.0})
@@ -69,12 +70,9 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
     given = {
         "linkage": layout.linkage, "sections": layout.sections, "drive": layout.drive,
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
-        "plate_mm": round(float(np.ptp(layout.lateral.left_plate)), 6), "roller_width_mm": 4.0,
-        "roller_screw_mm": float(np.ptp(layout.lateral.roller_screw)), "axle_mm": 3.0,
-        "cap_ear_mm": layout.cap_ear_mm,
-        "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
-        "reserve_mm": load_workshop("default").safety.room_reserve_mm,
-        "toe_half_width_mm": layout.toe_half_width_mm, "switch": layout.fittings.switch,
+        "workshop": load_workshop("default"), "roller": load_workshop("default").catalogue.bearings["623"],
+        "plate_mm": round(float(np.ptp(layout.lateral.left_plate)), 6),
+        "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "switch": layout.fittings.switch,
         "sensor": layout.sensor.needs if layout.sensor else None,
     }  # fmt: skip
     assert spring.pin_radius_mm == layout.leg_pin_mm
@@ -109,7 +107,9 @@ def test_toes_are_as_wide_as_asked_and_never_narrower_than_their_tips() -> None:
     layout = plans()["kenan-2.0"]
     tips = layout.design.l5_mm * math.sin(math.radians(layout.design.ground_link_angle_deg))
     for asked, wide in ((0.0, tips), (tips - 5.0, tips), (tips + 5.0, tips + 5.0)):
-        assert plan_again(layout, toe_half_width_mm=asked).toe_half_width_mm == pytest.approx(wide)
+        assert plan_again(
+            layout, workshop=changed(body={"toe_half_width_mm": asked})
+        ).toe_half_width_mm == pytest.approx(wide)
 
 
 def test_axes_of_gears_are_at_their_centre_distances() -> None:
@@ -231,7 +231,7 @@ def larger(layout: Layout, what: str) -> dict[str, Any]:
     ],
 )
 def test_what_finds_no_room_is_refused_with_what_is_in_its_way(what: str, words: str) -> None:
-    layout = layout_of(LARGE_CAM, load_workshop("default"))[0] if what == "battery" else plans()["kenan-2.0"]
+    layout = layout_of(LARGE_CAM, load_workshop("default")) if what == "battery" else plans()["kenan-2.0"]
     with pytest.raises(CannotBuildError, match=words):
         plan_again(layout, **larger(layout, what))
 
@@ -242,7 +242,7 @@ def test_the_reserve_is_kept_in_the_stops_room_and_between_the_legs() -> None:
 
     def planned(reserve_mm: float) -> Layout:
         safety = shop.safety.model_copy(update={"room_reserve_mm": reserve_mm})
-        return layout_of(TIGHT, shop.model_copy(update={"safety": safety}))[0]
+        return layout_of(TIGHT, shop.model_copy(update={"safety": safety}))
 
     free = planned(0.0)
     assert 0.0 < free.stop.room_mm < shop.safety.room_reserve_mm
@@ -412,7 +412,7 @@ def test_beside_the_leg_half_a_millimetre_is_kept_and_elsewhere_the_usual_cleara
         monkeypatch.setattr(layout_module, name, kept)
     gaps, angle = list[float](), layout_module.stop_angle_rad
     monkeypatch.setattr(layout_module, "stop_angle_rad", lambda *asked: gaps.append(asked[3]) or angle(*asked))
-    layout = plan_again(plans()["kenan-2.0"], reserve_mm=0.25)
+    layout = plan_again(plans()["kenan-2.0"], workshop=changed(safety={"room_reserve_mm": 0.25}))
     assert gaps[-1] == 0.75  # of leg and front link, with the reserve
     sections, lateral, coil = layout.sections, layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
     bare = {"left spring": coil, "right spring": coil, "front link": sections.eye_radius_mm}
@@ -478,7 +478,7 @@ def test_the_motors_room_has_the_ears_of_its_cap(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(
         layout_module, "tray_place", lambda things, *others: taken.extend(things) or trays(things, *others)
     )
-    layout = plan_again(plans()["kenan-2.0"], cap_ear_mm=7.5)
+    layout = plan_again(plans()["kenan-2.0"], workshop=changed(fits={"wall_min_mm": 1.75}))
     reach = layout.drive.train.motor.height_mm / 2.0 + 1.6 + 0.3 + 7.5
     (box,) = (one for one in taken if one.name == "motor")
     along = np.array([-math.sin(layout.motor_angle_rad), math.cos(layout.motor_angle_rad)])

@@ -77,7 +77,7 @@ def test_a_thicker_shaft_has_a_wider_hole() -> None:
     layout, train = robot.layout, robot.layout.drive.train
     thick = replace(train, motor=train.motor.model_copy(update={"shaft_mm": 4.0}))
     layout = replace(layout, drive=replace(layout.drive, train=thick))
-    left, _ = plates(layout, HoleSizes.of(robot.workshop, layout.hub_bearing), "")
+    left, _ = plates(layout, robot.workshop, "")
     (section,) = left.shape.regions_at([1.2])
     at = left.placements[0].T_body_part
     found = []
@@ -226,13 +226,12 @@ def test_the_springs_pins_boss_closes_no_screws_hole_of_the_motors_cap(kenan: Ro
     """A pin beside an ear of the socket: the boss around it, 7 mm wide, would reach over the tapped hole."""
     ear = ear_places(kenan.layout)[0]
     layout = replace(kenan.layout, spring_pin_mm=ear + np.array([3.0, 0.0]), spring_boss_mm=4.0)
-    holes = HoleSizes.of(kenan.workshop, layout.hub_bearing)
-    _, right = plates(layout, holes, "")
+    _, right = plates(layout, kenan.workshop, "")
     thick = layout.lateral.right_plate[1] - layout.lateral.right_plate[0]
     (section,) = right.shape.regions_at([thick + 2.0])
     at = np.linalg.inv(right.placements[0].T_body_part)
     x, z = (at @ [ear[0], 0.0, ear[1], 1.0])[:2]
-    assert (section ^ disc(holes.fits.m2_tap_mm - 0.02, (x, z))).area() < 1e-6
+    assert (section ^ disc(kenan.workshop.fits.m2_tap_mm - 0.02, (x, z))).area() < 1e-6
     assert (section ^ disc(4.0, (x, z))).area() > 1.0
 
 
@@ -243,7 +242,7 @@ def test_bores_are_closed_outside_where_plates_keep_the_axles(
 ) -> None:
     """By four layers of 0.2 mm; nuts and clips are outside the plates, whose seat of the leg's axle is not thicker."""
     layout = replace(kenan.layout, retention=retention)
-    left, right = plates(layout, HoleSizes.of(kenan.workshop, layout.hub_bearing), "")
+    left, right = plates(layout, kenan.workshop, "")
     drawing, plate = (left, layout.lateral.left_plate) if side == "left" else (right, layout.lateral.right_plate)
     at = np.linalg.inv(drawing.placements[0].T_body_part)
     thick = plate[1] - plate[0]
@@ -264,9 +263,9 @@ def test_letters_are_half_a_millimetre_deep_and_not_under_the_sensors_mount(
     kenan: Robot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     layout, covered = kenan.layout, []
-    holes, draw = HoleSizes.of(kenan.workshop, layout.hub_bearing), body_plate._drawing
+    draw = body_plate._drawing
     monkeypatch.setattr(body_plate, "_drawing", lambda *given: covered.append(given[6:]) or draw(*given))
-    for plate in plates(layout, holes, "label"):
+    for plate in plates(layout, kenan.workshop, "label"):
         outside, inside = plate.shape.regions_at([0.48, 0.52])
         assert (inside - outside).area() == pytest.approx(text(f"label {plate.name[11].upper()}", 4.5).area(), rel=1e-6)
     (left, right), pad = covered, plate_pad(layout.sensor)

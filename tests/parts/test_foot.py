@@ -145,8 +145,12 @@ def test_the_ankles_pin_fits_its_lugs_and_its_ends_have_room_outside(name: str, 
 def test_the_ankles_pin_goes_in_past_the_toes(angle_deg: float) -> None:
     """Its head, or its clip, has 7 mm of room about the pin's axis from the boss's face outwards, past both toes."""
     design = load_design("best-bo").model_copy(update={"ground_link_angle_deg": angle_deg})
-    layout, holes = layout_of(design, load_workshop())
-    mesh, depth, face = foot_part.foot(layout, holes).mesh, layout.sections.foot_depth_mm, layout.ankle_face_mm
+    layout = layout_of(design, load_workshop())
+    mesh, depth, face = (
+        foot_part.foot(layout, load_workshop()).mesh,
+        layout.sections.foot_depth_mm,
+        layout.ankle_face_mm,
+    )
     turns = np.radians(np.arange(0.0, 360.0, 30.0))
     rim = [[3.4 * np.cos(turn), 3.4 * np.sin(turn)] for turn in turns]
     for y in np.arange(face + 0.1, face + 12.0, 0.2):
@@ -236,7 +240,7 @@ def test_the_web_at_the_ankle_begins_half_a_millimetre_ahead_of_the_leg_on_its_s
 def test_a_leg_that_leans_back_on_its_stop_leaves_the_web_at_the_ankle() -> None:
     """156° from the foot's nose up to the hub, and a web that stays below the ankle."""
     back = Design.from_vector([179.694, 1.192, 0.648, 1.02, 0.214, 25.416, 23.003, 14.22])
-    layout, _ = layout_of(back, load_workshop())
+    layout = layout_of(back, load_workshop())
     (start, end, height), *_ = foot_part._webs(layout, layout.sections.rail_root_mm, 2.0)
     assert height < layout.sections.foot_depth_mm
     assert (start, end) == (layout.sections.foot_depth_mm, layout.sections.foot_depth_mm + 10.0)
@@ -245,7 +249,7 @@ def test_a_leg_that_leans_back_on_its_stop_leaves_the_web_at_the_ankle() -> None
 def test_the_webs_of_a_short_foot_join_unless_a_printable_opening_is_between_them() -> None:
     """Of 32.24 mm, 5.2 mm deep: the first ends at 15.2, the second begins at 16.12 mm."""
     short = Design.from_vector([80.9, 0.9038, 0.3985, 1.1426, 0.704, 61.75, 26.825, 13.1])
-    (layout, _), length = layout_of(short, load_workshop()), short.l4_mm
+    layout, length = layout_of(short, load_workshop()), short.l4_mm
     root, ends = layout.sections.rail_root_mm, layout.sections.foot_depth_mm + 10.0
     assert 0.5 < length / 2.0 - ends < 1.2
     for opening, start in ((2.0, ends), (0.5, length / 2.0)):
@@ -257,10 +261,9 @@ def test_the_webs_of_a_short_foot_join_unless_a_printable_opening_is_between_the
 def test_a_foots_webs_leave_openings_as_large_as_the_workshops_holes(monkeypatch: pytest.MonkeyPatch) -> None:
     """And are no higher than its rails at the ankle."""
     robot, asked, webs = built("kenan-2.0"), [], foot_part._webs
-    holes = HoleSizes.of(robot.workshop, robot.layout.hub_bearing)
-    holes = replace(holes, fits=holes.fits.model_copy(update={"hole_min_mm": 2.345}))
+    fits = robot.workshop.fits.model_copy(update={"hole_min_mm": 2.345})
     monkeypatch.setattr(foot_part, "_webs", lambda *given: asked.append(given[1:]) or webs(*given))
-    foot_part.foot(robot.layout, holes)
+    foot_part.foot(robot.layout, robot.workshop.model_copy(update={"fits": fits}))
     assert asked == [(robot.layout.sections.rail_root_mm, 2.345)]
 
 

@@ -77,13 +77,12 @@ def test_foot_holds_its_pins(kenan: Robot, side: float) -> None:
 
 def test_each_bore_has_its_own_fit(kenan: Robot) -> None:
     """In the default workshop tight bores, eyes and lying holes have the same 0.1 mm, in others not."""
-    holes = HoleSizes.of(with_fits_apart(kenan.workshop), kenan.layout.hub_bearing)
-    layout, design = kenan.layout, kenan.design
+    layout, design, shop = kenan.layout, kenan.design, with_fits_apart(kenan.workshop)
     lug = layout.lateral.lug_left[0] + 2.0
     expected = [
-        (*links.main_leg(layout, holes), 2.5, {0.0: MR63_OUTER + 0.1, layout.leg_pin_mm: 3.1, design.l2_mm: 3.16}),
-        (links.front_link(layout, holes), 0.5, {0.0: 3.16, design.l3_mm: 3.16}),
-        (foot.foot(layout, holes), lug, {0.0: 3.3, design.l4_mm: 3.3}),
+        (*links.main_leg(layout, shop), 2.5, {0.0: MR63_OUTER + 0.1, layout.leg_pin_mm: 3.1, design.l2_mm: 3.16}),
+        (links.front_link(layout, shop), 0.5, {0.0: 3.16, design.l3_mm: 3.16}),
+        (foot.foot(layout, shop), lug, {0.0: 3.3, design.l4_mm: 3.3}),
     ]
     for drawing, y, bores in expected:
         section = cut(drawing.mesh.copy().apply_transform(drawing.placements[0].T_body_part), y)
@@ -159,8 +158,9 @@ def test_bores_of_thinner_axles_are_as_much_narrower() -> None:
     """For axles of 2 mm where the default is 3 mm: what turns has 0.2 mm around them, all else 0.1 mm."""
     usual = geared()
     layout, lateral = replace(usual.layout, axle_mm=2.0, spring_boss_mm=2.0), usual.layout.lateral
-    holes = replace(HoleSizes.of(usual.workshop, layout.hub_bearing), axle_mm=2.0)
-    drawn = {drawing.name: drawing for drawing in drawings(layout, holes, "")}
+    thin = usual.workshop.bought.model_copy(update={"axle_mm": 2.0})
+    shop = usual.workshop.model_copy(update={"bought": thin})
+    drawn = {drawing.name: drawing for drawing in drawings(layout, shop, "")}
     (right, left), l2, pin = lateral.inside, layout.design.l2_mm, layout.spring_pin_mm
     hub, front, cam, idler, tight, running = layout.hub_mm, *list(layout.axles.values())[1:], 2.2, 2.4
     expected = {
@@ -188,15 +188,15 @@ def test_screws_have_the_workshops_own_holes(kenan: Robot) -> None:
     """M3 through the lever and the plates, M2 through the motor's cap and into its socket: wider than the defaults."""
     layout, lateral = kenan.layout, kenan.layout.lateral
     fits = kenan.workshop.fits.model_copy(update={"m3_clearance_mm": 3.8, "m2_clearance_mm": 2.7, "m2_tap_mm": 1.8})
-    holes = replace(HoleSizes.of(kenan.workshop, layout.hub_bearing), fits=fits)
-    (leg,), (left, right) = links.main_leg(layout, holes), body_plate.plates(layout, holes, "")
+    shop = kenan.workshop.model_copy(update={"fits": fits})
+    (leg,), (left, right) = links.main_leg(layout, shop), body_plate.plates(layout, shop, "")
     angle = layout.drive.cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
     lever = layout.drive.cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
     expected = [
         (leg, 0.01, [lever], 3.8), (left, lateral.inside[1] + 0.5, layout.standoffs_mm, 3.8),
         (right, lateral.inside[0] - 0.5, layout.standoffs_mm, 3.8),
         (right, lateral.motor[1] - 2.0, ear_places(layout), 1.8),
-        (small.motor_cap(layout, holes), lateral.motor_cap[0] + 0.2, ear_places(layout), 2.7),
+        (small.motor_cap(layout, shop), lateral.motor_cap[0] + 0.2, ear_places(layout), 2.7),
     ]  # fmt: skip
     for drawing, y, places, diameter in expected:
         for place in places:

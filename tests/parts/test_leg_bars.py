@@ -122,7 +122,7 @@ def test_a_bar_has_the_fit_of_lying_holes_in_its_sockets() -> None:
     layout, holes = found.layout, HoleSizes.of(shop, found.layout.hub_bearing)
     place, middle = leg_bar_place(layout, holes), layout.sections.thickness_mm / 2.0
     assert place is not None
-    drawing, *_ = main_leg(layout, holes)
+    drawing, *_ = main_leg(layout, shop)
     levels = middle + np.array([-1.7, -1.6, 0.0, 1.6, 1.7])
     across = CrossSection.square((1.0, 50.0), True).translate((place.mouth_mm - 2.0, 0.0))
     left = np.array([(across ^ one).area() for one in drawing.shape.regions_at(levels)])

@@ -10,7 +10,6 @@ import shapely
 from support.built import built, cut, placed, region
 
 from jumpcad.parts.foot import foot
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.pads import is_printed, pads, printed_pads
 from jumpcad.robot import Robot
 
@@ -107,8 +106,7 @@ def test_under_the_bars_of_wide_toes_pads_lie_from_tip_to_end(name: str) -> None
     layout, strip = replace(robot.layout, toe_half_width_mm=half_mm), robot.workshop.foot_pad
     angle, depth = np.radians(robot.design.ground_link_angle_deg), layout.sections.foot_depth_mm
     tip = robot.design.l5_mm * np.array([-np.cos(angle), np.sin(angle)])
-    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
-    sole = foot(layout, holes).mesh.vertices
+    sole = foot(layout, robot.workshop).mesh.vertices
     found = {item.name: item for item in pads(layout, strip)}
     for side, sign in (("left", 1.0), ("right", -1.0)):
         pad = found[f"toe_{side}_pad"]

@@ -107,8 +107,7 @@ def test_the_mounts_ears_are_2_mm_high_however_far_the_base_stands_out(robot: Ro
     outline as high as they are.
     """
     layout = replace(robot.layout, sensor=replace(robot.layout.sensor, base_mm=base_mm))
-    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
-    (mount,) = sensor_mount(layout, holes)
+    (mount,) = sensor_mount(layout, robot.workshop)
     mesh, (length, width) = mount.mesh, layout.sensor.case_mm
     assert ear_height_mm(layout) == pytest.approx(2.0)
     assert mesh.bounds[1, 2] == pytest.approx(base_mm + 1.2)
@@ -138,14 +137,13 @@ def test_the_mounts_ears_are_2_mm_high_however_far_the_base_stands_out(robot: Ro
 
 def test_the_mount_is_refused_on_a_plate_so_thick_that_the_base_does_not_stand_out(robot: Robot) -> None:
     """At least the first layer's chamfer, or that layer, is left of the rim around the base."""
-    holes = HoleSizes.of(robot.workshop, robot.layout.hub_bearing)
     least = max(robot.workshop.fits.first_layer_chamfer_mm, robot.workshop.process.first_layer_mm)
     low, high = robot.layout.lateral.left_plate
     told = rf"is {least - 0.001:.2f} mm outside the left plate, which is {high - low:.1f} mm thick, {least:.2f} mm are"
     for base_mm, fits in ((least + 0.001, True), (least - 0.001, False)):
         layout = replace(robot.layout, sensor=replace(robot.layout.sensor, base_mm=base_mm))
         with nullcontext() if fits else pytest.raises(CannotBuildError, match=told) as no:
-            assert len(list(sensor_mount(layout, holes))) == 1
+            assert len(list(sensor_mount(layout, robot.workshop))) == 1
         if not fits:
             assert no.value.margin == pytest.approx(-0.001)
 

@@ -242,13 +242,12 @@ def test_bare_toes_have_two_grooves_across_the_sole_at_their_tips(name: str) -> 
     """Two layers of 0.2 mm deep, two lines of 0.4 mm wide, 2.4 mm apart about the tip's middle, closed at both ends."""
     robot = built(name)
     layout = replace(robot.layout, sections=replace(robot.layout.sections, pad_mm=0.0))
-    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
     for toe in toes(layout):
         if layout.toes_apart:
-            (mesh,) = (one.mesh for one in toes_apart(layout, holes) if one.name == toe.name)
+            (mesh,) = (one.mesh for one in toes_apart(layout, robot.workshop) if one.name == toe.name)
         else:
             turn = np.linalg.inv(toe.pose_mm)
-            mesh = foot(layout, holes).mesh.copy().apply_transform(turn)
+            mesh = foot(layout, robot.workshop).mesh.copy().apply_transform(turn)
         slits = [
             shapely.Polygon(ring)
             for polygon in trimesh.load_path(

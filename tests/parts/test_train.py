@@ -264,11 +264,11 @@ def test_the_cam_gear_fits_onto_the_jaws_in_one_position_only(name: str) -> None
 
 def with_wheel(teeth: int) -> tuple[Layout, Drawing]:
     """kenan-2.0 with another number of teeth on its cam gear: the layout, and the gear as it prints."""
-    layout, holes = layout_of(load_design("kenan-2.0"), load_workshop())
+    layout = layout_of(load_design("kenan-2.0"), load_workshop())
     (stage,) = layout.drive.train.stages
     train = replace(layout.drive.train, stages=(replace(stage, wheel=replace(stage.wheel, teeth=teeth)),))
     changed = replace(layout, drive=replace(layout.drive, train=train))
-    return changed, next(made for made in gears(changed, holes) if made.name == "cam_gear")
+    return changed, next(made for made in gears(changed, load_workshop()) if made.name == "cam_gear")
 
 
 @pytest.mark.parametrize("teeth", [30, 34, 38, 42, 46, 60])

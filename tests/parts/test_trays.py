@@ -12,7 +12,6 @@ from support.built import built, geared, placed
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.trays import _window, trays
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -128,8 +127,7 @@ def test_two_slots_hold_the_balance_lead_of_two_cells_between_them() -> None:
     layout, shop = built("kenan-2.0").layout, load_workshop()
     battery = shop.catalogue.batteries["lipo-2s-180"]
     electronics = replace(layout.electronics, battery=battery)
-    holes = HoleSizes.of(shop, None)
-    lower = next(one for one in trays(replace(layout, electronics=electronics), holes) if "lower" in one.name)
+    lower = next(one for one in trays(replace(layout, electronics=electronics), shop) if "lower" in one.name)
     floor = lower.shape.regions_at(np.array([0.8]))[0]
     boxes = [np.array([ring.min(axis=0), ring.max(axis=0)]) for ring in floor.to_polygons()]
     slots = [box for box in boxes if np.ptp(box, axis=0) == pytest.approx(TIE_SLOT_MM[::-1], abs=0.01)]
@@ -154,7 +152,7 @@ def test_the_window_under_a_short_battery_ends_a_millimetre_before_its_stops(len
     layout, shop = built("kenan-2.0").layout, load_workshop()
     battery = layout.electronics.battery.model_copy(update={"length_mm": length_mm})
     electronics = replace(layout.electronics, battery=battery)
-    lower = trays(replace(layout, electronics=electronics), HoleSizes.of(shop, None))[0]
+    lower = trays(replace(layout, electronics=electronics), shop)[0]
     floor, stops = (shapely.union_all([shapely.Polygon(ring) for ring in region.to_polygons() if len(ring) > 3])
                     for region in lower.shape.regions_at(np.array([0.8, 2.6])))  # fmt: skip
     low, high = sorted(stops.geoms, key=lambda one: one.centroid.x)
@@ -174,7 +172,7 @@ def test_the_stops_of_a_narrow_battery_are_4_mm_long(width_mm: float, stop_mm: f
     layout = built("kenan-2.0").layout
     battery = layout.electronics.battery.model_copy(update={"width_mm": width_mm})
     electronics = replace(layout.electronics, battery=battery)
-    lower = trays(replace(layout, electronics=electronics), HoleSizes.of(load_workshop(), None))[0]
+    lower = trays(replace(layout, electronics=electronics), load_workshop())[0]
     (section,) = lower.shape.regions_at(np.array([2.6]))
     sizes = [np.ptp(ring, axis=0)[1] for ring in section.to_polygons()]
     assert sizes == pytest.approx([stop_mm, stop_mm], abs=1e-3)
@@ -187,7 +185,7 @@ def test_the_window_under_a_long_battery_ends_5_mm_before_the_trays_end(battery:
     layout, catalogue = built("kenan-2.0").layout, load_workshop().catalogue
     long = catalogue.batteries[battery].model_copy(update={"length_mm": length_mm})
     electronics = replace(layout.electronics, battery=long)
-    lower = trays(replace(layout, electronics=electronics), HoleSizes.of(load_workshop(), None))[0]
+    lower = trays(replace(layout, electronics=electronics), load_workshop())[0]
     rings = [shapely.Polygon(ring) for ring in lower.shape.regions_at(np.array([0.8]))[0].to_polygons()]
     floor, *openings = sorted(rings, key=lambda one: -one.area)
     middle = electronics.seats(layout.lateral.inside)["battery"].x_mm

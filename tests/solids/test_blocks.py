@@ -28,8 +28,8 @@ def require_same_sections(shape, heights_mm, tolerance_mm):
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
 def test_the_foot_is_what_its_solid_is_at_every_layer(name):
-    layout, holes = layout_of(load_design(name), load_workshop("default"))
-    shape = foot(layout, holes).shape
+    shop = load_workshop("default")
+    shape = foot(layout_of(load_design(name), shop), shop).shape
     low, high = shape.solid().bounding_box()[:3], shape.solid().bounding_box()[3:]
     np.testing.assert_allclose(shape.bounds_mm, [low, high], atol=2e-3)
     require_same_sections(shape, np.arange(0.1, high[2], 0.2), 2e-3)
