@@ -45,19 +45,26 @@ def of_calibration() -> dict[str, str]:
         f"{100.0 * found['growth_of_1.40']:.1f} % of the draws reach the measured 1.40.",
         "calibrated explanations": "\n".join(
             (
-                f"- {energy['needed'] / energy['predicted']:.1f} times the energy over mass ({energy['needed']:.2f} of "
-                f"the model's instead of {energy['predicted']:.2f}): a robot of {mass['needed']:.0f} g instead of "
-                f"{mass['predicted']:.0f} g, or springs of {rate['needed']:.1f} instead of {rate['predicted']:.1f} "
-                "N·mm/° (the study says that both robots have the same springs);",
-                f"- or {travel['needed']:.0f} mm of travel after landing;",
-                "- the floor alone cannot do it: a foot that no longer slips gains nothing.",
+                "| all else as predicted | needed | instead of |",
+                "|---|--:|--:|",
+                f"| energy of the springs over mass, of the model's | {energy['needed']:.2f} | "
+                f"{energy['predicted']:.2f} |",
+                f"| … that is, a robot of | {mass['needed']:.0f} g | {mass['predicted']:.0f} g |",
+                f"| … or springs of | {rate['needed']:.1f} N·mm/° | {rate['predicted']:.1f} N·mm/° |",
+                f"| or a travel after landing of | {travel['needed']:.0f} mm | |",
             )
         ),
-        "calibrated both": f"energy over mass {_three(both['energy_per_mass']['kenan-1.0'])} of the model's for Kenan "
-        f"1.0, {_three(both['energy_per_mass']['kenan-2.0'])} for Kenan 2.0, whose mass it puts at "
-        f"{_three(both['parameters']['mass:kenan-2.0'])} of the model's",
-        "calibrated in short": f"a ballistic range of {_mm(ballistic['predicted'])} (10…50…90 %), or "
-        f"{_mm(rest['predicted'])} where it came to rest; 350 mm was measured, above "
+        "calibrated both": "\n".join(
+            (
+                "| calibrated on both | 10…50…90 %, of the model's |",
+                "|---|--:|",
+                f"| energy over mass, Kenan 1.0 | {_three(both['energy_per_mass']['kenan-1.0'])} |",
+                f"| energy over mass, Kenan 2.0 | {_three(both['energy_per_mass']['kenan-2.0'])} |",
+                f"| mass, Kenan 2.0 | {_three(both['parameters']['mass:kenan-2.0'])} |",
+            )
+        ),
+        "calibrated in short": f"a range of {_mm(ballistic['predicted'][1:2])} in the median, or "
+        f"{_mm(rest['predicted'][1:2])} to where it came to rest; 350 mm was measured. This is above "
         f"{_share(ballistic['below_share'])} and {_share(rest['below_share'])} of the predictions. To explain it, "
         f"Kenan 2.0 would need {energy['needed'] / energy['predicted']:.1f} times the springs' energy over its mass, "
         f"or {travel['needed']:.0f} mm of travel after landing",
@@ -120,8 +127,9 @@ def _beside(rows: dict[tuple[str, str], dict[str, Any]]) -> str:
 def _uncertain() -> str:
     found = uncertain_jump(build(load_design("kenan-2.0")), Settings(), "planar", SEED)
     shares = sorted(found.first_order.items(), key=lambda item: -item[1]["ballistic_range_m"])
-    words = ", ".join(f"{name} {of['ballistic_range_m']:.2f}" for name, of in shares)
-    return f"Kenan 2.0, uncalibrated: {_mm(found.quantiles['ballistic_range_m'])}; {words}."
+    rows = [f"| index: {name} | {of['ballistic_range_m']:.2f} |" for name, of in shares]
+    span = f"| range, 10…50…90 % | {_mm(found.quantiles['ballistic_range_m'])} |"
+    return "\n".join(("| Kenan 2.0, uncalibrated | |", "|---|--:|", span, *rows))
 
 
 def of_effects() -> dict[str, str]:
@@ -131,17 +139,33 @@ def of_effects() -> dict[str, str]:
     friction = found["floors"]["friction"]
     ranges = [np.array(found["floors"][name]["range_m"]) * 1000.0 for name in effects.SWEPT]
     slips = [next(at for at, far in zip(friction, one, strict=True) if far > 0.98 * one[-1]) for one in ranges]
-    low = friction.index(SLIPPERY)
+    low, weaker = friction.index(SLIPPERY), "lower `spring_efficiency` in the settings"
     return {
-        "effects": f"the bent main leg holds {_span(priced['leg_flex_energy'])} of the springs' energy, "
-        f"{_span(priced['leg_flex_range'])} of the range if none of it came back; air drag takes "
-        f"{_span(priced['drag_range'])} of the range; internal friction of the springs of "
-        f"{100.0 * effects.SPRING_FRICTION:.0f} % takes {_span(priced['spring_friction_range'])} "
-        f"(`spring_efficiency` in the settings); gear stages {100.0 * effects.GEAR_LOSS:.0f} % less efficient cost "
-        f"{_span(priced['gears_energy'])} more energy, {_span(priced['gears_time'])} more winding time, and no range",
-        "floors": f"Below a friction of {slips[0]:g} ({effects.SWEPT[0]}) and {slips[1]:g} ({effects.SWEPT[1]}) the "
-        f"foot slips and more than 2 % of the range is lost: at {SLIPPERY:g} it is {ranges[0][low]:.0f} of "
-        f"{ranges[0][-1]:.0f} mm, and {ranges[1][low]:.0f} of {ranges[1][-1]:.0f} mm.",
+        "effects": "\n".join(
+            (
+                "| left out | worth | what to do |",
+                "|---|---|---|",
+                f"| the main leg bends | holds {_span(priced['leg_flex_energy'])} of the springs' energy; "
+                f"{_span(priced['leg_flex_range'])} of the range if none comes back | {weaker} |",
+                f"| air drag | {_span(priced['drag_range'])} of the range | nothing: it is small |",
+                f"| internal friction of the springs, {100.0 * effects.SPRING_FRICTION:.0f} % | "
+                f"{_span(priced['spring_friction_range'])} of the range | {weaker} |",
+                f"| gear stages {100.0 * effects.GEAR_LOSS:.0f} % less efficient | "
+                f"{_span(priced['gears_energy'])} more energy and "
+                f"{_span(priced['gears_time'])} more time to wind, no range | "
+                "measure the battery's energy and calibrate |",
+            )
+        ),
+        "floors": "\n".join(
+            (
+                f"| | {' | '.join(effects.SWEPT)} |",
+                "|---|--:|--:|",
+                f"| loses more than 2 % of the range below a friction of | {slips[0]:g} | {slips[1]:g} |",
+                f"| range at {SLIPPERY:g}, of that without slipping | "
+                + " | ".join(f"{one[low]:.0f} of {one[-1]:.0f} mm" for one in ranges)
+                + " |",
+            )
+        ),
     }
 
 
