@@ -30,6 +30,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
+from jumpcad.search.methods import bayesian
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
 from jumpcad.search.variant import Variant
@@ -265,6 +266,8 @@ def of_assumptions() -> dict[str, str]:
         "blind time": f"{published.IGNORED_S:g} s",
         "search in Python": f"`best = jumpcad.optimize({given})`",
         "search slack": percent([SEARCH_SLACK]),
+        "idle steps": f"{bayesian.IDLE}",
+        "patient steps": f"{bayesian.PATIENCE}",
         "scale": f"{PUBLISHED_MS:.0f} ms; they may be off by a factor of {SPEED_FACTOR:g}",
     }
 

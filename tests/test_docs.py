@@ -20,8 +20,6 @@ from jumpcad.cli.commands import app, run
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.files import template_names
 from jumpcad.scene.parameters import parameter_drawing
-from jumpcad.search.methods import bayesian
-from jumpcad.search.polling import STALLED
 
 DOCS = ROOT / "docs"
 CHAPTERS = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DOCS.glob("*.md"))}
@@ -99,36 +97,6 @@ def test_every_parameter_is_explained_with_its_ranges() -> None:
         limits = {type(one).__name__: next(iter(vars_of(one))) for one in Design.model_fields[name].metadata}
         assert f" {limits['Ge']:g} to {limits['Le']:g} " in row
         assert f" {SEARCH_BOUNDS[name].lower:g} to {SEARCH_BOUNDS[name].upper:g} " in row
-
-
-def test_the_steps_that_end_a_search_are_told() -> None:
-    words = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
-    ended = re.search(r"too little: (\w+) in a row on the printed robot, elsewhere (\w+) ", CHAPTERS["searching"])
-    assert ended is not None
-    assert [words.index(word) for word in ended.groups()] == [bayesian.IDLE, bayesian.PATIENCE]
-    polled = re.search(r"Where (\w+) steps in a row gain nothing", CHAPTERS["searching"])
-    assert polled is not None
-    assert words.index(polled[1]) == STALLED
-
-
-@pytest.mark.parametrize(
-    ("decision", "pattern", "modules"),
-    [
-        (
-            "rasteriser-and-writers",
-            r"Rasteriser (\d+) lines, 3MF writer (\d+), XML helpers (\d+)\.",
-            ("scene/raster", "exporters/threemf", "exporters/xml"),
-        ),
-        ("skin", r"instead of the (\d+) of `solids/skin\.py`", ("solids/skin",)),
-        ("swap", r"`bundle/swap\.py`: (\d+) lines", ("bundle/swap",)),
-    ],
-)
-def test_decisions_know_how_long_own_modules_are(decision: str, pattern: str, modules: tuple[str, ...]) -> None:
-    """What a module of our own costs is its length, to a tenth."""
-    told = re.search(pattern, (DOCS / "decisions" / f"{decision}.md").read_text(encoding="utf-8"))
-    assert told is not None
-    lines = [len((ROOT / "jumpcad" / f"{name}.py").read_text(encoding="utf-8").splitlines()) for name in modules]
-    assert [int(number) for number in told.groups()] == pytest.approx(lines, rel=0.1)
 
 
 def vars_of(constraint: object) -> list[float]:
