@@ -34,6 +34,11 @@ from jumpcad.solids.stack import Stack
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop
 
+TESTS = Path(__file__).parent
+ALONE = ("test_contributing.py", "test_examples.py", "test_notebooks.py", "test_packaging.py")
+THOROUGH = [Path(__file__).parent / name for name in ("clients", "hostile", *ALONE)]
+"""Folders and files whose tests are all thorough; a quick run does not even import them."""
+QUICK = "not thorough"
 KEPT = 600
 """Shapes kept, those of some 20 robots."""
 
@@ -184,6 +189,24 @@ def pytest_configure(config: pytest.Config) -> None:
     """Measure what tests cost, if asked."""
     if config.getoption("--costs") is not None:
         config.pluginmanager.register(Costs(config.getoption("--costs")))
+
+
+def pytest_report_header(config: pytest.Config) -> str | None:
+    """Say what a quick run leaves out."""
+    return 'quick tests; all of them: -m ""' if config.option.markexpr == QUICK else None
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Pass over what a quick run has none of."""
+    return True if config.option.markexpr == QUICK and collection_path in THOROUGH else None
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests of whole folders and files as thorough, before any are left out."""
+    for item in items:
+        if any(item.path.is_relative_to(path) for path in THOROUGH):
+            item.add_marker(pytest.mark.thorough)
 
 
 def pytest_collection_finish() -> None:

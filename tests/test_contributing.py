@@ -11,6 +11,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from support import needs
 from support.places import ROOT
 
 SECTIONS = re.split(r"^## ", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), flags=re.M)[1:]
@@ -130,5 +131,5 @@ def said(programs: dict[str, str]) -> dict[str, str]:
 @pytest.mark.parametrize("title", EXAMPLES)
 def test_example(title: str, said: dict[str, str]) -> None:
     if title == NEEDS_MUJOCO:
-        pytest.importorskip("mujoco")
+        needs.package("mujoco")
     assert said[title] == ""

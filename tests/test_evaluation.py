@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 from support.loaded import loaded_range_m
 from support.places import ROOT
@@ -55,7 +56,7 @@ def test_the_jump_is_that_of_the_robot_that_is_written(name: str, tmp_path: Path
 
 
 def test_pybullet_that_loads_the_bundle_sees_the_same_jump(tmp_path: Path) -> None:
-    pytest.importorskip("pybullet", reason="PyBullet loads the file")
+    needs.package("pybullet")
     named = build(KENAN, name="kenan-2.0")  # engraved, so a little lighter than a candidate
     loaded = loaded_range_m(export(named, tmp_path / "k", pictures=False).folder / "urdf" / "kenan-2.0.urdf")
     assert loaded == pytest.approx(simulate(named).ballistic_range_m, rel=1e-9)
@@ -107,7 +108,7 @@ def test_the_settings_and_the_engine_are_passed_on() -> None:
     slippery = evaluate(KENAN, settings=Settings(foot_friction=0.3))
     assert slippery != evaluate(KENAN) == evaluate(KENAN)
     assert slippery.fitness < 0.9 * evaluate(KENAN).fitness
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     other = evaluate(KENAN, engine="mujoco")
     assert other.jump.engine == "mujoco"
     assert other.fitness == pytest.approx(evaluate(KENAN).fitness, rel=0.01)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support import needs
 from support.pictures import with_plain_figures
 from support.places import ROOT
 from support.proposals import with_less_work
@@ -32,7 +33,7 @@ def shell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     """
     with_less_work(monkeypatch)
     with_plain_figures(monkeypatch)
-    module = pytest.importorskip("IPython.core.interactiveshell")
+    module = needs.package("IPython.core.interactiveshell")
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)
     monkeypatch.setattr(sys, "displayhook", sys.displayhook)

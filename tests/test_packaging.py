@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 import sysconfig
@@ -13,6 +12,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from support import needs
 from support.places import ROOT
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
@@ -75,7 +75,7 @@ def test_wheel_works_in_a_fresh_environment(installed: Path, tmp_path: Path) -> 
     assert jump["verdict"] == "jump"
 
 
-@pytest.mark.skipif(shutil.which("ruff") is None, reason="needs ruff")
+@needs.without("ruff")
 def test_a_bundle_is_committed_as_it_was_written() -> None:
     """`pre-commit` names the files that it checks; those of a bundle keep their bytes."""
     program = str(ROOT / "exports" / "kenan-2.0" / "firmware" / "robot.py")

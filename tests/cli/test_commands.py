@@ -4,7 +4,6 @@ import inspect
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 import typer
+from support import needs
 from support.commands import Run
 from support.places import ROOT
 from typer.main import get_command
@@ -242,7 +242,7 @@ def test_paragraphs_of_help_are_not_broken_at_80_columns() -> None:
             assert max(map(len, paragraph.splitlines())) <= 78, name
 
 
-@pytest.mark.skipif(shutil.which("bash") is None, reason="no bash on this system")
+@needs.without("bash")
 def test_completion_is_installed_without_an_error(tmp_path: Path) -> None:
     surroundings = {**os.environ, "HOME": str(tmp_path), "PYTHONPATH": str(ROOT)}
     command = ["bash", "-c", '"$0" -m jumpcad --install-completion; exit $?', sys.executable]

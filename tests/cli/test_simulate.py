@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from support import needs
 from support.commands import Run
 
 from jumpcad.cli import simulate as module
@@ -35,7 +36,7 @@ def test_one_document_with_what_python_says(command: Run) -> None:
 
 
 def test_both_engines_and_their_difference(command: Run) -> None:
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     code, out, _ = command("kenan-2.0", "--capsule", "--engine", "both", "--settings", "fine", "--json")
     document = json.loads(out)
     ranges = [document["engines"][engine]["ballistic_range_m"] for engine in ("pybullet", "mujoco")]
@@ -133,7 +134,7 @@ def test_published_is_named_so(command: Run) -> None:
 
 
 def test_the_other_engine_steps_in_with_one_line(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     monkeypatch.setitem(__import__("sys").modules, "pybullet", None)
     code, out, err = command("kenan-2.0", "--capsule", "--json")
     assert code == 0

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from support import needs
 from support.commands import Run
 from support.slicers import OBEDIENT, pretend_slicer, three_parts, with_seams_behind
 
@@ -20,7 +21,7 @@ from jumpcad.printing.prusaslicer import slicer_program
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
-needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
+needs_slicer = needs.without("prusa-slicer")
 
 
 @pytest.fixture(scope="module")

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from support import needs
 from support.clients import Case, same_tensor
 
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 
-pytest.importorskip("pydrake")
+needs.package("pydrake")
 
 
 def test_masses_centre_and_axes(case: Case) -> None:

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-import pytest
 import trimesh
+from support import needs
 
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.printing.plates import packed
@@ -11,7 +11,7 @@ from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import hole, ring, stadium
 from jumpcad.solids.stack import Stack
 
-lib3mf = pytest.importorskip("lib3mf", reason="lib3mf is not installed (pip install lib3mf)")
+lib3mf = needs.package("lib3mf")
 
 SETTINGS, PICTURE = {"perimeters": "3"}, b"\x89PNG\r\n\x1a\n"
 

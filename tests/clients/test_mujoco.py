@@ -4,11 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support import needs
 from support.clients import Case, same_tensor
 
 from jumpcad.simulation import simulate
 
-mujoco = pytest.importorskip("mujoco")
+mujoco = needs.package("mujoco")
 
 
 def files(case: Case) -> tuple[Path, Path]:
@@ -76,6 +77,6 @@ def jump_from_file(file: Path) -> float:
 
 
 def test_jumps_as_far_as_in_pybullet(case: Case) -> None:
-    pytest.importorskip("pybullet")
+    needs.package("pybullet")
     there = simulate(case.robot).ballistic_range_m
     assert jump_from_file(case.scene) == pytest.approx(there, rel=0.01)

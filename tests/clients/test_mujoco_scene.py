@@ -5,11 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support import needs
 from support.clients import Case
 
 from jumpcad.simulation import simulate
 
-mujoco = pytest.importorskip("mujoco")
+mujoco = needs.package("mujoco")
 
 OWN_SCENE = """<mujoco><option timestep="0.00025" integrator="implicitfast" cone="elliptic" impratio="100"/><worldbody>
 <geom name="floor" type="box" size="2 2 0.1" pos="0 0 0.2"/><geom type="sphere" size="0.1" pos="-1 0 1"/>

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from support import needs
 from support.clients import Case, same_tensor
 
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 
-pinocchio = pytest.importorskip("pinocchio")
+pinocchio = needs.package("pinocchio")
 
 
 def test_masses_centre_and_axes(case: Case) -> None:

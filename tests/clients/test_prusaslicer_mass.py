@@ -8,12 +8,13 @@ import math
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 from support.slicers import with_seams_behind
 
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.printing.prusaslicer import slice_part, slicer_program, slicer_settings
+from jumpcad.printing.prusaslicer import slice_part, slicer_settings
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.moments import mass_of
@@ -22,7 +23,7 @@ from jumpcad.solids.stack import Stack
 from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import load_workshop
 
-needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
+needs_slicer = needs.without("prusa-slicer")
 
 WORKSHOP = load_workshop("default")
 MATERIAL = WORKSHOP.material("links")

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import trimesh
+from support import needs
 
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.parts.part import Drawing, Part, Placement, upright
@@ -15,7 +16,7 @@ from jumpcad.solids.outline import hole, rectangle, stadium
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import Workshop, load_workshop
 
-pytestmark = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
+pytestmark = needs.without("prusa-slicer")
 
 LEFT_OUT = "start_gcode", "end_gcode", "bed_shape"
 """What a print needs and the mass model does not; and the bed, which PrusaSlicer 2.5 takes from no project on the

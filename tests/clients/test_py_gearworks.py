@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from manifold3d import CrossSection
+from support import needs
 
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
@@ -19,7 +20,7 @@ CHORDS = 24
 
 def program() -> Any:
     """Return the other program; it takes 4 s to import, so not where tests are collected."""
-    return pytest.importorskip("py_gearworks", reason="py_gearworks is not installed (the extra `clients`)")
+    return needs.package("py_gearworks")
 
 
 def other(gear: Gear) -> Any:

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support import needs
 from support.clients import Case, same_tensor
 from support.loaded import loaded_range_m
 
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
 
-pybullet = pytest.importorskip("pybullet")
+pybullet = needs.package("pybullet")
 
 
 def test_reads_what_was_written(case: Case) -> None:

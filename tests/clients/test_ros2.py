@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-import yaml
+from support import needs
 from support.built import built
 from support.clients import run
 
 from jumpcad.exporters.ros2 import model_name, ros2_files
 from jumpcad.robot import Robot
 
-xacro = pytest.importorskip("xacro", reason="xacro is not installed (pip install xacro)")
+xacro, yaml = needs.package("xacro"), needs.package("yaml")
 
 
 @pytest.fixture(scope="module", params=["kenan-2.0", "best-printable"])
@@ -65,7 +65,7 @@ def test_every_mesh_is_in_the_package(package: Path) -> None:
 
 def test_with_mimic_the_loop_stays_closed_as_well_as_the_readme_says(robot: Robot, package: Path) -> None:
     """yourdfpy poses the tree by its leg alone; front link and foot then meet within the angles' error."""
-    yourdfpy = pytest.importorskip("yourdfpy")
+    yourdfpy = needs.package("yourdfpy")
     model = yourdfpy.URDF.load(str(urdf(package)), load_meshes=False, build_scene_graph=True)
     assert model.actuated_joint_names == ["leg"]
     said = re.search(r"right within ([\d.]+)° and ([\d.]+)°", (package / "README.md").read_text())
@@ -108,7 +108,7 @@ def test_the_model_is_valid_and_found(package: Path) -> None:
 
 
 def test_the_package_format_is_ros_own(package: Path) -> None:
-    packages = pytest.importorskip("catkin_pkg.package", reason="catkin_pkg is not installed (pip install catkin_pkg)")
+    packages = needs.package("catkin_pkg.package")
     read = packages.parse_package(str(package))
     read.validate()
     assert read.name == package.name

@@ -6,6 +6,7 @@ import struct
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support import needs
 from support.built import built
 
 from jumpcad.bundle.jump_motion import jump_motion
@@ -14,7 +15,7 @@ from jumpcad.exporters.glb import write_glb
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
 
-pygltflib = pytest.importorskip("pygltflib", reason="pygltflib is not installed (pip install pygltflib)")
+pygltflib = needs.package("pygltflib")
 
 
 class Film:

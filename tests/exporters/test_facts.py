@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support import needs
 from support.built import built
 
 from jumpcad.exporters.mjcf import write_mjcf
@@ -152,7 +153,7 @@ def test_visible_meshes_stand_where_the_parts_are(robot: Robot, urdf: ET.Element
 
 
 def test_mjcf_has_the_same_bodies_and_hinges(robot: Robot) -> None:
-    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed (pip install mujoco)")
+    mujoco = needs.package("mujoco")
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot, SETTINGS))
     for body in robot.bodies.values():
         index = model.body(body.name).id

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support import needs
 from support.machines import PAD_NM_PER_RAD, STOP_RAD, machine, one_sided, rubbing
 
 from jumpcad.design import load_design
@@ -47,7 +48,7 @@ def test_the_leg_is_limited_at_the_stop(robot: Mechanism) -> None:
 
 def test_a_mujoco_spring_only_pushes(robot: Mechanism) -> None:
     """MuJoCo's own passive torque on the leg at angles on both sides of where the springs are free."""
-    mujoco = pytest.importorskip("mujoco")
+    mujoco = needs.package("mujoco")
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
     data = mujoco.MjData(model)
     at = model.joint("leg")
@@ -60,7 +61,7 @@ def test_a_mujoco_spring_only_pushes(robot: Mechanism) -> None:
 
 def test_the_keyframe_moves_as_the_robot_does(robot: Mechanism) -> None:
     """In `released` the loop is closed and the foot flat, both with all their velocities; `wound` stands still."""
-    mujoco = pytest.importorskip("mujoco")
+    mujoco = needs.package("mujoco")
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("released").id)
@@ -80,7 +81,7 @@ def test_the_keyframe_moves_as_the_robot_does(robot: Mechanism) -> None:
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco", "planar"])
 def test_the_urdf_jumps_as_the_robot_in_memory(robot: Mechanism, engine: str, tmp_path: Path) -> None:
     if engine != "planar":
-        pytest.importorskip(engine)
+        needs.package(engine)
     path = tmp_path / "r.urdf"
     path.write_text(write_urdf(robot), encoding="utf-8")
     path.with_suffix(".loop.json").write_text(write_loop(robot), encoding="utf-8")

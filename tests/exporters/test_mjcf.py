@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 from support.flights import make_lopsided
 
@@ -43,7 +44,7 @@ def test_a_simulation_loads_no_format_but_its_own() -> None:
 
 def test_mujoco_has_the_robots_inertia() -> None:
     lopsided = make_lopsided(capsule_robot(load_design("kenan-2.0")))
-    mujoco = pytest.importorskip("mujoco")
+    mujoco = needs.package("mujoco")
     model = mujoco.MjModel.from_xml_string(write_mjcf(lopsided))
     for name in BODY_NAMES:
         compiled, body, axes = model.body(name), lopsided.bodies[name], np.zeros(9)
@@ -61,7 +62,7 @@ def test_the_bodys_box_is_as_low_as_its_parts_or_as_the_ground_lets_it(name: str
 
     All its corners are then 1 mm above the floor or more; one is just there where the box does not reach to its parts.
     """
-    mujoco = pytest.importorskip("mujoco")
+    mujoco = needs.package("mujoco")
     robot, lower = built(name), np.eye(4)
     lower[2, 3] = -hanging_m
     seen = [replace(one, T_body_mesh=lower @ one.T_body_mesh) for one in visuals(robot) if one.body == BODY]
@@ -110,7 +111,7 @@ def test_mujoco_slides_spins_and_rolls_as_the_settings_say() -> None:
 
     All of them are the ground's times another: of foot or body in sliding.
     """
-    mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
+    mujoco, robot = needs.package("mujoco"), capsule_robot(load_design("kenan-2.0"))
     settings = Settings(
         ground_friction=0.8, foot_friction=0.9, body_friction=0.4, rolling_friction_m=0.001, spinning_friction_m=0.003
     )
@@ -127,7 +128,7 @@ def test_mujoco_slides_spins_and_rolls_as_the_settings_say() -> None:
 def test_a_contact_that_only_spins_or_rolls_has_both_frictions(spinning: float, rolling: float) -> None:
     """MuJoCo leaves out what a contact of three dimensions has not."""
     settings = Settings(ground_friction=0.8, rolling_friction_m=rolling, spinning_friction_m=spinning)
-    mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
+    mujoco, robot = needs.package("mujoco"), capsule_robot(load_design("kenan-2.0"))
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot, settings))
     assert set(model.pair_dim) == {6 if spinning or rolling else 3}
     assert model.pair_friction[0][2:] == pytest.approx([0.8 * spinning, 0.8 * rolling, 0.8 * rolling])
@@ -136,7 +137,7 @@ def test_a_contact_that_only_spins_or_rolls_has_both_frictions(spinning: float, 
 @pytest.mark.parametrize("one_sided", [True, False])
 def test_dry_friction_in_joints_is_as_stiff_as_the_time_step_allows(one_sided: bool) -> None:
     """Of every hinge, also of those without a stop: MuJoCo's own has a time constant of 20 ms."""
-    mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
+    mujoco, robot = needs.package("mujoco"), capsule_robot(load_design("kenan-2.0"))
     robot = replace(robot, spring=replace(robot.spring, one_sided=one_sided))
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot, Settings(joint_friction_nm=0.01)))
     for joint in robot.joints:
@@ -149,7 +150,7 @@ def test_dry_friction_in_joints_is_as_stiff_as_the_time_step_allows(one_sided: b
 @pytest.mark.parametrize(("asked", "made"), [(10, 50), (50, 50), (60, 60), (100, 100), (200, 200)])
 def test_the_solver_takes_as_many_steps_as_the_settings_say_and_fifty_at_least(asked: int, made: int) -> None:
     """It ends earlier where it has converged, to 1e-12."""
-    mujoco, robot = pytest.importorskip("mujoco"), capsule_robot(load_design("kenan-2.0"))
+    mujoco, robot = needs.package("mujoco"), capsule_robot(load_design("kenan-2.0"))
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot, Settings(solver_iterations=asked)))
     assert model.opt.iterations == made
     assert model.opt.tolerance == 1e-12
@@ -161,7 +162,7 @@ def test_the_solver_takes_as_many_steps_as_the_settings_say_and_fifty_at_least(a
 
 def test_spheres_lie_where_the_robot_touches_the_ground_and_touch_it_alone() -> None:
     """Each is paired with the floor; without pairs nothing would touch anything."""
-    mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")
+    mujoco, robot = needs.package("mujoco"), built("kenan-2.0")
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
     ground, spheres = model.geom("ground"), []
     assert mujoco.mjtGeom(int(ground.type[0])) == mujoco.mjtGeom.mjGEOM_PLANE
@@ -181,7 +182,7 @@ def test_spheres_lie_where_the_robot_touches_the_ground_and_touch_it_alone() -> 
 
 def test_loop_and_friction_are_held_hard_and_contacts_from_nothing_on() -> None:
     """`solimp`: from 0.99 to 0.9999 within 0.1 mm or rad; of contacts from 0 to 0.95."""
-    mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")
+    mujoco, robot = needs.package("mujoco"), built("kenan-2.0")
     model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
     leg = model.joint(robot.spring.joint)
     for impedance in (
@@ -195,7 +196,7 @@ def test_loop_and_friction_are_held_hard_and_contacts_from_nothing_on() -> None:
 
 def test_mujoco_reads_angles_in_radians() -> None:
     """The leg's range, from loaded springs to its stop; the angle at which springs that also pull are relaxed."""
-    mujoco, robot = pytest.importorskip("mujoco"), built("kenan-2.0")
+    mujoco, robot = needs.package("mujoco"), built("kenan-2.0")
     leg = mujoco.MjModel.from_xml_string(write_mjcf(robot)).joint(robot.spring.joint)
     assert robot.stop is not None
     assert leg.limited[0]
@@ -211,7 +212,7 @@ def test_mujoco_reads_angles_in_radians() -> None:
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0"])
 def test_as_it_is_loaded_the_robot_stands_on_the_ground_at_rest(write: Callable[[Robot], str], name: str) -> None:
     """Without a key frame, every body is where its pose at rest has it; Kenan 1.0 stands with its body leaning."""
-    mujoco, robot = pytest.importorskip("mujoco"), built(name)
+    mujoco, robot = needs.package("mujoco"), built(name)
     model = mujoco.MjModel.from_xml_string(without_meshes(write(robot)))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)

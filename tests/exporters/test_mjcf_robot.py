@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 from support.machines import one_sided
 
@@ -22,7 +23,7 @@ from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 
-mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed (pip install mujoco)")
+mujoco = needs.package("mujoco")
 JOINTS = ("leg", "front", "ankle")
 
 

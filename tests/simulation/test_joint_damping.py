@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from support import needs
 
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Mechanism
@@ -15,7 +16,7 @@ DAMPING = 0.001
 def test_damping_takes_the_work_of_its_torque(kenan: Mechanism, engine: str) -> None:
     """Work of c·q' along q: c·∫ q'² dt of all three joints, from the leg's angle over time and the linkage."""
     if engine != "planar":
-        pytest.importorskip(engine)
+        needs.package(engine)
     settings = Settings(trajectory=True, trajectory_rate_hz=2000.0, joint_damping_nms_per_rad=DAMPING)
     jump = simulate(kenan, settings, engine)
     path, energy = jump.trajectory, jump.energy

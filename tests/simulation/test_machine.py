@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 from support.machines import PAD_NM_PER_RAD, STOP_RAD, let_go, machine, one_sided, rubbing, stopped
 
@@ -27,7 +28,7 @@ FINE = load_settings("fine")
 @pytest.fixture(params=ENGINES)
 def engine(request: pytest.FixtureRequest) -> str:
     if request.param != "planar":
-        pytest.importorskip(request.param)
+        needs.package(request.param)
     return str(request.param)
 
 
@@ -42,7 +43,7 @@ def test_three_engines_agree(name: str) -> None:
     jumps = {}
     for engine in ENGINES:
         if engine != "planar":
-            pytest.importorskip(engine)
+            needs.package(engine)
         jumps[engine] = simulate(robot, FINE, engine)
     ranges = [jump.ballistic_range_m for jump in jumps.values()]
     assert {jump.verdict for jump in jumps.values()} == {"jump"}
@@ -195,7 +196,7 @@ def test_the_energy_account_adds_up(kenan: Mechanism, engine: str, friction: flo
 
 def test_settings_follow_the_robot(kenan: Mechanism) -> None:
     """A printed robot rubs as its own pads and pins do, capsules as the study's; a file overrides it."""
-    pytest.importorskip("pybullet")
+    needs.package("pybullet")
     printed = built("best-ga")
     assert printed.friction is not None
     icy = replace(printed, friction=replace(printed.friction, foot=0.3))

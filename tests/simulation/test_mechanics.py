@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
+from support import needs
 from support.flights import Flight
 from support.machines import let_go
 
@@ -50,7 +51,7 @@ def test_release_closes_the_loop_with_a_flat_foot_on_the_ground(jumping: list[Fl
 
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 def test_engine_puts_every_body_where_the_joints_say(lopsided: Robot, engine: str) -> None:
-    pytest.importorskip(engine)
+    needs.package(engine)
     poses = frames(lopsided)
     with engine_named(engine).world(lopsided, Settings()) as world:
         state = world.state()

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support import needs
 from support.machines import let_go, rubbing, stopped
 
 from jumpcad.errors import JumpcadError
@@ -17,14 +18,14 @@ from jumpcad.strength.pin_friction import pin_torque_nm
 
 @pytest.mark.parametrize("key", ["restitution", "drag_per_s"])
 def test_mujoco_refuses_what_it_does_not_have(kenan: Robot, key: str) -> None:
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     with pytest.raises(JumpcadError, match=f"{key} = 0.5.*pybullet"):
         simulate(kenan, Settings(**{key: 0.5}), "mujoco")
 
 
 def test_what_counts_as_carried_is_a_share_of_the_weight(kenan: Robot) -> None:
     """On the Moon a sixth of what it is on the Earth."""
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     carried = []
     for gravity_m_s2 in (1.62, 9.81):
         with engine_named("mujoco").world(kenan, Settings(gravity_m_s2=gravity_m_s2)) as world:
@@ -61,7 +62,7 @@ def test_the_ground_carries_a_robot_that_it_presses_in_any_of_mujocos_own_steps(
 @pytest.mark.parametrize("turning", [False, True])
 def test_mujoco_begins_where_the_planar_engine_does(kenan: Robot, turning: bool) -> None:
     """Places, turns and both velocities of all four bodies; standing loaded, and as the roller leaves the cam."""
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     robot = let_go(kenan) if turning else kenan
     states = []
     for name in ("mujoco", "planar"):
@@ -75,7 +76,7 @@ def test_mujoco_begins_where_the_planar_engine_does(kenan: Robot, turning: bool)
 
 
 def test_the_pad_pushes_against_the_legs_opening(kenan: Robot) -> None:
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     with engine_named("mujoco").world(kenan, Settings()) as world:
         world._pad = SimpleNamespace(torque_nm=lambda leg_rad, leg_rad_s: 0.25)
         world.advance(1)
@@ -84,7 +85,7 @@ def test_the_pad_pushes_against_the_legs_opening(kenan: Robot) -> None:
 
 def test_the_pad_stops_the_leg_in_mujoco_and_not_its_limit(kenan: Robot) -> None:
     """A limit with critical damping would throw the leg back; every contact has a row for its normal, two to slide."""
-    mujoco, robot = pytest.importorskip("mujoco"), stopped(kenan)
+    mujoco, robot = needs.package("mujoco"), stopped(kenan)
     assert mujoco.MjModel.from_xml_string(write_mjcf(robot)).joint("leg").limited[0]
     with engine_named("mujoco").world(robot, Settings()) as world:
         assert int(world.model.joint("leg").limited[0]) == 0
@@ -98,7 +99,7 @@ def test_the_pad_stops_the_leg_in_mujoco_and_not_its_limit(kenan: Robot) -> None
 
 def test_the_pins_rub_once_and_at_the_leg(kenan: Robot) -> None:
     """Their torque is that of the leg's joint (`pin_torque_nm`), beside what the settings ask of every joint."""
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     robot = rubbing(kenan, pin=0.2)
     pins = pin_torque_nm(robot, 0.2)
     assert pins > 1e-4
@@ -110,7 +111,7 @@ def test_the_pins_rub_once_and_at_the_leg(kenan: Robot) -> None:
 
 def test_whole_numbers_are_as_good_as_others(kenan: Robot) -> None:
     """Settings changed by `model_copy` are not converted; what the pins' rubbing takes is counted all the same."""
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     friction = [Settings().model_copy(update={"joint_friction_nm": torque}) for torque in (0, 0.0)]
     whole, decimal = (simulate(rubbing(kenan, pin=0.2), settings, "mujoco").energy for settings in friction)
     assert whole is not None
@@ -127,7 +128,7 @@ def test_whole_numbers_are_as_good_as_others(kenan: Robot) -> None:
 )  # fmt: skip
 def test_what_is_lost_is_what_the_planar_engine_loses(kenan: Robot, rubs: dict[str, float]) -> None:
     """Each loss by itself; what is left of the springs' energy for impacts and rounding is hardly any of it."""
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     ours, theirs = (simulate(kenan, Settings(**rubs), engine).energy for engine in ("planar", "mujoco"))
     assert ours is not None
     assert theirs is not None

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support import needs
 from support.commands import exit_code_of
 from support.documented import documented_bases
 from support.flights import Flight
@@ -76,7 +77,7 @@ def test_advancing_tells_where_the_leg_was_before_the_last_step(kenan: Robot) ->
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_printed_robots(name: str, engine: str) -> None:
-    pytest.importorskip(engine)
+    needs.package(engine)
     robot = build(load_design(name))
     planar, other = simulate(robot, engine="planar"), simulate(robot, FINE, engine)
     assert planar.verdict == other.verdict == "jump"
@@ -91,9 +92,9 @@ def test_slipping(kenan: Robot, friction: float) -> None:
     planar = simulate(kenan, settings, "planar")
     assert planar.energy is not None
     assert planar.energy.slip_j > 0.005 * planar.spring_energy_j
-    pytest.importorskip("mujoco")
+    needs.package("mujoco")
     assert planar.ballistic_range_m == pytest.approx(simulate(kenan, settings, "mujoco").ballistic_range_m, rel=0.003)
-    pytest.importorskip("pybullet")
+    needs.package("pybullet")
     assert planar.ballistic_range_m == pytest.approx(simulate(kenan, settings, "pybullet").ballistic_range_m, rel=0.002)
 
 

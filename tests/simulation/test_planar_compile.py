@@ -27,7 +27,7 @@ for name in ("kenan-2.0", "best-bo"):
 """
 
 
-@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason="numba is not installed")
+@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason='numba is not installed: pip install ".[fast]"')
 def test_compiled_and_plain_give_the_same_numbers() -> None:
     assert hasattr(kernel.response, "py_func"), "compiled in this process"
     here: dict[str, Any] = {}
@@ -43,7 +43,7 @@ def test_compiled_and_plain_give_the_same_numbers() -> None:
         assert one[1:] == pytest.approx(other[1:], rel=1e-9, abs=1e-12)
 
 
-@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason="numba is not installed")
+@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason='numba is not installed: pip install ".[fast]"')
 def test_what_is_compiled_is_kept_for_the_next_process_and_divides_as_a_processor_does() -> None:
     """By zero it says infinite or no number, which ends a push-off as lost, and raises nothing."""
     assert kernel.response.stats.cache_path  # type: ignore[attr-defined]

@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import pytest
+from support import needs
 from support.flights import Flight
 
 from jumpcad.simulation import Settings, load_settings, simulate
@@ -40,7 +41,7 @@ def test_converged_jumps(jumping: list[Flight], engine: str) -> None:
 
     MuJoCo takes more than a second for a jump, and does the shortest and the longest.
     """
-    pytest.importorskip(engine)
+    needs.package(engine)
     by_range = sorted(jumping, key=lambda flight: flight.values["ballistic_range_m"])
     for flight in jumping if engine == "pybullet" else (by_range[0], by_range[-1]):
         jump, table = simulate(flight.robot, FINE, engine), flight.values

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support import needs
 from support.documented import documented_bases
 from support.flights import Flight, make_lopsided
 from support.machines import let_go, rubbing
@@ -25,7 +26,7 @@ from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import State
 from jumpcad.simulation.run import BASIS, Run
 
-pytest.importorskip("pybullet")
+needs.package("pybullet")
 
 DT_S = 0.0005
 WITHIN_CONTACT_S, CONTACT_LOST_S = 0.003, 0.006

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from support import needs
 
 from jumpcad.design import Design, load_design
 from jumpcad.findings import Finding
@@ -17,7 +18,7 @@ from jumpcad.simulation.jump import EnergyBudget
 from jumpcad.simulation.mechanics import Ballistics
 from jumpcad.simulation.simulator import _jump
 
-pytest.importorskip("pybullet")
+needs.package("pybullet")
 
 
 def test_springs_that_give_less_than_they_hold_jump_as_weaker_ones(kenan: Robot) -> None:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from support import needs
 from support.built import built
 
 from jumpcad.exporters.mjcf import SUBSTEPS
@@ -20,7 +21,7 @@ BEYOND_RAD = 0.5
 @pytest.mark.parametrize("dt_s", [0.0005, 0.0001])
 def test_the_leg_is_halted_within_one_of_the_engines_own_steps(engine: str, substeps: int, dt_s: float) -> None:
     """By the leg's inertia times its rate over the step."""
-    pytest.importorskip(engine)
+    needs.package(engine)
     robot, rate = built("kenan-2.0"), 1e-3
     assert robot.stop is not None
     with engine_named(engine).world(robot, Settings(dt_s=dt_s)) as world:

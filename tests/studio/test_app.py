@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support import needs
 from support.built import built
 
 from jumpcad.bundle.bom import bill_of_materials
@@ -20,7 +21,7 @@ from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.workshop import load_workshop
 
-viser = pytest.importorskip("viser", reason="the extra studio is not installed")
+viser = needs.package("viser")
 
 from jumpcad.studio import Points, Studio, app, inputs  # noqa: E402
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer  # noqa: E402

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from PIL import Image
 from scipy.ndimage import uniform_filter
+from support import needs
 from support.browsers import PHONE, browser, needs_browser, require_quiet, wait, webdriver
 
-viser = pytest.importorskip("viser", reason="the extra studio is not installed")
+viser = needs.package("viser")
 
 from jumpcad.studio import Points, Studio  # noqa: E402
 from jumpcad.studio.server import own_server  # noqa: E402

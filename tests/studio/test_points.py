@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from support import needs
 from support.searches import refusal
 from support.studies import IDENTITY, trials
 
@@ -14,7 +15,7 @@ from jumpcad.search.table import write_table
 from jumpcad.studio.points import Points
 from jumpcad.workshop import load_workshop, varied
 
-pytest.importorskip("viser", reason="the extra studio is not installed")
+needs.package("viser")
 
 
 def test_a_trials_number_is_its_line_in_the_exported_table(study: Path, tmp_path: Path) -> None:

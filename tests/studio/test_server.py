@@ -6,8 +6,9 @@ import socket
 from collections.abc import Iterator
 
 import pytest
+from support import needs
 
-viser = pytest.importorskip("viser", reason="the extra studio is not installed")
+viser = needs.package("viser")
 
 from jumpcad.studio.server import own_server  # noqa: E402
 

@@ -6,11 +6,13 @@ from typing import Any
 
 import pytest
 
+from support import needs
+
 webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 from selenium.webdriver.support.ui import WebDriverWait  # noqa: E402
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-needs_browser = pytest.mark.skipif(not (CHROMIUM and DRIVER), reason="chromium or chromedriver is not installed")
+needs_browser = needs.without("chromedriver" if CHROMIUM else "chromium")
 WAIT_S = 60.0
 """A browser that does not answer within this time has failed."""
 PHONE = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}

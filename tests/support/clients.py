@@ -1,17 +1,16 @@
 """Bundles for independent programs, and what those must read in them."""
 
-import shutil
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
+from support import needs
 
 
 @dataclass(frozen=True)
@@ -54,8 +53,7 @@ def run(*command: str | Path) -> str:
 
     ADMesh prints the end of a file's header as it finds it in memory, which may be no text.
     """
-    if shutil.which(str(command[0])) is None:
-        pytest.skip(f"{command[0]} is not installed")
+    needs.program(str(command[0]))
     done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=120, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout + done.stderr
