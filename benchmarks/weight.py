@@ -1,6 +1,7 @@
-"""What the workshop's choices for less weight do: mass, range and rise of two templates, or the finding that stops one.
+"""What the workshop's choices for less weight do: mass, range and rise of two templates, or the findings that stop one.
 
-Run `python benchmarks/weight.py` from the repository; it prints the tables of `docs/decisions/weight.md`.
+Run `python benchmarks/weight.py` from the repository; it prints the tables of `docs/decisions/weight.md`: findings
+have the share of their limit that is used.
 """
 
 from typing import Any
@@ -39,7 +40,7 @@ def row(template: str, bought: dict[str, Any]) -> str:
     except JumpcadError as refusal:
         return f"– | – | – | {refusal}"
     found, jump = errors(check(robot)), simulate(robot)
-    wrong = "; ".join(f"`{one.name}`: {one.message}" for one in found) or "builds"
+    wrong = ", ".join(f"`{one.name}` {100.0 * (one.use or 0.0):.0f} %" for one in found) or "builds"
     return (
         f"{1000.0 * robot.mass_kg:.1f} | {1000.0 * (jump.ballistic_range_m or 0.0):.0f} | "
         f"{1000.0 * (jump.com_rise_m or 0.0):.0f} | {wrong}"
