@@ -102,7 +102,7 @@ def explore(
     require_plots(plots, force)
     robot = options.robot_model()
     space = Space.parse(options.fix or (), options.bound or (), options.choose or (), workshop=robot.workshop)
-    robot, objective = robot.aiming_at(options.objective)
+    objective = robot.aiming_at(options.objective)
     centre = load_design(AROUND if around is None else around)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),

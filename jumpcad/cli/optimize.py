@@ -48,7 +48,6 @@ UntilOption = Annotated[
     ),
 ]
 HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
-WidenFlag = Annotated[bool, typer.Option("--widen", help="Move bounds on which the best design lies, and go on.")]
 AgainstOption = Annotated[
     str | None,
     typer.Option(
@@ -84,7 +83,6 @@ def optimize(
     from_study: FromOption = None,
     until: UntilOption = UNTIL_PERCENT,
     hours: HoursOption = 0.0,
-    widen: WidenFlag = False,
     screen: ScreenFlag = False,
     against: AgainstOption = None,
     output: OutputOption = None,
@@ -113,7 +111,7 @@ def optimize(
     request = Request.make(
         space, robot, method, options.objective,
         evaluations=evaluations, seed=options.seed, preset=preset, batch=batch, prior=from_study,
-        until_percent=until, hours=hours, widen=widen, screen=screen, against=against,
+        until_percent=until, hours=hours, screen=screen, against=against,
     )  # fmt: skip
     path = options.study or Path(request.default_name())
     require_study(path)

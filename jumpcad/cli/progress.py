@@ -33,14 +33,14 @@ class Tally:
         """Count a trial, which was `computed` or read from the study file."""
         from jumpcad.search.trial import SEARCH_PHASES
 
-        self.done += trial.cost
+        self.done += 1
         self.total = max(self.total, self.done)
         searching = trial.phase in SEARCH_PHASES
         self.phase = trial.phase if searching else "robust pick"
         if searching and trial.score is not None:
             self.best = trial.score if self.best is None else max(self.best, trial.score)
         if computed:
-            self._computed += trial.cost
+            self._computed += 1
         elif not self._computed:
             self._start_s = self._clock()
 

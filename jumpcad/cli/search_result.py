@@ -55,8 +55,6 @@ def _print_course(result: "Result") -> None:
     request = result.request
     more = result.evaluations - len(result.trials)
     around = f", and {_of(more, request.pick)} for the robust pick" if more else ""
-    if request.aim.neighbours_of:
-        around = f", in {_of(result.evaluations, request.searched)} evaluations with their neighbours"
     print(f"{counted(len(result.trials), 'design')} evaluated{around}; rejected: {_counted(result.rejected)}")
     if result.converged:
         print(
@@ -80,15 +78,7 @@ def _print_candidates(result: "Result") -> None:
 
 
 def _print_bounds(result: "Result") -> None:
-    """Print what moved bounds were worth, and what lies beyond those on which the winner lies."""
-    for wider in result.widened:
-        change = wider.reason if wider.unknown else f"rejected by {wider.reason}"
-        if wider.worth is not None:
-            change = f"{wider.worth:+.4f}"
-        moved = (
-            f"{wider.name}, {wider.side} bound {wider.value:g} to {wider.beyond:g}" if wider.side else "all together"
-        )
-        print(f"widened: {moved}: {change}")
+    """Print what lies beyond the bounds on which the winner lies."""
     for bound in result.bounds:
         change = f"is {bound.reason}" if bound.unknown else f"is rejected: {bound.reason}"
         if bound.worth is not None:

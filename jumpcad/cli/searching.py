@@ -33,7 +33,7 @@ class SearchOptions:
         str | None,
         typer.Option(
             help="body_lengths, fitness, range, rise, range-per-joule, range-per-spring-joule, jumps-per-joule, "
-            "p10 (what nine of ten neighbours reach; p10-range and so on), or an own function of a jump's figures.",
+            "or an own function of a jump's figures.",
             metavar="NAME|FILE.py:FUNCTION",
             show_default="body_lengths; fitness of robots that are not printed",
         ),

@@ -86,11 +86,11 @@ def _watch(file: Path) -> None:
         running = is_written(file)  # before reading, so that the last trials are read too
         with StudyStore.read(file) as store:
             counts, best = store.progress()
-            planned, model = sum(stage["evaluations"] for stage in store.recall("stages", [])), store.identity["model"]
+            planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
             objective = described_objective(store.identity)
         searched = sum(count for phase, count in counts.items() if phase in SEARCH_PHASES)
         around = sum(counts.values()) - searched
-        line = f"{_done(searched, planned, model)}, best {'none' if best is None else objective.shown(best)}"
+        line = f"{_done(searched, planned)}, best {'none' if best is None else objective.shown(best)}"
         line += f", {around} around the best" if around else ""
         if line != printed:
             print(line, flush=True)
@@ -130,7 +130,7 @@ def _print_one(summary: dict[str, Any]) -> None:
     about += f" against {identity['against']}" if "against" in identity else ""
     print(f"{escaped(summary['study'])}: {about}")
     around = f", and {summary['other_evaluations']} around the best" if summary["planned"] else ""
-    print(f"{_done(summary['evaluations'], summary['planned'], identity['model'])}{around}")
+    print(f"{_done(summary['evaluations'], summary['planned'])}{around}")
     if summary["ended"] is not None:
         print(f"  ended: {_end_in_words(summary['ended'], identity)}")
     for name, count in summary["refused"].items():
@@ -149,16 +149,12 @@ def _print_one(summary: dict[str, Any]) -> None:
 def _end_in_words(ended: dict[str, Any], identity: dict[str, Any]) -> str:
     """Return what ended a search, and how it goes on."""
     from jumpcad.search.methods import METHODS
-    from jumpcad.search.neighbours import NEIGHBOURS
 
     method = identity["method"]
-    shares = method in METHODS and METHODS[method].shares and not identity.get("widen")
+    shares = method in METHODS and METHODS[method].shares
     more = f"{method} with more is another study" if shares else "more --evaluations go on"
-    spent = "all evaluations that it was to take are spent"
-    if identity["model"].get("neighbours_of"):
-        spent = f"fewer than the {1 + NEIGHBOURS} evaluations that a design may take with its neighbours are left"
     words = {
-        "evaluations": f"{spent}; {more}",
+        "evaluations": f"all evaluations that it was to take are spent; {more}",
         "until": f"its last steps gained less than {ended.get('until_percent', 0.0):g} % of the best score (--until); "
         "--until 0 goes on",
         "hours": f"its time is over (--hours {ended.get('hours', 0.0):g}); the same command goes on",
@@ -168,10 +164,8 @@ def _end_in_words(ended: dict[str, Any], identity: dict[str, Any]) -> str:
     return words[ended["by"]]
 
 
-def _done(designs: int, planned: int, model: dict[str, Any]) -> str:
-    """Return how far a search is; where a design takes neighbours too, evaluations are planned, not designs."""
-    if planned and model.get("neighbours_of"):
-        return f"{counted(designs, 'design')}, of {counted(planned, 'evaluation')} with their neighbours"
+def _done(designs: int, planned: int) -> str:
+    """Return how far a search is."""
     return f"{designs} of {counted(planned, 'design')}" if planned else counted(designs, "design")
 
 

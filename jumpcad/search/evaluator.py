@@ -43,7 +43,7 @@ class Evaluator:
     expired
         Whether the time of the search is over; methods ask before every step.
     room
-        How many more designs may be evaluated, where that depends on what each one takes; asked again after so many.
+        How many more designs may be evaluated before it is asked again; 0 if none.
     """
 
     @typed
@@ -71,7 +71,6 @@ class Evaluator:
         self._finished = {trial.key: trial for trial in held}
         self._taken = {(trial.phase, trial.step, trial.place): trial.key for trial in held}
         self._seen: dict[Key, Trial] = {}
-        self._spent = 0
         self.prior = list(prior)
         self._known = {trial.key for trial in self.prior}
         pool.notice = store.note
@@ -83,8 +82,8 @@ class Evaluator:
 
     @property
     def spent(self) -> int:
-        """How many robots the trials took: one each, more where an objective looks at neighbours."""
-        return self._spent
+        """How many trials there are."""
+        return len(self._seen)
 
     def admits(self, one: Design | Variant) -> bool:
         """Whether a design or variant is new, also to the prior, and the model admits it without an evaluation."""
@@ -183,7 +182,6 @@ class Evaluator:
             self._taken[trial.phase, trial.step, trial.place] = trial.key
 
     def _add(self, trial: Trial, computed: bool) -> None:
-        self._spent += 0 if trial.key in self._seen else trial.cost
         self._seen[trial.key] = trial
         self._watch(trial, computed)
 

@@ -19,7 +19,7 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.search.fitting import MARGIN, STATICS, features, figures_of, of_layout
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import Evaluation, Objective, find_objective
+from jumpcad.search.objective import Evaluation, Objective
 from jumpcad.search.space import Space
 from jumpcad.search.stand_in import EXTENTS, stand_in
 from jumpcad.search.trial import Trial
@@ -100,7 +100,7 @@ class Guesser:
 
     def __init__(self, space: Space, model: RobotModel, objective: Objective, engine: str, first: Trial) -> None:
         self.space, self.model, self.engine = space, model, engine
-        self.objective = find_objective(objective.neighbours_of) if objective.neighbours_of else objective
+        self.objective = objective
         self.like = build(first.design, model.varied(first.workshop).workshop)
 
     @classmethod

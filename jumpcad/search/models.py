@@ -15,8 +15,7 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, did_you_mean
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.search.neighbours import neighbours, with_neighbours
-from jumpcad.search.objective import CANNOT_BUILD, QUANTILE, Evaluation, Objective, find_objective
+from jumpcad.search.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
 from jumpcad.search.refusal import refusal_findings, room_findings
 from jumpcad.search.stand_in import figures_of, laid_out
 from jumpcad.search.tolerances import PREFIX, Making, as_made
@@ -49,9 +48,6 @@ class RobotModel:
         Where `printed` is built; the default if None.
     settings, engine
         How `printed` and `capsule` are simulated; the default settings if None.
-    neighbours_of
-        An objective by name: of a design that jumps, neighbours are evaluated too, and the figure `p10` is that score
-        of the worst of them. The design is rejected with the first neighbour that is.
     stand_in
         Whether the evaluation of a printed robot has the figures of which stand-ins of others are made.
     made
@@ -62,7 +58,6 @@ class RobotModel:
     workshop: Workshop | None = None
     settings: Settings | None = None
     engine: str = "pybullet"
-    neighbours_of: str = ""
     stand_in: bool = False
     made: Mapping[str, Value] = field(default_factory=dict)
 
@@ -83,16 +78,6 @@ class RobotModel:
                 return self.varied(workshop)(design)
             except JumpcadError as error:  # the values do not go together
                 return Evaluation("workshop", detail=str(error))
-        found = self._alone(design)
-        if not self.neighbours_of or not found.feasible:
-            return found
-        return with_neighbours(found, neighbours(design, self.making), self._beside, find_objective(self.neighbours_of))
-
-    def _beside(self, neighbour: Variant) -> Evaluation:
-        model = self.varied(neighbour.workshop) if neighbour.workshop else self
-        return model._alone(neighbour.design)
-
-    def _alone(self, design: Design) -> Evaluation:
         findings = tuple(geometry_findings(design))
         rejecting = errors(findings)
         if rejecting:
@@ -142,24 +127,17 @@ class RobotModel:
         """What is searched for unless the user says something else: only a printed robot has a size."""
         return "body_lengths" if self.name == "printed" else "fitness"
 
-    def aiming_at(
-        self, objective: str | Callable[..., Any] | None, default: str = ""
-    ) -> "tuple[RobotModel, Objective]":
-        """Return the model that gives an objective's figures, and the objective; see `find_objective`.
-
-        Without one it is the default, the model's own if none is given; `p10` alone is that of the default.
+    def aiming_at(self, objective: str | Callable[..., Any] | None, default: str = "") -> Objective:
+        """Return an objective, see `find_objective`; without one the default, the model's own if none is given.
 
         Raises
         ------
         JumpcadError
             If there is no such objective, or a jump of this robot lacks a figure that it needs.
         """
-        default = default or self.default_objective
-        if objective == QUANTILE:
-            objective = f"{QUANTILE}-{default}"
-        aim = find_objective(default if objective is None else objective)
+        aim = find_objective(default or self.default_objective if objective is None else objective)
         self.require_figures(aim)
-        return replace(self, neighbours_of=aim.neighbours_of) if aim.neighbours_of else self, aim
+        return aim
 
     def require_figures(self, objective: Objective) -> None:
         """Require that a jump of this robot has the figures of a named objective; a printed robot has them all.
@@ -169,13 +147,12 @@ class RobotModel:
         JumpcadError
             If one is missing.
         """
-        plain = find_objective(objective.neighbours_of) if objective.neighbours_of else objective
-        if self.name == "printed" or plain.code:
+        if self.name == "printed" or objective.code:
             return
         from jumpcad.simulation.jump import Jump
 
         names = PUBLISHED_FIGURES if self.name == "published" else [one.name for one in fields(Jump)]
-        plain.score(Evaluation("jump", dict.fromkeys(names, 1.0)))
+        objective.score(Evaluation("jump", dict.fromkeys(names, 1.0)))
 
     def admits(self, design: Design) -> bool:
         """Whether the feasibility checks that need neither solids nor simulation accept a design (microseconds)."""
@@ -215,9 +192,8 @@ class RobotModel:
         found = quick(design)
         if found.verdict != "jump":
             return -math.inf
-        plain = find_objective(objective.neighbours_of) if objective.neighbours_of else objective
         try:
-            return plain.score(replace(found, findings=())) or 0.0
+            return objective.score(replace(found, findings=())) or 0.0
         except JumpcadError:
             return found.metrics["fitness"]
 
@@ -241,7 +217,6 @@ class RobotModel:
         for key in ("workshop", "settings"):
             value = getattr(self, key)
             record[key] = None if value is None else value.model_dump(mode="json")
-        record |= {"neighbours_of": self.neighbours_of} if self.neighbours_of else {}
         return record | ({"stand_in": True} if self.stand_in else {})
 
     @cached_property

@@ -13,10 +13,6 @@ from jumpcad.findings import Finding, bare, errors
 from jumpcad.search.code_hash import code_hash
 from jumpcad.search.own_objective import SUFFIX, checked, load_function, name_of, require_function
 
-COST = "evaluations"
-"""Figure of an evaluation that took several robots: how many."""
-QUANTILE = "p10"
-"""Figure, and objective: the score that nine of ten neighbours reach."""
 SCREENED, GUESSED = "screened", "guessed_score"
 """Verdict of a candidate that a screen left out, and the figure that it had for its score."""
 CANNOT_BUILD = "cannot_build"
@@ -68,11 +64,6 @@ class Evaluation:
         return frozenset(one.name for one in errors(self.findings))
 
     @property
-    def cost(self) -> int:
-        """How many robots were built and simulated for it."""
-        return int(self.metrics.get(COST, 1.0))
-
-    @property
     def bare(self) -> "Evaluation":
         """The same with findings of name, severity, unit and six digits of margin only: what studies keep.
 
@@ -113,8 +104,7 @@ class Model(Protocol):
 class Objective:
     """A score to be maximised; a rejected design has none.
 
-    ``code`` is the hash of an own objective's function. ``neighbours_of`` names the objective whose score, of the worst
-    of ten neighbours, is this one's: the model then evaluates neighbours too.
+    ``code`` is the hash of an own objective's function.
     """
 
     name: str
@@ -122,7 +112,6 @@ class Objective:
     unit: str
     figure: Callable[[Mapping[str, float]], float]
     code: str = ""
-    neighbours_of: str = ""
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Be pickled as a study keeps it: by name, and an own one without its function."""
@@ -198,8 +187,6 @@ def find_objective(objective: str | Callable[..., Any]) -> Objective:
     if isinstance(objective, str):
         if objective in OBJECTIVES:
             return OBJECTIVES[objective]
-        if objective.removeprefix(f"{QUANTILE}-") in OBJECTIVES:
-            return _quantile(OBJECTIVES[objective.removeprefix(f"{QUANTILE}-")])
         if f"{SUFFIX}:" not in objective:
             raise JumpcadError(
                 f"{objective!r} is not one of the objectives {', '.join(OBJECTIVES)}"
@@ -208,11 +195,6 @@ def find_objective(objective: str | Callable[..., Any]) -> Objective:
         objective = load_function(objective)
     function = require_function(objective)
     return Objective(name_of(function), "own objective", "own units", checked(function), code_hash(function))
-
-
-def _quantile(plain: Objective) -> Objective:
-    meaning = f"{plain.meaning} of nine in ten neighbours"
-    return Objective(f"{QUANTILE}-{plain.name}", meaning, plain.unit, lambda m: m[QUANTILE], neighbours_of=plain.name)
 
 
 def described_objective(identity: Mapping[str, Any]) -> Objective:

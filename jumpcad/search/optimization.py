@@ -45,7 +45,6 @@ def optimize(
     prior: str | Path | None = None,
     until_percent: float | int = UNTIL_PERCENT,
     hours: float | int = 0.0,
-    widen: bool = False,
     screen: bool = False,
     against: str | None = None,
 ) -> Result:
@@ -64,10 +63,8 @@ def optimize(
         Random seed: the same call gives the same result.
     objective
         One of `jumpcad.search.OBJECTIVES` by name; if None, `range` for a front, `body_lengths` of the printed robot,
-        `fitness` of the others. `p10`, or as `p10-range`: the score that nine of ten neighbours reach within the
-        tolerances of the robust pick; a design that jumps then counts as up to eleven evaluations, and the search
-        ends where fewer are left. Or an own one: a function that takes the figures of a jump (a mapping of names to
-        numbers) and returns the score, or `FILE.py:FUNCTION`.
+        `fitness` of the others. Or an own one: a function that takes the figures of a jump (a mapping of
+        names to numbers) and returns the score, or `FILE.py:FUNCTION`.
     model
         The robot that is evaluated: `printed`, `capsule` or `published`.
     study
@@ -87,9 +84,6 @@ def optimize(
     until_percent, hours
         End earlier: when the last Bayesian steps gain less than this share of the best score, or after this time (h);
         see `Request`. 0 for neither: all evaluations are spent.
-    widen
-        Move bounds on which the best design lies, as far as a design or workshop can be, and go on; `Result.widened`
-        has what each bound costs.
     screen
         For `ga` on the printed robot: leave out candidates that, by a quick guess, fail or are worse than the best
         known by more than the guess's own error. They count as evaluations.
@@ -116,7 +110,7 @@ def optimize(
     request = Request.make(
         space, robot, method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
-        until_percent=until_percent, hours=hours, widen=widen, screen=screen, against=against,
+        until_percent=until_percent, hours=hours, screen=screen, against=against,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, path, pool)

@@ -32,7 +32,7 @@ class Replay(Evaluator):
         held = store.trials()
         self.space, self.objective = Space.from_record(store.space), described_objective(identity)
         self.store = store
-        self._watch, self._spent = ignore, 0
+        self._watch = ignore
         self._finished = {trial.key: trial for trial in held}
         self._seen = {trial.key: trial for trial in searched(held)}
 
@@ -67,7 +67,7 @@ class Known:
     Parameters
     ----------
     space, objective
-        What was searched for, and where: with the bounds that the search moved.
+        What was searched for, and where.
     trials
         All designs that the search proposed, in order.
     winner

@@ -17,7 +17,6 @@ from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES,
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel
-from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.objective import Model, Objective, find_objective
 from jumpcad.search.robust import pick_share
 from jumpcad.search.space import Space
@@ -29,8 +28,6 @@ MOST_EVALUATIONS = 1_000_000
 """About a day of one core, at 80 ms an evaluation (docs/speed.md)."""
 MOST_FIRST = 50
 """Most evaluations of the first of two methods: with 190 of 240, the second found the best design in 10 (measured)."""
-WIDENINGS, WIDENING_SHARE, WIDER = 3, 0.5, "bo"
-"""How often active bounds are moved, and the share of the search that follows, by which method; judgement."""
 LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 """Packages that decide what is proposed next, in addition to those that decide an evaluation."""
 
@@ -65,9 +62,6 @@ class Request:
     hours
         The search ends in time for the robust pick, and this ends after this time (h); 0 for no limit. The same request
         goes on later.
-    widen
-        Whether bounds on which the best design lies are moved, and the search goes on: `WIDENINGS` times, with
-        `WIDENING_SHARE` of the evaluations.
     screen
         Whether a quick guess leaves out candidates of the genetic algorithm; see `Screen`. They count as evaluations.
     against
@@ -88,7 +82,6 @@ class Request:
     own: Objective | None = None
     until_percent: float = UNTIL_PERCENT
     hours: float = 0.0
-    widen: bool = False
     screen: bool = False
     against: str = SPRING_ENERGY.name
 
@@ -113,7 +106,7 @@ class Request:
         printed_front = model.name == "printed" and method in FRONTS
         if against is None:
             against = (ELECTRICAL_ENERGY if printed_front else SPRING_ENERGY).name
-        model, aim = model.aiming_at(objective, "range" if method in FRONTS else "")
+        aim = model.aiming_at(objective, "range" if method in FRONTS else "")
         own = aim if aim.code else None
         if model.name == "printed" and (others.get("screen") or method not in ("ga", "nsga2")):
             model = replace(model, stand_in=True)
@@ -137,11 +130,6 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
-        if self.aim.neighbours_of and self.evaluations < 1 + NEIGHBOURS:
-            raise JumpcadError(
-                f"evaluations = {self.evaluations} must be at least {1 + NEIGHBOURS} for {self.objective}: a design "
-                f"takes as many with its {NEIGHBOURS} neighbours"
-            )
         if isinstance(self.model, RobotModel):
             self.model.require_figures(self.aim)
             if self.is_front and self.cost.of_design is None:
@@ -150,15 +138,13 @@ class Request:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
         if self.screen:
             self._require_screen()
-        if self.widen and self.is_front:
-            raise JumpcadError(f"widen: does not apply to {self.method}, which has no best design")
         if (
             self.is_front
             and self.cost is SPRING_ENERGY
             and any(one.name == "bought.spring" for one in self.space.of_workshop)
         ):
             raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
-        stages = [*_methods(self.method), *([WIDER] if self.widen else [])]
+        stages = _methods(self.method)
         if self.until_percent not in (0.0, UNTIL_PERCENT) and not METHODS[stages[-1]].ends:
             ending = _named(lambda methods: METHODS[methods[-1]].ends)
             percent = shown(self.until_percent)
@@ -189,8 +175,8 @@ class Request:
         if self.method != "ga":
             raise JumpcadError(f"screen: does not apply to {self.method}, only to ga; leave it out")
         robot = self.model.describe()
-        if robot["name"] != "printed" or self.aim.neighbours_of:
-            raise JumpcadError("screen: applies to the printed robot and one robot a candidate; leave it out")
+        if robot["name"] != "printed":
+            raise JumpcadError("screen: applies to the printed robot; leave it out")
         if self.space.of_workshop or (robot["workshop"] and robot["workshop"]["bought"]["spring"]):
             raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
 
@@ -208,9 +194,9 @@ class Request:
     def pick(self) -> int:
         """How many of the evaluations examine the neighbours and the bounds of the best designs.
 
-        None where the objective looks at neighbours itself. Of a front, all that are left examine neighbours.
+        Of a front, all of them examine neighbours.
         """
-        return 0 if self.aim.neighbours_of else pick_share(self.evaluations)
+        return pick_share(self.evaluations)
 
     @property
     def searched(self) -> int:
@@ -249,7 +235,6 @@ class Request:
             "seed": self.seed,
             "preset": self.preset,
             "batch": self.batch,
-            **({"widen": True} if self.widen else {}),
             **({"screen": self.model.guess_engine} if self.screen and isinstance(self.model, RobotModel) else {}),
             "making": asdict(self.making),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
@@ -266,15 +251,11 @@ class Request:
 
 @dataclass(frozen=True)
 class Stage:
-    """One method's share: how many evaluations, and how many of them spread evenly first, if it learns.
-
-    With ``widen``, active bounds are moved before.
-    """
+    """One method's share: how many evaluations, and how many of them spread evenly first, if it learns."""
 
     method: str
     evaluations: int
     initial: int = 0
-    widen: bool = False
 
 
 def _methods(name: str) -> tuple[str, ...]:
@@ -293,13 +274,7 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     Of a sequence, the first method gets a third of the evaluations, at most `MOST_FIRST`: Bayesian optimisation learns
     from them as from evenly spread designs, and more of them are wasted.
     """
-    if request.widen:
-        wider = [Stage(WIDER, int(WIDENING_SHARE * request.searched / WIDENINGS), widen=True)] * WIDENINGS
-        return [*_plan(request, request.searched - sum(stage.evaluations for stage in wider), prior), *wider]
-    return _plan(request, request.searched, prior)
-
-
-def _plan(request: Request, total: int, prior: int) -> list[Stage]:
+    total = request.searched
     if request.method in SEQUENCES:
         first, second = SEQUENCES[request.method]
         share = min(total // 3, MOST_FIRST)

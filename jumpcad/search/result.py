@@ -1,6 +1,6 @@
 """`Result`: what a study found, as values, as plain data, and as a design file."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,6 @@ from jumpcad.search.models import RobotModel
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
 from jumpcad.search.trial import Trial, count_rejections
-from jumpcad.search.widening import Widened
 from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
@@ -47,8 +46,6 @@ class Result:
         What happened to the run: lost workers, quarantined designs.
     evaluations
         How many robots were built and simulated in all, those of the robust pick included.
-    widened
-        Bounds that the search moved, with what they cost.
     converged
         Whether the search ended before all of its evaluations, because its last steps gained too little.
     """
@@ -60,7 +57,6 @@ class Result:
     bounds: list[ActiveBound]
     notes: list[str]
     evaluations: int
-    widened: Sequence[Widened] = ()
     converged: bool = False
 
     @property
@@ -161,7 +157,6 @@ class Result:
             "winner": None if self.winner is None else self.winner.to_dict(),
             "candidates": [candidate.to_dict() for candidate in self.candidates],
             "active_bounds": [asdict(bound) for bound in self.bounds],
-            **({"widened": [one.to_dict() for one in self.widened]} if self.request.widen else {}),
             "notes": self.notes,
         }
         if self.request.is_front:

@@ -38,7 +38,6 @@ from jumpcad.search.trial import SEARCH_PHASES, Trial
 
 ENDED = "ended"
 """Key under which a study remembers what ended its search; None while it runs, and where it was interrupted."""
-WIDENED = "widened"
 """Key under which a study remembers the space whose bounds the search moved."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
@@ -142,8 +141,8 @@ class StudyStore:
 
     @property
     def space(self) -> dict[str, Any]:
-        """The space of the search as plain data, with the bounds that it has moved."""
-        space: dict[str, Any] = self.recall(WIDENED) or self.identity["space"]
+        """The space of the search as plain data."""
+        space: dict[str, Any] = self.identity["space"]
         return space
 
     def recall(self, key: str, default: Any = None) -> Any:
@@ -156,7 +155,7 @@ class StudyStore:
             value = json.loads(found[0])
         except (TypeError, ValueError, RecursionError) as error:
             raise JumpcadError(f"{self.path}: is damaged: its {key} cannot be read ({shown(str(error))})") from None
-        if key in ("stages", ENDED, WIDENED) and value is not None:
+        if key in ("stages", ENDED) and value is not None:
             self._require(key, value)
         return value
 

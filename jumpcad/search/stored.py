@@ -93,7 +93,6 @@ class _Stage(TomlTable):
     method: Annotated[str, AfterValidator(_is_method)]
     evaluations: Count
     initial: Count = 0
-    widen: bool = False
 
 
 class _Ended(TomlTable):
@@ -106,14 +105,13 @@ _REMEMBERED: dict[str, TypeAdapter[Any]] = {
     "identity": TypeAdapter(_Identity),
     "stages": TypeAdapter(Annotated[list[_Stage], Field(min_length=1)]),
     "ended": TypeAdapter(_Ended),
-    "widened": TypeAdapter(_Space),
 }
 _WORKSHOP = TypeAdapter(dict[str, Finite | Text], config=STRICT)
 _PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]] | list[list[Share]]], config=STRICT)
 
 
 def require_remembered(key: str, value: Any) -> None:
-    """Reject what a study cannot have remembered as its `identity`, its `stages`, what `ended` or `widened` it.
+    """Reject what a study cannot have remembered as its `identity`, its `stages`, or what `ended` it.
 
     Raises
     ------

@@ -110,7 +110,7 @@ class StoredEvaluation(Evaluation):
         findings = whole.findings
         held = {
             "verdict": sys.intern(whole.verdict), "detail": whole.detail, "_reasons": _shared(whole.reasons),
-            "_feasible": whole.feasible, "_cost": whole.cost,
+            "_feasible": whole.feasible,
             "_names": _shared(tuple(whole.metrics)), "_values": array("d", whole.metrics.values()).tobytes(),
             "_limits": _shared(tuple((one.name, one.unit) for one in findings)),
             "_severities": bytes(SEVERITIES.index(one.severity) for one in findings),
@@ -143,11 +143,6 @@ class StoredEvaluation(Evaluation):
         """As of what was written."""
         reasons: tuple[str, ...] = self.__dict__["_reasons"]
         return reasons
-
-    @property
-    def cost(self) -> int:
-        """As of what was written."""
-        return int(self.__dict__["_cost"])
 
     @property
     def bare(self) -> Evaluation:

@@ -15,16 +15,14 @@ from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.fronts import front
-from jumpcad.search.methods import METHODS, STEPS, Task
-from jumpcad.search.neighbours import NEIGHBOURS
+from jumpcad.search.methods import METHODS, Task
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
 from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
-from jumpcad.search.store import ENDED, WIDENED, StudyStore, difference
+from jumpcad.search.store import ENDED, StudyStore, difference
 from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
 from jumpcad.search.versions import versions
-from jumpcad.search.widening import Widened, widen
 
 FIRST = 50
 """Designs after which it is said that none jumps."""
@@ -98,7 +96,6 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if store.recall(ENDED) is not None:
             store.remember(ENDED, None)  # until this run ends
         hopeless, clock, allowance = Hopeless(), Clock(request.hours), 0
-        widened: list[Widened] = []
         picking = cut = False
 
         def watched(trial: Trial, computed: bool) -> None:
@@ -108,15 +105,14 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             watch(trial, computed)
 
         def room() -> float:
-            """Return how many more designs fit if each takes all its neighbours; of a timed pick, how many at once."""
+            """Return how many designs of a timed pick are evaluated before the next look at the clock."""
             nonlocal cut
             if picking and clock.is_over():
                 cut = True
                 return 0
             if picking and request.hours:
                 return PICKED_AT_ONCE * max(pool.workers, 1)
-            left = allowance - evaluator.spent
-            return left // (1 + NEIGHBOURS) if request.aim.neighbours_of else math.inf
+            return math.inf
 
         evaluator = Evaluator(
             request.space,
@@ -126,24 +122,19 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             pool,
             prior,
             watched,
-            lambda: clock.is_over(request.pick) or evaluator.spent >= allowance or room() < 1,
+            lambda: clock.is_over(request.pick) or evaluator.spent >= allowance,
             room,
         )
         for number, stage in enumerate(stages):
             converged = False
             allowance += stage.evaluations
             if not evaluator.expired():
-                before, first_step = len(evaluator.trials), 0
-                if stage.widen:
-                    first_step = sum(METHODS[earlier.method].runs for earlier in stages[:number]) * STEPS
-                    widened += widen(evaluator, first_step, stage.evaluations)
-                    store.remember(WIDENED, evaluator.space.describe())
                 # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
                 may_end = number == len(stages) - 1 and METHODS[stage.method].ends
                 least_gain = request.until_percent / 100.0 if may_end else 0.0
                 task = Task(
-                    stage.evaluations - (len(evaluator.trials) - before), request.seed, stage.initial, request.batch,
-                    request.preset, least_gain, first_step, request.screen, request.against,
+                    stage.evaluations, request.seed, stage.initial, request.batch,
+                    request.preset, least_gain, 0, request.screen, request.against,
                 )  # fmt: skip
                 converged = METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
@@ -167,7 +158,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             timed = [f"ended after {request.hours:g} h, during the robust pick: the same command goes on"]
         store.remember(ENDED, _end(request, evaluator.spent, len(trials), converged, bool(timed)))
         notes = [*store.notes(), *timed]
-        return Result(request, trials, best, candidates, bounds, notes, evaluator.spent, widened, converged)
+        return Result(request, trials, best, candidates, bounds, notes, evaluator.spent, converged)
 
 
 def _end(request: Request, spent: int, designs: int, converged: bool, timed: bool) -> dict[str, Any]:
@@ -178,8 +169,7 @@ def _end(request: Request, spent: int, designs: int, converged: bool, timed: boo
         return {"by": "until", "until_percent": request.until_percent}
     if designs >= request.space.size:
         return {"by": "space"}
-    all_spent = spent + (NEIGHBOURS if request.aim.neighbours_of else 0) >= request.searched
-    return {"by": "evaluations" if all_spent else "proposals"}
+    return {"by": "evaluations" if spent >= request.searched else "proposals"}
 
 
 def _bounds_step(request: Request, trials: list[Trial]) -> int:

@@ -79,7 +79,7 @@ def active(found: Known) -> Iterator[str]:
     unit = found.objective.unit
     yield "<p>The winner lies on these ends of what was searched. The last column says what each of them costs: how "
     yield "the score changes a twentieth of the range beyond it, the other parameters unchanged. Where it rises, "
-    yield "<code>--bound</code> with a wider range, or <code>--widen</code>, may find a better design. "
+    yield "a wider range (<code>--bound</code>) may find a better design. "
     yield f"{_gains(found)}</p>"
     rows = [
         [

@@ -129,9 +129,6 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
         f"{f' against {described_cost(identity).figure.meaning}' if method in FRONTS else ''}, "
         f"{'evaluated' if found.is_explored else 'searched'} by {written(', then '.join(stages) or method)}.</p>"
     )
-    if store.space != identity["space"]:
-        yield "<p>The search moved bounds on which its best design lay (<code>--widen</code>); ranges are those at its "
-        yield "end.</p>"
     rows = []
     for parameter in found.space.parameters:
         value = "" if found.winner is None else _value(found.winner.variant.value(parameter.name))

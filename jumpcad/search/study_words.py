@@ -32,7 +32,6 @@ FIGURES = {
     "boards_energy_j": "… of it, the boards' while winding",
     "size_m": "size, the longest side of the robot at rest",
     "spring_energy_j": "energy in the springs",
-    "p10": "score of nine in ten neighbours",
 }
 """What figures of an evaluation are called."""
 

@@ -12,7 +12,7 @@ from jumpcad.search.objective import Evaluation
 from jumpcad.search.variant import Key, Variant
 from jumpcad.workshop.varied import Value
 
-PHASES = ("sample", "sweep", *METHODS, "widen", "margin", "bounds", "robust")
+PHASES = ("sample", "sweep", *METHODS, "margin", "bounds", "robust")
 """All phases in the order of a study; the last three examine designs near the best."""
 SEARCH_PHASES = PHASES[:-3]
 LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learns)
@@ -61,11 +61,6 @@ class Trial:
     def variant(self) -> Variant:
         """The evaluated design with its values of the workshop."""
         return Variant(self.design, self.workshop)
-
-    @property
-    def cost(self) -> int:
-        """Number of robots that were built and simulated for it."""
-        return self.evaluation.cost
 
     @property
     def position(self) -> tuple[int, int, int]:

@@ -249,26 +249,6 @@ def test_importance_is_that_of_all_that_was_sampled_the_largest_first(monkeypatc
     assert "(3 of 3 designs jump)" in lines[3]
 
 
-def test_what_nine_of_ten_neighbours_reach_is_less_than_what_a_design_reaches(folder):
-    """The objective `p10`, which the help names, by itself and of another objective."""
-    options = [*QUICK, *NARROW, "--points", 2]
-    plain, robust, named = (
-        data("explore", "sweep", *options, "--objective", name) for name in ("range", "p10-range", "p10")
-    )
-    assert (robust["objective"], named["objective"]) == ("p10-range", "p10-fitness")
-    pairs = [
-        (one["score"], other["score"])
-        for parameter, found in plain["sweeps"].items()
-        for one, other in zip(found, robust["sweeps"][parameter], strict=True)
-        if other["score"] is not None
-    ]
-    assert pairs
-    assert all(0.0 < reached < score for score, reached in pairs)
-    assert "needs body_lengths, which this model does not give" in refusal(
-        "explore", "sweep", *QUICK, "--objective", "p10-body_lengths"
-    )
-
-
 def test_what_cannot_be_written_is_told_before_anything_is_evaluated(folder, monkeypatch):
     """Nor is a file replaced that is read, or that somebody made."""
     monkeypatch.setattr("jumpcad.search.store.StudyStore.write", lambda *_: pytest.fail("begun"))

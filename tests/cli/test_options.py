@@ -56,14 +56,14 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
 def test_every_option_of_optimize_arrives_and_is_that_of_python(run: Run, asked: dict[str, Any]) -> None:
     code, _, err = run(
         "optimize", "ga+bo", *SEARCH, "--evaluations", 77, "--preset", "published", "--batch", 4, "--from-study",
-        "old.db", "--until", 2, "--hours", 1.5, "--widen", "--around", "kenan-2.0", "--only", "c_coef, rest_angle_deg",
+        "old.db", "--until", 2, "--hours", 1.5, "--around", "kenan-2.0", "--only", "c_coef, rest_angle_deg",
         "--within", 10,
     )  # fmt: skip
     assert (code, err) == (2, "jumpcad: enough\n")
     request, shop = asked["request"], load_workshop("light")
     assert (request.method, request.objective, request.evaluations, request.seed) == ("ga+bo", "range", 77, 5)
     assert (request.preset, request.batch, request.prior) == ("published", 4, Path("old.db"))
-    assert (request.until_percent, request.hours, request.widen, request.screen) == (2.0, 1.5, True, False)
+    assert (request.until_percent, request.hours, request.screen) == (2.0, 1.5, False)
     model = request.model
     assert (model.name, model.workshop, model.settings, model.engine) == (
         "printed", shop, load_settings("fine"), "mujoco",
@@ -81,7 +81,7 @@ def test_every_option_of_optimize_arrives_and_is_that_of_python(run: Run, asked:
         jumpcad.optimize(
             "ga+bo", objective="range", seed=5, workshop="light", settings="fine", engine="mujoco", workers=3,
             limit_s=33.0, study="mine.db", evaluations=77, preset="published", batch=4, prior="old.db",
-            until_percent=2.0, hours=1.5, widen=True, around="kenan-2.0", only=["c_coef", "rest_angle_deg"],
+            until_percent=2.0, hours=1.5, around="kenan-2.0", only=["c_coef", "rest_angle_deg"],
             within_percent=10.0,
         )  # fmt: skip
     assert asked == by_command

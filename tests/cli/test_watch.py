@@ -22,7 +22,7 @@ def test_designs_of_the_search_and_around_the_best_are_counted_apart(tmp_path, c
     around = [replace(trial, phase="robust", score=99.0) for trial in trials(5, step=1)]
     with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
         store.append(searched + around)
-        store.remember("stages", [{"method": "ga", "evaluations": 20, "initial": 0, "widen": False}])
+        store.remember("stages", [{"method": "ga", "evaluations": 20, "initial": 0}])
     command._watch(tmp_path / "s.db")
     best = max(trial.score for trial in searched if trial.score is not None)
     assert capsys.readouterr().out == f"12 of 20 designs, best {best:.4f} body lengths, 5 around the best\n"

@@ -120,7 +120,6 @@ def test_a_function_may_use_anything(sandbox: Sandbox, case: str) -> None:
 @pytest.mark.parametrize(
     ("model", "objective", "lacking"),
     [
-        ("capsule", "p10-jumps-per-joule", "electrical_energy_j"),
         ("capsule", "range-per-joule", "electrical_energy_j"),
         ("capsule", "body_lengths", "body_lengths"),
         ("published", "jumps-per-joule", "electrical_energy_j"),

@@ -54,7 +54,7 @@ def test_a_dozen_robots_guess_the_others(monkeypatch):
     model, points = quick(), SPACE.spread(32, np.random.default_rng(3))
     built = list(trials_of(points[:14], model))
     first = next(trial for trial in built if MARK in trial.evaluation.metrics)
-    guesser = Guesser(SPACE, model, find_objective("p10-body_lengths"), "pybullet", first)  # guesses the plain one
+    guesser = Guesser(SPACE, model, find_objective("body_lengths"), "pybullet", first)
     fit = Fit(0, Table(SPACE, built, SPACE.to_unit(BEST)).coefficients(), {})
     others = list(trials_of(points[14:], model))
     pairs = [(guesser(one.variant, fit), one.score) for one in others]

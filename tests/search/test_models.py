@@ -13,7 +13,6 @@ from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.models import RobotModel, _figures, robot_model
-from jumpcad.search.neighbours import neighbours
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.refusal import room_findings
 from jumpcad.search.tolerances import Making
@@ -57,7 +56,6 @@ def test_a_model_says_what_decides_its_evaluations():
         assert {"jumpcad", "code", "numpy", engine} <= set(model.versions())
     assert "mujoco" not in printed.versions()
     assert replace(printed, stand_in=True).describe() == printed.describe() | {"stand_in": True}
-    assert replace(printed, neighbours_of="rise").describe() == printed.describe() | {"neighbours_of": "rise"}
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
     assert len(digests) == 4
 
@@ -218,42 +216,8 @@ def test_what_estimates_refuse_is_told_with_the_margins_of_its_geometry(monkeypa
     assert found == Evaluation("tips", findings=(*geometry_findings(design), *refused))
 
 
-def test_p10_looks_at_robots_that_are_varied_and_made_otherwise_each_in_its_workshop(monkeypatch):
-    """Half of them with other springs, floors or masses, and none beside a design that is rejected."""
-    asked, verdict, design = [], "jump", load_design("kenan-2.0")
-
-    def alone(self, one):
-        asked.append((one, self.workshop, dict(self.made)))
-        return Evaluation(verdict, {"fitness": 3.0 if len(asked) > 1 else 9.0})
-
-    monkeypatch.setattr(RobotModel, "_alone", alone)
-    model = replace(robot_model(), neighbours_of="fitness")
-    assert model(design).metrics["p10"] == 3.0
-    beside = [(one, model.varied(one.workshop)) for one in neighbours(design, model.making)]
-    assert asked[1:] == [(one.design, other.workshop, dict(other.made)) for one, other in beside]
-    assert sum("made.spring_factor" in made for _, _, made in asked) == 5
-    asked.clear()
-    verdict = "tips"
-    assert model(design).metrics == {"fitness": 9.0}
-    assert len(asked) == 1
-
-
-def test_p10_alone_is_that_of_the_default_objective():
-    """The model's own, or the one that is given; a capsule robot has that of its rise, and no size."""
-    for model, default, plain in (
-        (robot_model(), "", "body_lengths"),
-        (robot_model(), "range", "range"),
-        (robot_model("capsule"), "", "fitness"),
-        (robot_model("capsule"), "rise", "rise"),
-    ):
-        aimed, objective = model.aiming_at("p10", default)
-        assert (objective.name, objective.neighbours_of, aimed.neighbours_of) == (f"p10-{plain}", plain, plain)
-    with pytest.raises(JumpcadError, match="needs body_lengths"):
-        robot_model("capsule").aiming_at("p10-body_lengths")
-
-
 def test_quick_scores_are_those_of_a_capsule_robot_by_the_engine_of_guesses(monkeypatch):
-    """By the objective, of neighbours by their own; by fitness where it has no such figure; limits do not matter."""
+    """By the objective; by fitness where it has no such figure; limits do not matter."""
     asked, verdict = [], "jump"
     figures = {"fitness": 2.0, "com_rise_m": 0.4, "ballistic_range_m": 0.3}
     wrong = (Finding("audit", "error", -1.0, "", "", ""),)
@@ -264,8 +228,8 @@ def test_quick_scores_are_those_of_a_capsule_robot_by_the_engine_of_guesses(monk
 
     monkeypatch.setattr(RobotModel, "_capsule", capsule)
     model, design = robot_model("printed", None, None, "mujoco"), load_design("kenan-2.0")
-    scores = {name: model.quick_score(design, find_objective(name)) for name in ("rise", "p10-rise", "body_lengths")}
-    assert scores == {"rise": find_objective("rise").figure(figures), "p10-rise": scores["rise"], "body_lengths": 2.0}
+    scores = {name: model.quick_score(design, find_objective(name)) for name in ("rise", "body_lengths")}
+    assert scores == {"rise": find_objective("rise").figure(figures), "body_lengths": 2.0}
     assert set(asked[0][:2]) == {"capsule", "planar"}
     assert asked[0][2] == load_settings("screening")
     verdict = "no_takeoff"

@@ -39,7 +39,7 @@ def test_scores_of_a_jump(name, score):
 def test_a_score_is_shown_with_its_unit():
     """What an own objective is counted in is not known."""
     assert find_objective("range").shown(0.25) == "0.2500 m"
-    assert find_objective("p10-jumps-per-joule").shown(2.0) == "2.0000 1/J"
+    assert find_objective("jumps-per-joule").shown(2.0) == "2.0000 1/J"
     assert find_objective(lambda figures: 1.0).shown(0.25) == "0.2500"
 
 
@@ -74,14 +74,6 @@ def test_of_a_limit_of_several_parts_the_least_margin_counts():
     assert (found.met, found.missed, found.reasons) == ({"axle", "room"}, {"axle"}, ("axle",))
 
 
-def test_a_quantile_is_the_score_of_the_worst_neighbours_in_the_units_of_its_objective():
-    found = find_objective("p10-range")
-    assert (found.name, found.neighbours_of, found.unit) == ("p10-range", "range", "m")
-    assert found.meaning == "range of the jump of nine in ten neighbours"
-    assert found.score(Evaluation("jump", JUMP | {"p10": 0.7})) == 0.7
-    assert found.describe() == {"objective": "p10-range"}
-
-
 def test_the_published_robot_s_range_is_its_base_s_distance():
     figures = {"base_distance_m": 0.4, "spring_energy_j": 0.5}
     assert find_objective("range").score(Evaluation("jump", figures)) == 0.4
@@ -97,7 +89,6 @@ def test_what_a_study_keeps_of_findings_are_names_severities_units_and_six_digit
     told = Finding("walls", "warning", 1.23456789, "mm", "found", "change", 3.0, 4.0)
     found = Evaluation("jump", JUMP, (told,), "a detail").bare
     assert found == Evaluation("jump", JUMP, (finding("walls", "warning", 1.23457),), "a detail")
-    assert (found.cost, Evaluation("jump", {"evaluations": 4.0}).cost) == (1, 4)
 
 
 def test_the_objective_of_a_study_is_told_and_an_own_one_does_not_score():

@@ -87,7 +87,7 @@ def test_wrong_arguments_are_one_line(folder, options, message):
 @pytest.mark.parametrize(
     ("method", "more"),
     [
-        ("bo", {"batch": 3, "until_percent": 1.0, "widen": True}),
+        ("bo", {"batch": 3, "until_percent": 1.0}),
         ("ga", {"screen": True, "preset": "published"}),
         ("nsga2", {"against": "mass"}),
     ],

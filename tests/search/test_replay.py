@@ -16,7 +16,6 @@ from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
-from jumpcad.search.study_page import write_study_page
 from jumpcad.search.tolerances import Making
 from jumpcad.search.trial import feasible_trials, trial_numbers
 
@@ -119,22 +118,3 @@ def test_the_share_of_a_pick_follows_from_the_step_that_it_wrote_last():
         picked = replace(trial, phase="robust", step=step)
         assert _share([trial, picked], proposed) == share
         assert _share([trial, picked], proposed + 1) == 0  # it belongs to a search that has gone on
-
-
-def test_a_search_that_moved_its_bounds_is_shown_in_the_space_that_it_searched(tmp_path):
-    """Its winner lies beyond the bounds that were asked for, on those that were moved."""
-    space = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.2", "rest_angle_deg=20:24"])
-    request = Request(space, Bump(), method="ga", evaluations=120, seed=3, widen=True)
-    with local_pool(0) as pool:
-        result = run_study(request, tmp_path / "s.db", pool)
-    assert result.winner is not None
-    assert not space.contains(result.winner.variant)
-    assert result.bounds
-    with StudyStore.read(tmp_path / "s.db") as store:
-        found, page = known(store), write_study_page(store, "s")
-    assert found.space.contains(result.winner.variant)
-    assert [one.to_dict() for one in found.candidates] == [one.to_dict() for one in result.candidates]
-    assert found.bounds == result.bounds
-    highest = max(one.beyond for one in result.widened if one.name == "rest_angle_deg")
-    assert f"20 … {highest:g}°" in page
-    assert "The search moved bounds" in page

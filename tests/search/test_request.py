@@ -14,7 +14,7 @@ from support.studies import trials
 import jumpcad
 from jumpcad.cli import optimize
 from jumpcad.errors import JumpcadError
-from jumpcad.search.methods import FRONTS, STEPS
+from jumpcad.search.methods import STEPS
 from jumpcad.search.models import robot_model
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request, plan_stages
@@ -44,13 +44,9 @@ def test_split_of_the_budget(method, evaluations, split):
 def test_only_what_was_asked_for_is_in_a_studys_identity():
     plain = Request(SMALL, Hill(), method="ga", evaluations=40)
     known = plain.identity([])
-    assert "widen" not in known
     assert "screen" not in known
     assert known["prior"] is None
-    wider = replace(plain, widen=True)
-    assert wider.identity([])["widen"] is True
-    names = {plain.default_name(), wider.default_name(), replace(plain, seed=plain.seed + 1).default_name()}
-    assert len(names) == 3
+    assert plain.default_name() != replace(plain, seed=plain.seed + 1).default_name()
     assert replace(plain, evaluations=50).default_name() == plain.default_name()
     printed = robot_model()
     screened = Request(SMALL, printed, "body_lengths", "ga", 40, screen=True)
@@ -86,17 +82,14 @@ def test_numbers_of_a_request_have_ends_that_are_told(name, least, most, step):
 
 @pytest.mark.parametrize("given", [{"until_percent": 1.0}, {"batch": 3}])
 def test_what_applies_to_bayesian_optimisation_alone_applies_to_every_search_that_goes_on_with_it(given):
-    """A widened search ends by it, whatever it began with."""
-    widened = Request(SMALL, Hill(), method="ga", widen=True, **given)
-    assert [stage.method for stage in plan_stages(widened)] == ["ga", "bo", "bo", "bo"]
     Request(SMALL, Hill(), method="ga+bo", **given)
     with pytest.raises(JumpcadError, match=r"does not apply to ga, only to ga\+bo, bo"):
         Request(SMALL, Hill(), method="ga", **given)
 
 
 def test_the_genetic_algorithm_has_its_settings_also_where_another_method_follows():
-    for method, widen in (("ga", False), ("ga+bo", False), ("ga", True)):
-        assert Request(SMALL, Hill(), method=method, widen=widen, preset="published").preset == "published"
+    for method in ("ga", "ga+bo"):
+        assert Request(SMALL, Hill(), method=method, preset="published").preset == "published"
 
 
 def test_the_studys_stages_have_an_evaluation_each():
@@ -105,8 +98,6 @@ def test_the_studys_stages_have_an_evaluation_each():
     for evaluations in (1, 6):
         with pytest.raises(JumpcadError, match=shared.format(evaluations)):
             Request(SMALL, Hill(), method="paper", evaluations=evaluations)
-    with pytest.raises(JumpcadError, match=shared.format(4)):
-        Request(SMALL, Hill(), method="paper", evaluations=7, widen=True)
     with local_pool(0) as pool:
         trials = run_study(Request(Space.default(), Hill(), method="paper", evaluations=7), None, pool).trials
     assert Counter((trial.phase, trial.step // STEPS) for trial in trials) == {
@@ -115,9 +106,9 @@ def test_the_studys_stages_have_an_evaluation_each():
 
 
 def test_what_is_not_said_is_the_same_in_python_and_on_the_command_line():
-    """Random seed 0, one proposal at a time, no limit of time, bounds as they are, no guesses."""
+    """Random seed 0, one proposal at a time, no limit of time, no guesses."""
     plain = vars(Request(SMALL, Hill()))
-    usual = {"seed": 0, "preset": "recommended", "batch": 1, "hours": 0.0, "widen": False, "screen": False}
+    usual = {"seed": 0, "preset": "recommended", "batch": 1, "hours": 0.0, "screen": False}
     usual |= {"method": "bo", "evaluations": plain["evaluations"], "until_percent": plain["until_percent"]}
     assert {name: plain[name] for name in usual} == usual
     called = {name: one.default for name, one in inspect.signature(jumpcad.optimize).parameters.items()}
@@ -132,44 +123,22 @@ def test_what_is_not_said_is_the_same_in_python_and_on_the_command_line():
 
 @pytest.mark.parametrize(("prior", "first"), [(0, 9), (4, 5), (20, 0)])
 def test_designs_of_a_prior_study_stand_for_first_ones(prior, first):
-    """Of three for each of three free parameters; also where bounds are moved later."""
-    for widen in (False, True):
-        request = Request(SMALL, Hill(), method="bo", evaluations=240, widen=widen)
-        assert plan_stages(request, prior)[0].initial == first
+    """Of three for each of three free parameters."""
+    assert plan_stages(Request(SMALL, Hill(), method="bo", evaluations=240), prior)[0].initial == first
 
 
 def test_who_follows_another_method_begins_with_its_designs_and_has_no_first_ones():
-    """Nor has a genetic algorithm, whose first generation is its own, nor what moves bounds."""
+    """Nor has a genetic algorithm, whose first generation is its own."""
     for method in ("ga", "ga+bo"):
-        for widen in (False, True):
-            stages = plan_stages(Request(SMALL, Hill(), method=method, evaluations=240, widen=widen))
-            assert [stage.initial for stage in stages] == [0] * len(stages)
-    assert [stage.initial for stage in plan_stages(Request(SMALL, Hill(), method="bo", evaluations=240, widen=True))][
-        1:
-    ] == [0, 0, 0]
-
-
-def test_half_of_a_search_that_widens_goes_on_in_three_steps_from_moved_bounds():
-    """Of 240 evaluations 180 are the search's: 90, then three times 30 by `bo`, whatever came before."""
-    for method in ("bo", "ga"):
-        stages = plan_stages(Request(SMALL, Hill(), method=method, evaluations=240, widen=True))
-        assert [stage.method for stage in stages] == [method, "bo", "bo", "bo"]
-        assert [stage.evaluations for stage in stages] == [90, 30, 30, 30]
-        assert [stage.widen for stage in stages] == [False, True, True, True]
-
-
-@pytest.mark.parametrize("method", FRONTS)
-def test_a_front_has_no_bounds_to_widen(method: str) -> None:
-    with pytest.raises(JumpcadError, match=f"widen: does not apply to {method}, which has no best design"):
-        Request(SMALL, Hill(), method=method, widen=True)
+        stages = plan_stages(Request(SMALL, Hill(), method=method, evaluations=240))
+        assert [stage.initial for stage in stages] == [0] * len(stages)
 
 
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
         ({"method": "bo"}, "does not apply to bo, only to ga"), ({"method": "ga+bo"}, "does not apply to ga"),
-        ({"model": robot_model("capsule"), "objective": "fitness"}, "applies to the printed robot and one robot"),
-        ({"objective": "p10-body_lengths"}, "applies to the printed robot and one robot a candidate"),
+        ({"model": robot_model("capsule"), "objective": "fitness"}, "applies to the printed robot"),
         ({"space": Space.parse(fix=["body.plate_mm=2.4"], workshop=robot_model().workshop)}, "applies to one workshop"),
         ({"model": robot_model().varied({"bought.spring": "9271K589"})}, "applies to one workshop with springs made"),
     ],
@@ -201,7 +170,7 @@ def test_a_study_s_identity_is_all_that_decides_its_trials():
         replace(plain, **change)
         for change in (
             {"space": Space.default()}, {"objective": "range"}, {"method": "ga+bo"}, {"seed": 4}, {"batch": 3},
-            {"making": Making(0.3)}, {"prior": Path("p.db")}, {"widen": True},
+            {"making": Making(0.3)}, {"prior": Path("p.db")},
         )
     ]  # fmt: skip
     assert len({plain.default_name(), *(one.default_name() for one in others)}) == 1 + len(others)
@@ -225,8 +194,6 @@ def test_a_request_is_told_by_method_robot_and_objective():
     front = Request(SMALL, Hill(), "range", "nsga2", 40)
     assert (front.pick, front.searched, front.is_front) == (10, 30, True)
     assert front.title == "nsga2 on the hill robot, range against spring-energy"
-    quantile = Request(SMALL, Hill(), "p10-range", "ga", 40)
-    assert (quantile.pick, quantile.searched, quantile.aim.neighbours_of) == (0, 40, "range")
 
 
 def test_what_is_not_asked_for_follows_from_method_and_robot():
@@ -244,8 +211,6 @@ def test_what_is_not_asked_for_follows_from_method_and_robot():
     assert stand_ins == {("printed", None), ("printed", "ga+bo"), ("printed", "pareto")}
     assert Request.make(SMALL, printed, "ga", screen=True).model.stand_in
     assert (made["printed", None].making, made["capsule", None].making) == (printed.making, capsule.making)
-    quantile = Request.make(SMALL, capsule, "ga", "p10")
-    assert (quantile.objective, quantile.model.neighbours_of, quantile.own) == ("p10-fitness", "fitness", None)
     own = Request.make(SMALL, capsule, "ga", lambda figures: 1.0)
     assert own.own is own.aim
     assert own.identity([])["objective_code"] == own.aim.code != ""
@@ -263,7 +228,7 @@ def test_what_is_not_asked_for_follows_from_method_and_robot():
         ({"objective": "reach"}, "'reach' is not one of the objectives"),
         ({"batch": 0}, "batch = 0 must be at least 1"), ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
         ({"model": robot_model("published"), "objective": "rise"}, "the objective rise needs com_rise_m"),
-        ({"model": robot_model("capsule"), "objective": "p10-jumps-per-joule"}, "needs electrical_energy_j"),
+        ({"model": robot_model("capsule"), "objective": "jumps-per-joule"}, "needs electrical_energy_j"),
     ],
 )  # fmt: skip
 def test_what_does_not_go_together_is_refused_before_anything_is_evaluated(asked, said):

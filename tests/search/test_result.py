@@ -20,7 +20,6 @@ from jumpcad.search.request import Request
 from jumpcad.search.result import Result
 from jumpcad.search.robust import ActiveBound, Candidate
 from jumpcad.search.trial import Trial
-from jumpcad.search.widening import Widened
 from jumpcad.workshop import load_workshop
 
 QUICK = {"model": "capsule", "settings": "screening", "workers": 0}
@@ -39,7 +38,7 @@ def test_a_front_has_its_trials_and_its_own_objective():
     assert found.bounds == []
 
 
-@pytest.mark.parametrize("objective", ["range", "p10-range", lambda figures: figures["mass_kg"]])
+@pytest.mark.parametrize("objective", ["range", lambda figures: figures["mass_kg"]])
 def test_what_a_search_found_can_come_from_another_process(objective):
     """One search a seed, in a pool of processes: results are pickled."""
     found = jumpcad.optimize("ga", evaluations=60, objective=objective, **QUICK)
@@ -100,7 +99,6 @@ def found(method: str = "ga", **changes: Any) -> Result:
         "bounds": [ActiveBound("c_coef", "upper", 1.2, 1.25, -0.5)],
         "notes": ["a worker was lost"],
         "evaluations": 31,
-        "widened": [Widened("d_coef", "lower", 0.5, 0.4, None, "tips")],
         "converged": True,
     }  # fmt: skip
     return Result(**{**fields, **changes})
@@ -146,10 +144,6 @@ def test_plain_data_has_every_figure_under_its_name() -> None:
             {"name": "c_coef", "side": "upper", "value": 1.2, "beyond": 1.25, "worth": -0.5, "reason": ""}
         ],
     }  # fmt: skip
-    widened = found(request=Request(SMALL, Hill(), "range", "ga", 40, widen=True)).to_dict()["widened"]
-    assert widened == [
-        {"name": "d_coef", "side": "lower", "value": 0.5, "beyond": 0.4, "worth": None, "reason": "tips"}
-    ]
     nothing = found(best=None, candidates=[], trials=[result.trials[2]]).to_dict()
     assert (nothing["best"], nothing["winner"], nothing["searched"]) == (None, None, 1)
 

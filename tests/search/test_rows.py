@@ -122,7 +122,7 @@ def test_each_column_comes_back_in_its_own_place(trial: Trial) -> None:
     """Numbers and texts of their own everywhere."""
     told = replace(
         trial, phase="bo", step=12, place=34, score=5.5, model="digest", duration_s=6.25,
-        evaluation=replace(trial.evaluation, detail="why", metrics={"fitness": 7.5, "p10": -8.0}),
+        evaluation=replace(trial.evaluation, detail="why", metrics={"fitness": 7.5, "mass_kg": 8.0}),
         proposal={"log_improvement": -1.5, "theta": {"score": [0.5, 0.25, 0.125]}, "tried": [[0.1, 0.2]]},
         workshop={"body.plate_mm": 2.0, "bought.spring": "x"},
     )  # fmt: skip

@@ -157,12 +157,10 @@ def test_a_search_that_ended_early_and_a_worker_give_the_same_rows(model, trials
     assert [replace(one, duration_s=0.0) for one in again] == [replace(one, duration_s=0.0) for one in trials]
 
 
-@pytest.mark.parametrize(
-    ("name", "method", "objective"), [("printed", "bo", None), ("capsule", "ga", None), ("printed", "ga", "p10")]
-)
-def test_where_it_does_not_apply_it_is_refused(name, method, objective):
+@pytest.mark.parametrize(("name", "method"), [("printed", "bo"), ("capsule", "ga")])
+def test_where_it_does_not_apply_it_is_refused(name, method):
     with pytest.raises(JumpcadError, match="screen: "):
-        Request.make(SPACE, robot_model(name), method, objective, screen=True)
+        Request.make(SPACE, robot_model(name), method, screen=True)
 
 
 @pytest.mark.parametrize(

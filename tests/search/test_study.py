@@ -16,9 +16,8 @@ from support.places import TESTS
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search import study
-from jumpcad.search.methods import STEPS, Method, Task
+from jumpcad.search.methods import Method, Task
 from jumpcad.search.models import robot_model
-from jumpcad.search.neighbours import NEIGHBOURS
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.polling import gains
 from jumpcad.search.pool import local_pool
@@ -230,17 +229,6 @@ def test_a_larger_budget_lengthens_a_study(tmp_path, method):
         run(request, tmp_path / "s.db")
 
 
-def test_a_larger_budget_lengthens_the_last_stage_alone():
-    """After the published search, whose parts have shares of its evaluations, the last widening gets what comes."""
-    request = replace(REQUEST, method="paper", evaluations=40, widen=True)
-    with StudyStore.write(None, {}) as store:
-        *first, last = study._stages(request, store, 0)
-        *same, longer = study._stages(replace(request, evaluations=52), store, 0)
-    assert first[0].method == "paper"
-    assert same == first
-    assert longer == replace(last, evaluations=last.evaluations + 9)  # a quarter of 12 is for the pick
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -335,12 +323,10 @@ def test_a_study_remembers_what_ended_it_and_forgets_it_while_it_goes_on(tmp_pat
         ({"space": FEW}, 1, 1, False, False, {"by": "proposals"}),
         ({"hours": 2.0}, 29, 29, True, True, {"by": "hours", "hours": 2.0}),
         ({"until_percent": 0.05}, 30, 30, True, False, {"by": "until", "until_percent": 0.05}),
-        ({"objective": "p10-fitness"}, 30, 9, False, False, {"by": "evaluations"}),
-        ({"objective": "p10-fitness"}, 29, 9, False, False, {"by": "proposals"}),
     ],
 )  # fmt: skip
 def test_what_ended_a_search_is_told_by_what_was_left(changes, spent, designs, converged, timed, ended):
-    """Of 40 evaluations 30 are the search's, of p10 all, of which a design needs eleven."""
+    """Of 40 evaluations 30 are the search's."""
     request = replace(Request(SMALL, Hill(), method="ga", evaluations=40), **changes)
     assert study._end(request, spent, designs, converged, timed) == ended
 
@@ -544,33 +530,6 @@ def test_bounds_get_what_the_neighbours_leave_of_the_pick(monkeypatch):
     assert result.evaluations <= 80
 
 
-class Crowd(Hill):
-    """A hill where half the designs are rejected for their first neighbour, and the others take all of theirs."""
-
-    def __call__(self, design):
-        if design.rest_angle_deg > 60.0:
-            return Evaluation("tips", {"evaluations": 2.0})
-        return Evaluation("jump", {"p10": 1.0, "evaluations": 1.0 + NEIGHBOURS})
-
-
-@pytest.mark.parametrize("evaluations", [60, 89, 133])
-def test_as_many_designs_with_neighbours_are_tried_together_as_fit(monkeypatch, evaluations):
-    """Of the first twenty, and of those that are left each time; each may take eleven robots."""
-    parts = []
-    with local_pool(0) as pool:
-        look = pool.evaluate
-        monkeypatch.setattr(pool, "evaluate", lambda model, part: parts.append(len(part)) or look(model, part))
-        request = Request(SMALL, Crowd(), "p10-fitness", "ga", evaluations)
-        trials = [trial for trial in run_study(request, None, pool).trials if trial.step == 0]
-    left, waiting = evaluations, 20
-    while left >= 11 and waiting > 0:
-        count = parts.pop(0)
-        assert count == min(waiting, left // 11)
-        part, trials = trials[:count], trials[count:]
-        left, waiting = left - sum(11 if trial.score else 2 for trial in part), waiting - count
-    assert not trials
-
-
 def test_bounds_of_the_winner_are_examined_with_what_its_pick_leaves(monkeypatch):
     """Of the most robust candidate, whatever scores best."""
     asked, rank = [], study.rank_candidates
@@ -591,21 +550,15 @@ def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
     given = {"seed": 7, "batch": 3, "until_percent": 2.0}
     for request in (
         Request(SMALL, Hill(), method="ga+bo", evaluations=90, preset="published", **given),
-        Request(SMALL, Hill(), method="bo", evaluations=90, widen=True, **given),
+        Request(SMALL, Hill(), method="bo", evaluations=90, **given),
         Request(SMALL, robot_model(), "body_lengths", "ga", 20, seed=7, screen=True),
     ):
         with local_pool(0) as pool:
             run_study(request, None, pool)
     common = {"seed": 7, "batch": 3, "preset": "published"}
     assert asked[:2] == [("ga", Task(22, **common)), ("bo", Task(46, **common, least_gain=0.02))]
-    assert {task.preset for _, task in asked[2:6]} == {"recommended"}
-    # 68 are searched, a half of them in three equal stages that widen
-    assert [name for name, _ in asked[2:6]] == ["bo"] * 4
-    assert [task.evaluations for _, task in asked[2:6]] == [35, 11, 11, 11]
-    assert [task.initial for _, task in asked[2:6]] == [9, 0, 0, 0]
-    assert [task.first_step for _, task in asked[2:6]] == [0, STEPS, 2 * STEPS, 3 * STEPS]
-    assert [task.least_gain for _, task in asked[2:6]] == [0.0, 0.0, 0.0, 0.02]
-    assert asked[6:] == [("ga", Task(20, 7, screen=True))]
+    assert asked[2] == ("bo", Task(68, 7, initial=9, batch=3, least_gain=0.02))
+    assert asked[3:] == [("ga", Task(20, 7, screen=True))]
 
 
 def test_a_prior_study_is_scored_by_the_objective_of_the_request(tmp_path):

@@ -83,9 +83,6 @@ def test_a_record_has_every_figure_under_its_name_and_the_workshop_where_one_var
     assert varied.variant.workshop == varied.workshop
 
 
-def test_a_trial_costs_as_many_robots_as_were_built_for_it(trial: Trial) -> None:
-    assert trial.cost == 1
-    eleven = Evaluation("jump", {"evaluations": 11.0})
-    assert replace(trial, evaluation=eleven).cost == 11
+def test_a_trial_tells_its_place_and_its_score_or_what_rejects_it(trial: Trial) -> None:
     lost = replace(trial, phase="bo", step=3, place=2, evaluation=Evaluation("loop"), score=None)
     assert (repr(trial), repr(lost)) == ("<Trial ga 0.0: score 4>", "<Trial bo 3.2: loop>")

@@ -116,14 +116,6 @@ def test_its_stages_share_the_evaluations_so_a_longer_search_is_another_one(tmp_
     assert longer.default_name() != short.default_name()
 
 
-def test_what_follows_in_wider_bounds_has_all_of_its_evaluations():
-    request = Request(Space.default(), Hill(), method="paper", evaluations=60, widen=True)
-    with local_pool(0) as pool:
-        result = run_study(request, None, pool)
-    assert len(result.trials) == request.searched
-    assert len({trial.position for trial in result.trials}) == request.searched
-
-
 def test_the_gain_at_which_other_searches_end_does_not_apply_to_it():
     with local_pool(0) as pool:
         default, none = (
