@@ -81,10 +81,14 @@ class Length:
 
 
 class Video(TomlTable):
-    """A CSV file with points of one flight, t (s), x and z (m), after take-off and before touchdown; which point."""
+    """A CSV file with points of one flight, t (s), x and z (m), after take-off and before touchdown; which point.
+
+    `slow_motion` divides t: the camera's frames a second over those at which the video tool takes the film to run.
+    """
 
     points: Text
     point: Literal["centre-of-mass", "body"]
+    slow_motion: Annotated[float, Field(ge=1e-3, le=1e4)] = 1.0
 
 
 class Measurements(Record):

@@ -14,7 +14,8 @@ from jumpcad.calibration.contradictions import contradictions
 from jumpcad.calibration.measurements import Measurements, lengths, load_measurements
 from jumpcad.calibration.priors import FLOOR, Prior, modelled_mass, tested_floor, weighed_mass
 from jumpcad.calibration.surface import Surface, surface_of
-from jumpcad.calibration.video import TakeoffSeen, read_points, seen_takeoff
+from jumpcad.calibration.tracks import read_points
+from jumpcad.calibration.video import TakeoffSeen, seen_takeoff
 from jumpcad.design import load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
@@ -147,8 +148,8 @@ def load_subject(name_or_path: str | Path) -> Subject:
     if measured.mass.parts_g:
         _require_parts(measured.mass.parts_g, robot, str(path))
         robot = build(design, _with_weights(workshop, measured.mass.parts_g), name)
-    files = [path.parent / video.points for video in measured.videos]
-    seen = tuple(seen_takeoff(read_points(file), str(file)) for file in files)
+    videos = [(path.parent / video.points, video.slow_motion) for video in measured.videos]
+    seen = tuple(seen_takeoff(read_points(file) / [slow, 1.0, 1.0], str(file)) for file, slow in videos)
     subject = Subject(path.stem, measured, robot, seen)
     _require_plausible(subject, str(path))
     return subject

@@ -1,5 +1,6 @@
 """All commands, and how their errors are reported. Commands import most modules only when they run."""
 
+import logging
 import os
 import sys
 import traceback
@@ -71,6 +72,7 @@ def run(arguments: Sequence[str]) -> int:
     0: done. A user's error is one line on standard error: 2 for a wrong request, 1 if the answer is no. Any other
     exception is a bug: 3, with its traceback. 141: the reader closed the output (`| head`).
     """
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it warns where it cannot write its cache
     try:
         with standard_output(coloured=any(word in arguments for word in HELP)):
             return _carry_out(list(arguments))

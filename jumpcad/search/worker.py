@@ -2,6 +2,7 @@
 
 import atexit
 import contextlib
+import logging
 import os
 import pickle
 import signal
@@ -36,6 +37,7 @@ def start_worker(parent: int) -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     threading.Thread(target=_end_with_parent, args=(parent,), daemon=True).start()
     collect_seldom()
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # as in `jumpcad.cli.commands.run`
     atexit.register(os._exit, 0)  # else libraries that count leaks when Python ends print them into the parent's lines
 
 

@@ -9,6 +9,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 def compiled(function: Function) -> Function:
     """Return a function compiled to machine code, kept on disk for the next process, or as it is without numba.
 
+    Where no folder can be written (containers, system installs) every process compiles anew, for some seconds.
     Numba notices a change in the file of a function, not one in the files of what that function calls: everything that
     is compiled stands in one module.
     """
@@ -16,4 +17,7 @@ def compiled(function: Function) -> Function:
         from numba import njit
     except ImportError:
         return function
-    return cast(Function, njit(cache=True, error_model="numpy")(function))
+    try:
+        return cast(Function, njit(cache=True, error_model="numpy")(function))
+    except RuntimeError:  # numba's "cannot cache function: no locator available"
+        return cast(Function, njit(error_model="numpy")(function))

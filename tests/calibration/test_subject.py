@@ -457,6 +457,17 @@ def test_equal_words_beside_other_videos_are_other_jumps(tmp_path: Path) -> None
         require_each_once([*files, again])
 
 
+def test_slow_motion_divides_the_time_of_a_video(tmp_path: Path) -> None:
+    """240 frames a second played at 30: v = 1 m/s both ways, seen as 1/8 of it."""
+    flight = [(n / 30.0, n / 240.0, 0.1 + n / 240.0 - 4.905 * (n / 240.0) ** 2) for n in range(12)]
+    (tmp_path / "slow.csv").write_text("t,x,z\n" + "".join(f"{t:.9f},{x:.9f},{z:.9f}\n" for t, x, z in flight))
+    file = tmp_path / "mine.toml"
+    jumped = HEAD + JUMP + "distance_mm = [200.0]\nheight_mm = [70.0]\n"
+    file.write_text(jumped + '[[videos]]\npoints = "slow.csv"\npoint = "body"\nslow_motion = 8\n')
+    (seen,) = load_subject(file).seen
+    assert (seen.speed_m_s, seen.angle_deg) == pytest.approx((math.sqrt(2.0), 45.0), rel=1e-3)
+
+
 def test_parts_that_the_workshop_has_weighed_stay_so_and_those_of_the_measurements_count_more() -> None:
     shop = load_workshop()
     mass = shop.mass.model_copy(update={"weighed_g": {"cam": 1.5, "foot": 9.0}})

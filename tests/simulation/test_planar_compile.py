@@ -50,6 +50,14 @@ def test_what_is_compiled_is_kept_for_the_next_process_and_divides_as_a_processo
     assert not math.isfinite(kernel.response(Inertia(1.0, 0j, 0j, 0.0, 0.0, 0.0), 0j, 1.0, 0.0).foot)
 
 
+@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason="numba is not installed")
+def test_where_no_folder_can_be_written_it_is_compiled_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("numba.core.caching.CacheImpl._locator_classes", [])
+    twice = compiled(lambda number: 2.0 * number)
+    assert hasattr(twice, "py_func")
+    assert twice(1.5) == 3.0
+
+
 def test_a_missing_compiler_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
 
