@@ -1,7 +1,7 @@
 """Points of a flight from the text file that a video tool exports: Tracker, Kinovea, Logger Pro, a spreadsheet.
 
 The first line that names the columns t, x and z (or y) is the head; lines before it are the tool's. Columns stand apart
-by tabs, semicolons, commas or spaces. Units stand beside the names, `x (cm)`, `x [m]`, `t/s`, or on a line of their own.
+by tabs, semicolons, commas or spaces. Units are beside the names, `x (cm)`, `x [m]`, `t/s`, or on a line of their own.
 """
 
 import csv
@@ -55,7 +55,8 @@ def read_points(path: Path) -> Array:
 def _points(lines: Sequence[str], path: Path) -> Array:
     start, delimiter, columns = _head(lines, path)
     width = len(_split(lines[start - 1], delimiter))
-    factors, decimals, points = [factor for _, factor in columns], set(), []
+    factors, decimals = [factor for _, factor in columns], set[str]()
+    points: list[list[float]] = []
     for number, line in enumerate(lines[start:], start=start + 1):
         if line.lstrip().startswith(("#", "%", "//")):
             continue
