@@ -18,7 +18,7 @@ def generate_launch_description():
     gazebo = os.path.join(get_package_share_directory("ros_gz_sim"), "launch", "gz_sim.launch.py")
     model = os.path.join(share, "urdf", "@MODEL@.urdf.xacro")
     controllers = os.path.join(share, "config", "controllers.yaml")
-    command = Command(["xacro ", model, " gazebo:=true mimic:=false controllers:=", controllers])
+    command = Command(['xacro "', model, '" gazebo:=true mimic:=false "controllers:=', controllers, '"'])
     description = ParameterValue(command, value_type=str)
     spawners = [
         Node(package="controller_manager", executable="spawner", arguments=[name])

@@ -12,7 +12,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 def generate_launch_description():
     share = get_package_share_directory("@PACKAGE@")
     model = os.path.join(share, "urdf", "@MODEL@.urdf.xacro")
-    description = ParameterValue(Command(["xacro ", model]), value_type=str)
+    description = ParameterValue(Command(['xacro "', model, '"']), value_type=str)
     return LaunchDescription(
         [
             Node(

@@ -4,6 +4,7 @@ import ast
 import math
 import re
 import runpy
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yourdfpy
 from support import needs
 from support.built import built
 from support.clients import run
@@ -30,7 +32,7 @@ def robot(request: pytest.FixtureRequest) -> Robot:
 @pytest.fixture(scope="module")
 def package(robot: Robot, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The package, written to a folder."""
-    folder = tmp_path_factory.mktemp("workspace")
+    folder = tmp_path_factory.mktemp("a workspace")  # with a space in its path
     for path, content in ros2_files(robot):
         file = folder / path
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -65,7 +67,6 @@ def test_every_mesh_is_in_the_package(package: Path) -> None:
 
 def test_with_mimic_the_loop_stays_closed_as_well_as_the_readme_says(robot: Robot, package: Path) -> None:
     """yourdfpy poses the tree by its leg alone; front link and foot then meet within the angles' error."""
-    yourdfpy = needs.package("yourdfpy")
     model = yourdfpy.URDF.load(str(urdf(package)), load_meshes=False, build_scene_graph=True)
     assert model.actuated_joint_names == ["leg"]
     said = re.search(r"right within ([\d.]+)° and ([\d.]+)°", (package / "README.md").read_text())
@@ -123,7 +124,7 @@ def test_launch_files_compile_and_settings_are_yaml(robot: Robot, package: Path)
         assert not re.search("@[A-Z_]+@", file.read_text())
         ast.parse(file.read_text())
     controllers = yaml.safe_load((package / "config" / "controllers.yaml").read_text())
-    assert controllers["cam"]["ros__parameters"]["joints"] == [robot.spring.joint]
+    assert controllers["cam"]["ros__parameters"] == {"joints": [robot.spring.joint], "interface_name": "effort"}
     (view,) = (package / "rviz").iterdir()
     assert yaml.safe_load(view.read_text())["Visualization Manager"]["Global Options"]["Fixed Frame"] == "base_link"
 
@@ -166,7 +167,7 @@ def test_launch_files_start_nodes_that_the_package_depends_on(
     assert {node["package"] for node in nodes} <= needed
     assert "robot_state_publisher" in {node["executable"] for node in nodes}
     (command,) = commands
-    program, model, *arguments = command.split()
+    program, model, *arguments = shlex.split(command)  # as ROS's own `Command` takes it apart
     assert program == "xacro"
     assert Path(model) == next((package / "urdf").glob("*.urdf.xacro"))
     assert "child(1):  body" in run("check_urdf", urdf(package, *arguments))
@@ -176,6 +177,8 @@ def test_launch_files_start_nodes_that_the_package_depends_on(
         controllers = yaml.safe_load((package / "config" / "controllers.yaml").read_text())["controller_manager"]
         started = {node["arguments"][0] for node in nodes if node["executable"] == "spawner"}
         assert started == set(controllers["ros__parameters"]) - {"update_rate"}
+        types = {one["type"].split("/")[0] for one in controllers["ros__parameters"].values() if isinstance(one, dict)}
+        assert types <= needed
 
 
 @pytest.mark.parametrize(
