@@ -1,6 +1,7 @@
 """The documentation is right: its site builds, its reference is the program's, its examples run (about 35 s)."""
 
 import importlib
+import inspect
 import re
 import shlex
 import subprocess
@@ -8,6 +9,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
+from unittest.mock import Mock
 
 import pytest
 import typer
@@ -17,10 +19,12 @@ from support.pictures import with_few_pictures, with_plain_figures
 from support.places import ROOT
 from support.proposals import with_less_work
 
+import jumpcad
 from jumpcad.cli.commands import app, run
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.files import template_names
 from jumpcad.scene.parameters import parameter_drawing
+from jumpcad.search import optimization
 
 DOCS = ROOT / "docs"
 CHAPTERS = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DOCS.glob("*.md"))}
@@ -132,6 +136,32 @@ def test_examples_run(
                 require_known(line)
 
 
+@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", *(f"docs/{name}.md" for name in CHAPTERS)])
+def test_commands_named_in_texts_and_tables_exist(page: str) -> None:
+    for command in re.findall(r"`jumpcad ([a-z]+\b[^`]*)`", (ROOT / page).read_text(encoding="utf-8")):
+        require_known(shlex.split(command))
+
+
+@pytest.mark.usefixtures("built_once", "checked_once")
+def test_python_of_the_cheat_sheet_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Row after row; of searches, whether they can be called so."""
+    with_few_pictures(monkeypatch)
+    monkeypatch.chdir(tmp_path)
+    searched = []
+    monkeypatch.setattr(jumpcad, "optimize", lambda *given, **named: searched.append(called(given, named)) or Mock())
+    names: dict[str, object] = {"jumpcad": jumpcad}
+    rows = re.findall(r"^\|[^|]*\|[^|]*\| `([^`]+)` \|$", CHAPTERS["cheatsheet"], re.M)
+    for row in rows:
+        exec(row, names)
+    assert len(searched) == 5
+    assert {"longer", "failed", "planar", "moon", "path", "bundle"} <= names.keys()
+
+
+def called(given: tuple[object, ...], named: dict[str, object]) -> inspect.BoundArguments:
+    """Return the arguments of a search, which have to be those that it takes."""
+    return inspect.signature(optimization.optimize).bind(*given, **named)
+
+
 def commands_of(block: str) -> list[list[str]]:
     """Return the arguments of the lines that call jumpcad."""
     lines = [shlex.split(line, comments=True) for line in block.splitlines()]
@@ -143,7 +173,7 @@ def commands_of(block: str) -> list[list[str]]:
 def require_known(arguments: list[str]) -> None:
     """Fail where a command or one of its options does not exist."""
     command = typer.main.get_command(app).commands[arguments[0]]
-    options = {option for parameter in command.params for option in parameter.opts}
+    options = {option for parameter in command.params for option in [*parameter.opts, *parameter.secondary_opts]}
     assert {word for word in arguments if word.startswith("-")} <= options
 
 
