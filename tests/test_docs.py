@@ -115,8 +115,9 @@ def test_examples_run(
     chapter: str, bundle_of: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Run blocks of bash and Python in their order; of sh, whose commands cost minutes, check command and options."""
-    if any("import mujoco" in block for _, block in BLOCKS[chapter]):
-        needs.package("mujoco")
+    for engine in ("mujoco", "pybullet"):
+        if any(f"import {engine}" in block for _, block in BLOCKS[chapter]):
+            needs.package(engine)
     with_few_pictures(monkeypatch)
     with_plain_figures(monkeypatch)
     with_less_work(monkeypatch)
