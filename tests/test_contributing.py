@@ -44,6 +44,13 @@ def test_every_kind_of_addition_is_shown() -> None:
     assert set(EXAMPLES) == {f"Add {kind}" for kind in (*kinds, "a bought part")}
 
 
+def test_files_to_open_are_there() -> None:
+    (section,) = (text for text in SECTIONS if text.startswith("Where things are\n"))
+    named = re.findall(r"`([\w./-]+/[\w./-]+)`", section)
+    assert len(named) > 10
+    assert [path for path in named if not (ROOT / path).exists()] == []
+
+
 def test_every_package_has_its_place_below_those_that_use_it() -> None:
     """In the table, and in the order that `lint-imports` keeps."""
     (section,) = (text for text in SECTIONS if text.startswith("Where things are\n"))
