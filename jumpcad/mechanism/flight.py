@@ -153,13 +153,13 @@ class _Chain:
         velocity = place1 * state.leg_rad_s - 1j * place * state.foot_rad_s
         rate = turn1.real * state.leg_rad_s + state.foot_rad_s
         momentum, double, _ = about_common_centre(self.mass, self.inertia, place, velocity, rate)
-        return momentum, 0.5 * double
+        return float(momentum), float(0.5 * double)
 
     def in_flight(self, leg_rad: float) -> tuple[float, float]:
         """Return the effective inertia of the leg in free flight, and that of all bodies about their common centre."""
         place, place1, _, turn1, _ = self.at(leg_rad)
         momentum, double, whole = about_common_centre(self.mass, self.inertia, place, place1, turn1.real)
-        return double - momentum**2 / whole, whole
+        return float(double - momentum**2 / whole), float(whole)
 
 
 def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:

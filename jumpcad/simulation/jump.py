@@ -104,7 +104,9 @@ class Jump:
     that of the audit's (`audit_energy`, `audit_loop`). What only a jump has is None under any other verdict; `fitness`
     (ballistic range over the longest link) is then 0. `release_energy_ratio` is what the springs still hold, with the
     motion of the robot, where the roller has left the cam, over what was loaded: 1 without a cam. Range, rise and
-    distances count from where the robot stood with loaded springs. `findings` holds the gate's and the audit's margins.
+    distances count from where the robot stood with loaded springs. Turn, pitch and air time up to touchdown are
+    those of `jumpcad.simulation.flight`, in closed form; `lateral_offset_mm` is how far the standing robot's centre of
+    mass lies beside the leg's plane, to the left. `findings` holds the gate's and the audit's margins.
     """
 
     verdict: str
@@ -120,6 +122,11 @@ class Jump:
     takeoff_angle_deg: float | None = None
     takeoff_time_s: float | None = None
     touchdown_distance_m: float | None = None
+    touchdown_pitch_deg: float | None = None
+    turn_deg: float | None = None
+    turn_rate_deg_s: float | None = None
+    air_time_s: float | None = None
+    lateral_offset_mm: float | None = None
     energy: EnergyBudget | None = None
     published: PublishedQuantities | None = None
     trajectory: Trajectory | None = field(default=None, hash=False)

@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.settings import Settings, takeoff_clearance_m
+from jumpcad.simulation.flight import Flight, flight
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
 from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics, loaded_state
 from jumpcad.transforms import Array
@@ -81,7 +82,8 @@ class Takeoff:
     """The moment after the last contact, and the flight that follows from it."""
 
     time_s: float
-    flight: Ballistics
+    ballistics: Ballistics
+    flight: Flight
     energy: EnergyBudget
     energy_ratio: float
 
@@ -292,8 +294,11 @@ class Run:
             slip_j=slip_j,
             contact_j=wound - left - release_j - joint_damping_j - slip_j,
         )
-        flight = ballistics(start, here, velocity, self.settings.gravity_m_s2)
-        return Takeoff(time_s, flight, budget, left / wound)
+        gravity = self.settings.gravity_m_s2
+        path = ballistics(start, here, velocity, gravity)
+        return Takeoff(
+            time_s, path, flight(self.mechanism, mechanics, self.loaded, state, gravity), budget, left / wound
+        )
 
     def _body_position_m(self, state: State) -> Array:
         position: Array = self.mechanics.frame_positions_m(state)[BODY_INDEX]

@@ -68,20 +68,22 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
             trajectory=run.trajectory(),
             findings=findings if failed else (*findings, *refused),
         )
-    flight = takeoff.flight
+    path, offset_m = takeoff.ballistics, float(run.mechanics.centre_of_mass_m(run.loaded)[1])
     return Jump(
         "jump",
         engine,
         mechanism.mass_kg,
         mechanism.spring.energy_j,
-        fitness=flight.range_m / (mechanism.design.l_max_mm / 1000.0),
-        ballistic_range_m=flight.range_m,
-        com_rise_m=flight.rise_m,
+        fitness=path.range_m / (mechanism.design.l_max_mm / 1000.0),
+        ballistic_range_m=path.range_m,
+        com_rise_m=path.rise_m,
         release_energy_ratio=1.0 - takeoff.energy.release_j / mechanism.spring.energy_j,
         takeoff_energy_ratio=takeoff.energy_ratio,
-        takeoff_speed_m_s=flight.speed_m_s,
-        takeoff_angle_deg=flight.angle_deg,
+        takeoff_speed_m_s=path.speed_m_s,
+        takeoff_angle_deg=path.angle_deg,
         takeoff_time_s=takeoff.time_s,
+        **vars(takeoff.flight),
+        lateral_offset_mm=1000.0 * offset_m,
         touchdown_distance_m=run.touchdown_distance_m,
         energy=takeoff.energy,
         published=run.published,

@@ -45,4 +45,4 @@ def loaded_range_m(urdf: Path) -> float:
         run = Run(BulletWorld(made, engine._ground, robot, settings), robot, settings)
         run.go()
     assert run.takeoff is not None
-    return run.takeoff.flight.range_m
+    return run.takeoff.ballistics.range_m

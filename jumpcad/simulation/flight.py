@@ -1,0 +1,143 @@
+"""The flight from take-off to the first touch of the ground, in closed form: how far the robot turns, how it arrives.
+
+In flight the angular momentum about the common centre of mass is conserved (SI units; angles about +y, so that a turn
+forwards is positive). The leg opens until its stop holds it, or until its springs are at rest where it has none;
+friction in the pins is left out. Points in x-z are complex numbers x + iz.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.mechanism.leg_inertia import flying_inertias
+from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, Mechanism
+from jumpcad.mechanism.planar import about_common_centre, frames, points, seen_from_body
+from jumpcad.simulation.mechanics import Mechanics, State
+from jumpcad.transforms import Array
+
+SWING_POINTS = 9
+"""Leg angles between take-off and stop; with 33, turns of the templates change by less than 0.1°."""
+MOMENTS = 400
+"""Moments of the flight at which the contacts' height is looked up, with linear interpolation between them."""
+SLOWEST = 0.05
+"""Least share of the leg's rate at take-off that is left before the stop, where friction would let it creep."""
+
+
+@dataclass(frozen=True)
+class Flight:
+    """How a robot turns in flight: forwards is positive.
+
+    `touchdown_pitch_deg` is the body's pitch at the first touch of the ground against its standing loaded pose, from
+    -180 to 180; `turn_deg` its turn from take-off to touchdown, not wrapped; `turn_rate_deg_s` its rate once the leg
+    is at its stop; `air_time_s` the time between both.
+    """
+
+    touchdown_pitch_deg: float
+    turn_deg: float
+    turn_rate_deg_s: float
+    air_time_s: float
+
+
+def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: State, gravity_m_s2: float) -> Flight:
+    """Return the flight that follows from the state at take-off.
+
+    Parameters
+    ----------
+    loaded
+        The robot as it stands with its springs loaded, against which the pitch counts.
+    takeoff
+        Its state when the last contact ends, rising.
+    """
+    about_y = mechanics.inertia_kg_m2[:, 1, 1]
+    velocity, rate = points(takeoff.velocity_m_s[:, [0, 2]]), takeoff.angular_rad_s[:, 1]
+    place = points(takeoff.com_m[:, [0, 2]])
+    momentum = float(about_common_centre(mechanics.mass_kg, about_y, place, velocity, rate)[0])
+    leg_rad_s = float(rate[BODY_NAMES.index(MAIN_LEG)] - rate[BODY_NAMES.index(BODY)])
+    swing = _swing(mechanism, takeoff.leg_rad, leg_rad_s, momentum)
+    pitch = _pitch_rad(takeoff)
+    centre, up_m_s = mechanics.centre_of_mass_m(takeoff), float(mechanics.velocity_m_s(takeoff)[2])
+    # down to where not even an arm as long as the robot reaches the ground from above
+    lowest = float(centre[2]) + 2.0 * mechanism.design.l_max_mm / 1000.0
+    longest = (up_m_s + math.sqrt(up_m_s**2 + 2.0 * gravity_m_s2 * lowest)) / gravity_m_s2
+    time = np.linspace(swing.time_s, max(longest, swing.time_s), MOMENTS)
+    turn = swing.turn_rad + swing.rate_rad_s * (time - swing.time_s)
+    height = float(centre[2]) + up_m_s * time - 0.5 * gravity_m_s2 * time**2
+    clearance = height + _lowest_m(mechanism, mechanics, swing.leg_rad, pitch + turn)
+    air = _first_touch_s(time, clearance)
+    turned = swing.turn_rad + swing.rate_rad_s * (air - swing.time_s)
+    arrived = math.degrees(pitch + turned - _pitch_rad(loaded))
+    return Flight((arrived + 180.0) % 360.0 - 180.0, math.degrees(turned), math.degrees(swing.rate_rad_s), air)
+
+
+@dataclass(frozen=True)
+class _Swing:
+    """The leg's motion to where it stays: how long it takes, how far the body turns, and its rate from then on."""
+
+    time_s: float
+    turn_rad: float
+    rate_rad_s: float
+    leg_rad: float
+
+
+def _swing(mechanism: Mechanism, leg_rad: float, leg_rad_s: float, momentum: float) -> _Swing:
+    """Return how the leg comes to rest beside the body.
+
+    With the body's rate w and the leg's q', H = J·w + K·q' and 2·T = J·w² + 2·K·w·q' + M·q'², so that
+    (M - K²/J)·q'² + H²/J + 2·V is constant. The body turns by the integral of (H - K·q')/J.
+    """
+    spring, stop = mechanism.spring, mechanism.stop
+    end_rad = max(stop.angle_rad, leg_rad) if stop else spring.preload_rad
+    angles = np.linspace(leg_rad, end_rad, SWING_POINTS)
+    coupling, leg, whole = flying_inertias(mechanism, angles)
+    free = leg - coupling**2 / whole
+    stored = np.array([spring.stored_j(angle) for angle in angles.tolist()])
+    square = free[0] * leg_rad_s**2 + momentum**2 * (1.0 / whole[0] - 1.0 / whole) + 2.0 * (stored[0] - stored)
+    speed = np.sqrt(np.maximum(square, (SLOWEST * leg_rad_s) ** 2 * free) / free)
+    step = (end_rad - leg_rad) / (SWING_POINTS - 1)
+    time = 0.0
+    if step != 0.0 and speed.min() > 0.0:
+        time = abs(_integral(1.0 / speed, step))
+    turn = -_integral(coupling / whole, step) + time * momentum * float(np.mean(1.0 / whole))
+    if stop:  # the pad gives way until the leg stands still, a quarter of its swing, and does not throw it back
+        quarter = math.sqrt(float(free[-1]) / stop.stiffness_nm_per_rad)
+        give, give_s = float(speed[-1]) * quarter, 0.5 * math.pi * quarter
+        turn += (momentum * give_s - float(coupling[-1]) * give) / float(whole[-1])
+        time, end_rad = time + give_s, end_rad + give
+        *_, whole = flying_inertias(mechanism, np.array([end_rad]))
+    return _Swing(time, turn, momentum / float(whole[-1]), end_rad)
+
+
+def _lowest_m(mechanism: Mechanism, mechanics: Mechanics, leg_rad: float, pitch_rad: Array) -> Array:
+    """Return how far the contacts reach below the common centre (n,), negative, at pitches of the body (n,)."""
+    angle = np.array([leg_rad])
+    placed, (com,) = frames(mechanism.linkage, angle), seen_from_body(mechanism.bodies, mechanism.linkage, angle)[0]
+    centre = mechanics.mass_kg @ com / mechanics.total_mass_kg
+    spheres = [
+        (placed[name][0][0] + points(sphere.centre_m[[0, 2]]) * np.exp(-1j * placed[name][1][0]), sphere.radius_m)
+        for name in BODY_NAMES
+        for sphere in mechanism.bodies[name].contacts
+    ]
+    arms, radii = (np.array(one) for one in zip(*spheres, strict=True))
+    return np.asarray((((arms - centre) * np.exp(-1j * pitch_rad)[:, None]).imag - radii).min(axis=1))
+
+
+def _first_touch_s(time_s: Array, clearance_m: Array) -> float:
+    """Return when the clearance (n,) has been above 0 and is no more."""
+    first = int(np.argmax(clearance_m > 0.0))
+    low = first + int(np.argmax(clearance_m[first:] <= 0.0))
+    if low == first:
+        return float(time_s[first])
+    share = clearance_m[low - 1] / (clearance_m[low - 1] - clearance_m[low])
+    return float(time_s[low - 1] + share * (time_s[low] - time_s[low - 1]))
+
+
+def _pitch_rad(state: State) -> float:
+    """Return the body's angle about +y."""
+    turn = state.rotation[BODY_NAMES.index(BODY)]
+    return math.atan2(turn[0, 2], turn[0, 0])
+
+
+def _integral(values: Array, step: float) -> float:
+    """Return the integral of values (n,) at even steps, by trapezia."""
+    return float(step * (values.sum() - 0.5 * (values[0] + values[-1])))

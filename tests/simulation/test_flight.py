@@ -1,0 +1,72 @@
+"""The flight in closed form, against flights that engines simulate."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from support.built import built
+
+from jumpcad.building import build
+from jumpcad.design import SEARCH_BOUNDS, Design
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import errors
+from jumpcad.mechanism.feasibility import geometry_findings
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.workshop import load_workshop
+
+NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"]
+FLOWN = Settings(flight="simulated", trajectory=True, trajectory_rate_hz=2000.0, max_time_s=5.0)
+
+
+def flown_deg(jump: Jump) -> tuple[float, float]:
+    """Return the body's turn from its loaded pose to the first touch (°), and the time in the air (s), as simulated."""
+    assert jump.trajectory is not None
+    turns = Rotation.from_quat(jump.trajectory.quaternion_xyzw[:, 0]).as_matrix()
+    pitch = np.degrees(np.unwrap(np.arctan2(turns[:, 0, 2], turns[:, 0, 0])))
+    return float(pitch[-1] - pitch[0]), float(jump.trajectory.time_s[-1] - (jump.takeoff_time_s or 0.0))
+
+
+def apart_deg(robot: Mechanism, engine: str) -> float:
+    """Return by how much the pitch at touchdown differs from that of the simulated flight."""
+    jump = simulate(robot, FLOWN, engine)
+    if jump.verdict != "jump":
+        return 0.0
+    turn, air_s = flown_deg(jump)
+    assert jump.air_time_s == pytest.approx(air_s, abs=0.004)
+    assert jump.touchdown_pitch_deg is not None
+    assert -180.0 <= jump.touchdown_pitch_deg < 180.0
+    return abs((jump.touchdown_pitch_deg - turn + 180.0) % 360.0 - 180.0)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_templates_touch_down_as_their_simulated_flights_do(name: str) -> None:
+    """Within 1°; PyBullet's bodies lose angular momentum in flight, so that what turns by 200° is 2° ahead of them."""
+    pytest.importorskip("mujoco")
+    robot = built(name)
+    assert apart_deg(robot, "mujoco") < 1.0
+    if name == "kenan-2.0":
+        assert apart_deg(robot, "pybullet") < 1.0
+
+
+def test_the_centre_of_mass_lies_beside_the_legs_plane_as_the_bodies_say() -> None:
+    robot = built("kenan-2.0")
+    moment = sum(body.mass_kg * body.com_m[1] for body in robot.bodies.values())
+    jump = simulate(robot, engine="planar")
+    assert jump.lateral_offset_mm == pytest.approx(1000.0 * moment / robot.mass_kg, abs=1e-9)
+
+
+@pytest.mark.thorough
+def test_random_robots_touch_down_within_2_degrees() -> None:
+    """100 printed robots of the search's bounds, in MuJoCo."""
+    pytest.importorskip("mujoco")
+    rng, workshop, apart = np.random.default_rng(4), load_workshop("default"), list[float]()
+    lower, upper = np.transpose([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()])
+    while len(apart) < 100:
+        design = Design.from_vector(rng.uniform(lower, upper).tolist())
+        if errors(geometry_findings(design)):
+            continue
+        try:
+            apart.append(apart_deg(build(design, workshop), "mujoco"))
+        except CannotBuildError:
+            continue
+    assert max(apart) < 2.0
