@@ -267,7 +267,7 @@ def test_a_flight_is_simulated_only_where_it_is_asked_for(flight: bool, trajecto
 
 JUMP = Jump(
     "jump", "planar", 0.125, 0.5, 7.125, 0.75, 0.25, 0.9375, 0.8125, 2.875, 61.25, 0.0625, 0.6875,
-    EnergyBudget(0.11, 0.12, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09), PublishedQuantities(None, 0.375),
+    -12.4, 347.6, 512.0, 0.8125, 1.5, EnergyBudget(0.11, 0.12, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09), PublishedQuantities(None, 0.375),
 )  # fmt: skip
 """A made-up jump with a number of its own in every place."""
 
@@ -279,6 +279,8 @@ def test_every_figure_of_a_jump_is_told_with_its_name_and_unit(capsys: pytest.Ca
         "d, printed robot, settings fine", "planar: jump",
         "ballistic range 0.7500 m", "rise of the centre of mass 0.2500 m", "touchdown distance 0.6875 m",
         "take-off speed 2.875 m/s", "take-off angle 61.2°", "take-off after 0.0625 s",
+        "air time 0.812 s", "turn in flight, forwards 348°", "pitch at touchdown -12°",
+        "centre of mass beside the leg, left 1.5 mm",
         "energy released / spring energy 0.9375", "energy at take-off / spring energy 0.8125",
         "spring energy 0.5000 J", "mass 0.1250 kg", "fitness (range / longest link) 7.125",
         "where the spring energy is at take-off (J):",

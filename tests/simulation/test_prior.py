@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from scipy import stats
 from support.built import built
-from support.places import ROOT
 
 from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
-from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
+from jumpcad.simulation.prior import PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, Prior
 from jumpcad.simulation.stop_pad import StopPad
 
 SHARES = (0.1, 0.5, 0.9)
@@ -37,11 +36,6 @@ def test_springs_lose_a_twentieth_give_or_take_as_much_and_pins_rub_like_dry_pla
     shares = stats.norm.cdf([-1.0, 0.0, 1.0])
     assert SPRING_EFFICIENCY.quantiles(tuple(shares)) == pytest.approx((0.90, 0.95, 1.00))
     assert PIN_FRICTION.quantiles(tuple(shares)) == pytest.approx((0.1676, 0.25, 0.3730), abs=1e-4)
-
-
-def test_printed_mass_and_floor_scatter_as_the_documentation_of_calibrations_says() -> None:
-    said = (ROOT / "docs" / "calibration.md").read_text(encoding="utf-8")
-    assert f"mass ({100.0 * PRINTED_MASS_SHARE:g} %) and floor ({100.0 * FLOOR_SHARE:g} %)" in said
 
 
 def test_a_normal_is_cut_off_and_a_half_normal_stays_finite() -> None:

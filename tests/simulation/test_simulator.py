@@ -14,8 +14,9 @@ from jumpcad.mechanism.model import RollerOff
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, run, simulate
+from jumpcad.simulation.flight import Flight
 from jumpcad.simulation.jump import EnergyBudget
-from jumpcad.simulation.mechanics import Ballistics
+from jumpcad.simulation.mechanics import Ballistics, Mechanics, loaded_state
 from jumpcad.simulation.simulator import _jump
 
 needs.package("pybullet")
@@ -136,11 +137,14 @@ def test_a_run_that_fails_its_audit_has_the_verdict_of_the_audit(monkeypatch: py
 def test_every_figure_of_a_run_comes_under_its_own_name(kenan: Robot) -> None:
     """Fitness is range over the longest link; release and take-off are shares of the springs' energy."""
     budget = EnergyBudget(0.1, 0.2, 0.3, 0.4, 0.5, 0.25 * kenan.spring.energy_j, 0.7, 0.8, 0.9)
-    takeoff = SimpleNamespace(flight=Ballistics(1.5, 0.25, 3.5, 62.0), energy=budget, energy_ratio=0.875, time_s=0.0625)
+    takeoff = SimpleNamespace(
+        ballistics=Ballistics(1.5, 0.25, 3.5, 62.0), flight=Flight(-20.0, 340.0, 400.0, 0.85), energy=budget,
+        energy_ratio=0.875, time_s=0.0625,
+    )  # fmt: skip
     told, kept = Finding("audit_loop", "info", 1.0, "mm", "", ""), Finding("loop", "info", 2.0, "°", "", "")
     made: Any = SimpleNamespace(
         mechanism=kenan, takeoff=takeoff, findings=lambda: (told,), touchdown_distance_m=1.25, published="published",
-        trajectory=lambda: "path",
+        trajectory=lambda: "path", loaded=loaded_state(kenan), mechanics=Mechanics(kenan, 9.81),
     )  # fmt: skip
     jump = _jump(made, "planar", (kept,))
     assert vars(jump) == {
@@ -148,5 +152,7 @@ def test_every_figure_of_a_run_comes_under_its_own_name(kenan: Robot) -> None:
         "fitness": pytest.approx(1500.0 / kenan.design.l_max_mm), "ballistic_range_m": 1.5, "com_rise_m": 0.25,
         "release_energy_ratio": pytest.approx(0.75), "takeoff_energy_ratio": 0.875, "takeoff_speed_m_s": 3.5,
         "takeoff_angle_deg": 62.0, "takeoff_time_s": 0.0625, "touchdown_distance_m": 1.25, "energy": budget,
+        "touchdown_pitch_deg": -20.0, "turn_deg": 340.0, "turn_rate_deg_s": 400.0, "air_time_s": 0.85,
+        "lateral_offset_mm": jump.lateral_offset_mm,
         "published": "published", "trajectory": "path", "findings": (kept, told),
     }  # fmt: skip

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from scipy.special import ndtr
 from support.built import built
-from support.places import ROOT
 
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
 from jumpcad.simulation import simulate, uncertain
-from jumpcad.simulation.uncertain import SAMPLES, Uncertainty, _first_order, _groups, uncertain_jump
+from jumpcad.simulation.uncertain import Uncertainty, _first_order, _groups, uncertain_jump
 from jumpcad.workshop import varied
 
 
@@ -245,8 +244,3 @@ def test_settings_changed_to_what_they_cannot_be_are_refused() -> None:
     wrong = Settings().model_copy(update={"gravity_m_s2": -9.81})
     with pytest.raises(JumpcadError, match="gravity_m_s2"):
         uncertain_jump(built("kenan-2.0"), wrong, "planar", samples=8)
-
-
-def test_as_many_jumps_are_made_as_the_documentation_says() -> None:
-    said = (ROOT / "docs" / "calibration.md").read_text(encoding="utf-8")
-    assert f"\n{SAMPLES} jumps, each with other values of: " in said
