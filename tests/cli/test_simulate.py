@@ -267,7 +267,8 @@ def test_a_flight_is_simulated_only_where_it_is_asked_for(flight: bool, trajecto
 
 JUMP = Jump(
     "jump", "planar", 0.125, 0.5, 7.125, 0.75, 0.25, 0.9375, 0.8125, 2.875, 61.25, 0.0625, 0.6875,
-    -12.4, 347.6, 512.0, 0.8125, 1.5, EnergyBudget(0.11, 0.12, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09), PublishedQuantities(None, 0.375),
+    -12.4, 347.6, 512.0, 0.8125, 1.5, EnergyBudget(0.11, 0.12, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09),
+    PublishedQuantities(None, 0.375),
 )  # fmt: skip
 """A made-up jump with a number of its own in every place."""
 
