@@ -63,7 +63,7 @@ def resume(path: Path, rows: int) -> None:
     """Go on: the evaluator reads all trials, and Bayesian optimisation proposes from them."""
     from jumpcad.search.evaluator import Evaluator
     from jumpcad.search.methods import Task
-    from jumpcad.search.methods.bayesian import run_bayesian
+    from jumpcad.search.propose.bayesian import run_bayesian
 
     request = request_of(rows)
     with StudyStore.write(path, request.identity([])) as store, local_pool(0) as pool:

@@ -46,15 +46,15 @@ from search import bayesian, genetic
 from jumpcad.design import SEARCH_BOUNDS
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.bayesian import default_initial, incumbent
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import find_objective
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.pool import local_pool
-from jumpcad.search.posterior import VERDICT, constraint_margins, forwards, warped
-from jumpcad.search.rehearsal import Rehearsal
+from jumpcad.search.propose.bayesian import default_initial, incumbent
+from jumpcad.search.propose.dry_run import Rehearsal
+from jumpcad.search.propose.initial_designs import first_points
+from jumpcad.search.propose.posterior import VERDICT, constraint_margins, forwards, warped
 from jumpcad.search.space import Space
-from jumpcad.search.start import first_points
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial
 from jumpcad.search.versions import versions

@@ -21,7 +21,7 @@ from jumpcad.calibration import posterior, surface
 from jumpcad.cli.commands import run
 from jumpcad.cli.slicing import slice_facts
 from jumpcad.exporters.registry import EXPORTERS
-from jumpcad.search.robust import ActiveBound
+from jumpcad.search.pick.robust import ActiveBound
 from jumpcad.simulation import uncertain
 from jumpcad.workshop import load_workshop
 

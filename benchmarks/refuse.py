@@ -1,7 +1,7 @@
 """What a search's quick refusal is worth: its error on exact robots, wrong refusals, share caught, time saved.
 
 `--robots N` builds N robots of random designs in random workshops, from the shipped ones to all that
-`jumpcad.search.quick_mass` allows, simulates their jumps, and compares them with the estimates. `--kinds` chooses among
+`quick_mass` allows, simulates their jumps, and compares them with the estimates. `--kinds` chooses among
 the kinds of workshops. `--fit` prints the estimates' coefficients fitted to these robots, of `quick_mass` unless all
 are near. `--speed N` times N random designs against the published simulation, in turn.
 Run `python benchmarks/refuse.py --robots 2000 [--seed N] [--fit]` or `python benchmarks/refuse.py --speed 200`.
@@ -27,8 +27,9 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG, Mechanism
 from jumpcad.mechanism.variants import with_spring_factor
-from jumpcad.search import quick_mass, robot_model, sized_robot
-from jumpcad.search.quick_refusal import quick_refusal
+from jumpcad.search import robot_model
+from jumpcad.search.estimate import quick_mass, sized_robot
+from jumpcad.search.estimate.quick_refusal import quick_refusal
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.planar import PlanarWorld
 from jumpcad.transforms import Array

@@ -18,10 +18,10 @@ from jumpcad.design import load_design
 from jumpcad.files import template_names
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import SCREENED, find_objective
 from jumpcad.search.pool import local_pool
+from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import best_trial

@@ -21,11 +21,11 @@ import numpy.typing as npt
 from jumpcad.design import Design
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.bayesian import default_initial, run_bayesian
-from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.models import RobotModel, robot_model
 from jumpcad.search.objective import Objective, find_objective
 from jumpcad.search.pool import local_pool
+from jumpcad.search.propose.bayesian import default_initial, run_bayesian
+from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 

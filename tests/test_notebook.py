@@ -19,7 +19,7 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.renders import renders, rest_picture
 from jumpcad.findings import at_most
 from jumpcad.search import Request, Result, Space, StudyStore, Trial, robot_model
-from jumpcad.search.robust import Candidate
+from jumpcad.search.pick.robust import Candidate
 
 LONGEST = 200
 DESIGN = jumpcad.Design.from_vector([123.456789, 1.0123456789, 0.8123456, 1.2345678, 0.5123456, 61.23456, 12.345, 33.3])

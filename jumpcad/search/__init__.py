@@ -32,13 +32,13 @@ if TYPE_CHECKING:
     from jumpcad.search.objective import find_objective as find_objective
     from jumpcad.search.optimization import optimize as optimize
     from jumpcad.search.parameter import SearchParameter as SearchParameter
+    from jumpcad.search.pick.robust import ActiveBound as ActiveBound
+    from jumpcad.search.pick.robust import Candidate as Candidate
     from jumpcad.search.pool import Pool as Pool
     from jumpcad.search.pool import dask_pool as dask_pool
     from jumpcad.search.pool import local_pool as local_pool
     from jumpcad.search.request import Request as Request
     from jumpcad.search.result import Result as Result
-    from jumpcad.search.robust import ActiveBound as ActiveBound
-    from jumpcad.search.robust import Candidate as Candidate
     from jumpcad.search.space import Space as Space
     from jumpcad.search.store import StudyStore as StudyStore
     from jumpcad.search.study import run_study as run_study
@@ -47,8 +47,8 @@ if TYPE_CHECKING:
     from jumpcad.search.trial import Trial as Trial
 
 _HOMES = {
-    "ActiveBound": "robust",
-    "Candidate": "robust",
+    "ActiveBound": "pick.robust",
+    "Candidate": "pick.robust",
     "COSTS": "fronts",
     "Cost": "fronts",
     "Evaluation": "objective",

@@ -12,8 +12,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.one_thread import one_thread
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.posterior import warped
-from jumpcad.search.surrogate import Surrogate
+from jumpcad.search.propose.posterior import warped
+from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array

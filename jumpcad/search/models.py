@@ -15,10 +15,10 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, did_you_mean
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
+from jumpcad.search.estimate.estimated_robot import figures_of, laid_out
+from jumpcad.search.estimate.refusal import refusal_findings, room_findings
 from jumpcad.search.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
-from jumpcad.search.refusal import refusal_findings, room_findings
-from jumpcad.search.stand_in import figures_of, laid_out
-from jumpcad.search.tolerances import PREFIX, Making, as_made
+from jumpcad.search.pick.tolerances import PREFIX, Making, as_made
 from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.search.versions import code_digest, versions
 from jumpcad.settings import Settings, load_settings
@@ -93,7 +93,7 @@ class RobotModel:
 
     def refused_first(self, design: Design) -> Evaluation | None:
         """Return the outcome of a design that an estimate of the printed robot's masses refuses; None of others."""
-        from jumpcad.search.quick_refusal import quick_refusal
+        from jumpcad.search.estimate.quick_refusal import quick_refusal
 
         refused = quick_refusal(design, self.workshop or load_workshop(), self.guess_settings)
         if not refused:

@@ -19,7 +19,7 @@ from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, front
 from jumpcad.search.objective import Objective
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.posterior import SearchPosterior, unwarped, warped
+from jumpcad.search.propose.posterior import SearchPosterior, unwarped, warped
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, best_trial, feasible_trials
 from jumpcad.transforms import Array

@@ -13,10 +13,10 @@ from jumpcad.search.evaluator import Evaluator, ignore
 from jumpcad.search.fronts import described_cost, front
 from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import Evaluation, Objective, described_objective
-from jumpcad.search.robust import MOST_PICK, ROUNDS, ActiveBound, Candidate, active_bounds, rank_candidates
+from jumpcad.search.pick.robust import MOST_PICK, ROUNDS, ActiveBound, Candidate, active_bounds, rank_candidates
+from jumpcad.search.pick.tolerances import Making
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.tolerances import Making
 from jumpcad.search.trial import Trial, best_trial, searched, trial_numbers
 from jumpcad.search.variant import Key, Variant
 

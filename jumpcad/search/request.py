@@ -14,13 +14,13 @@ from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
-from jumpcad.search.methods.bayesian import default_initial
-from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Model, Objective, find_objective
-from jumpcad.search.robust import pick_share
+from jumpcad.search.pick.robust import pick_share
+from jumpcad.search.pick.tolerances import LENGTHS_ALONE, Making
+from jumpcad.search.propose.bayesian import default_initial
+from jumpcad.search.propose.genetic import find_preset
 from jumpcad.search.space import Space
-from jumpcad.search.tolerances import LENGTHS_ALONE, Making
 from jumpcad.search.trial import Trial
 from jumpcad.search.versions import versions
 

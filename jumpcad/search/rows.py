@@ -13,6 +13,7 @@ from jumpcad.files.complaints import shown
 from jumpcad.findings import SEVERITIES, is_bare
 from jumpcad.search.methods import STEPS
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.pick.tolerances import MADE, require_made
 from jumpcad.search.stored import (
     stored_count,
     stored_design,
@@ -22,7 +23,6 @@ from jumpcad.search.stored import (
     stored_workshop,
 )
 from jumpcad.search.stored_evaluation import LETTERS, stored_evaluation
-from jumpcad.search.tolerances import MADE, require_made
 from jumpcad.search.trial import LEARNING_PHASES, PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50

@@ -16,10 +16,10 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.fronts import front
 from jumpcad.search.methods import METHODS, Task
+from jumpcad.search.pick.robust import MOST_PICK, active_bounds, rank_candidates
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
-from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
 from jumpcad.search.store import ENDED, StudyStore, difference
 from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
 from jumpcad.search.versions import versions

@@ -6,8 +6,8 @@ from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.explore import LEAST_R_SQUARED, Importance, importance
 from jumpcad.search.page_text import broken, table, written
+from jumpcad.search.pick.robust import ActiveBound
 from jumpcad.search.replay import Known, Replay
-from jumpcad.search.robust import ActiveBound
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study_words import reason_words, with_unit
 from jumpcad.search.trial import count_rejections

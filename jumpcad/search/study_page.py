@@ -18,8 +18,9 @@ from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervo
 from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import Objective
 from jumpcad.search.page_text import broken, table, written
+from jumpcad.search.pick.robust import best_apart
+from jumpcad.search.pick.tolerances import Making
 from jumpcad.search.replay import Known, known
-from jumpcad.search.robust import best_apart
 from jumpcad.search.shown_design import shown_designs
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study_chart import chart
@@ -27,7 +28,6 @@ from jumpcad.search.study_drawings import history, parallel, slices
 from jumpcad.search.study_lessons import active, importances, rejections
 from jumpcad.search.study_plots import study_figures
 from jumpcad.search.study_words import meaning_of, named, with_unit
-from jumpcad.search.tolerances import Making
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.workshop.varied import Value
 

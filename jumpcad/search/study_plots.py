@@ -12,7 +12,7 @@ from jumpcad.search.figures import save_figure
 from jumpcad.search.fronts import described_cost
 from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import described_objective
-from jumpcad.search.posterior import SearchPosterior
+from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import LEARNING_PHASES, Trial, searched

@@ -12,10 +12,10 @@ from jumpcad.findings import Finding
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.paper import published
 from jumpcad.search import models
+from jumpcad.search.estimate.refusal import room_findings
 from jumpcad.search.models import RobotModel, _figures, robot_model
 from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.refusal import room_findings
-from jumpcad.search.tolerances import Making
+from jumpcad.search.pick.tolerances import Making
 from jumpcad.search.variant import Variant
 from jumpcad.settings import load_settings
 from jumpcad.simulation import Jump
@@ -209,7 +209,9 @@ def test_what_estimates_refuse_is_told_with_the_margins_of_its_geometry(monkeypa
         [],
         (Finding("tips", "error", -20.0, "mm", "", ""), Finding("too_weak", "error", -1.0, "J", "", "")),
     )
-    monkeypatch.setattr("jumpcad.search.quick_refusal.quick_refusal", lambda *given: asked.append(given) or refused)
+    monkeypatch.setattr(
+        "jumpcad.search.estimate.quick_refusal.quick_refusal", lambda *given: asked.append(given) or refused
+    )
     light, fine, design = load_workshop("light"), load_settings("fine"), load_design("kenan-2.0")
     found = robot_model("printed", light, fine)(design)
     assert asked == [(design, light, fine.model_copy(update={"dt_s": 0.002}))]

@@ -23,7 +23,7 @@ def test_the_surrogate_in_the_picture_is_the_bump(tmp_path):
     space = Space.parse(fix=[*REST, "rest_angle_deg=50"])
     with studied(tmp_path / "s.db", space) as store:
         trials = [trial for trial in store.trials() if trial.phase == "bo"]
-    from jumpcad.search.posterior import SearchPosterior
+    from jumpcad.search.propose.posterior import SearchPosterior
 
     posterior = SearchPosterior.from_trials(space, trials, trials[-1].proposal["theta"], ())
     figure = plots.acquisition(space, trials, posterior, find_objective("fitness"))

@@ -10,13 +10,13 @@ from support.studies import IDENTITY, trials
 
 from jumpcad.search import replay
 from jumpcad.search.fronts import SPRING_ENERGY, front
+from jumpcad.search.pick.tolerances import Making
 from jumpcad.search.pool import local_pool
 from jumpcad.search.replay import _share, known
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
-from jumpcad.search.tolerances import Making
 from jumpcad.search.trial import feasible_trials, trial_numbers
 
 

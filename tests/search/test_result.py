@@ -16,9 +16,9 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.request import Request
 from jumpcad.search.result import Result
-from jumpcad.search.robust import ActiveBound, Candidate
 from jumpcad.search.trial import Trial
 from jumpcad.workshop import load_workshop
 

@@ -19,8 +19,8 @@ from jumpcad.search import study
 from jumpcad.search.methods import Method, Task
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.polling import gains
 from jumpcad.search.pool import local_pool
+from jumpcad.search.propose.local_search import gains
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore

@@ -14,8 +14,8 @@ from jumpcad.findings import Finding
 from jumpcad.search import study_lessons
 from jumpcad.search.explore import Importance
 from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.replay import Known
-from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.study_lessons import _bar, _cost, _gains, _is_clear, _matters, active, rejections
 from jumpcad.search.trial import Trial
 

@@ -13,16 +13,16 @@ from jumpcad.evaluation import evaluate
 from jumpcad.search import plots
 from jumpcad.search.explore import feasibility_map, sweep
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.models import RobotModel, robot_model
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
+from jumpcad.search.propose.genetic import run_genetic
+from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
 from jumpcad.search.study_plots import plot_study
-from jumpcad.search.surrogate import Surrogate
 from jumpcad.search.table import write_table
 from jumpcad.search.variant import Variant
 from jumpcad.workshop import load_workshop
@@ -185,7 +185,7 @@ def test_values_that_do_not_go_together_are_a_verdict():
 
 
 def test_the_winner_s_files_make_the_robot_that_was_searched(tmp_path, monkeypatch):
-    monkeypatch.setattr("jumpcad.search.start.SCREENED", 8)
+    monkeypatch.setattr("jumpcad.search.propose.initial_designs.SCREENED", 8)
     design = load_design("best-printable")
     space = Space.make(fixed=design.model_dump(), choices={"body.plate_mm": [1.6, 2.0]}, workshop=WORKSHOP)
     with local_pool(0) as pool:

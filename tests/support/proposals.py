@@ -1,11 +1,11 @@
 """Proposals of the Bayesian search with a fifth of the work, for tests of what becomes of them.
 
-`search/test_acquisition.py`, `test_surrogate.py`, `methods/test_bayesian.py` and `test_pareto.py` have the whole work.
+The tests of `search/propose` have the whole work.
 """
 
 import pytest
 
-from jumpcad.search import acquisition, surrogate
+from jumpcad.search.propose import acquisition, surrogate
 
 LESS = {
     (acquisition, "CANDIDATES"): 256,

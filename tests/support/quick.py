@@ -2,10 +2,10 @@
 
 from jumpcad.building import build
 from jumpcad.design import load_design
+from jumpcad.search.estimate.estimated_robot import EXTENTS, figures_of, stand_in
 from jumpcad.search.models import RobotModel, robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
-from jumpcad.search.stand_in import EXTENTS, figures_of, stand_in
 from jumpcad.simulation import simulate
 
 BEST = load_design("best-printable")

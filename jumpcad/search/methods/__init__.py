@@ -62,7 +62,7 @@ class Method:
     name
         Name on the command line; also the phase of the method's trials in a study file.
     function
-        Where it is: `module.function` in this package. The module is imported when the method runs.
+        Where it is: `module.function` in `propose`. The module is imported when the method runs.
     meaning
         Description in the help.
     front
@@ -93,7 +93,7 @@ class Method:
     def run(self, evaluator: "Evaluator", task: Task) -> bool:
         """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
         module, name = self.function.split(".")
-        return bool(getattr(importlib.import_module(f"{__name__}.{module}"), name)(evaluator, task))
+        return bool(getattr(importlib.import_module(f"jumpcad.search.propose.{module}"), name)(evaluator, task))
 
 
 METHODS = {

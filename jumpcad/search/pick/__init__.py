@@ -1,0 +1,1 @@
+"""The robust pick: of the best designs, the one whose neighbours jump well too."""

@@ -1,0 +1,283 @@
+"""The robust pick: of the best designs, the one whose neighbours jump well too; and the cost of its active bounds.
+
+Its evaluations are a share of the study's. Most candidates are soon known to be worse than others, so few neighbours
+are spent on them.
+
+Near some designs a thousandth of one parameter decides whether they jump; a printer is not that accurate.
+"""
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from jumpcad.design import PARAMETERS
+from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.parameter import active_sides
+from jumpcad.search.pick.margin import propose_robust
+from jumpcad.search.pick.tolerances import PERCENT, SAMPLES, Making, tenth
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial, feasible_trials
+from jumpcad.search.variant import Variant
+
+MOST_PICK, LEAST_PICK = 200, 6
+"""Most evaluations of the robust pick; with fewer than the least it examines nothing."""
+MOST_CANDIDATES = 16
+"""Designs that the first round examines, at most."""
+JOINING = 3
+"""Designs at a distance from the constraint that may join; each costs its own evaluation and two neighbours."""
+LEAST_TO_JOIN = 16
+"""Evaluations of a pick from which on designs may join; judgement."""
+ROUNDS = 8
+"""Numbers of steps in the study file that one pick takes."""
+APART = 0.02
+"""Least difference between two candidates in some parameter, over its range; judgement."""
+WIDENING = 0.05
+"""How far beyond an active bound a design is evaluated, over the bound's range; judgement."""
+NOT_EXAMINED = "not examined: the robust pick has no evaluations or time left"
+
+
+@dataclass(frozen=True, repr=False)
+class Candidate:
+    """A design among the best, and how well its neighbours jump.
+
+    ``parameters_score`` and ``print_score`` are the 10th percentiles of the score when every parameter varies by ±1 %,
+    and within the tolerances of making: printed lengths, springs' rate, mass and the floor's friction. Each is the
+    lowest of ten neighbours or fewer, and a rejected one counts 0, or less than any other where scores are negative.
+    ``rejections`` counts why neighbours were rejected, of ``neighbours`` that were evaluated, half of each kind.
+    """
+
+    trial: Trial
+    parameters_score: float
+    print_score: float
+    rejections: dict[str, int]
+    neighbours: int
+
+    @property
+    def robust_score(self) -> float:
+        """The lower of both percentiles; candidates are ranked by it."""
+        return min(self.parameters_score, self.print_score)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        return {
+            "score": self.trial.score,
+            "robust_score": self.robust_score,
+            "parameters_score": self.parameters_score,
+            "print_score": self.print_score,
+            "refusals": self.rejections,
+            "neighbours": self.neighbours,
+            "design": self.trial.design.model_dump(),
+            **({"workshop": dict(self.trial.workshop)} if self.trial.workshop else {}),
+        }
+
+    def __repr__(self) -> str:
+        rejected = sum(self.rejections.values())
+        return (
+            f"<Candidate: score {self.trial.score:.4g}, neighbours {self.robust_score:.4g}, "
+            f"{rejected} of {self.neighbours} rejected>"
+        )
+
+
+@dataclass(frozen=True)
+class ActiveBound:
+    """A bound of the search on which a design lies.
+
+    ``worth`` is the change of the score if the parameter goes ``beyond`` it, the others unchanged; None where that
+    design is rejected, for ``reason``, or `unknown`.
+    """
+
+    name: str
+    side: str
+    value: float
+    beyond: float
+    worth: float | None
+    reason: str = ""
+
+    @property
+    def unknown(self) -> bool:
+        """Whether the design beyond it was not evaluated; the reason says why."""
+        return self.reason == NOT_EXAMINED
+
+
+def pick_share(evaluations: int) -> int:
+    """Return how many of a study's evaluations examine neighbours: a quarter, at most `MOST_PICK`; none of a few."""
+    share = min(evaluations // 4, MOST_PICK)
+    return share if share >= LEAST_PICK else 0
+
+
+def plan_rounds(evaluations: int) -> list[tuple[int, int]]:
+    """Return candidates and new neighbours of each, round by round: every round halves the candidates.
+
+    As many candidates as get two neighbours in every round; what a round leaves over goes to the next ones.
+    """
+    count = MOST_CANDIDATES
+    while count > 1 and 2 * count * count.bit_length() > evaluations:
+        count //= 2
+    rounds, left, had = [], evaluations, 0
+    while count:
+        new = min(left // count.bit_length() // count, 2 * SAMPLES - had) // 2 * 2
+        rounds.append((count, new))
+        left, had, count = left - count * new, had + new, count // 2
+    return rounds
+
+
+def rank_candidates(
+    evaluator: Evaluator,
+    trials: Sequence[Trial],
+    seed: int,
+    making: Making,
+    evaluations: int,
+    among: Sequence[Trial] | None = None,
+) -> list[Candidate]:
+    """Evaluate neighbours of the best of some trials, and return these, those that got farthest and do not fail first.
+
+    Successive halving: the more robust half of the candidates gets more neighbours, until one is left. The best often
+    lies on a constraint; if one of its first neighbours is rejected, a few designs at a distance from the constraint
+    join. Where none joins, the last candidate gets their evaluations.
+
+    Parameters
+    ----------
+    evaluator, trials
+        The candidates are the best of the trials.
+    seed
+        Random seed of the neighbours.
+    making
+        Tolerances of making.
+    evaluations
+        At most so many designs are evaluated.
+    among
+        The trials that may be candidates, such as those of a front, which no design joins; all if None.
+    """
+    first = ROUNDS * ((MOST_PICK + 1) * len(trials) + evaluations)
+    reserve = JOINING * 3 if evaluations >= LEAST_TO_JOIN and among is None else 0
+    rounds = plan_rounds(evaluations - reserve)
+    best = best_apart(evaluator.space, trials if among is None else among, rounds[0][0])
+    if not best:  # nothing jumps
+        return []
+    field = [_Examined(index, one) for index, one in enumerate(best)]
+    left: list[_Examined] = []
+    for turn, (count, new) in enumerate(rounds):
+        ranked = _ranked(field, left)
+        field, left = ranked[:count], ranked[count:]
+        if count == 1 and turn:
+            new = min(new + reserve, 2 * SAMPLES - field[0].examined) // 2 * 2
+        _examine(evaluator, field, new, first + turn, seed, making)
+        if turn == 0 and reserve and field and field[0].rejections:
+            off_edge = propose_robust(evaluator, trials, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
+            joining = [_Examined(MOST_CANDIDATES + n, one) for n, one in enumerate(off_edge) if one.score is not None]
+            _examine(evaluator, joining, 2, first + ROUNDS - 1, seed, making)
+            field, reserve = field + joining, 0
+    return [one.candidate() for one in _ranked(field, left) if one.examined]
+
+
+def _ranked(field: Sequence["_Examined"], left: Sequence["_Examined"]) -> list["_Examined"]:
+    """Return all candidates, the most robust first.
+
+    Who got further has been examined more, and stands before those that were left behind, unless it fails.
+    """
+    ranked = [*sorted(field, key=lambda one: -one.robust_score), *left]
+    return sorted(ranked, key=lambda one: one.fails)
+
+
+class _Examined:
+    """A candidate and what is known of its neighbours so far."""
+
+    def __init__(self, index: int, trial: Trial) -> None:
+        self.index = index
+        self.trial = trial
+        self.scores: dict[str, list[float]] = {"parameters": [], "print": []}
+        self.rejections: Counter[str] = Counter()
+        self.rejected_score = 0.0
+
+    @property
+    def fails(self) -> bool:
+        """Whether so many neighbours are rejected that its lower percentile is a rejected one's score."""
+        return bool(self.rejections) and self.robust_score <= self.rejected_score
+
+    @property
+    def examined(self) -> int:
+        """How many neighbours are known."""
+        return sum(map(len, self.scores.values()))
+
+    @property
+    def robust_score(self) -> float:
+        """The lower percentile; the own score as long as no neighbour is known."""
+        return min(map(self._tenth, self.scores))
+
+    def neighbours(self, new: int, seed: int, making: Making) -> list[tuple[str, Variant]]:
+        """Return the next neighbours, half of each kind."""
+        generator = np.random.default_rng([seed, 4, self.index])
+        kinds = {
+            "parameters": making.varied(self.trial.variant, generator),
+            "print": making.neighbours(self.trial.variant, generator),
+        }
+        start, end = self.examined // 2, (self.examined + new) // 2
+        return [(kind, variant) for kind, variants in kinds.items() for variant in variants[start:end]]
+
+    def candidate(self) -> Candidate:
+        """Return the result."""
+        rejections = dict(sorted(self.rejections.items()))
+        return Candidate(self.trial, self._tenth("parameters"), self._tenth("print"), rejections, self.examined)
+
+    def _tenth(self, kind: str) -> float:
+        scores = self.scores[kind]
+        return tenth(scores) if scores else self.trial.score or 0.0
+
+
+def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, step: int, seed: int, making: Making) -> None:
+    """Evaluate `new` more neighbours of each.
+
+    A rejected one scores 0, or where scores are negative as far below the worst as the best is above it.
+    """
+    asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, making)]
+    found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step)
+    scores = [trial.score for trial in evaluator.trials if trial.score is not None]
+    rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0
+    for (one, kind, _), trial in zip(asked, found, strict=True):
+        if trial is not None:
+            one.rejected_score = rejected
+            one.scores[kind].append(rejected if trial.score is None else trial.score)
+            one.rejections.update(trial.evaluation.reasons)
+
+
+def best_apart(space: Space, trials: Sequence[Trial], count: int) -> list[Trial]:
+    """Return the best feasible trials that differ by at least a fiftieth of a range in some parameter, best first."""
+    chosen: list[Trial] = []
+    for trial in feasible_trials(trials):
+        unit = space.to_unit(trial.variant)
+        if all(np.abs(unit - space.to_unit(other.variant)).max() >= APART for other in chosen):
+            chosen.append(trial)
+        if len(chosen) == count:
+            break
+    return chosen
+
+
+def active_bounds(
+    evaluator: Evaluator, trial: Trial, step: int, evaluations: int = len(PARAMETERS)
+) -> list[ActiveBound]:
+    """Return the bounds on which a design lies, each with the change of the score a twentieth of the range beyond it.
+
+    Bounds that are also limits of a design are left out. At most `evaluations` are examined, the others only named.
+    """
+    found = []
+    for parameter in evaluator.space.free:
+        if parameter.names or (parameter.choices and parameter in evaluator.space.of_workshop):
+            continue  # choices of a workshop end where it ends
+        value = parameter.number(trial.variant.value(parameter.name))
+        for side, bound, beyond in active_sides(parameter, value, WIDENING):
+            found.append(ActiveBound(parameter.name, side, bound, beyond, None))
+    variants = [trial.variant.changed({bound.name: bound.beyond}) for bound in found]
+    trials = evaluator.evaluate(variants, "bounds", step, limit=evaluations)
+    return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True)]
+
+
+def _worth(bound: ActiveBound, trial: Trial, beyond: Trial | None) -> ActiveBound:
+    if beyond is None:
+        return replace(bound, reason=NOT_EXAMINED)
+    if beyond.score is None:
+        return replace(bound, reason=", ".join(beyond.evaluation.reasons))
+    return replace(bound, worth=beyond.score - (trial.score or 0.0))

@@ -1,0 +1,1 @@
+"""The methods that propose designs, and what they learn from those that were evaluated."""

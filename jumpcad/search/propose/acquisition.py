@@ -1,0 +1,161 @@
+"""Where to evaluate next: the maximum of expected improvement times probability of feasibility over a space."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import minimize
+
+from jumpcad.search.propose.posterior import SearchPosterior
+from jumpcad.search.space import Space
+from jumpcad.search.variant import Variant
+from jumpcad.transforms import Array
+
+CANDIDATES = 1024
+"""Points spread over the space."""
+LOCAL = 128
+"""Points near each of the best designs."""
+STARTS = 6
+"""Points from which the acquisition is maximised locally."""
+REDRAWN = 0.3
+"""Probability with which a name is drawn again near a good design."""
+DIGITS = 4
+"""Of the coordinates of a proposal."""
+REHEARSED = 0.2
+"""What another candidate must promise more, in logarithms, than one that was rehearsed; judgement."""
+_STEP = 1e-6
+"""Of the numerical gradient."""
+_FIRST_STEPS, _STEPS = 8, 40
+"""Most iterations of each local maximisation, and of the best one when it goes on. Where all six go on, they take 1.8
+times the evaluations, and nine of ten maxima are higher by less than 0.0002 in the logarithm (46 proposals)."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A variant to evaluate, its point (d,), and the logarithms of its expected improvement and P(feasible)."""
+
+    variant: Variant
+    unit: Array
+    log_improvement: float
+    log_feasible: float
+
+    @property
+    def log_value(self) -> float:
+        """The logarithm of the acquisition."""
+        return self.log_improvement + self.log_feasible
+
+    def promised_gain(self, best: float) -> float:
+        """Return what it promises to gain, as a share of the best score; infinite where no score is above 0."""
+        return promised_gain(self.log_value, best)
+
+    def note(self) -> dict[str, float]:
+        """Return both logarithms, for the study file."""
+        return {"log_improvement": self.log_improvement, "log_feasible": self.log_feasible}
+
+
+def promised_gain(logarithm: float, best: float) -> float:
+    """Return the gain of an acquisition, given by its logarithm, as a share of the best score.
+
+    Expected improvement times probability of feasibility, to first order: the process predicts the square root of the
+    score, so a share of it is worth twice as much. Infinite where the best score is not above 0.
+    """
+    return 2.0 * math.exp(min(logarithm, 100.0)) / math.sqrt(best) if best > 0.0 else math.inf
+
+
+def propose(
+    space: Space,
+    posterior: SearchPosterior,
+    best: float,
+    elite: Array,
+    admits: Callable[[Variant], bool],
+    generator: np.random.Generator,
+    penalty: Callable[[Array], Array] | None = None,
+    rehearsed: Sequence[Array] = (),
+) -> Proposal | None:
+    """Return the variant with the largest acquisition found, or None if no candidate is admitted.
+
+    Parameters
+    ----------
+    space, posterior
+        The space, and the surrogates that were fitted in it.
+    best
+        The score to be improved.
+    elite
+        Points (k, d) near which more candidates are drawn: the best designs so far.
+    admits
+        Whether a variant may be proposed: it is new, and the model admits it.
+    generator
+        Random generator that draws the candidates.
+    penalty
+        Subtracted from the logarithm of the acquisition: points (m, d) to (m,), 0 where allowed.
+    rehearsed
+        Points (d,) that are candidates too, and worth `REHEARSED` more.
+    """
+
+    def log_acquisition(points: Array) -> Array:
+        value = posterior.log_improvement(points, best) + posterior.log_feasible(points)
+        return value if penalty is None else value - penalty(points)
+
+    candidates = [space.spread(CANDIDATES, generator)]
+    for point in elite:
+        scale = 10.0 ** generator.uniform(-3, -0.7, (LOCAL, 1))
+        near = point + scale * generator.standard_normal((LOCAL, space.dimension))
+        for axis in np.flatnonzero(space.categories):
+            near[:, axis] = np.where(generator.random(LOCAL) < REDRAWN, generator.random(LOCAL), point[axis])
+        candidates.append(space.snap(near))
+    points = space.snap(np.vstack(candidates).round(DIGITS))
+    values = log_acquisition(points)
+    order = np.argsort(-values, kind="stable")
+    starts = points[_apart(points, order, STARTS)]
+    climbed = np.array([_climb(space, log_acquisition, start, _FIRST_STEPS) for start in starts])
+    highest = climbed[log_acquisition(climbed).argmax()]
+    tops = space.snap(np.vstack([_climb(space, log_acquisition, highest, _STEPS), climbed]).round(DIGITS))
+    points, values = np.vstack([tops, points[order]]), np.concatenate([log_acquisition(tops), values[order]])
+    if rehearsed:
+        points = np.vstack([*rehearsed, points])
+        values = np.concatenate([log_acquisition(np.array(rehearsed)) + REHEARSED, values])
+    for index in np.argsort(-values, kind="stable"):
+        variant = space.to_variant(points[index])
+        if admits(variant):
+            at = points[index][None]
+            improvement, feasible = posterior.log_improvement(at, best), posterior.log_feasible(at)
+            return Proposal(variant, points[index], float(improvement[0]), float(feasible[0]))
+    return None
+
+
+def _apart(points: Array, order: npt.NDArray[np.intp], count: int) -> list[int]:
+    """Return the first `count` indices of an order whose points are at least 0.05 apart along some axis."""
+    chosen: list[int] = []
+    for index in order[:256]:
+        if all(np.abs(points[index] - points[other]).max() > 0.05 for other in chosen):
+            chosen.append(int(index))
+        if len(chosen) == count:
+            break
+    return chosen
+
+
+def _climb(space: Space, function: Callable[[Array], Array], start: Array, steps: int) -> Array:
+    """Return a point (d,) nearer to a local maximum than a start in the unit cube; choices keep their values."""
+    moving = [index for index, parameter in enumerate(space.free) if not parameter.choices]
+    if not moving:
+        return start
+
+    def negative(coordinates: Array) -> tuple[float, Array]:
+        # Value and forward differences (backward at the upper bound) in one prediction.
+        base = start.copy()
+        base[moving] = coordinates
+        signs = np.where(coordinates > 0.5, -_STEP, _STEP)
+        stack = np.repeat(base[None], len(moving) + 1, axis=0)
+        stack[np.arange(1, len(moving) + 1), moving] += signs
+        values = function(stack)
+        return -values[0], -(values[1:] - values[0]) / signs
+
+    found = minimize(
+        negative, start[moving], method="L-BFGS-B", jac=True, bounds=[(0.0, 1.0)] * len(moving),
+        options={"maxiter": steps},
+    )  # fmt: skip
+    end = start.copy()
+    end[moving] = np.clip(found.x, 0.0, 1.0)
+    return end

@@ -1,0 +1,208 @@
+"""Genetic algorithm, by PyGAD, in the unit cube of a space.
+
+PyGAD proposes, the evaluator evaluates: every population goes to the pool as one batch, and finished designs come from
+the study file. The study file is thus the checkpoint of every generation, written before PyGAD sees its fitness; a
+resumed run repeats the finished generations in milliseconds and goes on. No second file can disagree with the study.
+"""
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.methods import Task
+from jumpcad.search.models import RobotModel
+from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
+from jumpcad.search.own_objective import LARGEST
+from jumpcad.search.propose.initial_designs import first_points, ranked_points
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial, best_trial, feasible_trials, searched
+from jumpcad.search.variant import Key, Variant
+from jumpcad.transforms import Array
+
+PATIENCE = 50
+"""The search ends after so many generations without a new design."""
+
+
+@dataclass(frozen=True)
+class GeneticSettings:
+    """Settings of PyGAD, by its own names."""
+
+    population: int
+    operators: Mapping[str, Any]
+
+
+PRESETS: dict[str, GeneticSettings] = {
+    # Small steps around good parents: SBX and polynomial mutation (Deb), and a tournament of three.
+    "recommended": GeneticSettings(
+        20,
+        {
+            "num_parents_mating": 20, "parent_selection_type": "tournament", "K_tournament": 3, "keep_elitism": 2,
+            "crossover_type": "sbx", "sbx_crossover_eta": 10,
+            "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
+        },
+    ),
+    # The published study's. Five of eight genes are replaced at random: little better than random search.
+    "published": GeneticSettings(
+        10,
+        {
+            "num_parents_mating": 5, "parent_selection_type": "sss", "keep_elitism": 0, "keep_parents": 2,
+            "crossover_type": "single_point", "mutation_type": "random", "mutation_num_genes": 5,
+        },
+    ),
+}  # fmt: skip
+
+
+def find_preset(name: str) -> GeneticSettings:
+    """Return the settings of a preset."""
+    if name not in PRESETS:
+        raise JumpcadError(f"{name!r} is not one of the presets {', '.join(PRESETS)}{did_you_mean(name, PRESETS)}")
+    return PRESETS[name]
+
+
+def run_genetic(evaluator: Evaluator, task: Task) -> None:
+    """Search for the highest score; a rejected design has less than any other.
+
+    With a prior study, its best designs make half of the first population.
+    """
+    settings = find_preset(task.preset)
+    operators = dict(settings.operators)
+    if "mutation_num_genes" in operators:
+        operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
+    score = Fitness(evaluator, "ga", task.evaluations, rejected=-2.0 * LARGEST, first_step=task.first_step)
+    if task.screen:
+        score = ScreenedFitness(evaluator, "ga", task.evaluations, score.rejected, task.first_step)
+    evolve(score, _first_population(evaluator, settings.population, task.seed), operators, task.seed)
+
+
+class Fitness:
+    """What PyGAD asks for: the fitness of a population, and whether to stop.
+
+    Designs of a prior study have the score that it found, and are not evaluated again.
+    """
+
+    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, rejected: Any, first_step: int = 0) -> None:
+        self.evaluator = evaluator
+        self.phase = phase
+        self.left = evaluations
+        self.rejected = rejected
+        self.first_step = first_step
+        self._idle = 0
+        self._prior = {one.key: one for one in evaluator.prior if one.evaluation.verdict != SCREENED}
+
+    def objectives(self, trial: Any) -> Any:
+        """Return the fitness of a feasible trial."""
+        return trial.score
+
+    def __call__(self, ga: Any, population: Any, _indices: Any) -> list[Any]:
+        """Return the fitness of each solution (n, genes); designs beyond the budget count as rejected."""
+        space = self.evaluator.space
+        before = len(self.evaluator.trials)
+        variants = [space.to_variant(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
+        step = self.first_step + int(ga.generations_completed)
+        others = [one for one in variants if one.key not in self._prior]
+        left_out = self.left_out(others)
+        found = self.evaluator.evaluate(others, self.phase, step, limit=self.left, left_out=left_out)
+        known = {**self._prior, **{one.key: trial for one, trial in zip(others, found, strict=True)}}
+        trials = [known[one.key] for one in variants]
+        new = len(self.evaluator.trials) - before
+        self.left -= new
+        self._idle = 0 if new else self._idle + 1
+        return [self.rejected if trial is None else self.fitness(trial) for trial in trials]
+
+    def fitness(self, trial: Trial) -> Any:
+        """Return the fitness of a trial."""
+        return self.rejected if trial.score is None else self.objectives(trial)
+
+    def left_out(self, _variants: Sequence[Variant]) -> Mapping[Key, Evaluation]:
+        """Return the outcome of variants that need no evaluation."""
+        return {}
+
+    def on_generation(self, _ga: Any) -> str | None:
+        """Stop PyGAD when budget or time is spent, or no new designs come."""
+        return "stop" if self.left <= 0 or self._idle >= PATIENCE or self.evaluator.expired() else None
+
+
+class ScreenedFitness(Fitness):
+    """Fitness with a screen; a candidate that it leaves out has the score that was guessed, which the study keeps."""
+
+    def __init__(self, *arguments: Any) -> None:
+        from jumpcad.search.estimate.screen import Screen
+
+        super().__init__(*arguments)
+        evaluator = self.evaluator
+        assert isinstance(evaluator.model, RobotModel)
+        self._screen = Screen(evaluator.space, evaluator.model, evaluator.objective)
+        self._seen: set[Key] = set()
+
+    def fitness(self, trial: Trial) -> Any:
+        """Return the fitness of a trial, guessed or exact."""
+        if trial.evaluation.verdict != SCREENED:
+            return super().fitness(trial)
+        return trial.evaluation.metrics.get(GUESSED, self.rejected)
+
+    def left_out(self, variants: Sequence[Variant]) -> Mapping[Key, Evaluation]:
+        """Return the outcomes of variants that the screen leaves out.
+
+        Of all that are new to this run, also where the study file holds some: a resumed run decides alike.
+        """
+        evaluator, screen = self.evaluator, self._screen
+        fresh = {variant.key: variant for variant in variants if variant.key not in self._seen}
+        self._seen.update(fresh)
+        if all(evaluator.holds(variant) for variant in fresh.values()):
+            return {}
+        if screen.learn(evaluator.trials, evaluator.store.recall("screen")):
+            evaluator.store.remember("screen", screen.to_record())
+        best = best_trial(evaluator.trials)
+        return screen.outcomes(fresh.values(), (best and best.score) or 0.0)
+
+
+def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], seed: int) -> None:
+    """Run PyGAD from a first population (n, dimension) of the unit cube until `fitness` says stop."""
+    import pygad
+
+    log = logging.getLogger("jumpcad.pygad")
+    log.propagate = False
+    log.addHandler(logging.NullHandler())
+
+    def batch(ga: Any, solutions: Any, indices: Any) -> list[Any]:
+        return fitness(ga, solutions, indices)
+
+    def after_generation(ga: Any) -> str | None:
+        return fitness.on_generation(ga)
+
+    pygad.GA(
+        num_generations=fitness.left * PATIENCE,
+        fitness_func=batch,
+        fitness_batch_size=len(population),
+        initial_population=population.tolist(),
+        gene_space=_gene_space(fitness.evaluator.space),
+        gene_categorical=[names > 0 for names in fitness.evaluator.space.categories],
+        on_generation=after_generation,
+        random_seed=seed,
+        suppress_warnings=True,
+        logger=log,
+        **operators,
+    ).run()
+
+
+def _gene_space(space: Space) -> list[Any]:
+    return [list(parameter.levels) or {"low": 0.0, "high": 1.0} for parameter in space.free]
+
+
+def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
+    space = evaluator.space
+    generator = np.random.default_rng([seed, 0])
+    spread = first_points(evaluator.space, count, generator, ranked_points(evaluator, generator))
+    return begun_with(space, feasible_trials(searched(evaluator.prior)), spread, count)
+
+
+def begun_with(space: Space, best: Sequence[Trial], spread: Array, count: int) -> Array:
+    """Return a first population (count, dimension): at most half of it the first of some trials, the rest spread."""
+    known = np.array([space.to_unit(trial.variant) for trial in best[: count // 2]]).reshape(-1, space.dimension)
+    return np.vstack([known, spread])[:count]

@@ -1,0 +1,82 @@
+"""The stages of the published study, one after the other.
+
+Random designs; runs of the genetic algorithm with the study's settings; from the most efficient of their best designs,
+Bayesian optimisation in its two modes, two parameters over their whole range and all parameters in a small one; at the
+end the links alone, with the spring unchanged. The study gives no numbers of evaluations for the stages: the shares
+here are a judgement.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+
+import numpy as np
+
+from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.fronts import energy_j
+from jumpcad.search.methods import METHODS, STEPS, Task
+from jumpcad.search.propose.bayesian import default_initial, run_bayesian
+from jumpcad.search.propose.genetic import run_genetic
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial, best_trial
+
+RUNS = METHODS["paper"].runs
+"""Runs of the genetic algorithm."""
+EXPLORED, EVOLVED = 0.15, 0.51
+"""Shares of the evaluations for the random designs, and for all runs of the genetic algorithm; the three searches near
+its best design have equal shares of the rest."""
+FEW = ("rest_angle_deg", "compression_ratio")
+"""The two parameters of the first mode: the most important ones (permutation importance)."""
+LINKS = ("carrying_link_mm", "c_coef", "d_coef", "e_coef")
+NEAR_PERCENT = 10.0
+"""Of each range, to either side, in the second mode."""
+
+
+def run_paper(evaluator: Evaluator, task: Task) -> None:
+    """Run the stages; each ends with its share of the evaluations."""
+    space, start = evaluator.space, len(evaluator.trials)
+    explored = int(EXPLORED * task.evaluations)
+    points = np.random.default_rng([task.seed, 8]).random((explored, space.dimension))
+    evaluator.evaluate([space.to_variant(point) for point in space.drawn(points)], "sample", 0)
+    best: list[Trial] = []
+    for run, seed in enumerate(seeds(task.seed)):
+        before = len(evaluator.trials)
+        share = int(EVOLVED * task.evaluations / RUNS)
+        run_genetic(evaluator, Task(share, seed, preset="published", first_step=run * STEPS))
+        found = best_trial(evaluator.trials[before:])
+        best += [found] if found else []
+    centre = max(best, key=_efficiency) if best else best_trial(evaluator.trials)
+    if centre is None:
+        return
+    for mode, (names, percent) in enumerate(((FEW, None), ((), NEAR_PERCENT), (LINKS, None))):
+        left = task.evaluations - (len(evaluator.trials) - start)
+        share, first = left // (3 - mode), mode * STEPS
+        with _inside(evaluator, space.near(centre.variant, names, percent)) as inner:
+            if inner is not None and share > 0:
+                initial = default_initial(inner, share)
+                run_bayesian(
+                    evaluator, replace(task, evaluations=share, initial=initial, first_step=first), polls=False
+                )
+                centre = best_trial([centre, *(one for one in evaluator.trials if inner.contains(one.variant))])
+        assert centre is not None
+
+
+def seeds(seed: int) -> list[int]:
+    """Return the seeds of the runs of the genetic algorithm: other ones for every seed of a search."""
+    return [int(one) for one in np.random.SeedSequence([seed, 9]).generate_state(RUNS)]
+
+
+def _efficiency(trial: Trial) -> float:
+    """Return the score for each joule in the springs."""
+    return (trial.score or 0.0) / energy_j(trial.design)
+
+
+@contextmanager
+def _inside(evaluator: Evaluator, inner: Space | None) -> Iterator[Space | None]:
+    """Let methods search a part of the evaluator's space."""
+    whole = evaluator.space
+    evaluator.space = inner or whole
+    try:
+        yield inner
+    finally:
+        evaluator.space = whole

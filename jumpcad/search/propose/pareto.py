@@ -1,0 +1,142 @@
+"""Fronts of score against a cost.
+
+For each of a few caps on the cost, the expected improvement over the best design below that cap proposes one design per
+step (ε-constraint). The energy of the loaded springs is a closed form of the design, so that only the score is unknown;
+any other cost is learned by a process of its own, and the improvement counts as often as the cap is probably kept.
+"""
+
+import itertools
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from scipy.special import log_ndtr
+
+from jumpcad.design import PARAMETERS
+from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, find_cost, front
+from jumpcad.search.methods import Task
+from jumpcad.search.own_objective import LARGEST
+from jumpcad.search.propose.acquisition import Proposal, propose
+from jumpcad.search.propose.bayesian import incumbent, learned_trials, run_steps, unproposed
+from jumpcad.search.propose.genetic import Fitness, begun_with, evolve
+from jumpcad.search.propose.proposal_loop import Learner
+from jumpcad.search.propose.surrogate import Surrogate
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial, searched
+from jumpcad.transforms import Array
+
+CAPS = 8
+"""Number of caps on the cost."""
+LEAST_LEARNED = 4
+"""Designs with a known cost before costs are learned; judgement."""
+POPULATION = 40
+"""Of NSGA-II."""
+
+
+def energy_caps_j(space: Space) -> Array:
+    """Return the caps (CAPS,) in equal steps up to the largest energy at the corners of the space (J).
+
+    At those of the designs: values of the workshop do not change the energy.
+    """
+    ends = [(0.0, 0.0) if parameter in space.of_workshop else (0.0, 1.0) for parameter in space.free]
+    corners = np.array(list(itertools.product(*map(dict.fromkeys, ends))))
+    energies = energies_j(space.values(corners)[:, : len(PARAMETERS)])
+    largest = float(energies[np.isfinite(energies)].max())
+    return largest * np.arange(1, CAPS + 1) / CAPS
+
+
+def run_pareto(evaluator: Evaluator, task: Task) -> None:
+    """Search the front by constrained expected improvement; each step has one proposal per cap on the cost."""
+    space, cost = evaluator.space, find_cost(task.against)
+
+    def proposer(
+        learner: Learner, trials: Sequence[Trial], count: int, generator: np.random.Generator
+    ) -> list[Proposal]:
+        proposals: list[Proposal] = []
+        for cap, penalty in _caps(space, cost, trials)[:count]:
+            best, elite = incumbent(space, [trial for trial in trials if cost.of(trial) <= cap])
+            ask = partial(
+                propose, space, best=best, elite=elite, generator=generator, penalty=penalty,
+                admits=unproposed(evaluator, proposals, learner.may_hold),
+            )  # fmt: skip
+            proposal = learner.propose(ask, best)
+            if proposal is not None:
+                proposals.append(proposal)
+        return proposals
+
+    run_steps(evaluator, "pareto", replace(task, batch=CAPS), proposer)
+
+
+Penalty = Callable[[Array], Array]
+
+
+def _caps(space: Space, cost: Cost, trials: Sequence[Trial]) -> list[tuple[float, Penalty | None]]:
+    """Return the caps on a cost, each with the penalty of the acquisition for what is above it.
+
+    Of a cost that is learned they are equal steps from the least to the largest of the designs that jump so far, but
+    for the last one, above which nothing is.
+    """
+    if cost is SPRING_ENERGY:
+        return [(float(cap), _excess(space, float(cap))) for cap in energy_caps_j(space)]
+    jumped = [cost.of(trial) for trial in trials if trial.score is not None]
+    known = [(trial, cost.of(trial)) for trial in learned_trials(space, trials) if np.isfinite(cost.of(trial))]
+    if not jumped or len(known) < LEAST_LEARNED:
+        return [(np.inf, None)] * CAPS
+    places, costs = (list(column) for column in zip(*known, strict=True))
+    learned = Surrogate(
+        np.array([space.to_unit(trial.variant) for trial in places]), np.array(costs), None, True, space.categories
+    )
+    caps = np.linspace(min(jumped), max(jumped), CAPS)[:-1].tolist()
+    return [*((cap, _above(learned, cap)) for cap in caps), (np.inf, None)]
+
+
+def _above(learned: Surrogate, cap: float) -> Penalty:
+    """Return a penalty of the acquisition: minus the logarithm of the probability that the cost is below a cap."""
+
+    def penalty(points: Array) -> Array:
+        mean, deviation = learned.predict(points)
+        return np.asarray(-log_ndtr((cap - mean) / deviation))
+
+    return penalty
+
+
+def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
+    """Return a penalty of the acquisition: 0 below a cap on the energy, 1 at 1 % above it, growing smoothly."""
+
+    def penalty(points: Array) -> Array:
+        over = energies_j(space.values(points)[:, : len(PARAMETERS)]) / cap_j - 1.0
+        return 1e4 * np.clip(over, 0.0, 1e3) ** 2
+
+    return penalty
+
+
+class ParetoFitness(Fitness):
+    """Score and negative cost, both to be maximised."""
+
+    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, cost: Cost = SPRING_ENERGY) -> None:
+        super().__init__(evaluator, phase, evaluations, rejected=[-2.0 * LARGEST, -cost.worst])
+        self.cost = cost
+
+    def objectives(self, trial: Trial) -> list[float]:
+        """Return both objectives of a feasible trial."""
+        return [trial.score or 0.0, -self.cost.of(trial)]
+
+
+def run_nsga2(evaluator: Evaluator, task: Task) -> None:
+    """Search the front by PyGAD's NSGA-II; a rejected design is dominated by every other one.
+
+    With a prior study, designs of its front make half of the first population, evenly chosen if there are more.
+    """
+    half = POPULATION // 2
+    operators = {
+        "num_parents_mating": half, "parent_selection_type": "nsga2", "keep_elitism": 0, "keep_parents": -1,
+        "crossover_type": "sbx", "sbx_crossover_eta": 10,
+        "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
+    }  # fmt: skip
+    fitness = ParetoFitness(evaluator, "nsga2", task.evaluations, find_cost(task.against))
+    space, best = evaluator.space, front(searched(evaluator.prior), fitness.cost)
+    best = [best[round(place)] for place in np.linspace(0, len(best) - 1, min(len(best), half)).tolist()]
+    spread = space.spread(POPULATION, np.random.default_rng([task.seed, 0]))
+    evolve(fitness, begun_with(space, best, spread, POPULATION), operators, task.seed)

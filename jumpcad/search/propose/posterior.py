@@ -1,0 +1,195 @@
+"""What trials tell of designs not yet evaluated: their score, and the margin of each limit.
+
+One process for the score, fitted to feasible designs only (a rejected design has no score, and a zero in its place
+would put a step into a smooth function), and one for the margin of each constraint, fitted wherever it is known.
+"""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, Self
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import erfcx, log_ndtr
+
+from jumpcad.search.propose.surrogate import Surrogate
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial
+from jumpcad.search.variant import Key
+from jumpcad.transforms import Array
+
+GUESS, MORE = "guess", "more"
+"""Names of the processes of guessed scores, and of what true scores are more."""
+LEAST_GUESSED = 3
+"""Least trials whose score was guessed too, before guesses are learned from."""
+NO_GUESSES: Mapping[Key, tuple[Array, float]] = MappingProxyType({})
+VERDICT = "verdict"
+"""A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
+MAX_CONSTRAINTS = 8
+THETA_DIGITS = 3
+"""Decimals of the logarithms with which the next fit starts: a row of a study is half as long."""
+
+
+@dataclass(frozen=True)
+class SearchPosterior:
+    """Processes fitted to trials: of the score, once two designs are feasible, and of each constraint's margin.
+
+    Where scores were guessed, `guess` is fitted to the guesses, and `score` to what the true scores are more (Kennedy
+    and O'Hagan, Biometrika 2000, with a factor of 1).
+    """
+
+    score: Surrogate | None
+    constraints: Mapping[str, Surrogate]
+    guess: Surrogate | None = None
+
+    @classmethod
+    def from_trials(
+        cls,
+        space: Space,
+        trials: Sequence[Trial],
+        thetas: Mapping[str, Any],
+        fit: Sequence[str] | None,
+        guesses: Mapping[Key, tuple[Array, float]] = NO_GUESSES,
+    ) -> Self:
+        """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
+
+        Parameters
+        ----------
+        space, trials
+            The space, and evaluated designs in it.
+        thetas
+            Hyperparameters by name, as `thetas` gives them.
+        fit
+            Names of the processes to fit; None for all. What has no hyperparameters yet is always fitted.
+        guesses
+            Points (d,) and guessed scores of variants, by their keys; of trials too.
+        """
+        x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension)
+
+        def learn(name: str, points: Array, values: Array) -> Surrogate:
+            known = thetas.get(name)
+            fitted = known is None or fit is None or name in fit
+            return Surrogate(points, values, known, fitted, space.categories)
+
+        constraints = {}
+        for name, margins in constraint_margins(trials).items():
+            known = np.isfinite(margins)
+            constraints[name] = learn(name, x[known], _scaled(margins[known]))
+        jumps = [(point, trial) for point, trial in zip(x, trials, strict=True) if trial.score is not None]
+        points = np.array([point for point, _ in jumps]).reshape(-1, space.dimension)
+        scores = np.array([trial.score for _, trial in jumps])
+        if sum(trial.key in guesses for _, trial in jumps) >= LEAST_GUESSED:
+            places = np.array([place for place, _ in guesses.values()])
+            values = warped(forwards(np.array([value for _, value in guesses.values()]), scores))
+            guess = learn(GUESS, places, values)
+            of_keys = dict(zip(guesses, values.tolist(), strict=True))
+            pairs = zip(jumps, guess.predict(points)[0].tolist(), strict=True)
+            their = np.array([of_keys.get(trial.key, mean) for (_, trial), mean in pairs])
+            return cls(learn(MORE, points, warped(forwards(scores, scores)) - their), constraints, guess)
+        if len(jumps) < 2:
+            return cls(None, constraints)
+        return cls(learn("score", points, warped(forwards(scores, scores))), constraints)
+
+    @property
+    def thetas(self) -> dict[str, list[float]]:
+        """Hyperparameters of every process, by name, rounded as a study keeps them; `score` for the score."""
+        found = {name: surrogate.theta for name, surrogate in self.constraints.items()}
+        if self.score is not None:
+            of_score = {"score": self.score} if self.guess is None else {GUESS: self.guess, MORE: self.score}
+            found = {name: surrogate.theta for name, surrogate in of_score.items()} | found
+        return {name: [round(value, THETA_DIGITS) for value in theta] for name, theta in found.items()}
+
+    def log_feasible(self, points: Array, scatter: Array | None = None) -> Array:
+        """Return the logarithm of the probability (m,) that designs (m, d) meet every constraint.
+
+        With `scatter`, standard deviations (m, d) of what is made of each design, that such a neighbour meets them: to
+        first order, the variance of a margin grows by that of its slope (Girard et al., NIPS 2002).
+        """
+        total = np.zeros(len(points))
+        for surrogate in self.constraints.values():
+            mean, deviation = surrogate.predict(points)
+            if scatter is not None:
+                deviation = np.hypot(deviation, np.linalg.norm(scatter * surrogate.slope(points), axis=1))
+            total += log_ndtr(mean / deviation)
+        return total
+
+    def log_improvement(self, points: Array, best: float) -> Array:
+        """Return the logarithm of the expected improvement (m,) of the warped score over `best` at points (m, d)."""
+        if self.score is None:
+            return np.zeros(len(points))
+        mean, deviation = self.score.predict(points)
+        if self.guess is not None:
+            guessed, unsure = self.guess.predict(points)
+            # what scores scatter by: their steps, which no smooth function has, may be gained too
+            mean, deviation = mean + guessed, np.hypot(np.hypot(deviation, unsure), self.score.scatter)
+        return np.log(deviation) + _log_h((mean - warped(best)) / deviation)
+
+    def condition_on(self, point: Array) -> "SearchPosterior":
+        """Return the posterior with its own means at a point (d,) added as measurements (kriging believer)."""
+        constraints = {name: surrogate.condition_on(point) for name, surrogate in self.constraints.items()}
+        score = None if self.score is None else self.score.condition_on(point)
+        return SearchPosterior(score, constraints, None if self.guess is None else self.guess.condition_on(point))
+
+
+def forwards(scores: Array, measured: Array) -> Array:
+    """Return scores (n,) in which a jump backwards counts as no jump, if any of those that were measured goes forwards.
+
+    Large negative scores would shorten the lengths of the process and say nothing of the best designs: with them, one
+    seed in eight had not converged at 100 evaluations.
+    """
+    return np.maximum(scores, 0.0) if measured.max() > 0.0 else scores
+
+
+def warped(score: npt.ArrayLike) -> Array:
+    """Return the square root of scores, with their sign.
+
+    The range grows with the square of the take-off speed, and the speed about linearly with the parameters.
+    """
+    score = np.asarray(score, dtype=float)
+    root: Array = np.sign(score) * np.sqrt(np.abs(score))
+    return root
+
+
+def unwarped(values: Array) -> Array:
+    """Return the scores of warped values; the inverse of `warped`."""
+    return np.sign(values) * values**2
+
+
+def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
+    """Return the margins (n,) of each constraint that rejected a design; NaN where a trial lacks it.
+
+    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most. A limit that refuses a design while it is laid out
+    is one too where built robots have a margin of it (`stop_room`): the verdict alone, +1 or -1, is smooth, and
+    promises a jump a tenth of a millimetre beyond such a limit again and again. No robot meets the limit of those that
+    stay on the ground: they are left to `VERDICT`.
+    """
+    rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
+    met = set[str]().union(*(trial.evaluation.met for trial in trials))
+    missed = set[str]().union(*(trial.evaluation.missed for trial in trials)) & met
+    ranked = sorted(missed, key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
+    margins = {name: np.array([trial.evaluation.margins.get(name, np.nan) for trial in trials]) for name in ranked}
+    if rejections:
+        margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
+    return margins
+
+
+def _scaled(margins: Array) -> Array:
+    """Return margins in units of their typical size, large ones compressed; the sign is kept."""
+    size = float(np.median(np.abs(margins)))
+    return np.arcsinh(margins / (size if size > 0 else 1.0))
+
+
+def _log_h(z: Array) -> Array:
+    """Return log(φ(z) + z·Φ(z)), exact far below the mean too (Ament et al., NeurIPS 2023, eq. 9)."""
+    z = np.asarray(z, dtype=float)
+    near = np.maximum(z, -1.0)
+    plain = np.exp(-0.5 * near**2) / np.sqrt(2 * np.pi) + near * np.exp(log_ndtr(near))
+    far = np.minimum(z, -1.0)
+    ratio = np.maximum(1.0 + far * np.sqrt(np.pi / 2) * erfcx(-far / np.sqrt(2)), 1e-300)
+    tail = np.log(ratio) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi)
+    # 1 + z·Φ/φ loses its digits below -1e3; there it is 1/z² to first order.
+    tail = np.where(far < -1e3, -2.0 * np.log(-far) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi), tail)
+    value: Array = np.where(z > -1.0, np.log(plain), tail)
+    return value

@@ -1,0 +1,169 @@
+"""What one step of a search learns from its trials, and again from each rehearsal of a proposal."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from jumpcad.search.propose.acquisition import DIGITS, REHEARSED, Proposal
+from jumpcad.search.propose.dry_run import Rehearsal
+from jumpcad.search.propose.local_search import WITHIN, neighbours
+from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial, best_trial
+from jumpcad.search.variant import Key, Variant
+from jumpcad.transforms import Array
+
+ROUNDS = 8
+"""Most rehearsals of a proposal."""
+HELD = 4
+"""Of which so many hold; the best of them is evaluated."""
+AROUND, LEAP = 0.2, 0.02
+"""How far beside a best its neighbours along the axes are rehearsed, in the unit cube, and the share by which it must
+be better than the last one whose neighbours were; judgement. A search that follows small gains along a bound does not
+see what another axis is worth: see docs/decisions/default-search.md."""
+WORTH = 0.001
+"""Least gain, as a share of the best score, that a further rehearsal must promise once one holds; judgement."""
+
+
+class Learner:
+    """Makes the posterior of a step, and proposals that were rehearsed.
+
+    Parameters
+    ----------
+    space, trials
+        The space, and evaluated designs in it.
+    rehearsal
+        Where proposals are tried; None where they are not.
+    thetas
+        Hyperparameters of the step before.
+    refit
+        Whether they are fitted anew.
+    """
+
+    def __init__(
+        self,
+        space: Space,
+        trials: Sequence[Trial],
+        rehearsal: Rehearsal | None,
+        thetas: Mapping[str, Any],
+        refit: bool,
+    ) -> None:
+        self._space, self._trials, self._rehearsal = space, trials, rehearsal
+        self.thetas: Mapping[str, Any] = thetas
+        self._fit: Sequence[str] | None = None if refit else ()
+        self.tried: list[Array] = []
+        self._proposed: list[Array] = []
+        self._failed: set[Key] = set()
+
+    def propose(self, ask: Callable[..., Proposal | None], best: float) -> Proposal | None:
+        """Return a proposal of `ask`, which is called with a posterior and the points that were rehearsed for it.
+
+        Its own mean is then believed, as if it had been measured, until the step is over. `best` is the score to be
+        improved.
+        """
+        held: list[Proposal] = []
+        self._look_around()
+        posterior = self._learned()
+        proposal = ask(posterior, rehearsed=[])
+        for _ in range(ROUNDS if self._rehearsal else 0):
+            assert self._rehearsal is not None
+            if proposal is None:
+                proposal = _best_of(held, posterior, best) if held else None
+                break
+            if any((proposal.unit == one.unit).all() for one in held):
+                break
+            if len(held) == HELD or (held and proposal.promised_gain(best) < WORTH):
+                proposal = _best_of(held, posterior, best)
+                break
+            self.tried.append(proposal.unit)
+            holds = self._rehearsal.holds(proposal.variant)
+            posterior = self._learned()
+            if holds:
+                held.append(proposal)
+                before, proposal = proposal.log_value, _best_of([proposal], posterior, best)
+                if proposal.log_value + REHEARSED >= before:
+                    break
+            else:
+                self._failed.add(proposal.variant.key)
+            proposal = ask(posterior, rehearsed=[one.unit for one in held])
+        else:
+            proposal = _best_of(held, posterior, best) if held else proposal
+        if proposal is not None:
+            self._proposed.append(proposal.unit)
+        return proposal
+
+    def beside(
+        self,
+        trials: Sequence[Trial],
+        admits: Callable[[Variant], bool],
+        generator: np.random.Generator,
+        wider: float = 1.0,
+    ) -> Proposal | None:
+        """Return the neighbour of the best of some trials with the best guess; None where none is about as good.
+
+        `admits` tells which variants are new; neighbours are so many times `wider` apart. All of them are rehearsed.
+        """
+        best, rehearsal = best_trial(trials), self._rehearsal
+        if rehearsal is None or not rehearsal.guessing or best is None:
+            return None
+        offers, known = [], rehearsal.known(self._trials, self.tried)
+        for point in neighbours(self._space, best, generator, wider):
+            variant = self._space.to_variant(point)
+            if admits(variant):
+                self.tried += [] if variant.key in known else [point]
+                offers.append((rehearsal.guess(variant) or 0.0, Proposal(variant, point, 0.0, 0.0)))
+        guess, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
+        if found is None or guess < (1.0 - WITHIN) * (rehearsal.guess(best.variant) or math.inf):
+            return None
+        found = _best_of([found], self._learned(), best.score or 0.0)
+        self._proposed.append(found.unit)
+        return found
+
+    def _look_around(self) -> None:
+        """Rehearse the neighbours of what the last step found, if it is a leap."""
+        if self._rehearsal is None or not self._rehearsal.guessing or self.tried:
+            return
+        found, last = _last_leap(self._trials), self._trials[-1]
+        if found is None or (found.phase, found.step) != (last.phase, last.step):
+            return
+        centre = self._space.to_unit(found.variant)
+        numbers = np.eye(self._space.dimension)[np.array(self._space.categories) == 0]
+        beside = np.clip(centre + AROUND * np.vstack([-numbers, numbers]), 0.0, 1.0)
+        apart = np.abs(beside - centre).max(axis=1) > 0.5 * AROUND  # else a bound is too near
+        self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
+
+    def may_hold(self, variant: Variant) -> bool:
+        """Whether a variant may be proposed: it has not failed in a rehearsal of this step, nor was refused in any."""
+        return variant.key not in self._failed and not (self._rehearsal and self._rehearsal.is_refused(variant))
+
+    def _learned(self) -> SearchPosterior:
+        """Return the posterior of the trials and all rehearsals, with what was proposed believed."""
+        trials, guesses = list(self._trials), NO_GUESSES
+        if self._rehearsal is not None:
+            trials += self._rehearsal.failures(self._trials, self.tried)
+            guesses = self._rehearsal.guesses(self._trials, self.tried)
+        posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._fit, guesses)
+        self.thetas, self._fit = {**self.thetas, **posterior.thetas}, ()
+        for point in self._proposed:
+            posterior = posterior.condition_on(point)
+        return posterior
+
+
+def _last_leap(trials: Sequence[Trial]) -> Trial | None:
+    """Return the last trial whose score was better than the leap before it by a share of `LEAP`."""
+    best, found = 0.0, None
+    for trial in trials:
+        if trial.score is not None and trial.score > best * (1.0 + LEAP):
+            best, found = trial.score, trial
+    return found
+
+
+def _best_of(proposals: Sequence[Proposal], posterior: SearchPosterior, best: float) -> Proposal:
+    """Return the proposal with the largest acquisition, as the posterior sees it now."""
+    units = np.array([one.unit for one in proposals])
+    improvement, feasible = posterior.log_improvement(units, best), posterior.log_feasible(units)
+    chosen = int((improvement + feasible).argmax())
+    return replace(proposals[chosen], log_improvement=float(improvement[chosen]), log_feasible=float(feasible[chosen]))

@@ -1,0 +1,496 @@
+"""The robust pick: the scores of the neighbours decide."""
+
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from support.hills import FIXED, SMALL, Hill
+
+from jumpcad.building import build
+from jumpcad.design import PARAMETERS, load_design
+from jumpcad.mechanism.variants import with_spring_factor
+from jumpcad.search.models import robot_model
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.pick import robust
+from jumpcad.search.pick.robust import (
+    NOT_EXAMINED,
+    ActiveBound,
+    Candidate,
+    _examine,
+    _Examined,
+    _worth,
+    active_bounds,
+    best_apart,
+    pick_share,
+    plan_rounds,
+    rank_candidates,
+)
+from jumpcad.search.pick.tolerances import LENGTHS_ALONE, MADE, Making, as_made, varied_parameters
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial
+from jumpcad.search.variant import Variant
+from jumpcad.settings import Settings, coefficients
+from jumpcad.simulation import simulate
+from jumpcad.workshop import load_workshop
+
+
+@dataclass(frozen=True)
+class Spiked(Hill):
+    """A plateau of height 5 with a needle of height 9 that is 0.2 % of its parameter wide."""
+
+    def __call__(self, design):
+        needle = abs(design.rest_angle_deg - 60.0) < 0.06
+        return Evaluation("jump", {"fitness": 9.0 if needle else 5.0 - 0.01 * abs(design.rest_angle_deg - 40.0)})
+
+
+@dataclass(frozen=True)
+class Needles(Hill):
+    """A plateau of height 5 at small rest angles; elsewhere 9, but for exact values of the stiffness only."""
+
+    def __call__(self, design):
+        if design.rest_angle_deg < 35.0:
+            return Evaluation("jump", {"fitness": 5.0})
+        return (
+            Evaluation("jump", {"fitness": 9.0})
+            if design.stiffness_nmm_per_deg % 1.0 == 0
+            and (design.rest_angle_deg == 45.0 and design.carrying_link_mm == 100.0)
+            else Evaluation("loop")
+        )
+
+
+def test_a_plateau_beats_a_needle(evaluator):
+    one = evaluator(model=Spiked())
+    centre = SMALL.to_design([0.5, 0.5, 0.5])
+    one.evaluate([centre.model_copy(update={"rest_angle_deg": angle}) for angle in (60.0, 40.0, 30.0)], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)
+    assert [candidate.trial.score for candidate in ranked] == [5.0, 4.9, 9.0]
+    assert ranked[-1].parameters_score < 5.0
+    assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
+
+
+def test_neighbours_follow_from_the_seed(evaluator):
+    runs = []
+    for seed in (0, 0, 1):
+        one = evaluator()
+        one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
+        rank_candidates(one, one.trials, seed=seed, making=LENGTHS_ALONE, evaluations=20)
+        runs.append([trial.key for trial in one.trials if trial.phase == "robust"])
+    assert len(runs[0]) >= 16
+    assert runs[0] == runs[1]
+    assert not set(runs[1]) & set(runs[2])
+
+
+def test_a_candidate_of_which_no_neighbour_is_known_is_as_robust_as_itself(evaluator):
+    one = evaluator(model=Spiked())
+    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
+    (trial,) = one.trials
+    candidate = _Examined(0, trial).candidate()
+    assert trial.score > 4.0
+    assert candidate.robust_score == candidate.parameters_score == candidate.print_score == trial.score
+
+
+def test_neighbours_follow_from_the_seed_and_are_each_candidates_own(evaluator):
+    one = evaluator()
+    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
+    asked = [(0, 0), (0, 0), (1, 0), (0, 1)]
+    found = [_Examined(index, one.trials[0]).neighbours(4, seed, LENGTHS_ALONE) for seed, index in asked]
+    keys = [{variant.key for _, variant in variants} for variants in found]
+    assert len(keys[0]) == 4
+    assert keys[0] == keys[1]
+    assert not keys[0] & keys[2]
+    assert not keys[0] & keys[3]
+
+
+def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
+    one = evaluator(model=Needles())
+    centre = SMALL.to_design([0.5, 0.5, 0.5])
+    needles = [centre.model_copy(update={"stiffness_nmm_per_deg": 6.0 + number}) for number in range(12)]
+    plateau = centre.model_copy(update={"rest_angle_deg": 30.0})
+    one.evaluate([*needles, plateau], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)
+    assert sum(candidate.trial.phase == "bo" for candidate in ranked) == 13
+    assert ranked[0].trial.design == plateau
+
+
+def test_refused_neighbours_count_nothing_and_are_named(evaluator):
+    one = evaluator()
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
+    one.evaluate([edge], "bo", 0)
+    candidate = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)[-1]
+    assert candidate.trial.design == edge
+    assert candidate.parameters_score == 0.0
+    assert candidate.print_score > 0.0
+    # Half of the parameters go up, a quarter of all neighbours.
+    assert candidate.rejections["loop"] == pytest.approx(candidate.neighbours / 4, abs=1)
+
+
+@pytest.mark.parametrize("evaluations", [5, 8, 19, 52, 152, 192])
+def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluator, evaluations):
+    one = evaluator(model=Spiked())
+    centre = SMALL.to_design([0.5, 0.5, 0.5])
+    one.evaluate([centre.model_copy(update={"rest_angle_deg": 30.0 + number}) for number in range(20)], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=evaluations)
+    assert 0.5 * evaluations < len(one.trials) - 20 <= evaluations
+    assert ranked[0].neighbours == max(candidate.neighbours for candidate in ranked)
+    rounds = plan_rounds(evaluations)
+    assert [count for count, _ in rounds] == [2**power for power in reversed(range(len(rounds)))]
+    assert sum(new for _, new in rounds) <= 32
+
+
+@pytest.mark.parametrize(
+    ("evaluations", "rounds"),
+    [
+        (6, [(1, 6)]), (8, [(2, 2), (1, 4)]), (24, [(4, 2), (2, 4), (1, 8)]), (40, [(4, 2), (2, 8), (1, 16)]),
+        (160, [(16, 2), (8, 4), (4, 8), (2, 16), (1, 2)]), (200, [(16, 2), (8, 4), (4, 10), (2, 16), (1, 0)]),
+        (1, [(1, 0)]),
+    ],
+)  # fmt: skip
+def test_every_round_costs_as_much_and_nobody_has_more_than_his_32_neighbours(evaluations, rounds):
+    """A half, a third or a fifth of what is left, in pairs: one of each kind, of which there are 16."""
+    assert plan_rounds(evaluations) == rounds
+
+
+def test_where_no_neighbour_is_rejected_the_last_candidate_gets_what_is_left(evaluator):
+    one = evaluator(model=Spiked())
+    one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.4, 0.6, 0.8)], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=40)
+    spent = [candidate.neighbours for candidate in ranked]
+    assert 40 - len(spent) <= sum(spent) <= 40
+    assert spent[0] == max(spent) > 20
+
+
+@dataclass(frozen=True)
+class Late(Hill):
+    """9 above a rest angle of 45°, with stiffnesses off 20 by the share `kept` at most, and 5 below."""
+
+    kept: float = 0.0
+
+    def __call__(self, design):
+        if design.rest_angle_deg < 45.0:
+            return Evaluation("jump", {"fitness": 5.0})
+        off = abs(design.stiffness_nmm_per_deg / 20.0 - 1.0)
+        return Evaluation("loop") if off > self.kept + 1e-9 else Evaluation("jump", {"fitness": 9.0})
+
+
+@pytest.mark.parametrize("below", [0.0, 100.0])
+def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below):
+    """The better one keeps its first neighbours and loses most of the others; the plateau's all jump.
+
+    Also where all scores are negative.
+    """
+    fine, edge = (SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"rest_angle_deg": a}) for a in (30.0, 60.0))
+    edge = edge.model_copy(update={"stiffness_nmm_per_deg": 20.0})
+    examined = _Examined(0, Trial("bo", 0, 0, edge, Evaluation("jump"), 9.0, "m", 0.0))
+    first = [variant.design for _, variant in examined.neighbours(2, 0, LENGTHS_ALONE)]
+    one = evaluator(model=Late(kept=max(abs(design.stiffness_nmm_per_deg / 20.0 - 1.0) for design in first)))
+    one.objective = replace(one.objective, figure=lambda metrics: metrics["fitness"] - below)
+    one.evaluate([edge, fine], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
+    assert [candidate.trial.design for candidate in ranked] == [fine, edge]
+    assert ranked[1].neighbours > ranked[0].neighbours == 2
+
+
+def test_one_rejected_neighbour_of_many_is_no_failure():
+    """Also where scores are negative: of twenty at -2 and one rejected at -9 the lower percentile is -2."""
+    one = _Examined(0, Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), -1.0, "m", 0.0))
+    assert not one.fails
+    one.scores = {"parameters": [-2.0] * 20 + [-9.0], "print": [-2.0] * 20}
+    one.rejections["loop"], one.rejected_score = 1, -9.0
+    assert not one.fails
+    one.scores["parameters"] = [-2.0] * 10 + [-9.0] * 11
+    assert one.fails
+
+
+def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
+    one = evaluator()
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
+    inside = edge.model_copy(update={"compression_ratio": 0.4})
+    one.objective = replace(one.objective, figure=lambda metrics: metrics["fitness"] - 100.0)
+    one.evaluate([edge, inside], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
+    assert [candidate.trial.design for candidate in ranked] == [inside, edge]
+
+
+@pytest.mark.parametrize(("scores", "rejected"), [((-1.0, -3.0), -5.0), ((2.0, -3.0), 0.0), ((0.6, 0.2), 0.0)])
+def test_a_rejected_neighbour_is_as_far_below_the_worst_as_the_best_is_above_it(scores, rejected):
+    """Where all scores are negative; else it counts 0."""
+    design = SMALL.to_design([0.5, 0.5, 0.5])
+    trials = [Trial("bo", 0, 0, design, Evaluation("jump"), score, "m", 0.0) for score in scores]
+    refused = Trial("robust", 0, 0, design, Evaluation("loop"), None, "m", 0.0)
+    known = SimpleNamespace(trials=trials, evaluate=lambda variants, *_: [refused] * len(variants))
+    one = _Examined(0, trials[0])
+    _examine(known, [one], 2, 0, 0, LENGTHS_ALONE)
+    assert (one.scores, one.rejected_score) == ({"parameters": [rejected], "print": [rejected]}, rejected)
+
+
+def test_the_best_differ_from_one_another(evaluator):
+    one = evaluator()
+    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5 + shift]) for shift in (0.0, 0.001, 0.05, 0.2)], "bo", 0)
+    assert len(best_apart(SMALL, one.trials, 10)) == 3
+
+
+def test_variation_stays_within_its_limits():
+    design = load_design("kenan-2.0")
+    vector = np.array(design.to_vector())
+    changes = np.array([d.to_vector() for d in varied_parameters(design, np.random.default_rng(0))]) / vector - 1.0
+    assert np.abs(changes).max() <= 0.01 + 1e-12
+    assert (changes.max(axis=0) > 0.008).all()
+    assert (changes.min(axis=0) < -0.008).all()
+    for varied in (one.design for one in Making(0.3).neighbours(Variant(design), np.random.default_rng(0))):
+        for name in ("l2_mm", "l3_mm", "l4_mm", "l5_mm"):
+            assert abs(getattr(varied, name) - getattr(design, name)) <= 0.3 + 1e-9
+        assert varied.to_vector()[4:] == design.to_vector()[4:]
+
+
+def test_variation_keeps_to_what_a_design_can_be():
+    flat = load_design("kenan-2.0").model_copy(update={"rest_angle_deg": 90.0})
+    assert max(d.rest_angle_deg for d in varied_parameters(flat, np.random.default_rng(0))) == 90.0
+
+
+@dataclass(frozen=True)
+class Slope(Hill):
+    """Fitness grows by 2 over a range of the stiffness and falls by 3 over one of the rest angle."""
+
+    def __call__(self, design):
+        if design.compression_ratio > 0.8:
+            return Evaluation("loop")
+        unit = dict(zip(PARAMETERS, design.to_vector(), strict=True))
+        fitness = (
+            20.0 + 2.0 * (unit["stiffness_nmm_per_deg"] - 5.0) / 25.0 - 3.0 * (unit["rest_angle_deg"] - 20.0) / 50.0
+        )
+        return Evaluation("jump", {"fitness": fitness})
+
+
+def test_active_bounds_and_their_worth(evaluator):
+    one = evaluator(model=Slope())
+    names = [parameter.name for parameter in SMALL.free]
+    assert names == ["compression_ratio", "rest_angle_deg", "stiffness_nmm_per_deg"]
+    (trial,) = one.evaluate([SMALL.to_design([1.0, 0.0, 1.0])], "bo", 0)
+    found = {bound.name: bound for bound in active_bounds(one, trial, 1)}
+    assert set(found) == set(names)
+    assert found["stiffness_nmm_per_deg"].worth == pytest.approx(0.05 * 2.0)
+    assert found["stiffness_nmm_per_deg"].beyond == pytest.approx(31.25)
+    assert found["rest_angle_deg"].worth == pytest.approx(0.05 * 3.0)
+    assert found["rest_angle_deg"].side == "lower"
+    assert found["compression_ratio"].worth is None
+    assert found["compression_ratio"].reason == "loop"
+    few = active_bounds(one, trial, 2, evaluations=0)
+    assert {bound.reason for bound in few} == {NOT_EXAMINED} or few == list(found.values())
+
+
+def test_what_lies_beyond_a_bound_is_a_design_and_bounds_of_designs_are_left_out(evaluator):
+    """A rest angle is 5° to 90°: a twentieth of 80° beyond 86° would be 90.0°, beyond 89° no angle at all."""
+    for low, high, named in ((5.0, 90.0, []), (6.0, 89.0, [5.0, 90.0]), (15.0, 75.0, [12.0, 78.0])):
+        one = evaluator(model=Slope(), space=Space.parse(fix=FIXED, bound=[f"rest_angle_deg={low}:{high}"]))
+        found = []
+        for step, end in enumerate((0.0, 1.0)):
+            (trial,) = one.evaluate([one.space.to_design([0.5, end, 0.5])], "bo", step)
+            found += [bound.beyond for bound in active_bounds(one, trial, 2 + step)]
+        assert found == pytest.approx(named)
+
+
+@pytest.mark.parametrize(("off", "named"), [(0.0009, 3), (0.0011, 0)])
+def test_a_design_within_a_thousandth_of_the_range_lies_on_its_bound(evaluator, off, named):
+    one = evaluator(model=Slope())
+    (trial,) = one.evaluate([SMALL.to_design([1.0 - off, off, 1.0 - off])], "bo", 0)
+    assert len(active_bounds(one, trial, 1)) == named
+
+
+def test_making_varies_rate_mass_and_floor_as_a_single_jump_does():
+    """Their deviations are those that were asked for; rate over mass is one factor of the springs."""
+    design = load_design("kenan-2.0")
+    making = Making(0.2, rate=0.05, mass=0.04, floor=0.15, printed=True)
+    made = [one for seed in range(40) for one in making.neighbours(Variant(design), np.random.default_rng(seed))]
+    assert {one.design for one in made} == {design}
+    assert {key for one in made for key in one.workshop} <= set(MADE) - {"made.stiffness_nmm_per_deg"}
+    springs = np.array([one.workshop["made.spring_factor"] for one in made])
+    floors = np.log(np.array([one.workshop["made.friction_factor"] for one in made]))
+    assert springs.std() == pytest.approx(np.hypot(0.05, 0.04), rel=0.05)
+    assert floors.std() == pytest.approx(0.15, rel=0.05)
+    assert abs(np.corrcoef(springs, floors)[0, 1]) < 0.1
+    assert springs.mean() == pytest.approx(1.0, abs=0.005)
+
+
+def test_springs_as_made_change_the_jump_and_not_the_robot():
+    """Range of the robot that is built for the design's springs, with others."""
+    design, model = load_design("kenan-2.0"), robot_model()
+    robot = build(design, name="")
+    found = model(design, {"made.spring_factor": 1.05})
+    jump = simulate(with_spring_factor(robot, 1.05), model.settings, model.engine)
+    assert found.metrics["mass_kg"] == pytest.approx(robot.mass_kg)
+    assert found.metrics["ballistic_range_m"] == pytest.approx(jump.ballistic_range_m, rel=1e-6)
+    assert found.metrics["ballistic_range_m"] > 1.03 * model(design).metrics["ballistic_range_m"]
+
+
+def test_lengths_as_made_are_those_of_the_built_robot():
+    """A design a hair from a limit of its layout has neighbours: what is printed is not laid out anew."""
+    design, generator = load_design("kenan-2.0"), np.random.default_rng(0)
+    making, robot = robot_model().making, build(design, name="")
+    assert making.length_mm == 2.0 * robot.workshop.fits.sliding_mm
+    lengths = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm])
+    for one in making.neighbours(Variant(design), generator)[:4]:
+        made, settings = as_made(robot, Settings(), one.workshop)
+        bodies = made.bodies.values()
+        assert [body.mass_kg for body in bodies] == [body.mass_kg for body in robot.bodies.values()]
+        links = made.design
+        errors = np.array([links.l2_mm, links.l3_mm, links.l4_mm, links.l5_mm]) - lengths
+        assert 0.0 < np.abs(errors).max() <= making.length_mm + 1e-9
+        assert np.linalg.norm(made.joint("ankle").origin_m) == pytest.approx(links.l2_mm / 1000.0)
+        assert made.loop.point_a_m[0] == pytest.approx(links.l3_mm / 1000.0)
+        friction = coefficients(made, settings).ground / coefficients(robot, Settings()).ground
+        assert friction == pytest.approx(one.workshop["made.friction_factor"])
+    stiffer = design.stiffness_nmm_per_deg * 1.01
+    made, _ = as_made(robot, Settings(), {"made.stiffness_nmm_per_deg": stiffer})
+    assert made.spring.energy_j == pytest.approx(1.01 * robot.spring.energy_j)
+
+
+def test_what_joins_off_an_edge_stands_in_the_order_of_its_robustness(evaluator):
+    """16 evaluations have one round: the best, on the edge, and what is tried away from it."""
+    one = evaluator()
+    points = [
+        point for point in SMALL.spread(24, np.random.default_rng(0)) if SMALL.to_design(point).compression_ratio < 0.45
+    ]
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(
+        update={"compression_ratio": 0.6999, "rest_angle_deg": 55.0, "stiffness_nmm_per_deg": 20.0}
+    )
+    one.evaluate([*map(SMALL.to_design, points), edge], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=16)
+    scores = [candidate.robust_score for candidate in ranked]
+    assert len({*scores}) > 1
+    assert scores == sorted(scores, reverse=True)
+    assert ranked[-1].trial.design == edge
+    assert ranked[-1].rejections["loop"] > 0
+    # Of the eight steps that a pick takes, the last is theirs: the next pick begins with the ninth.
+    first = 8 * (201 * (len(points) + 1) + 16)
+    assert {trial.step for trial in one.trials if trial.phase == "robust"} == {first, first + 7}
+
+
+def test_designs_off_an_edge_do_not_join_a_front_whose_candidates_have_all_of_the_pick(evaluator):
+    """The same edge as above: whatever is not of the front is no candidate, and nothing is kept for it."""
+    one = evaluator()
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
+    one.evaluate([edge, *map(SMALL.to_design, SMALL.spread(12, np.random.default_rng(0)))], "nsga2", 0)
+    searched = one.trials
+    ranked = rank_candidates(one, searched, 0, LENGTHS_ALONE, 24, among=searched[:1])
+    assert [candidate.trial for candidate in ranked] == searched[:1]
+    assert ranked[0].rejections["loop"] > 0
+    assert {trial.phase for trial in one.trials} == {"nsga2", "robust"}
+
+
+@pytest.mark.parametrize("evaluations", [24, 40])
+def test_what_is_kept_for_those_who_join_is_spent_once(evaluator, monkeypatch, evaluations):
+    """By three designs and two neighbours of each where the best lies on an edge; else by the last candidate."""
+    designs = [SMALL.to_design([0.5, 0.5, place]) for place in (0.1, 0.5, 0.9)]
+    monkeypatch.setattr(robust, "propose_robust", lambda one, _, step, *__: one.evaluate(designs, "margin", step))
+    spent = []
+    for ratio in (0.6999, 0.5):
+        one = evaluator()
+        edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": ratio})
+        edge = edge.model_copy(update={"rest_angle_deg": 55.0, "stiffness_nmm_per_deg": 20.0})
+        inside = [SMALL.to_design([0.3, 0.5, place]) for place in (0.2, 0.4, 0.6, 0.8)]
+        one.evaluate([edge, *inside], "bo", 0)
+        rank_candidates(one, one.trials, 0, LENGTHS_ALONE, evaluations)
+        spent.append(len(one.trials) - 5)
+        assert ("margin" in {trial.phase for trial in one.trials}) == (ratio > 0.69)
+    assert evaluations - 4 <= spent[0] <= evaluations
+    assert evaluations - 4 <= spent[1] <= evaluations
+
+
+def test_what_joins_is_proposed_for_neighbours_that_vary_evenly_within_a_per_cent(evaluator, monkeypatch):
+    """Their standard deviation is that of an even distribution: its half width over the root of 3."""
+    asked = []
+    monkeypatch.setattr(robust, "propose_robust", lambda *given: asked.append(given) or [])
+    one = evaluator()
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
+    one.evaluate([edge], "bo", 0)
+    (trial,) = one.trials
+    rank_candidates(one, [trial], 5, LENGTHS_ALONE, 16)
+    ((_, trials, _, seed, scatter),) = asked
+    assert (trials, seed) == ([trial], 5)
+    assert scatter == pytest.approx(np.linspace(-0.01, 0.01, 100_001).std(), rel=1e-4)
+
+
+def test_the_last_of_a_design_s_choices_is_a_bound_and_that_of_a_workshop_s_is_none(evaluator):
+    """Stiffnesses of 10, 12 and 20: beyond them springs may be made to order, a twentieth of 10 farther."""
+    choices = ["stiffness_nmm_per_deg=10,12,20", "process.perimeters=2,3"]
+    space = Space.parse(fix=FIXED, choose=choices, workshop=load_workshop())
+    one = evaluator(model=InAnyWorkshop(), space=space)
+    (trial,) = one.evaluate([space.to_variant([0.5, 0.5, 1.0, 1.0])], "bo", 0)
+    assert [(bound.name, bound.beyond) for bound in active_bounds(one, trial, 1)] == [("stiffness_nmm_per_deg", 20.5)]
+
+
+class InAnyWorkshop(Hill):
+    """A hill that is the same in every workshop."""
+
+    def __call__(self, design, workshop=None):
+        return super().__call__(design)
+
+
+def test_who_was_not_examined_is_no_candidate(evaluator):
+    """One evaluation is no pair of neighbours: nothing is known of any, and none is evaluated."""
+    one = evaluator(model=Spiked())
+    one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.8)], "bo", 0)
+    assert rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=1) == []
+    assert len(one.trials) == 2
+
+
+@pytest.mark.parametrize(
+    ("evaluations", "share"), [(1, 0), (23, 0), (24, 6), (27, 6), (250, 62), (799, 199), (800, 200), (10_000, 200)]
+)
+def test_a_quarter_of_the_evaluations_examines_neighbours(evaluations, share):
+    """At most 200, and none where it would be fewer than six."""
+    assert pick_share(evaluations) == share
+
+
+def test_what_lies_beyond_a_bound_is_worth_its_gain_or_tells_why_not():
+    bound = ActiveBound("c_coef", "upper", 1.2, 1.25, None)
+    one = Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), 2.0, "m", 0.0)
+    tips = replace(one, score=None, evaluation=Evaluation("tips"))
+    assert _worth(bound, one, replace(one, score=2.5)) == replace(bound, worth=0.5)
+    assert _worth(bound, one, replace(one, score=-1.0)) == replace(bound, worth=-3.0)
+    assert _worth(bound, one, tips) == replace(bound, reason="tips")
+    unknown = _worth(bound, one, None)
+    assert (unknown.worth, unknown.unknown, _worth(bound, one, tips).unknown) == (None, True, False)
+
+
+def test_a_candidate_tells_how_well_its_neighbours_jump():
+    """Of each kind the lowest of ten or fewer; its own score where none of a kind is known."""
+    trial = Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), 4.0, "m", 0.0, {}, {"body.plate_mm": 2.0})
+    one = _Examined(3, trial)
+    assert (one.examined, one.robust_score) == (0, 4.0)
+    one.scores = {"parameters": [3.0, 2.5], "print": []}
+    assert (one.examined, one.robust_score, one.candidate().print_score) == (2, 2.5, 4.0)
+    one.scores["print"] = [1.5, 3.5]
+    one.rejections.update(["tips", "loop", "tips"])
+    found = one.candidate()
+    assert found == Candidate(trial, 2.5, 1.5, {"loop": 1, "tips": 2}, 4)
+    assert repr(found) == "<Candidate: score 4, neighbours 1.5, 3 of 4 rejected>"
+    assert found.to_dict()["workshop"] == {"body.plate_mm": 2.0}
+
+
+def test_each_neighbour_s_score_goes_to_its_candidate_and_kind(evaluator):
+    """The hill rejects above a compression ratio of 0.7: of the neighbours that vary by 1 %, not those of lengths."""
+    one = evaluator()
+    edge, inside = (SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": r}) for r in (0.6999, 0.4))
+    field = [_Examined(n, trial) for n, trial in enumerate(one.evaluate([edge, inside], "bo", 0))]
+    _examine(one, field, 8, 1, 0, LENGTHS_ALONE)
+    assert [[len(scores) for scores in each.scores.values()] for each in field] == [[4, 4], [4, 4]]
+    assert field[0].rejections.keys() == {"loop"}
+    assert field[0].scores["parameters"].count(0.0) == field[0].rejections["loop"] > 0
+    assert min(field[0].scores["print"] + field[1].scores["parameters"] + field[1].scores["print"]) > 0.0
+    for each in field:
+        known = {kind: [] for kind in each.scores}
+        for kind, variant in _Examined(each.index, each.trial).neighbours(8, 0, LENGTHS_ALONE):
+            known[kind].append(Hill()(variant.design).metrics.get("fitness", 0.0))
+        assert each.scores == known
+
+
+def test_the_best_are_apart_by_a_fiftieth_of_some_range_the_best_first():
+    designs = [SMALL.to_design([0.5, 0.5, place]) for place in (0.5, 0.519, 0.521, 0.3)]
+    trials = [
+        Trial("bo", 0, n, one, Evaluation("jump"), score, "m", 0.0)
+        for n, (one, score) in enumerate(zip(designs, (4.0, 3.0, 2.0, 5.0), strict=True))
+    ]
+    assert [trial.place for trial in best_apart(SMALL, trials, 9)] == [3, 0, 2]
+    assert [trial.place for trial in best_apart(SMALL, trials, 2)] == [3, 0]

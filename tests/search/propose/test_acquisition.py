@@ -1,0 +1,185 @@
+"""The proposal: active bounds, choices, refusals."""
+
+import math
+
+import numpy as np
+import pytest
+from support.hills import FIXED, SMALL
+
+from jumpcad.search.propose import acquisition
+from jumpcad.search.propose.acquisition import Proposal, _apart, _climb, promised_gain, propose
+from jumpcad.search.propose.posterior import SearchPosterior
+from jumpcad.search.propose.surrogate import Surrogate
+from jumpcad.search.space import Space
+from jumpcad.workshop import load_workshop
+
+STIFFNESS = "stiffness_nmm_per_deg"
+
+
+def fitted_to(function, count=40):
+    """Return the posterior of a function (n, 3) to (n,) of the unit cube."""
+    x = SMALL.spread(count, np.random.default_rng(0))
+    return SearchPosterior(Surrogate(x, function(x)), {})
+
+
+def test_bounds_become_active_where_the_top_is_beyond_them():
+    proposal = propose(
+        SMALL,
+        fitted_to(lambda x: x[:, 0] - x[:, 2]),
+        4.0,
+        np.empty((0, 3)),
+        lambda variant: True,
+        np.random.default_rng(1),
+    )
+    assert proposal.unit[[0, 2]].tolist() == [1.0, 0.0]
+    assert proposal.variant.design.compression_ratio == SMALL.free[0].upper
+
+
+def test_choices_and_refusals_are_respected():
+    space = Space.parse(fix=FIXED, choose=["stiffness_nmm_per_deg=8,19,30"])
+    posterior = fitted_to(lambda x: -((x - 0.4) ** 2).sum(axis=1))
+    proposal = propose(space, posterior, 0.0, np.empty((0, 3)), lambda variant: True, np.random.default_rng(1))
+    assert proposal.variant.design.stiffness_nmm_per_deg == 19.0
+    other = propose(
+        space, posterior, 0.0, np.empty((0, 3)), lambda v: v.value(STIFFNESS) != 19.0, np.random.default_rng(1)
+    )
+    assert other.variant.design.stiffness_nmm_per_deg == 8.0
+    assert propose(space, posterior, 0.0, np.empty((0, 3)), lambda d: False, np.random.default_rng(1)) is None
+
+
+def test_climbs_begin_at_points_that_are_apart_the_best_first():
+    """By more than a twentieth along some axis; as many as asked for."""
+    points = np.array([[0.5, 0.5], [0.54, 0.46], [0.5, 0.56], [0.9, 0.9], [0.86, 0.94], [0.1, 0.5]])
+    assert _apart(points, np.arange(6), 6) == [0, 2, 3, 5]
+    assert _apart(points, np.arange(6)[::-1], 2) == [5, 4]
+    crowd = np.vstack([np.tile([0.5, 0.5], (99, 1)), [[0.2, 0.5]]])  # behind many that are near the best
+    assert _apart(crowd, np.arange(100), 2) == [0, 99]
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_what_is_punished_is_not_proposed(side):
+    """The top of the surrogate at 0.5 is forbidden on one side of 0.4 or 0.6: the nearest place beside that is best."""
+    posterior = fitted_to(lambda x: -((x - 0.5) ** 2).sum(axis=1))
+
+    def penalty(points):
+        return 1e4 * np.maximum(0.1 - side * (points[:, 0] - 0.5), 0.0) ** 2
+
+    plain, away = (
+        propose(SMALL, posterior, 0.0, np.empty((0, 3)), lambda variant: True, np.random.default_rng(1), one)
+        for one in (None, penalty)
+    )
+    assert plain.unit == pytest.approx(np.full(3, 0.5), abs=0.03)
+    assert away.unit[0] == pytest.approx(0.5 + 0.1 * side, abs=0.03)
+
+
+def test_names_near_a_good_design_are_mostly_its_own():
+    """Of 128 points near each, names are drawn again three times in ten, and then half of them are the same of two."""
+    asked = []
+
+    class Flat:
+        def log_improvement(self, points, best):
+            asked.append(points)
+            return np.zeros(len(points))
+
+        def log_feasible(self, points):
+            return np.zeros(len(points))
+
+    choice = "bought.battery=lipo-2s-180,lipo-1s-300"
+    space = Space.parse(fix=FIXED, choose=[choice], workshop=load_workshop())
+    elite = np.array([[0.5, 0.5, 0.5, 0.0], [0.5, 0.5, 0.5, 1.0]])
+    propose(space, Flat(), 1.0, elite, lambda variant: True, np.random.default_rng(0))
+    near = asked[0][-2 * 128 :].reshape(2, 128, 4)
+    for points, own in zip(near, elite, strict=True):
+        assert 0.75 < (points[:, 3] == own[3]).mean() < 0.95
+        off = np.abs(points[:, :3] - own[:3])
+        assert 0.001 < np.median(off) < 0.1
+
+
+class Known:
+    """A posterior whose logarithms fall with the square of the distance from points of two coordinates."""
+
+    def log_improvement(self, points, best):
+        return -10.0 * (points[:, 0] - 0.37) ** 2 - best
+
+    def log_feasible(self, points):
+        return -5.0 * (points[:, 2] - 0.71) ** 2
+
+
+def ask(best=0.0, **others):
+    return propose(SMALL, Known(), best, np.empty((0, 3)), lambda variant: True, np.random.default_rng(1), **others)
+
+
+def test_the_top_of_improvement_and_feasibility_together_is_proposed_with_both():
+    """Coordinates have four digits, and the design is that of them."""
+    found = ask(2.5)
+    assert found.unit[[0, 2]] == pytest.approx([0.37, 0.71], abs=1e-3)
+    assert found.unit.tolist() == found.unit.round(4).tolist()
+    assert found.variant == SMALL.to_variant(found.unit)
+    assert found.log_improvement == pytest.approx(-10.0 * (found.unit[0] - 0.37) ** 2 - 2.5)
+    assert found.log_feasible == pytest.approx(-5.0 * (found.unit[2] - 0.71) ** 2)
+    assert found.log_value == found.log_improvement + found.log_feasible
+    assert found.note() == {"log_improvement": found.log_improvement, "log_feasible": found.log_feasible}
+
+
+@pytest.mark.parametrize(("less", "taken"), [(0.15, True), (0.25, False)])
+def test_what_was_rehearsed_is_proposed_where_another_promises_little_more(less, taken):
+    """A fifth, in logarithms."""
+    known = np.array([0.37 + np.sqrt(less / 10.0), 0.5, 0.71])
+    assert (ask(rehearsed=[known]).unit.tolist() == known.tolist()) == taken
+
+
+def test_a_promise_is_twice_the_gain_of_the_root_as_a_share_of_the_best():
+    """A gain of the root by 0.1 of a score of 4 is one by 0.4: a tenth of it. Of no best score it is infinite."""
+    assert promised_gain(math.log(0.1), 4.0) == pytest.approx(0.1)
+    assert Proposal(SMALL.to_variant([0.5] * 3), np.full(3, 0.5), math.log(0.4), math.log(0.25)).promised_gain(
+        4.0
+    ) == pytest.approx(0.1)
+    assert promised_gain(0.0, 0.0) == promised_gain(-5.0, -1.0) == math.inf
+    assert math.isfinite(promised_gain(1e9, 1.0))
+
+
+def test_a_climb_ends_on_the_top_or_on_a_bound_and_leaves_choices_alone():
+    top = np.array([0.3, 1.4, -0.2])
+    start = np.array([0.6, 0.5, 0.5])
+
+    def hill(points):
+        return -((points - top) ** 2).sum(axis=1)
+
+    assert _climb(SMALL, hill, start, 40) == pytest.approx([0.3, 1.0, 0.0], abs=1e-4)
+    space = Space.parse(fix=FIXED, choose=["stiffness_nmm_per_deg=8,19,30"])
+    assert [one.name for one in space.free][2] == STIFFNESS
+    assert _climb(space, hill, start, 40) == pytest.approx([0.3, 1.0, 0.5], abs=1e-4)
+    chosen = Space.parse(fix=FIXED, choose=[f"{one.name}={one.lower},{one.upper}" for one in SMALL.free])
+    assert _climb(chosen, hill, start, 40) is start
+    assert start.tolist() == [0.6, 0.5, 0.5]
+
+
+def test_a_climb_takes_as_many_steps_as_it_may():
+    """Along a bent valley (Rosenbrock's) from (0.1, 0.9) to (0.8, 0.64) it takes more than two, and less than forty."""
+
+    def valley(points):
+        x, y = points[:, 0], points[:, 2]
+        return -((x - 0.8) ** 2) - 100.0 * (y - x**2) ** 2
+
+    start = np.array([0.1, 0.5, 0.9])
+    few, many = (_climb(SMALL, valley, start, steps) for steps in (2, 40))
+    assert many[[0, 2]] == pytest.approx([0.8, 0.64], abs=1e-3)
+    assert np.abs(few - many).max() > 0.1
+    assert valley(few[None]) > valley(start[None])
+
+
+def test_the_highest_of_six_short_climbs_goes_on_to_the_top(monkeypatch):
+    """Short ones go a tenth of the way from their starts, which are apart; the long one ends where the top is."""
+    top, climbs = np.array([0.37, 0.5, 0.71]), []
+
+    def climb(space, function, start, steps):
+        end = top if climbs and steps > climbs[0][0] else start + 0.1 * (top - start)
+        climbs.append((steps, start, end, function(end[None])[0]))
+        return end
+
+    monkeypatch.setattr(acquisition, "_climb", climb)
+    assert ask().unit.tolist() == top.tolist()
+    *short, (steps, start, _, _) = climbs
+    assert [few for few, *_ in short] == [short[0][0]] * 6
+    assert steps > short[0][0] > 1
+    assert start.tolist() == max(short, key=lambda one: one[3])[2].tolist()

@@ -1,0 +1,339 @@
+"""Bayesian optimisation: few evaluations, batches, resumption."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from support.hills import FIXED, SMALL, TOP, Hill
+
+from jumpcad.search.methods import Task
+from jumpcad.search.objective import SCREENED, Evaluation
+from jumpcad.search.propose import bayesian
+from jumpcad.search.propose.acquisition import Proposal
+from jumpcad.search.propose.bayesian import (
+    IDLE,
+    PATIENCE,
+    default_initial,
+    incumbent,
+    known_trials,
+    learned_trials,
+    run_bayesian,
+    run_steps,
+    unproposed,
+)
+from jumpcad.search.propose.local_search import FARTHEST
+from jumpcad.search.propose.proposal_loop import Learner
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial
+
+
+def best(trials):
+    return max(trial.score or 0.0 for trial in trials)
+
+
+@pytest.fixture(scope="module")
+def taught(kept_evaluator):
+    """Return the trials of a search to learn from."""
+    one = kept_evaluator()
+    run_bayesian(one, Task(24, 0, initial=9))
+    return one.trials
+
+
+def test_the_top_is_found_in_few_evaluations(taught, evaluator):
+    others = [evaluator() for _ in range(2)]
+    for seed, one in enumerate(others, start=1):
+        run_bayesian(one, Task(24, seed, initial=9))
+    for trials in (taught, *(one.trials for one in others)):
+        assert len(trials) == 24
+        assert best(trials) > 9.99
+
+
+def test_batches_find_it_too_and_do_not_repeat_themselves(evaluator):
+    one = evaluator()
+    run_bayesian(one, Task(41, 0, initial=9, batch=4))
+    assert len({trial.key for trial in one.trials}) == 41
+    assert best(one.trials) > 9.99
+    assert [sum(trial.step == step for trial in one.trials) for step in range(9)] == [9, *[4] * 8]
+
+
+def test_few_of_the_proposals_are_refused(evaluator):
+    # 14 % of the box are beyond the hill's limit on the ratio, right beside its top.
+    one = evaluator()
+    run_bayesian(one, Task(44, 1, initial=12))
+    refused = [trial for trial in one.trials[12:] if trial.score is None]
+    assert len(refused) <= 3
+
+
+@pytest.mark.parametrize(("promise", "polls", "looks"), [(-30.0, True, 3), (-30.0, False, 0), (-1.0, True, 0)])
+def test_where_a_proposal_promises_nothing_neighbours_near_and_far_are_looked_at(
+    evaluator, monkeypatch, promise, polls, looks
+):
+    """What is found there is evaluated in place of the proposal."""
+    proposed, asked, propose = [], [], Learner.propose
+
+    def promising(learner, ask, best):
+        proposed.append(replace(propose(learner, ask, best), log_improvement=promise, log_feasible=0.0))
+        return proposed[-1]
+
+    def beside(learner, trials, admits, generator, wider=1.0):
+        asked.append(wider)
+        if len(asked) < 3:
+            return None
+        point = np.full(3, 0.5)
+        return replace(proposed[-1], variant=SMALL.to_variant(point), unit=point)
+
+    monkeypatch.setattr(Learner, "propose", promising)
+    monkeypatch.setattr(Learner, "beside", beside)
+    one = evaluator()
+    run_bayesian(one, Task(8, 0, initial=5), polls)
+    assert len(asked) == looks
+    assert len(set(asked)) == looks
+    assert all(1.0 <= wider <= FARTHEST for wider in asked)
+    expected = [proposal.variant.key for proposal in proposed]
+    assert [trial.key for trial in one.trials[5:7]] == expected[:2]
+    assert (one.trials[7].key == SMALL.to_variant(np.full(3, 0.5)).key) == (looks == 3)
+
+
+@pytest.mark.usefixtures("quick_proposals_once")
+def test_after_four_steps_without_a_gain_neighbours_are_looked_at_whatever_is_promised(evaluator, monkeypatch):
+    """Each step promises more than asked for, and gains less."""
+    asked, propose = [], Learner.propose
+
+    def promising(learner, ask, best):
+        return replace(propose(learner, ask, best), log_improvement=9.0, log_feasible=0.0)
+
+    one = evaluator()
+    monkeypatch.setattr(Learner, "propose", promising)
+    monkeypatch.setattr(Learner, "beside", lambda *_: asked.append(len(one.trials)))
+    run_bayesian(one, Task(12, 0, initial=5, least_gain=50.0))
+    assert asked == [9, 10, 11]
+
+
+@pytest.mark.usefixtures("quick_proposals_once")
+def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
+    whole = evaluator()
+    run_bayesian(whole, Task(18, 3, initial=6, batch=2))
+    for cut in (3, 6, 11, 17):
+        path = tmp_path / f"{cut}.db"
+        begun = evaluator(path)
+        begun.store.append(whole.trials[:cut])
+        begun.store.close()
+        log = tmp_path / f"{cut}.log"
+        resumed = evaluator(path, Hill(log))
+        run_bayesian(resumed, Task(18, 3, initial=6, batch=2))
+        assert [(trial.key, trial.score, trial.proposal) for trial in resumed.trials] == [
+            (trial.key, trial.score, trial.proposal) for trial in whole.trials
+        ]
+        assert len(log.read_text().splitlines()) == 18 - cut
+
+
+def test_a_prior_study_saves_the_first_points(evaluator, taught):
+    pupil = evaluator(prior=taught[:20])
+    run_bayesian(pupil, Task(4, 1, initial=default_initial(SMALL, 4, prior=20)))
+    assert not {trial.key for trial in pupil.trials} & {trial.key for trial in taught[:20]}
+    assert best(pupil.trials) > 9.9
+
+
+@pytest.mark.parametrize(
+    ("evaluations", "prior", "initial"),
+    [(100, 0, 9), (10, 0, 5), (1, 0, 0), (100, 5, 4), (100, 50, 0), (10, 3, 2)],
+)
+def test_first_points(evaluations, prior, initial):
+    assert default_initial(SMALL, evaluations, prior) == initial
+
+
+def test_a_search_knows_what_a_prior_study_gained(evaluator, taught):
+    """Its first step gains nothing over that study's best: seven such steps are enough."""
+    assert best(taught[:20]) > 9.9
+    pupil = evaluator(prior=taught[:20])
+    assert run_bayesian(pupil, Task(20, 1, least_gain=0.02)) is True
+    assert len(pupil.trials) == 7
+
+
+def test_an_exhausted_space_ends_the_search(evaluator):
+    space = Space.parse(fix=[*FIXED, f"rest_angle_deg={TOP['rest_angle_deg']}", "compression_ratio=0.6"],
+                        choose=["stiffness_nmm_per_deg=8,19,30"])  # fmt: skip
+    one = evaluator(space=space)
+    run_bayesian(one, Task(20, 0, initial=2))
+    assert len(one.trials) == 3
+    assert one.store.notes() == []  # as many as the space has
+
+
+def test_a_search_that_finds_nothing_more_to_try_says_so(evaluator):
+    class Picky(Hill):
+        def admits(self, design):
+            return design.stiffness_nmm_per_deg < 15.0
+
+    space = Space.parse(fix=[*FIXED, "rest_angle_deg=50", "compression_ratio=0.6"],
+                        choose=["stiffness_nmm_per_deg=8,10,19,20,21,22,23,30"])  # fmt: skip
+    one = evaluator(model=Picky(), space=space)
+    run_bayesian(one, Task(20, 0, initial=2))
+    assert len(one.trials) < 8
+    assert one.store.notes() == [f"ended after {len(one.trials)} designs: no other was found that is new and has room"]
+
+
+def test_incumbent():
+    assert incumbent(SMALL, [])[0] == 0.0
+
+
+def test_the_processes_learn_from_the_best_and_the_nearest(evaluator):
+    one = evaluator()
+    points = SMALL.spread(1000, np.random.default_rng(0))
+    trials = [trial for trial in one.evaluate([SMALL.to_design(point) for point in points], "ga", 0) if trial]
+    learned = learned_trials(SMALL, trials)
+    assert len(learned) == 400
+    assert learned == [trial for trial in trials if trial in learned]
+    ranked = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: -trial.score)
+    keys = {trial.key for trial in learned}
+    assert all(trial.key in keys for trial in ranked[:100])
+    far = {trial.key: np.abs(SMALL.to_unit(trial.design) - SMALL.to_unit(ranked[0].design)).max() for trial in trials}
+    nearest = sorted(far, key=far.get)
+    assert set(nearest[:300]) <= keys
+    assert learned_trials(SMALL, trials[:400]) == trials[:400]
+
+
+def scored(*scores, phase="bo", step=1, **note):
+    """Return a step's trials of these scores, along a line, with what the step promised."""
+    designs = [SMALL.to_design(np.full(3, 0.1 + 0.2 * place)) for place in range(len(scores))]
+    return [
+        Trial(phase, step, place, designs[place], Evaluation("jump" if score else "tips"), score, "m", 0.0, note)
+        for place, score in enumerate(scores)
+    ]
+
+
+def test_the_incumbent_is_the_best_and_the_elite_are_the_best_four():
+    trials = scored(1.0, None, 5.0, 3.0, 2.0)
+    best, elite = incumbent(SMALL, trials)
+    assert best == 5.0
+    assert elite == pytest.approx(np.array([[0.5] * 3, [0.7] * 3, [0.9] * 3, [0.1] * 3]))
+    assert incumbent(SMALL, scored(None))[1].shape == (0, 3)
+
+
+def test_half_as_many_first_designs_where_scores_are_guessed():
+    """Eight parameters: 24, or 12 (rounded up), at most half of all evaluations."""
+    assert [default_initial(Space.default(), 100, guessed=guessed) for guessed in (False, True)] == [24, 12]
+    assert default_initial(SMALL, 100, guessed=True) == 5
+    assert default_initial(Space.default(), 20, guessed=True) == 10
+
+
+def test_what_is_proposed_is_new_fits_and_is_not_in_the_batch_already(evaluator):
+    """Not evaluated before, by this search or its prior; admitted by the model; with room for its parts."""
+    one = evaluator(prior=evaluator().evaluate([SMALL.to_design([0.1, 0.1, 0.1])], "bo", 0))
+    one.evaluate([SMALL.to_design([0.2, 0.2, 0.2])], "bo", 0)
+    prior, done, taken, tight, free = (SMALL.to_variant([at] * 3) for at in (0.1, 0.2, 0.3, 0.4, 0.5))
+    batch = [Proposal(taken, np.full(3, 0.3), 0.0, 0.0)]
+    admits = unproposed(one, batch, lambda variant: variant.key != tight.key)
+    assert [admits(variant) for variant in (prior, done, taken, tight, free)] == [False] * 4 + [True]
+    assert unproposed(one, [])(tight)
+    assert unproposed(one, [])(taken)
+
+
+def test_what_is_learned_from_are_exact_designs_of_the_space_each_once(evaluator):
+    """Those of a prior study too; of one that both have, this search's. Guessed ones are no measurements."""
+    one = evaluator()
+    one.evaluate([SMALL.to_design([0.5, 0.5, place]) for place in (0.1, 0.3, 0.5)], "ga", 0)
+    first, second, third = one.trials
+    guessed = replace(first, design=SMALL.to_design([0.4] * 3), evaluation=Evaluation(SCREENED), score=None, place=3)
+    earlier = replace(first, phase="bo", design=SMALL.to_design([0.2] * 3), place=4)
+    outside = replace(first, design=second.design.model_copy(update={"c_coef": 1.15}), place=5)
+    same = replace(second, score=99.0, place=6)
+    one.prior = [earlier, outside, same]
+    one._seen[guessed.key] = guessed
+    assert known_trials(one) == [earlier, second, first, third]
+
+
+def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as_asked(evaluator):
+    """No more than are left: of eleven four first, then three, three and one; steps are counted from the first."""
+    asked = []
+
+    def proposer(learner, trials, count, generator):
+        asked.append((len(trials), count, generator.random()))
+        learner.tried.append(np.full(3, 0.25))
+        learner.thetas = {"score": [0.1 * len(asked)] * 5}
+        points = [np.array([0.01 * len(asked) + 0.001 * n, 0.5, 0.5]) for n in range(count)]
+        return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0 - n) for n, point in enumerate(points)]
+
+    one = evaluator()
+    assert run_steps(one, "bo", Task(11, 6, initial=4, batch=3, first_step=50), proposer) is False
+    assert [(trials, count) for trials, count, _ in asked] == [(4, 3), (7, 3), (10, 1)]
+    assert [drawn for *_, drawn in asked] == [np.random.default_rng([6, 2, step]).random() for step in (51, 52, 53)]
+    places = [(trial.step, trial.place) for trial in one.trials]
+    assert places == [(50, n) for n in range(4)] + [(51, n) for n in range(3)] + [(52, n) for n in range(3)] + [(53, 0)]
+    notes = [dict(trial.proposal) for trial in one.trials]
+    assert notes[:4] == [{}] * 4
+    theta = {"theta": {"score": [0.1] * 5}}
+    assert notes[4] == {"log_improvement": -1.0, "log_feasible": -2.0, "tried": [[0.25] * 3]} | theta
+    assert notes[5] == {"log_improvement": -1.0, "log_feasible": -3.0} | theta
+    assert notes[10]["theta"] == {"score": pytest.approx([0.3] * 5)}
+
+
+def test_what_was_evaluated_before_a_stage_costs_it_nothing(evaluator):
+    """Six designs of an earlier stage, then ten of this one."""
+
+    def proposer(learner, trials, count, generator):
+        points = [np.array([0.01 * (len(trials) + n), 0.5, 0.5]) for n in range(count)]
+        return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0) for point in points]
+
+    one = evaluator()
+    one.evaluate([SMALL.to_design([0.9, 0.1 * n, 0.5]) for n in range(6)], "ga", 0)
+    assert run_steps(one, "bo", Task(10, 0, initial=3, batch=4, first_step=20), proposer) is False
+    assert [trial.phase for trial in one.trials] == ["ga"] * 6 + ["bo"] * 10
+
+
+def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evaluator):
+    def proposer(learner, trials, count, generator):
+        point = np.array([0.01 * len(trials), 0.5, 0.5])
+        return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0)]
+
+    one = evaluator()
+    assert run_steps(one, "bo", Task(20, 0, initial=3), proposer, lambda rehearsal: len(one.trials) >= 6) is True
+    assert len(one.trials) == 6
+    late = evaluator()
+    late.expired = lambda: len(late.trials) >= 5
+    assert run_steps(late, "bo", Task(20, 0, initial=3), proposer) is False
+    assert len(late.trials) == 5
+    dry = evaluator()
+    assert run_steps(dry, "bo", Task(20, 0, initial=3), lambda *_: []) is False
+    assert dry.store.notes() == ["ended after 3 designs: no other was found that is new and has room"]
+
+
+@pytest.mark.parametrize(
+    ("rehearsal", "polls", "steps", "promised", "least_gain", "ended"),
+    [
+        (None, True, PATIENCE - 1, -20.0, 0.01, False), (None, True, PATIENCE, -20.0, 0.01, True),
+        (None, True, PATIENCE, -20.0, 0.0, False), (None, True, 20, 2.0, 0.01, False),
+        ("guesses", True, IDLE - 1, -20.0, 0.01, False), ("guesses", True, IDLE, 2.0, 0.01, True),
+        ("guesses", True, IDLE, 2.0, 0.0, False), ("guesses", False, IDLE, 2.0, 0.01, False),
+        ("guesses", False, PATIENCE, -20.0, 0.01, True),
+    ],
+)  # fmt: skip
+def test_a_search_ends_after_so_many_steps_that_gained_too_little(
+    monkeypatch, rehearsal, polls, steps, promised, least_gain, ended
+):
+    """And promised too little, where no robots are guessed to look beside; with no least gain it goes on."""
+    first = Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), Evaluation("jump"), 2.0, "m", 0.0)
+    note = {"log_improvement": promised, "log_feasible": 0.0, "theta": {"score": [0.1] * 5}}
+    one = SimpleNamespace(trials=[first], prior=[], space=SMALL)
+
+    def steps_of(evaluator, phase, task, proposer, end):
+        assert phase == "bo"
+        evaluator.trials += [replace(first, phase="bo", step=n, score=1.0, proposal=note) for n in range(1, steps + 1)]
+        return end(rehearsal)
+
+    monkeypatch.setattr(bayesian, "run_steps", steps_of)
+    assert run_bayesian(one, Task(40, 0, least_gain=least_gain), polls) is ended
+
+
+def test_the_best_are_learned_from_however_far_away_they_are(monkeypatch):
+    """Of seven on a line four: the two best, at 0.1 and 0.9, and the two nearest to the very best, at 0.1."""
+    monkeypatch.setattr(bayesian, "LEARNED", 4)
+    places = (0.1, 0.2, 0.4, 0.5, 0.3, 0.7, 0.9)
+    trials = [
+        replace(one, design=SMALL.to_design([place, 0.5, 0.5]))
+        for one, place in zip(scored(9.0, 1.0, 4.0, None, 2.0, 3.0, 8.0), places, strict=True)
+    ]
+    assert learned_trials(SMALL, trials, 2) == [trials[n] for n in (0, 1, 4, 6)]
+    assert learned_trials(SMALL, trials, 0) == [trials[n] for n in (0, 1, 2, 4)]
+    rejected = [replace(trial, score=None) for trial in trials]  # from the middle
+    assert learned_trials(SMALL, rejected, 2) == [rejected[n] for n in (2, 3, 4, 5)]

@@ -1,0 +1,193 @@
+"""The published study's stages."""
+
+from dataclasses import replace
+
+import pytest
+from support.hills import SMALL, Hill
+from support.pictures import with_plain_figures
+
+from jumpcad.design import PARAMETERS, load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.search.methods import STEPS, Task
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.pool import local_pool
+from jumpcad.search.propose import paper
+from jumpcad.search.propose.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
+from jumpcad.search.request import Request
+from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
+from jumpcad.search.study import run_study
+from jumpcad.search.study_plots import plot_study
+from jumpcad.search.trial import Trial
+
+pytestmark = pytest.mark.usefixtures("quick_proposals")
+
+
+@pytest.fixture(scope="module")
+def searched(quick_proposals, kept_evaluator):
+    """Return the evaluator of a search with seed 3."""
+    one = kept_evaluator(space=Space.default())
+    run_paper(one, Task(140, 3))
+    return one
+
+
+def test_each_stage_moves_what_it_should(searched):
+    space, trials = Space.default(), searched.trials
+    assert len(trials) <= 140
+    assert searched.space == space
+    assert {trial.step // STEPS for trial in trials if trial.phase == "ga"} == set(range(RUNS))
+
+    def moved(mode):
+        some = [trial for trial in trials if trial.phase == "bo" and trial.step // STEPS == mode]
+        return some, {name for name in PARAMETERS if len({getattr(t.design, name) for t in some}) > 1}
+
+    few, names = moved(0)
+    assert names == set(FEW)
+    near, _ = moved(1)
+    for parameter in space.free:
+        values = [getattr(trial.design, parameter.name) for trial in near]
+        assert max(values) - min(values) <= 2.0 * NEAR_PERCENT / 100.0 * parameter.width * (1.0 + 1e-9)
+    last, names = moved(2)
+    assert names <= set(LINKS)
+    assert min(len(few), len(near), len(last)) >= 10
+
+
+def test_the_sample_follows_from_the_seed(evaluator, monkeypatch):
+    drawn = []
+
+    def evaluate(designs, phase, step):
+        drawn.append([design.key for design in designs])
+        raise JumpcadError("enough")
+
+    for seed in (3, 3, 4):
+        one = evaluator(space=Space.default())
+        monkeypatch.setattr(one, "evaluate", evaluate)
+        with pytest.raises(JumpcadError, match="enough"):
+            run_paper(one, Task(140, seed))
+    assert len(drawn[0]) > 10
+    assert drawn[0] == drawn[1]
+    assert not set(drawn[1]) & set(drawn[2])
+
+
+def test_every_run_begins_with_designs_of_its_own(searched):
+    """Ten each, of the published preset; the same ones would be evaluated once."""
+    first = [trial for trial in searched.trials if trial.phase == "ga" and trial.step % STEPS == 0]
+    assert [sum(trial.step == run * STEPS for trial in first) for run in range(RUNS)] == [10] * RUNS
+
+
+def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(searched, evaluator, monkeypatch):
+    """Else several searches are no independent repetitions; of the second only the genetic runs are made."""
+    monkeypatch.setattr(paper, "run_bayesian", lambda *_, **__: False)
+    one = evaluator(space=Space.default())
+    run_paper(one, Task(140, 4))
+    keys = [{trial.key for trial in some if trial.phase == "ga"} for some in (searched.trials, one.trials)]
+    assert min(map(len, keys)) > 30
+    assert not keys[0] & keys[1]
+
+
+def test_it_takes_the_largest_seed(evaluator):
+    one = evaluator(space=Space.default())
+    run_paper(one, Task(40, 2**32 - 1))
+    assert {trial.step // STEPS for trial in one.trials if trial.phase == "ga"} == set(range(RUNS))
+
+
+def test_it_resumes_and_its_study_is_read(tmp_path, monkeypatch):
+    with_plain_figures(monkeypatch)
+
+    def rows(path, evaluations):
+        with local_pool(0) as pool:
+            run_study(Request(SMALL, Hill(), method="paper", evaluations=evaluations), path, pool)
+        with StudyStore.read(path) as store:
+            return [(trial.position, trial.key) for trial in store.trials()]
+
+    whole = rows(tmp_path / "a.db", 80)
+    assert rows(tmp_path / "a.db", 80) == whole
+    with StudyStore.read(tmp_path / "a.db") as store:
+        assert plot_study(store, tmp_path / "a")
+
+
+def test_its_stages_share_the_evaluations_so_a_longer_search_is_another_one(tmp_path):
+    short, path = Request(SMALL, Hill(), method="paper", evaluations=20), tmp_path / "a.db"
+    longer = replace(short, evaluations=40)
+    with local_pool(0) as pool:
+        first = run_study(short, path, pool)
+        with pytest.raises(JumpcadError, match="planned for 20 evaluations and does not go on with 30: name another"):
+            run_study(longer, path, pool)
+        assert [one.key for one in run_study(short, path, pool).trials] == [one.key for one in first.trials]
+    assert longer.default_name() != short.default_name()
+
+
+def test_the_gain_at_which_other_searches_end_does_not_apply_to_it():
+    with local_pool(0) as pool:
+        default, none = (
+            run_study(Request(SMALL, Hill(), method="paper", evaluations=200, **until), None, pool)
+            for until in ({}, {"until_percent": 0.0})
+        )
+    assert [trial.key for trial in default.trials] == [trial.key for trial in none.trials]
+
+
+def test_without_a_jumper_it_ends():
+    class Never(Hill):
+        def __call__(self, design):
+            return super().__call__(design.model_copy(update={"compression_ratio": 0.75}))
+
+    with local_pool(0) as pool:
+        result = run_study(Request(SMALL, Never(), method="paper", evaluations=60), None, pool)
+    assert result.winner is None
+
+
+def test_the_most_efficient_jumper_has_the_most_score_for_a_joule():
+    """Kenan 2.0's springs hold 133 mJ, as the study says."""
+    jumper, other = (
+        Trial("ga", 0, 0, load_design("kenan-2.0"), Evaluation("jump"), score, "m", 0.0) for score in (2.66, None)
+    )
+    assert _efficiency(jumper) == pytest.approx(20.0, rel=0.01)
+    assert _efficiency(other) == 0.0
+
+
+def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_what_they_find(evaluator, monkeypatch):
+    """Not from the best: springs of half the stiffness give the same hill's score with half the energy."""
+    centre = Space.default().to_design([0.5] * 8).model_copy(update={"compression_ratio": 0.5})
+    designs = [
+        centre.model_copy(update={"stiffness_nmm_per_deg": stiffness, "c_coef": 1.0 + 0.01 * n})
+        for n, stiffness in enumerate((12.0, 20.0, 25.0))
+    ]
+    nearby = {"rest_angle_deg": 49.0, "compression_ratio": 0.55, "stiffness_nmm_per_deg": 14.0}
+    better = designs[0].model_copy(update=nearby)  # within a tenth of each range
+    runs, spaces, tasks = [], [], []
+
+    def genetic(one, task):
+        runs.append(task)
+        one.evaluate([designs[len(runs) - 1]], "ga", task.first_step)
+
+    def bayesian(one, task, polls):
+        spaces.append(one.space)
+        tasks.append(task)
+        if len(spaces) == 2:
+            one.evaluate([better], "bo", task.first_step)
+
+    monkeypatch.setattr(paper, "run_genetic", genetic)
+    monkeypatch.setattr(paper, "run_bayesian", bayesian)
+    one = evaluator(space=Space.default())
+    run_paper(one, Task(100, 9))
+    assert [(task.evaluations, task.seed, task.first_step, task.preset) for task in runs] == [
+        (17, seed, run * STEPS, "published") for run, seed in enumerate(seeds(9))
+    ]
+    scores = [trial.score for trial in one.trials if trial.phase == "ga"]
+    energies = [design.spring_energy_j for design in designs]
+    assert scores[0] < scores[1]
+    assert scores[0] / energies[0] > scores[1] / energies[1]
+    assert [[one.name for one in space.free] for space in (spaces[0], spaces[2])] == [
+        sorted(FEW, reverse=False), [name for name in PARAMETERS if name in LINKS]
+    ]  # fmt: skip
+    fixed = {one.name: one.lower for one in spaces[0].parameters if not one.free}
+    assert fixed == {name: getattr(designs[0], name) for name in fixed}
+    middle = {one.name: (one.lower + one.upper) / 2.0 for one in spaces[1].free if one.name == "stiffness_nmm_per_deg"}
+    assert middle == {"stiffness_nmm_per_deg": pytest.approx(12.0)}
+    whole = {one.name: one.width for one in Space.default().free}
+    near = {one.name: one.width / whole[one.name] for one in spaces[1].free}
+    assert near == pytest.approx(dict.fromkeys(PARAMETERS, 0.2))  # docs/searching.md: within ±10 %
+    held = {one.name: one.lower for one in spaces[2].parameters if not one.free}
+    assert held == {name: getattr(better, name) for name in held}
+    # 100 less the sample of 15 and three designs: a third, then halves of what is left
+    assert [(task.evaluations, task.first_step) for task in tasks] == [(27, 0), (41, STEPS), (81, 2 * STEPS)]

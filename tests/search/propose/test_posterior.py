@@ -1,0 +1,349 @@
+"""What is learned of score and limits: improvement against numerical integration, feasibility against drawing."""
+
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.special import ndtr
+from scipy.stats import norm
+from support.hills import FIXED, SMALL, Hill
+
+from jumpcad.findings import Finding
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.propose.posterior import (
+    VERDICT,
+    SearchPosterior,
+    _log_h,
+    _scaled,
+    constraint_margins,
+    forwards,
+    unwarped,
+    warped,
+)
+from jumpcad.search.propose.surrogate import Surrogate
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial
+from jumpcad.workshop import load_workshop
+
+
+def rows_of(count, model=None):
+    points = SMALL.spread(count, np.random.default_rng(0))
+    found = []
+    for place, point in enumerate(points):
+        design = SMALL.to_design(point)
+        evaluation = (model or Hill())(design)
+        score = evaluation.metrics.get("fitness") if evaluation.feasible else None
+        found.append(Trial("bo", 0, place, design, evaluation, score, "m", 0.0))
+    return found
+
+
+def test_scatter_counts_the_neighbours_that_are_refused():
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(60), {}, None)
+    posterior = SearchPosterior(None, {"loop": posterior.constraints["loop"]})
+    edge = (0.7 - 0.1) / 0.7  # of the compression ratio, the first axis
+    for inside in (0.02, 0.05):
+        point, scatter = np.array([[edge - inside, 0.4, 0.6]]), np.array([[0.03, 0.1, 0.1]])
+        neighbours = point + scatter * np.random.default_rng(0).standard_normal((4000, 3))
+        share = np.mean(neighbours[:, 0] <= edge)
+        assert np.exp(posterior.log_feasible(point, scatter)) == pytest.approx(share, abs=0.03)
+        assert posterior.log_feasible(point) > posterior.log_feasible(point, scatter)
+
+
+def test_expected_improvement_is_the_integral_over_the_posterior():
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
+    points = SMALL.spread(8, np.random.default_rng(5))
+    mean, deviation = posterior.score.predict(points)
+    for best in (1.0, 8.0, 12.0):
+        found = np.exp(posterior.log_improvement(points, best))
+        for value, m, s in zip(found, mean, deviation, strict=True):
+            target = float(warped(best))
+            integral = quad(
+                lambda y, m=m, s=s, target=target: (y - target) * norm.pdf(y, m, s), target, max(target, m) + 12 * s
+            )[0]
+            assert value == pytest.approx(integral, rel=1e-4, abs=1e-14)
+
+
+def test_improvement_keeps_its_slope_far_below_the_best():
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
+    points = SMALL.spread(8, np.random.default_rng(5))
+    far = [posterior.log_improvement(points, best) for best in (1e2, 1e4, 1e6, 1e8)]
+    assert np.isfinite(far).all()
+    assert (np.diff(far, axis=0) < 0).all()
+
+
+def test_probability_of_feasibility_learns_the_border():
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(64), {}, None)
+    border = [parameter.name for parameter in SMALL.free].index("compression_ratio")
+    points = SMALL.spread(256, np.random.default_rng(7))
+    ratio = 0.1 + 0.7 * points[:, border]
+    probability = np.exp(posterior.log_feasible(points))
+    assert probability[ratio < 0.65].min() > 0.9
+    assert probability[ratio > 0.75].max() < 0.1
+
+
+def test_margins_of_constraints_that_refuse():
+    trials = rows_of(40)
+    margins = constraint_margins(trials)
+    assert set(margins) == {"loop", VERDICT}
+    assert margins["loop"] == pytest.approx([0.7 - trial.design.compression_ratio for trial in trials])
+    assert set(margins[VERDICT]) == {1.0, -1.0}
+    assert constraint_margins([trial for trial in trials if trial.score is not None]) == {}
+
+
+def test_a_margin_that_an_early_refusal_leaves_unknown_is_left_out():
+    def two_gates(design):
+        if design.rest_angle_deg < 40.0:
+            return Evaluation("below_ground", {}, (Finding("below_ground", "error", -1.0, "mm", "", ""),))
+        return Hill()(design)
+
+    trials = rows_of(40, two_gates)
+    margins = constraint_margins(trials)
+    flat = np.array([trial.design.rest_angle_deg < 40.0 for trial in trials])
+    assert (np.isnan(margins["loop"]) == flat).all()
+    SearchPosterior.from_trials(SMALL, trials, {}, None)
+
+
+def test_nothing_feasible_yet_leaves_feasibility_to_decide():
+    trials = [trial for trial in rows_of(64) if trial.score is None]
+    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None)
+    assert posterior.score is None
+    assert (posterior.log_improvement(np.full((2, 3), 0.5), 0.0) == 0.0).all()
+
+
+def test_warping_is_undone():
+    scores = np.array([-4.0, 0.0, 2.25, 11.8])
+    assert warped(scores) == pytest.approx([-2.0, 0.0, 1.5, 11.8**0.5])
+    assert unwarped(warped(scores)) == pytest.approx(scores)
+
+
+def test_a_jump_backwards_counts_as_none_once_something_jumps_forwards():
+    some, none = np.array([2.0, -3.0, 0.5]), np.array([-2.0, -3.0])
+    assert forwards(some, some).tolist() == [2.0, 0.0, 0.5]
+    assert forwards(none, none).tolist() == [-2.0, -3.0]  # as for energies, of which less is better
+    assert forwards(none, some).tolist() == [0.0, 0.0]  # guesses are treated as what they are compared with
+    assert forwards(some, none).tolist() == some.tolist()
+
+
+class Plane:
+    """A margin that is known as a plane with the same doubt everywhere."""
+
+    slope_of = np.array([2.0, -1.0])
+
+    def predict(self, points):
+        return 0.3 + points @ self.slope_of, np.full(len(points), 0.2)
+
+    def slope(self, points):
+        return np.tile(self.slope_of, (len(points), 1))
+
+
+def test_a_neighbour_is_as_probably_feasible_as_by_drawing_neighbours():
+    """Normal neighbours of two designs, and a normal doubt of the margin at each, drawn independently."""
+    generator, plane, scatter = np.random.default_rng(0), Plane(), np.array([0.1, 0.15])
+    points = np.array([[0.0, 0.0], [0.1, 0.4]])
+    found = np.exp(SearchPosterior(None, {"one": plane}).log_feasible(points, np.tile(scatter, (2, 1))))
+    for point, chance in zip(points, found, strict=True):
+        margins = plane.predict(point + scatter * generator.standard_normal((400_000, 2)))[0]
+        drawn = margins + 0.2 * generator.standard_normal(400_000) > 0.0
+        assert chance == pytest.approx(drawn.mean(), abs=0.004)
+
+
+@pytest.mark.parametrize("z", [-5.0, -50.0, -900.0, -1100.0, -1e5])
+def test_improvement_far_below_the_mean_keeps_its_logarithm(z):
+    """φ(z) + z·Φ(z) is φ(z)/z²·(1 - 3/z² + 15/z⁴ - …) for large -z (Abramowitz and Stegun, 26.2.12)."""
+    series = math.log1p(-3.0 / z**2 + 15.0 / z**4 - 105.0 / z**6) if z < -20.0 else None
+    found = float(_log_h(np.array([z]))[0])
+    if series is None:
+        grid = np.linspace(z - 12.0, z, 400001)
+        integral = np.trapezoid(ndtr(grid), grid)  # its derivative is Φ
+        assert found == pytest.approx(math.log(integral), abs=1e-6)
+    else:
+        assert found == pytest.approx(
+            series - 0.5 * z**2 - 0.5 * math.log(2.0 * math.pi) - 2.0 * math.log(-z), abs=1e-5
+        )
+
+
+def test_improvement_near_the_mean_is_the_integral_of_the_distribution():
+    for z in (-0.5, 0.0, 1.5):
+        grid = np.linspace(-12.0, z, 400001)
+        assert float(_log_h(np.array([z]))[0]) == pytest.approx(math.log(np.trapezoid(ndtr(grid), grid)), abs=1e-6)
+
+
+def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
+    """Four measured scores and forty guesses, each a quarter of a root too low, know the hill; four alone do not."""
+    trials = [trial for trial in rows_of(64) if trial.score is not None]
+    guesses = {
+        one.key: (SMALL.to_unit(one.variant), (np.sqrt(one.score) - 0.25) ** 2) for one in trials if one.score > 1
+    }
+    known = [one for one in trials if one.key in guesses]
+    measured, others = known[:4], known[4:]
+    points = np.array([SMALL.to_unit(one.variant) for one in others])
+    exact = np.sqrt([one.score for one in others])
+
+    def error(posterior):
+        mean, _ = posterior.score.predict(points)
+        more = 0.0 if posterior.guess is None else posterior.guess.predict(points)[0]
+        return np.abs(mean + more - exact).max()
+
+    alone = SearchPosterior.from_trials(SMALL, measured, {}, None)
+    guided = SearchPosterior.from_trials(SMALL, measured, {}, None, guesses)
+    assert error(guided) < 0.05 < 0.5 < error(alone)
+    assert set(guided.thetas) == {"guess", "more"}
+    parts = [one.predict(points) for one in (guided.score, guided.guess)]
+    mean = parts[0][0] + parts[1][0]
+    deviation = np.sqrt(parts[0][1] ** 2 + parts[1][1] ** 2 + guided.score.scatter**2)
+    z = (mean - 2.0) / deviation
+    promised = deviation * (norm.pdf(z) + z * norm.cdf(z))  # over a score of 4
+    assert np.exp(guided.log_improvement(points, 4.0)) == pytest.approx(promised, rel=1e-6, abs=1e-12)
+    fewer = dict(list(guesses.items())[4:])  # of no trial that was measured
+    assert SearchPosterior.from_trials(SMALL, measured, {}, None, fewer).guess is None
+
+
+def test_what_guess_and_steps_leave_open_adds_to_what_may_be_gained():
+    """Means add up, deviations and the scores' scatter as roots of sums of squares: 0.3, 0.4 and 1.2 make 1.3."""
+    point = np.zeros((1, 3))
+    guess = SimpleNamespace(predict=lambda _: (np.array([2.0]), np.array([0.4])))
+    more = SimpleNamespace(predict=lambda _: (np.array([0.5]), np.array([0.3])), scatter=1.2)
+    z = (2.5 - 3.0) / 1.3
+    gain = 1.3 * (norm.pdf(z) + z * norm.cdf(z))
+    assert SearchPosterior(more, {}, guess).log_improvement(point, 9.0) == pytest.approx(math.log(gain))
+
+
+def test_a_measured_score_without_a_guess_is_learned_too():
+    trials = [trial for trial in rows_of(48) if trial.score is not None]
+    guesses = {one.key: (SMALL.to_unit(one.variant), one.score) for one in trials[:12]}
+    best = max(trials[12:], key=lambda trial: trial.score)
+    point = SMALL.to_unit(best.variant)[None]
+    posterior = SearchPosterior.from_trials(SMALL, [*trials[:6], best], {}, None, guesses)
+    assert len(posterior.score.x) == 7
+    mean = posterior.score.predict(point)[0] + posterior.guess.predict(point)[0]
+    assert mean == pytest.approx(np.sqrt(best.score), abs=0.02)
+
+
+def test_a_believed_proposal_is_believed_of_the_guess_too():
+    trials = [trial for trial in rows_of(32) if trial.score is not None]
+    guesses = {one.key: (SMALL.to_unit(one.variant), one.score + 0.1) for one in trials}
+    posterior = SearchPosterior.from_trials(SMALL, trials[:6], {}, None, guesses)
+    point = np.array([0.31, 0.42, 0.53])
+    after = posterior.condition_on(point)
+    for before, then in ((posterior.score, after.score), (posterior.guess, after.guess)):
+        assert then.predict(point[None])[1] < before.predict(point[None])[1]
+
+
+def test_a_believed_proposal_is_believed_of_every_limit_and_of_the_score():
+    x, theta = SMALL.spread(12, np.random.default_rng(0)), [0.0, -1.0, -1.0, -1.0, -6.0]
+    score, limit, other = (Surrogate(x, x[:, axis], theta, fit=False) for axis in range(3))
+    point = np.array([0.31, 0.42, 0.53])
+    after = SearchPosterior(score, {"loop": limit, "tips": other}).condition_on(point)
+    assert after.guess is None
+    pairs = ((score, after.score), (limit, after.constraints["loop"]), (other, after.constraints["tips"]))
+    for before, then in pairs:
+        assert then.predict(point[None])[0] == pytest.approx(before.predict(point[None])[0])
+        assert then.predict(point[None])[1] < before.predict(point[None])[1]
+
+
+def test_a_score_is_learned_from_two_jumps_on():
+    trials = [trial for trial in rows_of(24) if trial.score is not None]
+    known = [SearchPosterior.from_trials(SMALL, trials[:count], {}, None).score for count in (1, 2)]
+    assert known[0] is None
+    assert known[1].predict(np.array([SMALL.to_unit(trials[0].variant)]))[0] == pytest.approx(
+        np.sqrt(trials[0].score), rel=0.01
+    )
+
+
+def test_a_name_is_no_place_between_others():
+    """The processes of a space with a choice of names have no slope along it."""
+    choice = "bought.battery=lipo-1s-300,lipo-2s-180"
+    space = Space.parse(fix=FIXED, choose=[choice], workshop=load_workshop())
+    points = space.snap(space.spread(24, np.random.default_rng(0)))
+    variants = [space.to_variant(point) for point in points]
+    scores = [4.0 + one.design.compression_ratio for one in variants]
+    trials = [
+        Trial("bo", 0, place, one.design, Evaluation("jump", {}, ()), score, "m", 0.0, {}, one.workshop)
+        for place, (one, score) in enumerate(zip(variants, scores, strict=True))
+    ]
+    score = SearchPosterior.from_trials(space, trials, {}, None).score
+    assert len(score.theta) == space.dimension + 2
+    slope = score.slope(points)
+    assert (slope[:, -1] == 0.0).all()
+    assert np.abs(slope[:, 0]).min() > 0.0
+
+
+def test_what_scores_are_more_is_learned_over_their_own_guesses():
+    """Roots of scores less roots of guesses, however far a guess is from those beside it."""
+    trials = [trial for trial in rows_of(24) if trial.score is not None][:8]
+    guesses = {
+        one.key: (SMALL.to_unit(one.variant), one.score * (4.0 if n == 3 else 0.81)) for n, one in enumerate(trials)
+    }
+    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None, guesses)
+    roots = np.sqrt([one.score for one in trials])
+    shares = np.array([-1.0 if n == 3 else 0.1 for n in range(len(trials))])
+    assert posterior.score.y == pytest.approx(roots * shares)
+    assert posterior.guess.y == pytest.approx(roots * (1.0 - shares))
+    assert posterior.guess.x == pytest.approx(np.array([SMALL.to_unit(one.variant) for one in trials]))
+
+
+def test_margins_count_in_their_typical_size_and_large_ones_less():
+    """Of -1, 2, 4 mm and 2000 mm the middle size is 3 mm; half of them all 0 are as they are."""
+    margins = np.array([-1.0, 2.0, 4.0, 2000.0])
+    assert _scaled(margins) == pytest.approx(np.arcsinh(margins / 3.0))
+    assert _scaled(np.array([0.0, 0.0, -0.5])) == pytest.approx(np.arcsinh([0.0, 0.0, -0.5]))
+
+
+def test_the_limits_that_reject_most_have_processes_with_the_verdict():
+    """Eight in all, of equals the first by name; only limits that some robot meets. The verdict has no take-off too."""
+
+    def trial(*names):
+        failed = tuple(Finding(name, "error", -1.0, "mm", "", "") for name in names)
+        met = tuple(Finding(f"limit_{n}", "info", 0.5, "mm", "", "") for n in range(9)) if not names else ()
+        found = Evaluation("jump", {}, (*failed, *met))
+        return Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), found, None, "m", 0.0)
+
+    every = [f"limit_{n}" for n in range(9)]
+    never = ("a_limit_that_none_meets", "no_takeoff")
+    trials = [trial(), trial(*every, *never), trial(*every[:7], *never), trial("limit_8")]
+    margins = constraint_margins(trials)
+    assert list(margins) == [*every[:6], "limit_6", VERDICT]
+    assert margins["limit_0"][:3].tolist() == [0.5, -1.0, -1.0]
+    assert np.isnan(margins["limit_0"][3])
+    assert margins[VERDICT].tolist() == [1.0, -1.0, -1.0, -1.0]
+    assert next(iter(constraint_margins([*trials, *[trial("limit_8")] * 3]))) == "limit_8"
+
+
+def test_hyperparameters_are_kept_to_three_decimals_and_taken_up_again():
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
+    thetas = posterior.thetas
+    assert list(thetas) == ["score", "loop", VERDICT]
+    assert thetas["score"] == [round(value, 3) for value in posterior.score.theta] != posterior.score.theta
+    again = SearchPosterior.from_trials(SMALL, rows_of(24), thetas, ())
+    assert again.thetas == thetas
+    other = SearchPosterior.from_trials(SMALL, rows_of(40), thetas, ("loop",))
+    assert other.thetas["score"] == thetas["score"]
+    assert other.thetas["loop"] != thetas["loop"]
+
+
+def test_hyperparameters_of_guesses_and_of_what_scores_are_more_have_their_own_names():
+    trials = [trial for trial in rows_of(24) if trial.score is not None]
+    guesses = {one.key: (SMALL.to_unit(one.variant), 0.5 * one.score) for one in trials}
+    posterior = SearchPosterior.from_trials(SMALL, trials[:6], {}, None, guesses)
+    thetas = posterior.thetas
+    assert list(thetas) == ["guess", "more"]
+    assert thetas["guess"] == pytest.approx(posterior.guess.theta, abs=6e-4)
+    assert thetas["more"] == pytest.approx(posterior.score.theta, abs=6e-4)
+    assert thetas["guess"] != thetas["more"]
+    again = SearchPosterior.from_trials(SMALL, trials[:6], thetas, (), guesses)
+    assert (again.guess.theta, again.score.theta) == (pytest.approx(thetas["guess"]), pytest.approx(thetas["more"]))
+
+
+def test_backward_jumps_are_learned_as_none_where_some_go_forwards():
+    """The roots of 4, 0 in place of -9, and 16; of guesses too."""
+    trials = [replace(trial, score=score) for trial, score in zip(rows_of(3), (4.0, -9.0, 16.0), strict=True)]
+    assert SearchPosterior.from_trials(SMALL, trials, {}, None).score.y.tolist() == [2.0, 0.0, 4.0]
+    guesses = {one.key: (SMALL.to_unit(one.variant), one.score) for one in trials}
+    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None, guesses)
+    assert posterior.guess.y.tolist() == [2.0, 0.0, 4.0]
+    assert posterior.score.y.tolist() == [0.0] * 3
+    backwards = [replace(trial, score=-abs(trial.score)) for trial in trials]
+    assert SearchPosterior.from_trials(SMALL, backwards, {}, None).score.y.tolist() == [-2.0, -3.0, -4.0]

@@ -1,0 +1,314 @@
+"""What a step learns, with rehearsals that are known."""
+
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from support.hills import SMALL, Hill
+
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.propose.acquisition import Proposal
+from jumpcad.search.propose.local_search import DRAWN, STEP, WITHIN
+from jumpcad.search.propose.posterior import SearchPosterior
+from jumpcad.search.propose.proposal_loop import HELD, ROUNDS, Learner, _best_of, _last_leap
+from jumpcad.search.trial import Trial
+
+
+def trial_of(unit):
+    variant = SMALL.to_variant(unit)
+    evaluation = Hill()(variant.design)
+    score = evaluation.metrics.get("fitness") if evaluation.feasible else None
+    return Trial("bo", 0, 0, variant.design, evaluation, score, "m", 0.0)
+
+
+TRIALS = [trial_of(point) for point in SMALL.spread(16, np.random.default_rng(0))]
+
+
+class Rehearsal:
+    """Only what is left of a half holds; of what was tried, nothing else is known."""
+
+    guessing = False
+
+    def __init__(self, half=0.5):
+        self.half = half
+
+    def is_refused(self, variant):
+        return False
+
+    def holds(self, variant):
+        return SMALL.to_unit(variant)[0] < self.half
+
+    def known(self, trials, tried):
+        return {SMALL.to_variant(point).key for point in tried}
+
+    def guess(self, variant):
+        """The sum of its coordinates."""
+        return float(SMALL.to_unit(variant).sum())
+
+    def failures(self, trials, tried):
+        for unit in tried:
+            if unit[0] >= self.half:
+                yield Trial("", 0, 0, SMALL.to_design(unit), Evaluation("no_room"), None, "", 0.0)
+
+    def guesses(self, trials, tried):
+        return {}
+
+
+class Asked:
+    """Proposes given points one after the other, then the last that was rehearsed; promises what none can keep."""
+
+    def __init__(self, *points, promised=50.0):
+        self.points, self.posteriors, self.rehearsed, self.promised = list(points), [], [], promised
+
+    def __call__(self, posterior, rehearsed):
+        self.posteriors.append(posterior)
+        self.rehearsed.append(list(rehearsed))
+        unit = np.array(self.points.pop(0)) if self.points else rehearsed[-1]
+        return Proposal(SMALL.to_variant(unit), unit, self.promised, 0.0)
+
+
+def test_what_keeps_its_promise_in_its_rehearsal_is_taken_at_once():
+    """A fifth less, in logarithms, is kept; more is not, and another is asked for."""
+    unit = np.array([[0.2, 0.5, 0.5]])
+    for less, asked in ((0.19, 1), (0.21, 2)):
+        learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
+        posterior = learner._learned()
+        value = float((posterior.log_improvement(unit, 1.0) + posterior.log_feasible(unit))[0])
+        ask = Asked(unit[0].tolist(), promised=value + less)
+        found = learner.propose(ask, 1.0)
+        assert found.unit.tolist() == unit[0].tolist()
+        assert len(ask.posteriors) == asked
+        if asked == 1:
+            assert found.log_value == pytest.approx(value, abs=1e-3)  # hyperparameters are rounded after a fit
+
+
+def test_without_rehearsals_the_first_proposal_is_taken():
+    ask = Asked([0.9, 0.1, 0.1])
+    learner = Learner(SMALL, TRIALS, None, {}, refit=True)
+    assert learner.propose(ask, 1.0).unit.tolist() == [0.9, 0.1, 0.1]
+    assert (len(ask.posteriors), learner.tried) == (1, [])
+    assert "score" in learner.thetas
+
+
+def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
+    ask = Asked([0.9, 0.1, 0.1], [0.2, 0.2, 0.2])
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
+    assert learner.propose(ask, 1.0).unit.tolist() == [0.2, 0.2, 0.2]
+    assert [point.tolist() for point in learner.tried] == [[0.9, 0.1, 0.1], [0.2, 0.2, 0.2]]
+    assert [len(held) for held in ask.rehearsed] == [0, 0, 1]
+    before, after = ask.posteriors[:2]
+    unit = np.array([[0.9, 0.1, 0.1]])
+    assert after.log_feasible(unit) < before.log_feasible(unit)
+
+
+def test_what_failed_where_all_seemed_well_is_believed_to_fail():
+    """Compression ratio 0.59, of up to 0.7: there the trials know of nothing wrong."""
+    learner, unit = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True), np.array([[0.7, 0.3, 0.3]])
+    assert math.exp(learner._learned().log_feasible(unit)[0]) > 0.99
+    learner.tried.append(unit[0])
+    assert math.exp(learner._learned().log_feasible(unit)[0]) < 0.5
+
+
+def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
+    many = [[0.01 * number, 0.5, 0.5] for number in range(40)]
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
+    learner.propose(Asked(*many), 1.0)
+    assert len(learner.tried) == HELD
+    hopeless = Learner(SMALL, TRIALS, Rehearsal(half=-1.0), {}, refit=False)
+    assert hopeless.propose(Asked(*many), 1.0).unit.tolist() == many[ROUNDS]
+    assert len(hopeless.tried) == ROUNDS
+
+
+def test_of_many_rounds_the_one_that_held_is_taken_not_the_last_which_nobody_tried():
+    many = [[0.2, 0.5, 0.5], *([0.6 + 0.01 * number, 0.5, 0.5] for number in range(ROUNDS + 1))]
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
+    assert learner.propose(Asked(*many), 1.0).unit.tolist() == many[0]
+    assert len(learner.tried) == ROUNDS
+
+
+def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
+    ask = Asked([0.3, 0.3, 0.3], [0.6, 0.6, 0.6])
+    learner = Learner(SMALL, TRIALS, None, {}, refit=True)
+    learner.propose(ask, 1.0)
+    learner.propose(ask, 1.0)
+    unit = np.array([[0.3, 0.3, 0.3]])
+    (_, before), (_, after) = (posterior.score.predict(unit) for posterior in ask.posteriors)
+    assert after < 0.5 * before
+
+
+def test_none_is_passed_on():
+    assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).propose(lambda *_, **__: None, 1.0) is None
+
+
+def test_the_best_of_many_proposals_is_the_one_with_the_most_to_gain_that_is_likely_to_be_built():
+    units = ([0.1, 0.1, 0.1], [0.5, 0.5, 0.5], [0.9, 0.9, 0.9])
+    proposals = [Proposal(SMALL.to_variant(unit), np.array(unit), 0.0, 0.0) for unit in units]
+    posterior = SimpleNamespace(
+        log_improvement=lambda points, best: best - 3.0 * np.abs(points[:, 0] - 0.8),
+        log_feasible=lambda points: -3.0 * points[:, 0] ** 3,
+    )
+    chosen = _best_of(proposals, posterior, 2.0)
+    assert chosen.unit.tolist() == units[1]
+    assert (chosen.log_improvement, chosen.log_feasible) == pytest.approx((1.1, -0.375))
+
+
+def found_in(*steps):
+    """Return trials at the same place, one or more in each step, with scores."""
+    unit = np.array([0.5, 0.9, 1.0])
+    return [replace(trial_of(unit), step=step, score=score) for step, scores in enumerate(steps) for score in scores]
+
+
+@pytest.mark.parametrize(
+    ("trials", "looks"),
+    [
+        (found_in([1.0], [1.03]), True),
+        (found_in([1.0], [0.5, 1.03]), True),
+        (found_in([1.0], [1.03, 0.5]), True),  # of a batch, the best need not be the last
+        (found_in([1.0], [1.01]), False),
+        (found_in([1.0], [1.015], [1.03]), True),  # small gains add up
+        (found_in([1.0], [1.03], [0.9]), False),  # once
+        (found_in([1.0], [1.03], [1.04]), False),
+        (found_in([None], [None]), False),
+        ([*(replace(one, phase="ga") for one in found_in([1.0], [1.03])), *found_in([0.5], [0.9])[1:]], False),
+    ],
+)  # fmt: skip
+def test_beside_a_leap_all_axes_are_rehearsed(trials, looks):
+    """A fifth to either side, less at a bound, nothing beyond it: 1.0 has one side, 0.9 the other one halfway."""
+    rehearsal = Rehearsal()
+    rehearsal.guessing = True
+    learner = Learner(SMALL, trials, rehearsal, {}, refit=False)
+    learner.propose(Asked([0.2, 0.2, 0.2]), 1.0)
+    beside = [[0.3, 0.9, 1.0], [0.5, 0.7, 1.0], [0.5, 0.9, 0.8], [0.7, 0.9, 1.0]]
+    expected = [*(beside if looks else []), [0.2, 0.2, 0.2]]
+    assert np.array(learner.tried) == pytest.approx(np.array(expected))
+
+
+def test_what_promises_little_is_not_rehearsed_once_one_holds():
+    """A large gain, then one of 0.08 %: the second is not tried."""
+
+    class Little(Asked):
+        def __call__(self, posterior, rehearsed):
+            found = super().__call__(posterior, rehearsed)
+            return replace(found, log_improvement=math.log(0.0004)) if rehearsed else found
+
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
+    found = learner.propose(Little([0.1, 0.5, 0.5], [0.9, 0.5, 0.5], [0.3, 0.5, 0.5]), 1.0)
+    assert found.unit.tolist() == [0.1, 0.5, 0.5]  # not the second, of which nobody knows whether it holds
+    assert len(learner.tried) == 1
+
+
+def test_the_promised_gain_is_a_share_of_the_score():
+    """√s grows by 0.002 of 1: s by 0.4 %; of 4, by 0.002/2·2 = 0.2 %."""
+    unit = np.array([0.1, 0.5, 0.5])
+    proposal = Proposal(SMALL.to_variant(unit), unit, math.log(0.004), math.log(0.5))
+    assert proposal.promised_gain(1.0) == pytest.approx(0.004)
+    assert proposal.promised_gain(4.0) == pytest.approx(0.002)
+    assert proposal.promised_gain(0.0) == math.inf
+
+
+def test_what_failed_is_not_asked_for_again_and_what_held_is_taken_where_nothing_else_is_left():
+    few = [SMALL.to_variant(np.array(unit)) for unit in ([0.9, 0.1, 0.1], [0.2, 0.2, 0.2], [0.8, 0.3, 0.3])]
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
+
+    def ask(posterior, rehearsed):
+        known = [unit.tolist() for unit in rehearsed]
+        for variant in few:
+            unit = SMALL.to_unit(variant)
+            if learner.may_hold(variant) and unit.tolist() not in known:
+                return Proposal(variant, unit, 0.0, 0.0)
+        return None
+
+    assert learner.propose(ask, 1.0).variant == few[1]
+    assert len(learner.tried) == 3
+    assert [learner.may_hold(variant) for variant in few] == [False, True, False]
+    nothing = Learner(SMALL, TRIALS, Rehearsal(half=-1.0), {}, refit=True)
+    learner = nothing  # of which `ask` asks
+    assert nothing.propose(ask, 1.0) is None
+
+
+def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as_the_best():
+    """Guesses grow with all coordinates, so that a step forwards along some axis is better, whatever is drawn."""
+    best = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0)
+    rehearsal = Rehearsal()
+    learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=False)
+    assert learner.beside([best], lambda _: True, np.random.default_rng(0)) is None  # nothing can be guessed yet
+    rehearsal.guessing = True
+    found = learner.beside([best], lambda _: True, np.random.default_rng(0))
+    assert len(learner.tried) == 6 + DRAWN
+    assert found.unit.sum() == pytest.approx(max(point.sum() for point in learner.tried))
+    assert found.unit.sum() >= 1.5 + STEP
+    new = {SMALL.to_variant(point).key for point in learner.tried} - {found.variant.key}
+    other = learner.beside([best], lambda one: one.key in new, np.random.default_rng(0))
+    assert 1.5 * (1.0 - WITHIN) < other.unit.sum() < found.unit.sum()
+    assert len(learner.tried) == 6 + DRAWN  # the same points, which are learned from once
+    lesser = {key for key in new if rehearsal.guess(variant_of(learner, key)) < 1.5 * (1.0 - WITHIN)}
+    assert lesser
+    assert learner.beside([best], lambda one: one.key in lesser, np.random.default_rng(0)) is None
+    assert learner.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
+
+
+def test_a_neighbour_that_was_proposed_is_believed_in_the_rest_of_the_step():
+    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), Rehearsal(1.0)
+    rehearsal.guessing = True
+    before, after = (Learner(SMALL, TRIALS, rehearsal, {}, refit=False) for _ in range(2))
+    unit = after.beside([best], lambda _: True, np.random.default_rng(0)).unit[None]
+    assert after._learned().score.predict(unit)[1] < 0.5 * before._learned().score.predict(unit)[1]
+
+
+@pytest.mark.parametrize("refused", [True, False])
+def test_what_has_no_room_may_not_be_proposed(monkeypatch, refused):
+    variant = SMALL.to_variant([0.5, 0.5, 0.5])
+    monkeypatch.setattr(Rehearsal, "is_refused", lambda self, one: refused and one == variant)
+    assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).may_hold(variant) != refused
+    assert Learner(SMALL, TRIALS, None, {}, refit=False).may_hold(variant)
+
+
+@pytest.mark.parametrize(("less", "proposed"), [(-1.0, True), (0.9, True), (1.1, False)])
+def test_a_neighbour_may_be_a_little_worse_than_the_best(less, proposed):
+    """By half a hundredth of its guess."""
+    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), Rehearsal()
+    rehearsal.guessing = True
+    rehearsal.guess = lambda variant: 3.0 if variant.key == best.key else 3.0 * (1.0 - 0.005 * less)
+    found = Learner(SMALL, TRIALS, rehearsal, {}, refit=False).beside([best], lambda _: True, np.random.default_rng(0))
+    assert (found is not None) == proposed
+
+
+def test_a_neighbour_without_a_guess_is_not_proposed_however_small_scores_are():
+    """Ranges in metres are less than one."""
+    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=0.2), Rehearsal()
+    rehearsal.guessing = True
+    rehearsal.guess = lambda variant: 0.2 if variant.key == best.key else None
+    learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=False)
+    assert learner.beside([best], lambda _: True, np.random.default_rng(0)) is None
+
+
+def variant_of(learner, key):
+    return next(one for one in map(SMALL.to_variant, learner.tried) if one.key == key)
+
+
+def test_hyperparameters_are_those_of_the_newest_fit():
+    """What is not fitted keeps those of the step before; what has none is fitted. Other processes' are kept too."""
+    other = {"slope": [0.1] * 5}
+    fitted = SearchPosterior.from_trials(SMALL, TRIALS, {}, None).thetas
+    old = {"score": [1.0, -1.0, -1.0, -1.0, -4.0]}
+    refit, kept = (Learner(SMALL, TRIALS, None, old | other, refit) for refit in (True, False))
+    again = SearchPosterior.from_trials(SMALL, TRIALS, old, None).thetas
+    posteriors = [one._learned() for one in (refit, kept)]
+    assert refit.thetas == other | again
+    assert refit.thetas["score"] != old["score"]
+    assert kept.thetas["score"] == old["score"]
+    assert [one.thetas["score"] for one in posteriors] == [again["score"], old["score"]]
+    assert kept.thetas.keys() == fitted.keys() | other.keys()
+    refit._learned()
+    assert refit.thetas == other | again  # once in a step
+
+
+def test_a_leap_is_two_per_cent_better_than_the_leap_before_it():
+    """1 is one; 1.01 is none, and 1.019 neither, though both are better than what was before; 1.03 is."""
+    scores = [None, 1.0, 1.01, 1.019, 0.5, 1.03, 1.04, None]
+    trials = [replace(TRIALS[0], place=place, score=score) for place, score in enumerate(scores)]
+    assert [getattr(_last_leap(trials[:count]), "place", None) for count in range(9)] == [
+        None, None, 1, 1, 1, 1, 5, 5, 5
+    ]  # fmt: skip
