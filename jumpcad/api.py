@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from jumpcad import notebook
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.building import build
 from jumpcad.bundle.export import export as export_robot
 from jumpcad.bundle.manifest import Bundle
@@ -23,7 +23,7 @@ __all__ = ["build", "capsule_robot", "check", "evaluate", "export", "simulate"]
 notebook.attach()
 
 
-@typed
+@check_arguments
 def simulate(robot: Mechanism | Design, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
     """Simulate the jump of a robot; see `jumpcad.simulation.simulate`.
 
@@ -44,7 +44,7 @@ def simulate(robot: Mechanism | Design, settings: Settings | None = None, engine
     return simulate_mechanism(_built(robot), settings, engine)
 
 
-@typed
+@check_arguments
 def check(robot: Mechanism | Design) -> list[Finding]:
     """Return the findings of every check on a robot, also of limits that are kept; see `jumpcad.checks.check`.
 
@@ -58,7 +58,7 @@ def check(robot: Mechanism | Design) -> list[Finding]:
     return check_robot(_built(robot))
 
 
-@typed
+@check_arguments
 def export(
     robot: Robot | Design,
     folder: str | Path,

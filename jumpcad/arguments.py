@@ -1,4 +1,7 @@
-"""Checks what public functions are given; the error says in one line what they take."""
+"""Checks what public functions are given; the error says in one line what they take.
+
+Not by pydantic's `validate_call`, which cannot build a schema of a Robot.
+"""
 
 import dataclasses
 import functools
@@ -7,58 +10,34 @@ import numbers
 import types
 import typing
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, cast
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files.complaints import LONGEST, described, did_you_mean, shown
+from jumpcad.files.complaints import described
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
 MADE_BY = {
-    "Design": "jumpcad.load_design({}) makes one",
-    "Mechanism": "jumpcad.build(jumpcad.load_design({})) makes one",
-    "Robot": "jumpcad.build(jumpcad.load_design({})) makes one",
-    "Settings": "jumpcad.load_settings({}) makes one",
-    "Workshop": "jumpcad.load_workshop({}) makes one",
+    "Design": "jumpcad.load_design('kenan-2.0')",
+    "Mechanism": "jumpcad.build(jumpcad.load_design('kenan-2.0'))",
+    "Robot": "jumpcad.build(jumpcad.load_design('kenan-2.0'))",
+    "Settings": "jumpcad.load_settings('default')",
+    "Workshop": "jumpcad.load_workshop('default')",
 }
-TEMPLATES = dict.fromkeys(("Design", "Mechanism", "Robot"), "kenan-2.0") | dict.fromkeys(
-    ("Settings", "Workshop"), "default"
-)
 WORDS = {
     "Mechanism": "a Robot", "str": "a text", "bool": "True or False", "Path": "a path", "int": "a whole number",
     "float": "a number", "Sequence": "a list", "Iterable": "a list", "Mapping": "a table", "Callable": "a function",
 }  # fmt: skip
+_hints = functools.cache(typing.get_type_hints)
 
 
-@dataclass(frozen=True)
-class Kind:
-    """What an annotation allows: a class, and of a sequence what its items may be, if that is known."""
-
-    of: type
-    items: tuple["Kind", ...] = ()
-
-    def misfit(self, value: Any) -> str:
-        """Return what is wrong with a value, in words: the value itself, or its first wrong item; empty if it fits."""
-        if isinstance(value, bool) and self.of in (int, float):  # True is an int, but no number of anything
-            return described(value)
-        if not _is_instance(value, self.of):
-            return described(value)
-        for item in value if self.items else ():
-            wrong = _misfit(item, self.items)
-            if wrong:
-                return f"one with {wrong}"
-        return ""
-
-
-def typed(function: Callable[P, R]) -> Callable[P, R]:
+def check_arguments(function: Callable[P, R]) -> Callable[P, R]:
     """Return a function that checks its arguments against its annotations before it runs.
 
-    Annotations are classes, `Any`, or classes joined by `|`, known in the function's own module. A `float` may be an
-    int, but no bool is a number. A number of another library, such as numpy's, becomes Python's. The items of sequences
-    are checked too, those of mappings are not.
+    Annotations are classes, runtime protocols, `Any`, or these joined by `|`. A `float` may be an int, but no bool is a
+    number. A number of another library, such as numpy's, becomes Python's. The items of sequences are checked too,
+    those of mappings are not.
 
     Raises
     ------
@@ -66,121 +45,91 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
         From the returned function: what it takes, what it was given, and how to make what it takes.
     """
     signature = inspect.signature(function)
+    plain = [one.replace(annotation=inspect.Parameter.empty) for one in signature.parameters.values()]
     title = function.__qualname__.removesuffix(".__init__")
-    takes_any = any(one.kind is inspect.Parameter.VAR_KEYWORD for one in signature.parameters.values())
-
-    @functools.cache
-    def kinds() -> dict[str, tuple[Kind, ...]]:
-        return {name: _kinds(hint) for name, hint in typing.get_type_hints(function).items()}
 
     @functools.wraps(function)
     def checked(*args: P.args, **kwargs: P.kwargs) -> R:
-        unknown = [] if takes_any else [name for name in kwargs if name not in signature.parameters]
-        if unknown:
-            hint = did_you_mean(unknown[0], signature.parameters)
-            raise JumpcadError(f"{title}() takes no {shown(unknown[0])}{hint}, only {_listed(signature)}")
         try:
             given = signature.bind(*args, **kwargs)
         except TypeError as error:
-            raise JumpcadError(f"{title}{_shape(signature)}: {error}") from None
-        for name in given.arguments.keys() & kinds().keys():
-            given.arguments[name] = _plain(given.arguments[name], kinds()[name])
-        _require(title, given.arguments, kinds())
+            raise JumpcadError(f"{title}{inspect.Signature(plain)}: {error}") from None
+        given.arguments.update(_checked(title, given.arguments, _hints(function)))
         return cast(Callable[..., R], function)(*given.args, **given.kwargs)
 
     return checked
 
 
-def require_fields(record: Any) -> None:
-    """Check the fields of a dataclass against their annotations; for its `__post_init__`.
-
-    Raises
-    ------
-    JumpcadError
-        As from `typed`.
-    """
+def check_fields(record: Any) -> None:
+    """Check the fields of a dataclass against their annotations, as `check_arguments`; for its `__post_init__`."""
     given = {field.name: getattr(record, field.name) for field in dataclasses.fields(record) if field.init}
-    _require(type(record).__name__, given, _field_kinds(cast(Hashable, type(record))))
+    _checked(type(record).__name__, given, _hints(cast(Hashable, type(record))))
 
 
-@functools.cache
-def _field_kinds(kind: Hashable) -> dict[str, tuple[Kind, ...]]:
-    return {name: _kinds(hint) for name, hint in typing.get_type_hints(cast(type, kind)).items()}
-
-
-def _require(title: str, given: Mapping[str, Any], kinds: Mapping[str, tuple[Kind, ...]]) -> None:
+def _checked(title: str, given: Mapping[str, Any], hints: Mapping[str, Any]) -> dict[str, Any]:
+    found = {}
     for name, value in given.items():
-        if name in kinds and (wrong := _misfit(value, kinds[name])):
-            raise JumpcadError(f"{title}() takes {_refusal(name, kinds[name], value, wrong)}")
+        kinds = _kinds(hints.get(name, Any))
+        if isinstance(value, numbers.Real) and not isinstance(value, int | float):
+            if isinstance(value, numbers.Integral) and (int in kinds or float in kinds):
+                value = int(value)
+            elif float in kinds:
+                value = float(value)
+        if wrong := _misfit(value, kinds):
+            names = [_name(kind) for kind in kinds if kind is not type(None)]
+            wanted = " or ".join(dict.fromkeys(_words(kind) for kind in kinds if kind is not type(None)))
+            place = "" if names[0] == name.capitalize() else f" as {name}"
+            made = next((f": {MADE_BY[one]} makes one" for one in names if one in MADE_BY), "")
+            raise JumpcadError(f"{title}() takes {wanted}{place}, not {wrong}{made}")
+        found[name] = value
+    return found
 
 
-def _plain(value: Any, kinds: Sequence[Kind]) -> Any:
-    """Return a number of another library as Python's where a number is taken; all else as it is."""
-    allowed = {kind.of for kind in kinds}
-    if isinstance(value, numbers.Integral) and not isinstance(value, int) and allowed & {int, float}:
-        return int(value)
-    if isinstance(value, numbers.Real) and not isinstance(value, int | float) and float in allowed:
-        return float(value)
-    return value
+def _kinds(hint: Any) -> tuple[Any, ...]:
+    """Return the alternatives of an annotation."""
+    joined = isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union
+    return typing.get_args(hint) if joined else (hint,)
 
 
-def _misfit(value: Any, kinds: Sequence[Kind]) -> str:
-    """Return why a value is of none of the kinds; empty if it is of one."""
-    wrong = [kind.misfit(value) for kind in kinds]
-    return max(wrong, key=lambda text: text.startswith("one with")) if all(wrong) else ""
+def _items(kind: Any) -> tuple[Any, ...]:
+    """Return what the items of a sequence may be; nothing if they are not alike."""
+    origin, inner = typing.get_origin(kind), typing.get_args(kind)
+    alike = isinstance(origin, type) and issubclass(origin, Sequence) and inner[1:] in ((), (Ellipsis,))
+    return _kinds(inner[0]) if alike else ()
 
 
-def _is_instance(value: Any, kind: type) -> bool:
-    if kind is float:
-        return isinstance(value, float | int)
-    if isinstance(value, str | bytes) and kind in (Sequence, Iterable):  # else each of its letters would be an item
-        return False
-    if getattr(kind, "_is_protocol", False):
-        named = all(hasattr(type(value), name) for name in vars(kind) if not name.startswith("_"))
-        return named and (callable(value) or "__call__" not in vars(kind))
-    return isinstance(value, kind)
+def _misfit(value: Any, kinds: Sequence[Any]) -> str:
+    """Return what is wrong with a value, in words: the value itself, or its first wrong item; empty if it fits."""
+    said = ""
+    for kind in kinds:
+        if not _is_a(value, kind):
+            continue
+        wrong = (_misfit(one, _items(kind)) for one in value) if _items(kind) else ()
+        said = next((f"one with {text}" for text in wrong if text), "")
+        if not said:
+            return ""
+    return said or described(value)
 
 
-def _kinds(hint: Any) -> tuple[Kind, ...]:
-    """Return what an annotation allows."""
-    if hint is Any or isinstance(hint, TypeVar):
-        return (Kind(object),)
-    origin, inner = typing.get_origin(hint), typing.get_args(hint)
-    if isinstance(hint, types.UnionType) or origin is typing.Union:
-        return tuple(kind for one in inner for kind in _kinds(one))
-    if origin is None:
-        return (Kind(hint),)
+def _is_a(value: Any, kind: Any) -> bool:
+    origin = typing.get_origin(kind) or kind
+    if origin is Any or isinstance(origin, TypeVar):
+        return True
     if origin is typing.Literal:
-        return tuple({Kind(type(one)) for one in inner})
-    sequence = isinstance(origin, type) and issubclass(origin, Sequence)
-    alike = sequence and (len(inner) == 1 or inner[1:] == (Ellipsis,))
-    return (Kind(origin, _kinds(inner[0]) if alike else ()),)
+        return type(value) in map(type, typing.get_args(kind))
+    if origin in (Sequence, Iterable) and isinstance(value, str | bytes):  # else each of its letters would be an item
+        return False
+    if origin in (int, float) and isinstance(value, bool | int):  # True is an int, but no number of anything
+        return not isinstance(value, bool)
+    return isinstance(value, origin)
 
 
-def _refusal(name: str, kinds: Sequence[Kind], value: Any, wrong: str) -> str:
-    names = [_words(kind) for kind in kinds if kind.of is not type(None)]
-    wanted = " or ".join(dict.fromkeys(names))
-    place = "" if kinds[0].of.__name__ == name.capitalize() else f" as {name}"
-    made = next((kind.of.__name__ for kind in kinds if kind.of.__name__ in MADE_BY), None)
-    if made is None:
-        return f"{wanted}{place}, not {wrong}"
-    named = value if isinstance(value, str | Path) and len(str(value)) <= LONGEST else TEMPLATES[made]
-    return f"{wanted}{place}, not {wrong}: {MADE_BY[made].format(repr(str(named)))}"
+def _name(kind: Any) -> str:
+    origin = typing.get_origin(kind) or kind
+    return type(typing.get_args(kind)[0]).__name__ if origin is typing.Literal else str(origin.__name__)
 
 
-def _words(kind: Kind) -> str:
-    name = kind.of.__name__
+def _words(kind: Any) -> str:
+    name, items = _name(kind), _items(kind)
     words = WORDS.get(name, f"{'an' if name[0] in 'AEIOUaeiou' else 'a'} {name}")
-    return f"{words} of {' or '.join(one.of.__name__ for one in kind.items)}" if kind.items else words
-
-
-def _listed(signature: inspect.Signature) -> str:
-    """Return the names of a function's parameters in words: design, workshop and name."""
-    *others, last = [name for name in signature.parameters if name != "self"] or ["no arguments"]
-    return f"{', '.join(others)} and {last}" if others else last
-
-
-def _shape(signature: inspect.Signature) -> str:
-    """Return the parameters of a function with their defaults: (design, workshop=None)."""
-    plain = [one.replace(annotation=inspect.Parameter.empty) for one in signature.parameters.values()]
-    return str(inspect.Signature(plain))
+    return f"{words} of {' or '.join(map(_name, items))}" if items else words

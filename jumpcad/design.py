@@ -14,7 +14,7 @@ from typing import Annotated, Self
 
 from pydantic import Field
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, find_template, to_toml
 from jumpcad.files.complaints import described
@@ -197,7 +197,7 @@ SEARCH_BOUNDS: dict[str, Bounds] = {
 """The ranges that the published study searched (both prototypes lie outside it, with a rest angle of 88.2°)."""
 
 
-@typed
+@check_arguments
 def load_design(name_or_path: str | Path) -> Design:
     """Return the design of a template (`kenan-2.0`) or of a TOML file.
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
 from jumpcad.design import Design
 from jumpcad.findings import Finding, errors
@@ -61,7 +61,7 @@ class EvaluationResult:
         }
 
 
-@typed
+@check_arguments
 def evaluate(
     design: Design, workshop: Workshop | None = None, settings: Settings | None = None, engine: str = "pybullet"
 ) -> EvaluationResult:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.files import Contradiction, Record, TomlTable, find_template
 from jumpcad.mechanism.model import Mechanism, Surface
 
@@ -139,7 +139,7 @@ def takeoff_clearance_m(mechanism: Mechanism, settings: Settings) -> float:
     return 0.0 if mechanism.friction is None else PRINTED_CLEARANCE_M
 
 
-@typed
+@check_arguments
 def load_settings(name_or_path: str | Path) -> Settings:
     """Return the settings of a template (`default`, `screening`, `fine`, `published-table`) or of a TOML file.
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.building.assembly import assembled
 from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
@@ -17,7 +17,7 @@ from jumpcad.workshop import Workshop, load_workshop
 GROWTH_ROUNDS = 10
 
 
-@typed
+@check_arguments
 def build(design: Design, workshop: Workshop | None = None, name: str = "robot") -> Robot:
     """Build the printed robot of a design in a workshop; its name, if it has one, is engraved on its plates.
 

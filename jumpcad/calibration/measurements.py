@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.files import Contradiction, Record, TomlTable, find_template
 from jumpcad.files.names import Name, Text
 
@@ -163,7 +163,7 @@ def _unsaid(series: Jumps) -> Iterator[Contradiction]:
         yield ("jumps", "jumps"), series.jumps, f"must be at least {most}, the values given"
 
 
-@typed
+@check_arguments
 def load_measurements(name_or_path: str | Path) -> tuple[Measurements, Path]:
     """Return the measurements of a template (`kenan-1.0`, `kenan-2.0`) or of a TOML file, and where they are.
 

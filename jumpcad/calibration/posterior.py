@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.calibration.likelihood import (
     CalibrationModel,
     CalibrationParameter,
@@ -111,7 +111,7 @@ class CalibrationPosterior:
         return [_residual(datum, self.predicted[datum.subject]) for datum in self.model.data]
 
 
-@typed
+@check_arguments
 def calibrate(files: Sequence[str | Path], seed: int = 0) -> CalibrationPosterior:
     """Calibrate on the measurements of one or several robots.
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, status, typed
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, shell_quoted, status
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
@@ -269,7 +269,7 @@ def _print_facts(facts: dict[str, Any]) -> None:
     pictured = any(path.startswith(f"{PICTURES}/") for path in facts["files"])
     what = "the jump in 3-D" if pictured else "its figures"
     _say("next", f"open its report.html: {what}; assembly.html: how to print, order and assemble it")
-    design, workshop = (typed(str(Path(facts["folder"], name))) for name in (DESIGN, WORKSHOP))
+    design, workshop = (shell_quoted(str(Path(facts["folder"], name))) for name in (DESIGN, WORKSHOP))
     _say("", f"jumpcad check {design} --workshop {workshop} also looks at {COSTLY}")
 
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from jumpcad.cli.output import typed
+from jumpcad.cli.output import shell_quoted
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
@@ -29,9 +29,10 @@ def commented_design(design: "Design", origin: str, file: str) -> str:
     """Return the TOML document of a design with unit, searched range and effect of every number."""
     from jumpcad.design import SEARCH_BOUNDS
 
+    quoted = shell_quoted(file)
     lines = [
         f"# A jumping robot in eight numbers, copied from {origin}.",
-        f"# How far it jumps: jumpcad simulate {typed(file)}; everything to print and buy: jumpcad build {typed(file)}",
+        f"# How far it jumps: jumpcad simulate {quoted}; everything to print and buy: jumpcad build {quoted}",
         "# A range is the one that a search goes through; numbers outside of it are allowed.",
         "",
     ]

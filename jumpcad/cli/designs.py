@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, typed
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, shell_quoted
 from jumpcad.cli.subjects import MaterialOption, PrinterOption, completion
 from jumpcad.errors import JumpcadError
 
@@ -65,7 +65,7 @@ def _new_design(file: Path, template: str, as_json: bool) -> None:
     if as_json:
         print_json({"file": str(file), "design": design.model_dump()})
     else:
-        print(f"{name}: a copy of {escaped(template)}; try: jumpcad simulate {typed(str(file))}")
+        print(f"{name}: a copy of {escaped(template)}; try: jumpcad simulate {shell_quoted(str(file))}")
 
 
 def _new_workshop(file: Path, base: str | None, printer: str | None, material: str | None, as_json: bool) -> None:
@@ -79,4 +79,4 @@ def _new_workshop(file: Path, base: str | None, printer: str | None, material: s
     if as_json:
         print_json({"file": str(file), "workshop": workshop.model_dump(exclude_none=True)})
     else:
-        print(f"{name}: a copy of {escaped(base)}; try: jumpcad check {TEMPLATE} --workshop {typed(str(file))}")
+        print(f"{name}: a copy of {escaped(base)}; try: jumpcad check {TEMPLATE} --workshop {shell_quoted(str(file))}")

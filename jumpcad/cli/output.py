@@ -43,7 +43,7 @@ def escaped(text: str) -> str:
     return re.sub(CONTROL_PATTERN, _escape, text)
 
 
-def typed(file: str) -> str:
+def shell_quoted(file: str) -> str:
     """Return a file's name as it is typed in a shell, on one line."""
     return shlex.quote(escaped(file))
 

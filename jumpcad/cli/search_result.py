@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from jumpcad.cli.output import escaped, typed
+from jumpcad.cli.output import escaped, shell_quoted
 from jumpcad.counting import counted
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _print_next(result: "Result", design_file: Path, violated: "Sequence[Finding
 
     of_winner = result.winner is not None and result.winner.workshop
     used = str(workshop_file(design_file)) if of_winner else workshop
-    made = typed(str(design_file)) + (f" --workshop {typed(used)}" if used else "")
+    made = shell_quoted(str(design_file)) + (f" --workshop {shell_quoted(used)}" if used else "")
     for finding in violated:
         print(f"error: {finding.name}: {finding.message}; {finding.remedy}")
     if violated:

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.mass import MassProperties, combined
@@ -24,7 +24,7 @@ LENGTH_PER_RADIUS = 25.0
 """Longest link over the radius of every capsule in the published model."""
 
 
-@typed
+@check_arguments
 def capsule_robot(design: Design) -> Mechanism:
     """Return the robot of a design that has the published masses and no parts.
 

@@ -10,7 +10,7 @@ from types import ModuleType
 
 import numpy as np
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.mechanism.capsule import BODY_MASS_KG, DENSITY_KG_M3, LENGTH_PER_RADIUS
 from jumpcad.simulation.engines import import_pybullet
@@ -47,7 +47,7 @@ class PublishedJump:
     energy_j: float
 
 
-@typed
+@check_arguments
 def simulate(design: Design) -> PublishedJump:
     """Return the jump that the study's simulation gives for a design.
 

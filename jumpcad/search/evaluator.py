@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model, Objective
@@ -46,7 +46,7 @@ class Evaluator:
         How many more designs may be evaluated before it is asked again; 0 if none.
     """
 
-    @typed
+    @check_arguments
     def __init__(
         self,
         space: Space,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.counting import counted
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
@@ -86,7 +86,7 @@ class FeasibilityMap:
     y_names: tuple[str, ...] = ()
 
 
-@typed
+@check_arguments
 def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     """Vary each free parameter alone, over `points` values of its range (or over its choices).
 
@@ -107,7 +107,7 @@ def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     return sweeps
 
 
-@typed
+@check_arguments
 def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
     """Evaluate `count` designs spread evenly over the space.
 
@@ -122,7 +122,7 @@ def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
     return _all(evaluator, [evaluator.space.to_variant(point) for point in points], "sample", 0)
 
 
-@typed
+@check_arguments
 def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
     """Return the principal components of the free parameters of some trials.
 
@@ -148,7 +148,7 @@ def elite(trials: Sequence[Trial]) -> list[Trial]:
     return feasible[: max(ELITE_LEAST, round(ELITE_SHARE * len(feasible)))]
 
 
-@typed
+@check_arguments
 def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Importance:
     """Return the permutation importance of the free parameters for the score of designs that jump.
 
@@ -192,7 +192,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
     return Importance(names, np.mean(falls, axis=0), np.std(falls, axis=0), float(np.mean(scores)), len(feasible))
 
 
-@typed
+@check_arguments
 def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: str, points: int) -> FeasibilityMap:
     """Evaluate a grid over two free parameters; the others are as in a `sweep`.
 

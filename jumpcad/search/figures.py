@@ -9,7 +9,7 @@ import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.files.outputs import sealed, sealed_png, write_files
 
 PICTURES = (
@@ -65,7 +65,7 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
     return figure, axes
 
 
-@typed
+@check_arguments
 def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
     """Write a figure as `folder/name.svg` and `folder/name.png`, with a seal; return the first path.
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import did_you_mean
@@ -19,7 +19,7 @@ REFERENCE_ENERGY_J = 1.5
 """Energy of the hypervolume's reference point, whose score is 0."""
 
 
-@typed
+@check_arguments
 def energy_j(design: Design) -> float:
     """Return the energy of a design's loaded springs (J); infinite if it has no assembled pose."""
     try:
@@ -128,7 +128,7 @@ def described_cost(identity: Mapping[str, Any]) -> Cost:
     return find_cost(identity.get("against", SPRING_ENERGY.name))
 
 
-@typed
+@check_arguments
 def front(trials: Sequence[Trial], cost: Cost = SPRING_ENERGY) -> list[Trial]:
     """Return the trials whose score no other trial reaches at less cost, sorted by cost.
 
@@ -143,7 +143,7 @@ def front(trials: Sequence[Trial], cost: Cost = SPRING_ENERGY) -> list[Trial]:
     return chosen
 
 
-@typed
+@check_arguments
 def hypervolume(trials: Sequence[Trial], reference: float | None = None, cost: Cost = SPRING_ENERGY) -> float:
     """Return the area that a front dominates, from score 0 and a reference cost (score units times those of the cost).
 

@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
-from jumpcad.arguments import require_fields, typed
+from jumpcad.arguments import check_arguments, check_fields
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, did_you_mean
@@ -65,7 +65,7 @@ class RobotModel:
         return f"<RobotModel {self.name}, {self.describe()['engine']}>"
 
     def __post_init__(self) -> None:
-        require_fields(self)
+        check_fields(self)
         if self.name not in MODELS:
             raise JumpcadError(
                 f"{self.name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(self.name, MODELS)}"
@@ -258,7 +258,7 @@ class RobotModel:
         return Evaluation("jump" if jump.distance_m > 0 else "no_takeoff", metrics, tuple(geometry_findings(design)))
 
 
-@typed
+@check_arguments
 def robot_model(
     name: str = "printed",
     workshop: Workshop | str | Path | None = None,

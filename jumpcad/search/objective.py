@@ -3,9 +3,9 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
@@ -77,6 +77,7 @@ class Evaluation:
         return f"<Evaluation {self.verdict}: {outcome}, fitness {self.metrics.get('fitness', 0.0):.4g}>"
 
 
+@runtime_checkable
 class Model(Protocol):
     """What evaluates designs: a picklable, pure function of the design.
 
@@ -175,7 +176,7 @@ OBJECTIVES: dict[str, Objective] = {
 }
 
 
-@typed
+@check_arguments
 def find_objective(objective: str | Callable[..., Any]) -> Objective:
     """Return an objective: by its name, as `FILE.py:FUNCTION`, or a function of the figures of a jump.
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.design import Design, load_design
 from jumpcad.search.database import require_study
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, UNTIL_PERCENT
@@ -20,7 +20,7 @@ from jumpcad.workshop import Workshop
 from jumpcad.workshop.varied import Value
 
 
-@typed
+@check_arguments
 def optimize(
     method: str = DEFAULT,
     evaluations: int = EVALUATIONS,

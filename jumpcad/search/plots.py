@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.counting import counted
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
@@ -38,7 +38,7 @@ DECADES = 6.0
 """The acquisition is drawn down to this many decades below its maximum."""
 
 
-@typed
+@check_arguments
 def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score of every evaluation, and the best so far."""
     figure, (axes,) = panels(1, 6.4, 3.6)
@@ -55,7 +55,7 @@ def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     return figure
 
 
-@typed
+@check_arguments
 def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score over each free parameter."""
     figure, all_axes = panels(space.dimension)
@@ -82,7 +82,7 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
     return figure
 
 
-@typed
+@check_arguments
 def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     """Draw the best feasible designs, at most `MOST_DRAWN`, as lines over the free parameters, better ones darker."""
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
@@ -103,7 +103,7 @@ def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     return figure
 
 
-@typed
+@check_arguments
 def pareto(trials: Sequence[Trial], objective: Objective, cost: Cost = SPRING_ENERGY) -> Figure:
     """Draw the score against a cost, and the front."""
     figure, (axes,) = panels(1, 6.4, 3.6)
@@ -120,7 +120,7 @@ def pareto(trials: Sequence[Trial], objective: Objective, cost: Cost = SPRING_EN
     return figure
 
 
-@typed
+@check_arguments
 def importance(found: Importance) -> Figure:
     """Draw permutation importances, largest at the top."""
     figure, (axes,) = panels(1, 6.4, 3.2)
@@ -130,7 +130,7 @@ def importance(found: Importance) -> Figure:
     return figure
 
 
-@typed
+@check_arguments
 def sweeps(found: Sequence[Sweep], objective: Objective, centre: Design | None = None) -> Figure:
     """Draw the score over each parameter varied alone; crosses where the design is rejected.
 
@@ -151,7 +151,7 @@ def sweeps(found: Sequence[Sweep], objective: Objective, centre: Design | None =
     return figure
 
 
-@typed
+@check_arguments
 def components(views: Mapping[str, Components]) -> Figure:
     """Draw the shares of variance of principal components, one panel each for sampled designs and the elite."""
     figure, all_axes = panels(len(views), 4.0, 3.0)
@@ -163,7 +163,7 @@ def components(views: Mapping[str, Components]) -> Figure:
     return figure
 
 
-@typed
+@check_arguments
 def feasibility(found: FeasibilityMap, centre: Design | None = None) -> Figure:
     """Draw why designs are rejected, over a grid of two parameters, with a ring at the centre design."""
     figure, (axes,) = panels(1, 6.4, 4.2)
@@ -190,7 +190,7 @@ def feasibility(found: FeasibilityMap, centre: Design | None = None) -> Figure:
     return figure
 
 
-@typed
+@check_arguments
 def acquisition(
     space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, columns: int = 2
 ) -> Figure:

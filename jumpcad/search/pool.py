@@ -18,7 +18,7 @@ from typing import Any
 
 import cloudpickle
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
@@ -64,7 +64,7 @@ class Pool:
         Called with one line about every failure.
     """
 
-    @typed
+    @check_arguments
     def __init__(
         self,
         open_executor: Callable[[], Executor],
@@ -169,7 +169,7 @@ class Pool:
         return f"its worker was lost: {type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"
 
 
-@typed
+@check_arguments
 def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of processes on this machine, by default one for each core that this process may use.
 
@@ -200,7 +200,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     return Pool(open_executor, lambda executor: executor.end(), workers, limit_s)
 
 
-@typed
+@check_arguments
 def open_pool(workers: int | None = None, dask: str | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`.
 
@@ -222,7 +222,7 @@ def _require_limit(limit_s: float) -> None:
         )
 
 
-@typed
+@check_arguments
 def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
     """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad).
 

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Self
 
-from jumpcad.arguments import require_fields
+from jumpcad.arguments import check_fields
 from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
@@ -113,7 +113,7 @@ class Request:
         return cls(space, model, aim.name, method or DEFAULT, making=model.making, own=own, against=against, **others)
 
     def __post_init__(self) -> None:
-        require_fields(self)
+        check_fields(self)
         _ = self.aim
         find_preset(self.preset)
         if self.method not in NAMES:

@@ -13,7 +13,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from jumpcad.arguments import require_fields, typed
+from jumpcad.arguments import check_arguments, check_fields
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import (
@@ -43,7 +43,7 @@ class Space:
         return f"<Space: {', '.join(p.name for p in self.free)} free>"
 
     def __post_init__(self) -> None:
-        require_fields(self)
+        check_fields(self)
         if not any(parameter.free for parameter in self.parameters):
             raise JumpcadError("all parameters are fixed: nothing is left to search; free at least one")
 
@@ -53,7 +53,7 @@ class Space:
         return cls(tuple(SearchParameter(name, limits.lower, limits.upper) for name, limits in SEARCH_BOUNDS.items()))
 
     @classmethod
-    @typed
+    @check_arguments
     def make(
         cls,
         fixed: Mapping[str, Value] = NOTHING,
@@ -92,7 +92,7 @@ class Space:
         return cls._changed(changes, around, only, within_percent, workshop)
 
     @classmethod
-    @typed
+    @check_arguments
     def parse(
         cls,
         fix: Iterable[str] = (),

@@ -14,7 +14,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
@@ -58,7 +58,7 @@ class StudyStore:
         return f"<StudyStore {str(self.path)[-120:] if self.path else 'in memory'}>"
 
     @classmethod
-    @typed
+    @check_arguments
     def write(cls, path: str | Path | None, identity: Mapping[str, Any]) -> "StudyStore":
         """Create a study, or continue the one in `path` if it has the same identity; None keeps it in memory.
 
@@ -88,7 +88,7 @@ class StudyStore:
             raise
 
     @classmethod
-    @typed
+    @check_arguments
     def read(cls, path: str | Path) -> "StudyStore":
         """Open a study for reading, also while it is being written, and in a folder that may not be written to.
 

@@ -10,7 +10,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
@@ -79,7 +79,7 @@ class Clock:
         return passed_s >= self._limit_s - kept_s
 
 
-@typed
+@check_arguments
 def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watch = ignore) -> Result:
     """Run a study, or continue the one in a file; None keeps it in memory.
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.counting import counted
 from jumpcad.files.templates import templates_folder
 from jumpcad.search.figures import MEANINGS, svg_text
@@ -47,7 +47,7 @@ UNSAVED = "F.db"
 CANDIDATE_HEAD = ("±1 %", "as made", "rejected")
 
 
-@typed
+@check_arguments
 def write_study_page(store: StudyStore, name: str) -> str:
     """Return the page of a study, also of one that still runs.
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.search import plots
 from jumpcad.search.figures import save_figure
 from jumpcad.search.fronts import described_cost
@@ -18,7 +18,7 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import LEARNING_PHASES, Trial, searched
 
 
-@typed
+@check_arguments
 def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
     """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
     return [save_figure(draw(), folder, name) for name, draw in study_figures(store).items()]

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError
 from jumpcad.files.csv_text import to_csv
 from jumpcad.files.outputs import require_target, write_atomically
@@ -23,7 +23,7 @@ def _table(trials: Sequence[Trial]) -> Iterator[dict[str, Any]]:
     return (_record(trial, keys, metrics, margins) for trial in trials)
 
 
-@typed
+@check_arguments
 def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) -> None:
     """Write trials to a `.csv` or `.parquet` file, over an existing one only if forced.
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from jumpcad.arguments import typed
+from jumpcad.arguments import check_arguments
 from jumpcad.catalogue import Article, load_catalogue
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean, find_template, read_toml, template_names
@@ -26,7 +26,7 @@ TELLS = {
 """What is ordered for a part, and figures that it stands for: with others it is not that article."""
 
 
-@typed
+@check_arguments
 def load_workshop(
     name_or_path: str | Path = DEFAULT, printer: str | None = None, material: str | None = None
 ) -> Workshop:
