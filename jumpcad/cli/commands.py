@@ -72,7 +72,8 @@ def run(arguments: Sequence[str]) -> int:
     0: done. A user's error is one line on standard error: 2 for a wrong request, 1 if the answer is no. Any other
     exception is a bug: 3, with its traceback. 141: the reader closed the output (`| head`).
     """
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it warns where it cannot write its cache
+    for name in ("matplotlib", "ezdxf"):
+        logging.getLogger(name).setLevel(logging.ERROR)  # they warn where they cannot write a cache
     try:
         with standard_output(coloured=any(word in arguments for word in HELP)):
             return _carry_out(list(arguments))

@@ -65,10 +65,17 @@ def test_an_error_in_the_arguments_says_where_help_is(run: Run, arguments: list[
 
 
 def test_a_cache_that_cannot_be_written_is_no_message(tmp_path: Path) -> None:
-    """As in containers: matplotlib, which draws the letters of a name, warns in two lines of it."""
+    """As in containers: matplotlib, which draws the letters of a name, and ezdxf warn of it in two lines each."""
     (tmp_path / "file").touch()
-    code = "from jumpcad.cli.commands import run; run(['--version']); import matplotlib"
-    places = {"MPLCONFIGDIR": str(tmp_path / "file" / "below"), "HOME": str(tmp_path / "file")}
+    code = (
+        "from jumpcad.cli.commands import run; run(['--version']); import matplotlib; "
+        "from ezdxf import fonts; fonts.fonts.build_system_font_cache()"
+    )
+    places = {
+        "MPLCONFIGDIR": str(tmp_path / "file" / "below"),
+        "HOME": str(tmp_path / "file"),
+        "XDG_CACHE_HOME": str(tmp_path / "file"),
+    }
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=os.environ | places
     )
