@@ -22,7 +22,7 @@ from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import Trial
 
 TARGET_MB = 400.0

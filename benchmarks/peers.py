@@ -55,7 +55,7 @@ from jumpcad.search.propose.dry_run import Rehearsal
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.posterior import VERDICT, constraint_margins, forwards, warped
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import Trial
 from jumpcad.search.versions import versions
 from jumpcad.transforms import Array

@@ -23,7 +23,7 @@ from jumpcad.search.objective import SCREENED, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import best_trial
 
 

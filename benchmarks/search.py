@@ -27,7 +27,7 @@ from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.bayesian import default_initial, run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 
 MARKS = (40, 60, 100, 200, 250, 500, 1000)
 SPACE = Space.default()

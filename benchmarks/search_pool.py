@@ -23,7 +23,7 @@ from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import Trial
 from jumpcad.workshop import load_workshop
 

@@ -86,10 +86,10 @@ def explore(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart
-    from jumpcad.search.database import require_study
     from jumpcad.search.evaluator import Evaluator
     from jumpcad.search.space import Space
-    from jumpcad.search.store import StudyStore
+    from jumpcad.search.study.database import require_study
+    from jumpcad.search.study.store import StudyStore
 
     if view not in VIEWS:
         raise JumpcadError(f"{view!r} is not one of the views {', '.join(VIEWS)}{did_you_mean(view, VIEWS)}")

@@ -9,7 +9,7 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
 from jumpcad.cli.progress import watching
 from jumpcad.cli.search_result import print_result
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_search_options
-from jumpcad.search.methods import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
+from jumpcad.search.phases import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
@@ -97,11 +97,11 @@ def optimize(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
-    from jumpcad.search.database import require_study
     from jumpcad.search.request import Request
     from jumpcad.search.result import workshop_file
     from jumpcad.search.space import Space
-    from jumpcad.search.study import run_study
+    from jumpcad.search.study.database import require_study
+    from jumpcad.search.study.run import run_study
 
     centre = None if around is None else load_design(around)
     names = [] if only is None else [name.strip() for name in only.split(",")]
@@ -176,7 +176,7 @@ def _headed(heading: str, watch: "Watch") -> "Watch":
 def _plot(path: Path, folder: Path | None) -> list[str]:
     if folder is None:
         return []
-    from jumpcad.search.store import StudyStore
+    from jumpcad.search.study.store import StudyStore
     from jumpcad.search.study_plots import plot_study
 
     with StudyStore.read(path) as store:

@@ -31,7 +31,7 @@ class Tally:
 
     def add(self, trial: "Trial", computed: bool) -> None:
         """Count a trial, which was `computed` or read from the study file."""
-        from jumpcad.search.trial import SEARCH_PHASES
+        from jumpcad.search.phases import SEARCH_PHASES
 
         self.done += 1
         self.total = max(self.total, self.done)
@@ -78,7 +78,7 @@ def watching(total: int, quiet: bool, clock: Callable[[], float] = time.monotoni
     """
     from rich.progress import BarColumn, Progress, TextColumn
 
-    from jumpcad.search.study import Hopeless
+    from jumpcad.search.study.run import Hopeless
 
     terminal = sys.stderr.isatty()
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[line]}"))

@@ -12,7 +12,7 @@ from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
-    from jumpcad.search.store import StudyStore
+    from jumpcad.search.study.store import StudyStore
 
 StudiesArgument = Annotated[
     list[Path], typer.Argument(help="One study to show, or several to compare.", metavar="F.db…")
@@ -43,7 +43,7 @@ def study(
 ) -> None:
     """Show a study, also while it runs; compare several; export the trials."""
     from jumpcad.files.outputs import require_apart, require_target
-    from jumpcad.search.store import StudyStore
+    from jumpcad.search.study.store import StudyStore
     from jumpcad.search.table import TABLES, write_table
 
     if len(files) > 1 and (export or plots):
@@ -76,10 +76,10 @@ def study(
 
 def _watch(file: Path) -> None:
     """Print the progress of a search whenever it changes, until no search writes the study."""
-    from jumpcad.search.database import is_written
     from jumpcad.search.objective import described_objective
-    from jumpcad.search.store import StudyStore
-    from jumpcad.search.trial import SEARCH_PHASES
+    from jumpcad.search.phases import SEARCH_PHASES
+    from jumpcad.search.study.database import is_written
+    from jumpcad.search.study.store import StudyStore
 
     printed = ""
     while True:
@@ -101,7 +101,7 @@ def _watch(file: Path) -> None:
 
 
 def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
-    from jumpcad.search.store import ENDED
+    from jumpcad.search.study.store import ENDED
     from jumpcad.search.trial import count_rejections, feasible_trials, searched, trial_numbers
 
     trials, identity = store.trials(), store.identity
@@ -148,7 +148,7 @@ def _print_one(summary: dict[str, Any]) -> None:
 
 def _end_in_words(ended: dict[str, Any], identity: dict[str, Any]) -> str:
     """Return what ended a search, and how it goes on."""
-    from jumpcad.search.methods import METHODS
+    from jumpcad.search.phases import METHODS
 
     method = identity["method"]
     shares = method in METHODS and METHODS[method].shares

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from jumpcad.search.fronts import energy_j as energy_j
     from jumpcad.search.fronts import front as front
     from jumpcad.search.fronts import hypervolume as hypervolume
-    from jumpcad.search.methods import METHODS as METHODS
     from jumpcad.search.models import MODELS as MODELS
     from jumpcad.search.models import RobotModel as RobotModel
     from jumpcad.search.models import robot_model as robot_model
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
     from jumpcad.search.objective import find_objective as find_objective
     from jumpcad.search.optimization import optimize as optimize
     from jumpcad.search.parameter import SearchParameter as SearchParameter
+    from jumpcad.search.phases import METHODS as METHODS
     from jumpcad.search.pick.robust import ActiveBound as ActiveBound
     from jumpcad.search.pick.robust import Candidate as Candidate
     from jumpcad.search.pool import Pool as Pool
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from jumpcad.search.request import Request as Request
     from jumpcad.search.result import Result as Result
     from jumpcad.search.space import Space as Space
-    from jumpcad.search.store import StudyStore as StudyStore
-    from jumpcad.search.study import run_study as run_study
+    from jumpcad.search.study.run import run_study as run_study
+    from jumpcad.search.study.store import StudyStore as StudyStore
     from jumpcad.search.study_plots import plot_study as plot_study
     from jumpcad.search.table import write_table as write_table
     from jumpcad.search.trial import Trial as Trial
@@ -53,7 +53,7 @@ _HOMES = {
     "Cost": "fronts",
     "Evaluation": "objective",
     "Evaluator": "evaluator",
-    "METHODS": "methods",
+    "METHODS": "phases",
     "MODELS": "models",
     "OBJECTIVES": "objective",
     "Objective": "objective",
@@ -63,7 +63,7 @@ _HOMES = {
     "RobotModel": "models",
     "SearchParameter": "parameter",
     "Space": "space",
-    "StudyStore": "store",
+    "StudyStore": "study.store",
     "Trial": "trial",
     "components": "explore",
     "dask_pool": "pool",
@@ -78,7 +78,7 @@ _HOMES = {
     "plot_study": "study_plots",
     "plots": "plots",
     "robot_model": "models",
-    "run_study": "study",
+    "run_study": "study.run",
     "sample": "explore",
     "save_figure": "figures",
     "sweep": "explore",

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from jumpcad.arguments import check_arguments
@@ -10,8 +11,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model, Objective
 from jumpcad.search.pool import Pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.store import StudyStore
+from jumpcad.search.trial import Position, Trial, in_order
 from jumpcad.search.variant import Key, Variant
 
 Watch = Callable[[Trial, bool], None]
@@ -69,7 +70,7 @@ class Evaluator:
         self._watch = watch
         held = store.trials()
         self._finished = {trial.key: trial for trial in held}
-        self._taken = {(trial.phase, trial.step, trial.place): trial.key for trial in held}
+        self._taken = {trial.position: trial.key for trial in held}
         self._seen: dict[Key, Trial] = {}
         self.prior = list(prior)
         self._known = {trial.key for trial in self.prior}
@@ -94,12 +95,10 @@ class Evaluator:
         """Whether a trial of a variant is there, in this run or in the study file."""
         return variant.key in self._finished
 
-    def finished(self, phase: str, step: int, count: int) -> list[Trial] | None:
+    def finished(self, phase: str, step: int, count: int, run: int = 0) -> list[Trial] | None:
         """Read a whole step of `count` trials from the study file; None if one of them is missing."""
-        trials = sorted(
-            (trial for trial in self._finished.values() if (trial.phase, trial.step) == (phase, step)),
-            key=lambda trial: trial.place,
-        )
+        at = phase, run, step
+        trials = in_order(trial for trial in self._finished.values() if trial.position[:3] == at)
         if len(trials) != count:
             return None
         for trial in trials:
@@ -114,6 +113,7 @@ class Evaluator:
         limit: int | None = None,
         proposals: Sequence[Mapping[str, Any]] | None = None,
         left_out: Mapping[Key, Evaluation] | None = None,
+        run: int = 0,
     ) -> list[Trial | None]:
         """Return the trials of designs, computing those that are not finished; at most `limit` new ones.
 
@@ -131,7 +131,7 @@ class Evaluator:
         for index, key in enumerate(variant.key for variant in variants):
             if key not in self._seen and key not in fresh and (limit is None or len(fresh) < limit):
                 fresh[key] = index
-        places = {key: (phase, step, place) for place, key in enumerate(fresh)}
+        places = {key: (phase, run, step, place) for place, key in enumerate(fresh)}
         if any(self._taken.get(place, key) != key for key, place in places.items()):
             raise JumpcadError(
                 f"{self.store.path}: this search proposes other designs than the study holds; start a new study"
@@ -146,26 +146,20 @@ class Evaluator:
     def _evaluate(
         self,
         variants: Mapping[Key, Variant],
-        places: Mapping[Key, tuple[str, int, int]],
+        places: Mapping[Key, Position],
         proposals: Mapping[Key, Mapping[str, Any]],
         left_out: Mapping[Key, Evaluation],
     ) -> None:
         """Add the trials of variants, computing those that are neither finished nor left out."""
         new = [key for key in variants if key not in self._finished]
         missing = [key for key in new if key not in left_out]
-        computed = [
-            Trial(*places[key], variants[key].design, left_out[key], None, self.model.digest, 0.0, {},
-                  variants[key].workshop)
-            for key in new if key in left_out
-        ]  # fmt: skip
+        computed = [self._trial(places[key], variants[key], left_out[key], None) for key in new if key in left_out]
         try:
             for outcome in self._pool.evaluate(self.model, [variants[key] for key in missing]):
                 key = missing[outcome.index]
                 score = self.objective.score(outcome.evaluation)
-                computed.append(
-                    Trial(*places[key], variants[key].design, outcome.evaluation.bare, score, self.model.digest,
-                        outcome.duration_s, proposals[key], variants[key].workshop)
-                )  # fmt: skip
+                trial = self._trial(places[key], variants[key], outcome.evaluation, score)
+                computed.append(replace(trial, duration_s=outcome.duration_s, proposal=proposals[key]))
         except BaseException:
             self._commit(computed)
             raise
@@ -174,12 +168,19 @@ class Evaluator:
         for key in variants:
             self._add(self._finished[key], computed=key in new)
 
+    def _trial(self, at: Position, variant: Variant, evaluation: Evaluation, score: float | None) -> Trial:
+        phase, run, step, place = at
+        return Trial(
+            phase, step, place, variant.design, evaluation.bare, score, self.model.digest, 0.0,
+            workshop=variant.workshop, run=run,
+        )  # fmt: skip
+
     def _commit(self, trials: list[Trial]) -> None:
         if trials:
-            self.store.append(sorted(trials, key=lambda trial: trial.position))
+            self.store.append(in_order(trials))
         for trial in trials:
             self._finished[trial.key] = trial
-            self._taken[trial.phase, trial.step, trial.place] = trial.key
+            self._taken[trial.position] = trial.key
 
     def _add(self, trial: Trial, computed: bool) -> None:
         self._seen[trial.key] = trial

@@ -14,6 +14,7 @@ from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.propose.posterior import warped
 from jumpcad.search.propose.surrogate import Surrogate
+from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
@@ -150,6 +151,11 @@ def elite(trials: Sequence[Trial]) -> list[Trial]:
 
 @check_arguments
 def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Importance:
+    """Return the importance of the free parameters of the evaluator's space; see `importance_in`."""
+    return importance_in(evaluator.space, trials, seed)
+
+
+def importance_in(space: Space, trials: Sequence[Trial], seed: int) -> Importance:
     """Return the permutation importance of the free parameters for the score of designs that jump.
 
     A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is permuted there.
@@ -166,7 +172,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
         raise JumpcadError(
             f"{len(feasible)} of {len(trials)} designs jump, which is too few to say what is important; raise --samples"
         )
-    x = np.array([evaluator.space.to_unit(trial.variant) for trial in feasible])
+    x = np.array([space.to_unit(trial.variant) for trial in feasible])
     y = warped(np.array([trial.score for trial in feasible]))
     generator = np.random.default_rng([seed, 6])
     fold = generator.permutation(len(y)) % FOLDS
@@ -176,7 +182,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
             known = fold != part
             if np.ptp(y[~known]) == 0.0:
                 continue  # there is no variance to be explained
-            surrogate = Surrogate(x[known], y[known], theta, categories=evaluator.space.categories)
+            surrogate = Surrogate(x[known], y[known], theta, categories=space.categories)
             theta = surrogate.theta
             plain = _r_squared(surrogate, x[~known], y[~known])
             scores.append(plain)
@@ -188,7 +194,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
             f"{len(feasible)} of {len(trials)} designs jump, and score alike: nothing says what is important; raise "
             "--samples, or choose another --objective"
         )
-    names = tuple(parameter.name for parameter in evaluator.space.free)
+    names = tuple(parameter.name for parameter in space.free)
     return Importance(names, np.mean(falls, axis=0), np.std(falls, axis=0), float(np.mean(scores)), len(feasible))
 
 

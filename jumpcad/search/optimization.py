@@ -6,14 +6,14 @@ from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design, load_design
-from jumpcad.search.database import require_study
-from jumpcad.search.methods import DEFAULT, EVALUATIONS, UNTIL_PERCENT
 from jumpcad.search.models import robot_model
+from jumpcad.search.phases import DEFAULT, EVALUATIONS, UNTIL_PERCENT
 from jumpcad.search.pool import open_pool
 from jumpcad.search.request import Request
 from jumpcad.search.result import Result
 from jumpcad.search.space import Space
-from jumpcad.search.study import run_study
+from jumpcad.search.study.database import require_study
+from jumpcad.search.study.run import run_study
 from jumpcad.search.variant import NOTHING
 from jumpcad.settings import Settings
 from jumpcad.workshop import Workshop

@@ -13,9 +13,9 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
-from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Model, Objective, find_objective
+from jumpcad.search.phases import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 from jumpcad.search.pick.robust import pick_share
 from jumpcad.search.pick.tolerances import LENGTHS_ALONE, Making
 from jumpcad.search.propose.bayesian import default_initial

@@ -11,8 +11,8 @@ from jumpcad.search.objective import Objective
 from jumpcad.search.page_axes import Axes, evenly, scale
 from jumpcad.search.page_text import broken, written
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.replay import Known
 from jumpcad.search.space import Space
+from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study_words import meaning_of, named, unit_of, with_unit
 from jumpcad.search.trial import Trial, best_trial, feasible_trials
 
@@ -30,7 +30,7 @@ LEFT, RIGHT, ROW = 16.0, 624.0, 54.0
 """Ends of the axes of the parallel lines, and their distance."""
 
 
-def history(found: Known) -> Iterator[str]:
+def history(found: StudySummary) -> Iterator[str]:
     """Yield the section of every design's score in the order of the search."""
     trials, objective = found.trials, found.objective
     if not trials:
@@ -84,7 +84,7 @@ def _gain(scores: np.ndarray, is_explored: bool = False) -> str:
     return f"{said} The last fifth of the search raised the best score {rise}: {means}."
 
 
-def slices(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
+def slices(found: StudySummary, shown: Sequence[Trial]) -> Iterator[str]:
     """Yield the section of the score over each free parameter."""
     feasible = [trial for trial in found.trials if trial.score is not None]
     best = best_trial(feasible)
@@ -146,7 +146,7 @@ def _best(parameter: SearchParameter, number: float) -> str:
     return f"{with_unit(f'{value:.4g}', parameter.name)}{at}"
 
 
-def parallel(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
+def parallel(found: StudySummary, shown: Sequence[Trial]) -> Iterator[str]:
     """Yield the section that has a line for each design, down through its parameters."""
     space, feasible = found.space, feasible_trials(found.trials)
     if space.dimension < 2 or not feasible:

@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
-from jumpcad.search.explore import LEAST_R_SQUARED, Importance, importance
+from jumpcad.search.explore import LEAST_R_SQUARED, Importance, importance_in
 from jumpcad.search.page_text import broken, table, written
 from jumpcad.search.pick.robust import ActiveBound
-from jumpcad.search.replay import Known, Replay
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
+from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study_words import reason_words, with_unit
 from jumpcad.search.trial import count_rejections
 
@@ -18,14 +18,14 @@ LEAST_GAIN = 5e-4
 """Share of the score below which a gain is shown as +0.0 %."""
 
 
-def importances(store: StudyStore, found: Known) -> Iterator[str]:
+def importances(store: StudyStore, found: StudySummary) -> Iterator[str]:
     """Yield the importance of each free parameter for the score of the search's designs."""
     feasible = [trial for trial in found.trials if trial.score is not None]
     if len({trial.score for trial in feasible}) < 2:
         return
     yield "<h2>Importance</h2>"
     try:
-        learned = importance(Replay(store), feasible[:: -(-len(feasible) // MOST_LEARNED)], store.identity["seed"])
+        learned = importance_in(found.space, feasible[:: -(-len(feasible) // MOST_LEARNED)], store.identity["seed"])
     except JumpcadError:
         yield f"<p>{counted(len(feasible), 'design')} that jumped: too few to say what is important.</p>"
         return
@@ -68,7 +68,7 @@ def _is_clear(learned: Importance, index: int) -> bool:
     return bool(learned.mean[index] > learned.deviation[index])
 
 
-def active(found: Known) -> Iterator[str]:
+def active(found: StudySummary) -> Iterator[str]:
     """Yield the bounds on which the winner lies, and the change of the score beyond each."""
     if found.winner is None:
         return
@@ -94,7 +94,7 @@ def active(found: Known) -> Iterator[str]:
     yield from table(("parameter", "end of its range", "at", "examined at", "score beyond it"), rows, numbers=(2, 3))
 
 
-def _gains(found: Known) -> str:
+def _gains(found: StudySummary) -> str:
     """Return beyond which bounds the score rises by more than rounding, in words."""
     score = abs(found.winner.score or 0.0) if found.winner else 0.0
     rising = [one.name for one in found.bounds if one.worth is not None and one.worth > LEAST_GAIN * score]
@@ -105,7 +105,7 @@ def _gains(found: Known) -> str:
     return "This search did not examine them: one that picks a robust design does (method ga or bo)."
 
 
-def rejections(found: Known) -> Iterator[str]:
+def rejections(found: StudySummary) -> Iterator[str]:
     """Yield the reasons of rejection with their counts; a design may have several."""
     counts = count_rejections(found.trials)
     yield "<h2>Why designs were rejected</h2>"

@@ -15,14 +15,14 @@ from jumpcad.counting import counted
 from jumpcad.files.templates import templates_folder
 from jumpcad.search.figures import MEANINGS, svg_text
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
-from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import Objective
 from jumpcad.search.page_text import broken, table, written
+from jumpcad.search.phases import FRONTS
 from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Making
-from jumpcad.search.replay import Known, known
 from jumpcad.search.shown_design import shown_designs
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
+from jumpcad.search.study.summary import StudySummary, summary
 from jumpcad.search.study_chart import chart
 from jumpcad.search.study_drawings import history, parallel, slices
 from jumpcad.search.study_lessons import active, importances, rejections
@@ -59,7 +59,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
     folder = templates_folder() / "report"
     style = "".join((folder / file).read_text(encoding="ascii") for file in ("style.css", "study.css"))
     program = (folder / "study.js").read_text(encoding="ascii")
-    found, title = known(store), written(name)
+    found, title = summary(store), written(name)
     shown = _shown(found, described_cost(store.identity) if store.identity["method"] in FRONTS else None)
     return "\n".join(
         [
@@ -88,7 +88,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
     )
 
 
-def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
+def _verdict(store: StudyStore, found: StudySummary) -> Iterator[str]:
     """Yield the best score in a sentence, and the study's main data as cards."""
     identity, trials = store.identity, store.trials()
     objective = found.objective
@@ -118,7 +118,7 @@ def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
     yield "</dl>"
 
 
-def _asked(store: StudyStore, found: Known) -> Iterator[str]:
+def _asked(store: StudyStore, found: StudySummary) -> Iterator[str]:
     """Yield the objective, the stages, and the space with the winner's values."""
     identity, objective = store.identity, found.objective
     method = identity["method"]
@@ -155,7 +155,7 @@ def _plain(value: Value) -> str:
     return value if isinstance(value, str) else f"{value:g}"
 
 
-def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[str]:
+def _best(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) -> Iterator[str]:
     """Yield the best designs: chart, side views, table."""
     objective, is_front, cost = found.objective, store.identity["method"] in FRONTS, described_cost(store.identity)
     if not shown:
@@ -193,7 +193,7 @@ def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[s
     yield from _designs(found, shown, numbers, Making.of(store.identity))
 
 
-def _shown(found: Known, of_front: Cost | None) -> list[Trial]:
+def _shown(found: StudySummary, of_front: Cost | None) -> list[Trial]:
     """Return the designs that are shown: those of a front against a cost, or the best ones."""
     if of_front is not None:
         best = front(found.trials, of_front)
@@ -202,7 +202,7 @@ def _shown(found: Known, of_front: Cost | None) -> list[Trial]:
     return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
 
 
-def _are_candidates(found: Known, shown: Sequence[Trial]) -> bool:
+def _are_candidates(found: StudySummary, shown: Sequence[Trial]) -> bool:
     """Return whether the shown designs are those whose neighbours were examined."""
     return [one.trial for one in found.candidates] == list(shown)
 
@@ -227,7 +227,7 @@ def _reach(shown: Sequence[Trial], objective: Objective, cost: Cost) -> str:
     return f"{said}; half of the highest score comes with {spent(half)}."
 
 
-def _designs(found: Known, shown: Sequence[Trial], numbers: Sequence[int], making: Making) -> Iterator[str]:
+def _designs(found: StudySummary, shown: Sequence[Trial], numbers: Sequence[int], making: Making) -> Iterator[str]:
     """Yield the table of the shown designs, with the scores of their neighbours if they were examined."""
     if _are_candidates(found, shown):
         neighbours = [

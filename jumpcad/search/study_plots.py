@@ -10,12 +10,12 @@ from jumpcad.arguments import check_arguments
 from jumpcad.search import plots
 from jumpcad.search.figures import save_figure
 from jumpcad.search.fronts import described_cost
-from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import described_objective
+from jumpcad.search.phases import FRONTS, LEARNING_PHASES
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
-from jumpcad.search.trial import LEARNING_PHASES, Trial, searched
+from jumpcad.search.study.store import StudyStore
+from jumpcad.search.trial import Trial, searched
 
 
 @check_arguments
@@ -27,7 +27,7 @@ def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
 def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[], Figure]]:
     """Return functions that draw the pictures of a study, by the pictures' names; see `plots.acquisition`."""
     trials, identity = searched(store.trials()), store.identity
-    space, objective = Space.from_record(store.space), described_objective(identity)
+    space, objective = Space.from_record(identity["space"]), described_objective(identity)
     figures: dict[str, Callable[[], Figure]] = {}
     if trials:
         figures["history"] = partial(plots.history, trials, objective)

@@ -61,6 +61,7 @@ def _record(trial: Trial, keys: Sequence[str], metrics: Sequence[str], margins: 
         worst[finding.name] = min(finding.margin, worst.get(finding.name, finding.margin))
     return {
         "phase": trial.phase,
+        "run": trial.run,
         "step": trial.step,
         "place": trial.place,
         **trial.design.model_dump(),

@@ -1,22 +1,19 @@
 """`Trial`: one finished evaluation of a search; filters and counts of trials."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from jumpcad.design import Design
-from jumpcad.search.methods import METHODS
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.phases import PHASES, SEARCH_PHASES
 from jumpcad.search.variant import Key, Variant
 from jumpcad.workshop.varied import Value
 
-PHASES = ("sample", "sweep", *METHODS, "margin", "bounds", "robust")
-"""All phases in the order of a study; the last three examine designs near the best."""
-SEARCH_PHASES = PHASES[:-3]
-LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learns)
-"""Phases that, after a first step, start from the hyperparameters of the step before."""
+Position = tuple[str, int, int, int]
+"""Where a trial was proposed: phase, run, step and place; each position of a study has one trial."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -39,6 +36,8 @@ class Trial:
         The method's prediction when it proposed the design.
     workshop
         Values of the workshop that the search varies, by key.
+    run
+        Run of the phase: a method of `paper` runs several times in a study, and so does the pick of one that goes on.
     """
 
     phase: str
@@ -51,6 +50,7 @@ class Trial:
     duration_s: float
     proposal: Mapping[str, Any] = field(default_factory=dict)
     workshop: Mapping[str, Value] = field(default_factory=dict)
+    run: int = 0
 
     @cached_property
     def key(self) -> Key:
@@ -63,9 +63,9 @@ class Trial:
         return Variant(self.design, self.workshop)
 
     @property
-    def position(self) -> tuple[int, int, int]:
-        """Position of the trial in its study, for sorting."""
-        return PHASES.index(self.phase), self.step, self.place
+    def position(self) -> Position:
+        """Where the trial was proposed."""
+        return self.phase, self.run, self.step, self.place
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
@@ -88,6 +88,11 @@ class Trial:
         return f"<Trial {self.phase} {self.step}.{self.place}: {outcome}>"
 
 
+def in_order(trials: Iterable[Trial]) -> list[Trial]:
+    """Return trials in the order of their study."""
+    return sorted(trials, key=lambda trial: (PHASES.index(trial.phase), *trial.position[1:]))
+
+
 def feasible_trials(trials: Sequence[Trial]) -> list[Trial]:
     """Return the trials that have a score, best first; of equals, the first."""
     return sorted((trial for trial in trials if trial.score is not None), key=lambda trial: -(trial.score or 0.0))
@@ -98,7 +103,7 @@ def best_trial(trials: Sequence[Trial]) -> Trial | None:
     return next(iter(feasible_trials(trials)), None)
 
 
-def trial_numbers(trials: Sequence[Trial]) -> dict[tuple[int, int, int], int]:
+def trial_numbers(trials: Sequence[Trial]) -> dict[Position, int]:
     """Return the numbers of all trials of a study, by position: from 1 in its order, as its exported table has them."""
     return {trial.position: number for number, trial in enumerate(trials, start=1)}
 

@@ -8,7 +8,7 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.search.fronts import described_cost, front
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import described_objective
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import Trial, feasible_trials, searched, trial_numbers
 from jumpcad.workshop import Workshop, load_workshop
 

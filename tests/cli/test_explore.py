@@ -107,7 +107,7 @@ def test_a_view_is_of_what_is_asked_for(folder, monkeypatch, view, words, maker,
         identities.append(identity)
         raise JumpcadError("enough")
 
-    monkeypatch.setattr("jumpcad.search.store.StudyStore.write", stop)
+    monkeypatch.setattr("jumpcad.search.study.store.StudyStore.write", stop)
     if view != "pca":
         words, given = [*words, "--around", given[0]], (load_design(given[0]), *given[1:])
     assert "enough" in refusal("explore", view, *QUICK, *words)
@@ -251,7 +251,7 @@ def test_importance_is_that_of_all_that_was_sampled_the_largest_first(monkeypatc
 
 def test_what_cannot_be_written_is_told_before_anything_is_evaluated(folder, monkeypatch):
     """Nor is a file replaced that is read, or that somebody made."""
-    monkeypatch.setattr("jumpcad.search.store.StudyStore.write", lambda *_: pytest.fail("begun"))
+    monkeypatch.setattr("jumpcad.search.study.store.StudyStore.write", lambda *_: pytest.fail("begun"))
     (folder / "own.toml").write_text(load_design("best-ga").to_toml())
     (folder / "pics").mkdir()
     (folder / "pics" / "pca.svg").write_text("<svg/>")
@@ -271,7 +271,7 @@ def test_what_is_not_said_of_a_view_is_what_the_reference_says(folder, monkeypat
     def stop(*_):
         raise JumpcadError("enough")
 
-    monkeypatch.setattr("jumpcad.search.store.StudyStore.write", stop)
+    monkeypatch.setattr("jumpcad.search.study.store.StudyStore.write", stop)
     for view in ("sweep", "feasibility", "pca"):
         assert "enough" in refusal("explore", view, *QUICK)
     around, over = load_design(told_default("explore", "--around")), told_default("explore", "--over")

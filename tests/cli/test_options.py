@@ -21,7 +21,7 @@ from jumpcad.search import explore, figures
 from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.settings import Settings, load_settings
 from jumpcad.workshop import load_workshop
 

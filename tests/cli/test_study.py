@@ -12,7 +12,7 @@ from support.told import told_default
 from jumpcad.cli import study
 from jumpcad.design import load_design
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 
 
 def test_studies_compare_and_export(folder, monkeypatch):

@@ -9,11 +9,11 @@ from support.searches import refusal, run
 from support.studies import IDENTITY, trials
 
 from jumpcad.cli import study as command
-from jumpcad.search.database import is_written
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
-from jumpcad.search.store import StudyStore
-from jumpcad.search.study import run_study
+from jumpcad.search.study.database import is_written
+from jumpcad.search.study.run import run_study
+from jumpcad.search.study.store import StudyStore
 
 
 def test_designs_of_the_search_and_around_the_best_are_counted_apart(tmp_path, capsys):
@@ -66,7 +66,7 @@ def test_it_looks_again_after_a_while_and_says_only_what_is_new(tmp_path, monkey
                 store.append(more)
         return bool(later)
 
-    monkeypatch.setattr("jumpcad.search.database.is_written", running)
+    monkeypatch.setattr("jumpcad.search.study.database.is_written", running)
     monkeypatch.setattr(command.time, "sleep", waited.append)
     command._watch(path)
     lines = capsys.readouterr().out.splitlines()

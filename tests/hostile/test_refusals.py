@@ -9,7 +9,7 @@ import pytest
 from support.sandbox import Sandbox
 
 from jumpcad.design import load_design
-from jumpcad.search.store import LONGEST_NOTE, MOST_NOTES, StudyStore
+from jumpcad.search.study.store import LONGEST_NOTE, MOST_NOTES, StudyStore
 
 SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "2", "--workers", "0", "--study")
 SWEEP = ("explore", "sweep", "--model", "capsule", "--points", "2", "--workers", "0", "--study", "s.db")
@@ -31,13 +31,13 @@ def test_nothing_is_said_or_written_of_a_wrong_request(sandbox: Sandbox, case: s
 
 
 FOREIGN = {
-    "a trigger": "CREATE TRIGGER t AFTER INSERT ON evaluations BEGIN DELETE FROM notes; END",
+    "a trigger": "CREATE TRIGGER t AFTER INSERT ON trials BEGIN DELETE FROM notes; END",
     "a table": "CREATE TABLE more (x)",
     "a view": "CREATE VIEW more AS SELECT * FROM notes",
     "another identity": "UPDATE study SET value = json_set(value, '$.seed', 99) WHERE key = 'identity'",
     "no identity": "DELETE FROM study",
     "stages of nothing": "INSERT OR REPLACE INTO study VALUES ('stages', '[]')",
-    "a row of another": "UPDATE evaluations SET metrics = '[' WHERE rowid = 1",
+    "a row of another": "UPDATE trials SET record = '[' WHERE rowid = 1",
 }
 
 

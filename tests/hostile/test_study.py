@@ -12,12 +12,8 @@ import pytest
 from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
 from support.sandbox import ANY, Sandbox
 
-from jumpcad.design import PARAMETERS
-
-COLUMNS = (
-    "phase", "step", PARAMETERS[0], "model", "verdict", "score", "metrics", "findings", "detail",
-    "proposal", "duration_s",
-)  # fmt: skip
+COLUMNS = ("phase", "run", "step", "score", "record")
+FIELDS = ("design", "workshop", "model", "verdict", "metrics", "findings", "detail", "proposal", "duration_s")
 VALUES = {
     "text": "'x'",
     "empty": "''",
@@ -35,26 +31,24 @@ VALUES = {
 }
 SCHEMES = {
     "no-study": "DROP TABLE study",
-    "no-evaluations": "DROP TABLE evaluations",
+    "no-evaluations": "DROP TABLE trials",
     "no-notes": "DROP TABLE notes",
-    "no-rows": "DELETE FROM evaluations",
+    "no-rows": "DELETE FROM trials",
     "no-identity": "DELETE FROM study WHERE key = 'identity'",
     "no-stages": "DELETE FROM study WHERE key = 'stages'",
-    "renamed": "ALTER TABLE evaluations RENAME TO e",
-    "renamed-column": "ALTER TABLE evaluations RENAME COLUMN score TO points",
-    "more-columns": "ALTER TABLE evaluations ADD COLUMN more TEXT",
-    "view": "ALTER TABLE evaluations RENAME TO e; CREATE VIEW evaluations AS SELECT * FROM e",
+    "renamed": "ALTER TABLE trials RENAME TO e",
+    "renamed-column": "ALTER TABLE trials RENAME COLUMN score TO points",
+    "more-columns": "ALTER TABLE trials ADD COLUMN more TEXT",
+    "view": "ALTER TABLE trials RENAME TO e; CREATE VIEW trials AS SELECT * FROM e",
     "view-of-a-file": "DROP TABLE notes; CREATE VIEW notes AS SELECT readfile('/etc/passwd') AS text",
-    "trigger": "CREATE TRIGGER t AFTER INSERT ON notes BEGIN DELETE FROM evaluations; END",
+    "trigger": "CREATE TRIGGER t AFTER INSERT ON notes BEGIN DELETE FROM trials; END",
     "other-application": "PRAGMA application_id = 1",
     "other-format": "PRAGMA user_version = 99",
     "format-zero": "PRAGMA user_version = 0",
     "notes-of-bytes": "INSERT INTO notes VALUES (x'ff00')",
     "notes-of-a-terminal": "INSERT INTO notes VALUES (char(27) || '[2J' || char(10) || char(155))",
-    "no-names": "DELETE FROM names",
-    "names-of-numbers": "UPDATE names SET names = '[' || number || ']'",
-    "names-of-a-terminal": "UPDATE names SET names = '[\"' || char(27) || '[2J' || number || '\"]'",
-    "names-exchanged": "UPDATE names SET number = -number",
+    "no-picks": "DELETE FROM study WHERE key = 'picks'",
+    "other-picks": "UPDATE study SET value = replace(value, '[', '{') WHERE key = 'picks'",
     "utf-16": "VACUUM",
 }
 
@@ -73,12 +67,19 @@ def ask(sandbox: Sandbox, exits: tuple[int, ...] = ANY) -> None:
     sandbox.run("study", "study.db", "--export", "rows.csv", "--json", exits=exits, writes=["rows.csv"])
 
 
-@pytest.mark.parametrize("value", VALUES)
-@pytest.mark.parametrize("column", COLUMNS)
-def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, study: Path, column: str, value: str) -> None:
-    first = "rowid = (SELECT min(rowid) FROM evaluations)"
-    spoil(study, f"UPDATE evaluations SET {column} = {VALUES[value]} WHERE {first}")
-    ask(sandbox)
+@pytest.mark.parametrize("name", [*COLUMNS, *FIELDS])
+def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, study: Path, name: str) -> None:
+    good = study.read_bytes()
+    with closing(sqlite3.connect(study)) as connection:
+        record = json.loads(connection.execute("SELECT record FROM trials WHERE rowid = 1").fetchone()[0])
+    for value, text in (VALUES if name in COLUMNS else JSON_VALUES).items():
+        sandbox.case = f"{name} = {value}"
+        study.write_bytes(good)
+        changed = f"{name} = {text}"
+        if name in FIELDS:
+            changed = "record = '" + with_value(record, (name,), text).replace("'", "''") + "'"
+        spoil(study, f"UPDATE trials SET {changed} WHERE rowid = 1")
+        ask(sandbox)
 
 
 @pytest.mark.parametrize("number", range(30))

@@ -11,7 +11,7 @@ from support.proposals import with_less_work
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 
 
 @pytest.fixture(scope="module")

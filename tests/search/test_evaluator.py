@@ -6,7 +6,7 @@ from support.hills import SMALL, Hill, Trap
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Evaluation
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.variant import Variant
 
 

@@ -19,8 +19,8 @@ from jumpcad.search.code_hash import code_hash
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
-from jumpcad.search.store import StudyStore
-from jumpcad.search.study import run_study
+from jumpcad.search.study.run import run_study
+from jumpcad.search.study.store import StudyStore
 
 JUMP = Evaluation("jump", {"fitness": 4.0, "mass_kg": 0.1})
 FILE = "WEIGHT = 2.0\n\ndef light(m):\n    return m['fitness'] - WEIGHT * m['mass_kg']\n"

@@ -14,13 +14,12 @@ from support.studies import trials
 import jumpcad
 from jumpcad.cli import optimize
 from jumpcad.errors import JumpcadError
-from jumpcad.search.methods import STEPS
 from jumpcad.search.models import robot_model
 from jumpcad.search.pick.tolerances import Making
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request, plan_stages
 from jumpcad.search.space import Space
-from jumpcad.search.study import run_study
+from jumpcad.search.study.run import run_study
 from jumpcad.search.versions import versions
 from jumpcad.workshop import load_workshop
 
@@ -100,7 +99,7 @@ def test_the_studys_stages_have_an_evaluation_each():
             Request(SMALL, Hill(), method="paper", evaluations=evaluations)
     with local_pool(0) as pool:
         trials = run_study(Request(Space.default(), Hill(), method="paper", evaluations=7), None, pool).trials
-    assert Counter((trial.phase, trial.step // STEPS) for trial in trials) == {
+    assert Counter((trial.phase, trial.run) for trial in trials) == {
         ("sample", 0): 1, **{("ga", run): 1 for run in range(3)}, **{("bo", mode): 1 for mode in range(3)},
     }  # fmt: skip
 

@@ -11,8 +11,8 @@ from support.hills import FIXED, SMALL
 from jumpcad.files import templates_folder
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.replay import Known
 from jumpcad.search.space import Space
+from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study_drawings import AGES, _best, _end, _gain, _line, _spread, history, parallel, slices
 from jumpcad.search.trial import Trial
 from jumpcad.workshop import load_workshop
@@ -86,11 +86,11 @@ def at(kind: str, page: str) -> list[float]:
     return [float(x) for path in paths for x in re.findall(r"M([\d.]+)", path)]
 
 
-def known(*scores: float | None) -> Known:
+def known(*scores: float | None) -> StudySummary:
     """Return what is known of a study of designs with these scores, whose compression ratio grows."""
     shares = np.linspace(0.1, 0.9, len(scores)).tolist()
     trials = [replace(trial(share, 0.5, 0.5), score=score) for share, score in zip(shares, scores, strict=True)]
-    return Known(SMALL, find_objective("fitness"), trials, None, [], [], {})
+    return StudySummary(SMALL, find_objective("fitness"), trials, None, [], [], {})
 
 
 def test_a_history_has_each_design_above_its_number() -> None:

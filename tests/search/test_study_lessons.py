@@ -15,7 +15,7 @@ from jumpcad.search import study_lessons
 from jumpcad.search.explore import Importance
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
-from jumpcad.search.replay import Known
+from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study_lessons import _bar, _cost, _gains, _is_clear, _matters, active, rejections
 from jumpcad.search.trial import Trial
 
@@ -32,10 +32,10 @@ def failed(*names: str) -> Trial:
     return Trial("ga", 0, 0, DESIGN, Evaluation("jump", {}, findings), None, "m", 0.0)
 
 
-def known(*trials: Trial, bounds: tuple[ActiveBound, ...] = ()) -> Known:
+def known(*trials: Trial, bounds: tuple[ActiveBound, ...] = ()) -> StudySummary:
     """Return what is known of a study of these trials, the first of which won."""
     winner = trials[0] if trials and trials[0].score is not None else None
-    return Known(SMALL, find_objective("range"), list(trials), winner, [], list(bounds), {})
+    return StudySummary(SMALL, find_objective("range"), list(trials), winner, [], list(bounds), {})
 
 
 WON = replace(failed(), evaluation=Evaluation("jump"), score=2.0)
@@ -63,12 +63,11 @@ def test_three_that_are_clear_matter_most_the_largest_first() -> None:
 def test_the_longest_bar_is_full_and_two_hundred_designs_tell_evenly_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 401 that jump every third one; a fall of R² of 0.6 is a whole bar, one of 0.4 two thirds of it."""
     asked = []
-    monkeypatch.setattr(study_lessons, "Replay", lambda store: store)
-    monkeypatch.setattr(study_lessons, "importance", lambda *given: asked.append(given) or LEARNED)
+    monkeypatch.setattr(study_lessons, "importance_in", lambda *given: asked.append(given) or LEARNED)
     trials = [replace(WON, place=place, score=1.0 + place) for place in range(401)]
     store = SimpleNamespace(identity={"seed": 7})
     page = "\n".join(study_lessons.importances(store, known(*trials)))  # type: ignore[arg-type]
-    assert asked == [(store, trials[::3], 7)]
+    assert asked == [(SMALL, trials[::3], 7)]
     assert [int(width) for width in re.findall(r"width: (\d+)%", page)] == [100, 67, 33, 17, 8]
 
 
@@ -79,8 +78,7 @@ def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_impor
     monkeypatch: pytest.MonkeyPatch, r_squared: float, said: str
 ) -> None:
     """Nor do designs that are too few, or that all score alike."""
-    monkeypatch.setattr(study_lessons, "Replay", lambda store: store)
-    monkeypatch.setattr(study_lessons, "importance", lambda *_: replace(LEARNED, r_squared=r_squared))
+    monkeypatch.setattr(study_lessons, "importance_in", lambda *_: replace(LEARNED, r_squared=r_squared))
     store = SimpleNamespace(identity={"seed": 7})
     two, alike = known(WON, replace(WON, score=3.0), failed("tips")), known(WON, WON)
     page = text(study_lessons.importances(store, two))  # type: ignore[arg-type]
@@ -92,7 +90,7 @@ def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_impor
     def refused(*_: object) -> None:
         raise JumpcadError("too few")
 
-    monkeypatch.setattr(study_lessons, "importance", refused)
+    monkeypatch.setattr(study_lessons, "importance_in", refused)
     page = text(study_lessons.importances(store, two))  # type: ignore[arg-type]
     assert page == "Importance 2 designs that jumped: too few to say what is important."
 

@@ -21,11 +21,11 @@ from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound, Candidate
 from jumpcad.search.pick.tolerances import Making
 from jumpcad.search.pool import local_pool
-from jumpcad.search.replay import Known, known
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
-from jumpcad.search.study import run_study
+from jumpcad.search.study.run import run_study
+from jumpcad.search.study.store import StudyStore
+from jumpcad.search.study.summary import StudySummary, summary
 from jumpcad.search.study_lessons import active
 from jumpcad.search.study_page import write_study_page
 from jumpcad.search.table import write_table
@@ -204,7 +204,7 @@ def test_pictures_have_every_design_once_and_their_words_are_true(studies):
 
 def test_bounds_say_what_they_cost(studies):
     with StudyStore.read(studies / "bo.db") as store:
-        found = known(store)
+        found = summary(store)
     bounds = [
         ActiveBound("carrying_link_mm", "lower", 100.0, 95.0, 0.1 * found.winner.score),
         ActiveBound("rest_angle_deg", "upper", 70.0, 72.5, None, "tips, sideways_tipping"),
@@ -248,9 +248,9 @@ def test_a_parameter_without_effect_matters_least(tmp_path):
 
 def test_a_long_bar_within_its_error_is_not_what_matters_most(tmp_path, monkeypatch):
     learned = Importance(("c_coef", "d_coef"), np.array([0.33, 0.19]), np.array([0.42, 0.13]), 0.9, 40)
-    monkeypatch.setattr(study_lessons, "importance", lambda *_: learned)
+    monkeypatch.setattr(study_lessons, "importance_in", lambda *_: learned)
     with studied(tmp_path / "s.db", SPACE, "ga", 40) as store:
-        root = ElementTree.fromstring(f"<body>{''.join(study_lessons.importances(store, known(store)))}</body>")
+        root = ElementTree.fromstring(f"<body>{''.join(study_lessons.importances(store, summary(store)))}</body>")
     assert [[text(cell) for cell in row][::3] for row in root.iter("tr")][1:] == [["c_coef", "no"], ["d_coef", "yes"]]
     assert "Of those beyond their error, d_coef matters most." in text(root)
     assert "perhaps nothing: c_coef." in text(root)
@@ -304,7 +304,7 @@ def made_up(method="ga", candidates=(), **changes):
     store.remember("stages", [{"method": "ga", "evaluations": 3}, {"method": "bo", "evaluations": 4}])
     winner = candidates[0].trial if candidates else TRIALS[1]
     numbers = {trial.position: n for n, trial in enumerate([*TRIALS, *PICK], start=1)}
-    return store, Known(SPACE, find_objective("range"), list(TRIALS), winner, list(candidates), [], numbers)
+    return store, StudySummary(SPACE, find_objective("range"), list(TRIALS), winner, list(candidates), [], numbers)
 
 
 def words(lines):

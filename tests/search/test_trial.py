@@ -8,12 +8,13 @@ from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.phases import LEARNING_PHASES
 from jumpcad.search.trial import (
-    LEARNING_PHASES,
     Trial,
     best_trial,
     count_rejections,
     feasible_trials,
+    in_order,
     searched,
     trial_numbers,
 )
@@ -42,7 +43,7 @@ def test_trials_stand_in_the_order_of_phases_steps_and_places(trial: Trial) -> N
     order = [("ga", 0, 1), ("ga", 1, 0), ("bo", 0, 0), ("margin", 0, 0), ("robust", 0, 0)]
     trials = [replace(trial, phase=phase, step=step, place=place) for phase, step, place in order]
     backwards = trials[::-1]
-    assert sorted(backwards, key=lambda one: one.position) == trials
+    assert in_order(backwards) == trials
     assert searched(trials) == trials[:3]
 
 

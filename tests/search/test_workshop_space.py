@@ -20,8 +20,8 @@ from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
-from jumpcad.search.study import run_study
+from jumpcad.search.study.run import run_study
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study_plots import plot_study
 from jumpcad.search.table import write_table
 from jumpcad.search.variant import Variant

@@ -7,7 +7,7 @@ from support.studies import IDENTITY
 
 from jumpcad.design import load_design
 from jumpcad.search.objective import CANNOT_BUILD, Evaluation
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import Trial
 
 CHANGES = (

@@ -4,8 +4,8 @@ from jumpcad.design import Design
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
-from jumpcad.search.store import StudyStore
-from jumpcad.search.study import run_study
+from jumpcad.search.study.run import run_study
+from jumpcad.search.study.store import StudyStore
 
 REST = [
     "carrying_link_mm=100",

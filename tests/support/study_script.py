@@ -7,7 +7,7 @@ import pytest
 
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
-from jumpcad.search.study import run_study
+from jumpcad.search.study.run import run_study
 from support.hills import SMALL, Hill
 from support.proposals import with_less_work
 

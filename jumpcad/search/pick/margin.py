@@ -24,19 +24,21 @@ STEEPNESS = 100.0
 """Fall of the acquisition where the confidence is missed: far more than any gain in score."""
 
 
-def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, seed: int, scatter: float) -> list[Trial]:
+def propose_robust(
+    evaluator: Evaluator, trials: Sequence[Trial], run: int, seed: Sequence[int], scatter: float
+) -> list[Trial]:
     """Evaluate designs that should score highest while their neighbours stay feasible; return their trials.
 
     Parameters
     ----------
     evaluator, trials
         All trials of the evaluator are learned from; near the best of `trials` it looks most closely.
-    step, seed
-        The step of the proposals in the study file; the random seed.
+    run, seed
+        The run of the pick in the study file; the random seed.
     scatter
         Standard deviation of a neighbour's parameters, relative to their value.
     """
-    finished = evaluator.finished("margin", step, len(CONFIDENCES))
+    finished = evaluator.finished("margin", 0, len(CONFIDENCES), run)
     if finished is not None:
         return finished
     space = evaluator.space
@@ -56,7 +58,7 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
         ),
         {},
     )
-    generator = np.random.default_rng([seed, 7, step])
+    generator = np.random.default_rng(seed)
     proposals: list[Proposal] = []
     with one_thread():
         posterior = SearchPosterior.from_trials(space, learned_trials(space, known, best=0), thetas, fit=())
@@ -66,7 +68,7 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
             if proposal is not None:
                 proposals.append(proposal)
     notes = [proposal.note() | {"theta": posterior.thetas} for proposal in proposals]
-    found = evaluator.evaluate([proposal.variant for proposal in proposals], "margin", step, proposals=notes)
+    found = evaluator.evaluate([proposal.variant for proposal in proposals], "margin", 0, proposals=notes, run=run)
     return [trial for trial in found if trial is not None]
 
 

@@ -31,8 +31,6 @@ JOINING = 3
 """Designs at a distance from the constraint that may join; each costs its own evaluation and two neighbours."""
 LEAST_TO_JOIN = 16
 """Evaluations of a pick from which on designs may join; judgement."""
-ROUNDS = 8
-"""Numbers of steps in the study file that one pick takes."""
 APART = 0.02
 """Least difference between two candidates in some parameter, over its range; judgement."""
 WIDENING = 0.05
@@ -132,6 +130,7 @@ def rank_candidates(
     making: Making,
     evaluations: int,
     among: Sequence[Trial] | None = None,
+    run: int = 0,
 ) -> list[Candidate]:
     """Evaluate neighbours of the best of some trials, and return these, those that got farthest and do not fail first.
 
@@ -151,8 +150,9 @@ def rank_candidates(
         At most so many designs are evaluated.
     among
         The trials that may be candidates, such as those of a front, which no design joins; all if None.
+    run
+        Number of this pick in the study.
     """
-    first = ROUNDS * ((MOST_PICK + 1) * len(trials) + evaluations)
     reserve = JOINING * 3 if evaluations >= LEAST_TO_JOIN and among is None else 0
     rounds = plan_rounds(evaluations - reserve)
     best = best_apart(evaluator.space, trials if among is None else among, rounds[0][0])
@@ -165,11 +165,12 @@ def rank_candidates(
         field, left = ranked[:count], ranked[count:]
         if count == 1 and turn:
             new = min(new + reserve, 2 * SAMPLES - field[0].examined) // 2 * 2
-        _examine(evaluator, field, new, first + turn, seed, making)
+        _examine(evaluator, field, new, (run, turn), seed, making)
         if turn == 0 and reserve and field and field[0].rejections:
-            off_edge = propose_robust(evaluator, trials, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
+            drawn = [seed, 7, 8 * ((MOST_PICK + 1) * len(trials) + evaluations)]  # anew for each search and pick
+            off_edge = propose_robust(evaluator, trials, run, drawn, PERCENT / 100.0 / math.sqrt(3.0))
             joining = [_Examined(MOST_CANDIDATES + n, one) for n, one in enumerate(off_edge) if one.score is not None]
-            _examine(evaluator, joining, 2, first + ROUNDS - 1, seed, making)
+            _examine(evaluator, joining, 2, (run, len(rounds)), seed, making)
             field, reserve = field + joining, 0
     return [one.candidate() for one in _ranked(field, left) if one.examined]
 
@@ -228,13 +229,16 @@ class _Examined:
         return tenth(scores) if scores else self.trial.score or 0.0
 
 
-def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, step: int, seed: int, making: Making) -> None:
-    """Evaluate `new` more neighbours of each.
+def _examine(
+    evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tuple[int, int], seed: int, making: Making
+) -> None:
+    """Evaluate `new` more neighbours of each, in a run and step of the pick.
 
     A rejected one scores 0, or where scores are negative as far below the worst as the best is above it.
     """
+    run, step = at
     asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, making)]
-    found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step)
+    found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step, run=run)
     scores = [trial.score for trial in evaluator.trials if trial.score is not None]
     rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0
     for (one, kind, _), trial in zip(asked, found, strict=True):
@@ -256,28 +260,34 @@ def best_apart(space: Space, trials: Sequence[Trial], count: int) -> list[Trial]
     return chosen
 
 
-def active_bounds(
-    evaluator: Evaluator, trial: Trial, step: int, evaluations: int = len(PARAMETERS)
-) -> list[ActiveBound]:
-    """Return the bounds on which a design lies, each with the change of the score a twentieth of the range beyond it.
-
-    Bounds that are also limits of a design are left out. At most `evaluations` are examined, the others only named.
-    """
+def named_bounds(space: Space, trial: Trial) -> list[ActiveBound]:
+    """Return the bounds on which a design lies, but for those that are also limits of a design; none is examined."""
     found = []
-    for parameter in evaluator.space.free:
-        if parameter.names or (parameter.choices and parameter in evaluator.space.of_workshop):
+    for parameter in space.free:
+        if parameter.names or (parameter.choices and parameter in space.of_workshop):
             continue  # choices of a workshop end where it ends
         value = parameter.number(trial.variant.value(parameter.name))
         for side, bound, beyond in active_sides(parameter, value, WIDENING):
-            found.append(ActiveBound(parameter.name, side, bound, beyond, None))
+            found.append(ActiveBound(parameter.name, side, bound, beyond, None, NOT_EXAMINED))
+    return found
+
+
+def active_bounds(
+    evaluator: Evaluator, trial: Trial, evaluations: int = len(PARAMETERS), run: int = 0
+) -> list[ActiveBound]:
+    """Return the bounds on which a design lies, each with the change of the score a twentieth of the range beyond it.
+
+    At most `evaluations` are examined, the others only named; `run` is the number of this pick in the study.
+    """
+    found = named_bounds(evaluator.space, trial)
     variants = [trial.variant.changed({bound.name: bound.beyond}) for bound in found]
-    trials = evaluator.evaluate(variants, "bounds", step, limit=evaluations)
+    trials = evaluator.evaluate(variants, "bounds", 0, limit=evaluations, run=run)
     return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True)]
 
 
 def _worth(bound: ActiveBound, trial: Trial, beyond: Trial | None) -> ActiveBound:
     if beyond is None:
-        return replace(bound, reason=NOT_EXAMINED)
+        return bound
     if beyond.score is None:
         return replace(bound, reason=", ".join(beyond.evaluation.reasons))
-    return replace(bound, worth=beyond.score - (trial.score or 0.0))
+    return replace(bound, worth=beyond.score - (trial.score or 0.0), reason="")

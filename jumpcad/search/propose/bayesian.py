@@ -33,6 +33,8 @@ ELITE = 4
 LEARNED, LEARNED_BEST = 400, 100
 """Most trials that the processes are fitted to, and how many of them are the best ones; the others are the nearest to
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
+RUN_SEED = 1_000_000
+"""Above any number of steps: added to the seed of the steps of each further run."""
 PATIENCE = 7
 """The search ends after so many proposals in a row that promise and gain too little; judgement: one or two often do."""
 IDLE = 10
@@ -118,17 +120,17 @@ def run_steps(
         else:
             points = first_points(space, task.initial, generator)
         evaluator.evaluate(
-            [space.to_variant(point) for point in points], phase, task.first_step, limit=task.evaluations
+            [space.to_variant(point) for point in points], phase, 0, limit=task.evaluations, run=task.run
         )
     left = task.evaluations - (len(evaluator.trials) - start)
     thetas: Mapping[str, Any] = {}
-    for step in itertools.count(task.first_step + 1):
+    for step in itertools.count(1):
         if left <= 0 or evaluator.expired():
             return False
         if ended(rehearsal):
             return True
         count = min(task.batch, left)
-        finished = evaluator.finished(phase, step, count)
+        finished = evaluator.finished(phase, step, count, task.run)
         if finished is not None:
             thetas = dict(finished[-1].proposal["theta"])
         else:
@@ -139,12 +141,14 @@ def run_steps(
                 if rehearsal:
                     rehearsal.learn(known)
                 learner = Learner(space, learned_trials(space, known), rehearsal, thetas, refit)
-                proposals = proposer(learner, known, count, np.random.default_rng([task.seed, 2, step]))
+                proposals = proposer(
+                    learner, known, count, np.random.default_rng([task.seed, 2, RUN_SEED * task.run + step])
+                )
             thetas = learner.thetas
             notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
             if notes and learner.tried:
                 notes[0] |= {TRIED: [point.tolist() for point in learner.tried]}
-            evaluator.evaluate([proposal.variant for proposal in proposals], phase, step, proposals=notes)
+            evaluator.evaluate([proposal.variant for proposal in proposals], phase, step, proposals=notes, run=task.run)
             count = len(proposals)
         if count == 0:
             found = len(evaluator.trials) - start

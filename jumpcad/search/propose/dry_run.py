@@ -145,7 +145,7 @@ class Rehearsal:
         ours = (
             trial
             for trial in trials
-            if trial.phase == self._phase and trial.step > self._task.first_step and trial.key not in self._prior
+            if trial.position[:2] == (self._phase, self._task.run) and trial.step and trial.key not in self._prior
         )
         kept = (point for trial in ours for point in trial.proposal.get(TRIED, ()))
         points = (point for point in (*kept, *tried) if len(point) == self._space.dimension)

@@ -74,9 +74,9 @@ def run_genetic(evaluator: Evaluator, task: Task) -> None:
     operators = dict(settings.operators)
     if "mutation_num_genes" in operators:
         operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
-    score = Fitness(evaluator, "ga", task.evaluations, rejected=-2.0 * LARGEST, first_step=task.first_step)
+    score = Fitness(evaluator, "ga", task.evaluations, rejected=-2.0 * LARGEST, run=task.run)
     if task.screen:
-        score = ScreenedFitness(evaluator, "ga", task.evaluations, score.rejected, task.first_step)
+        score = ScreenedFitness(evaluator, "ga", task.evaluations, score.rejected, task.run)
     evolve(score, _first_population(evaluator, settings.population, task.seed), operators, task.seed)
 
 
@@ -86,12 +86,12 @@ class Fitness:
     Designs of a prior study have the score that it found, and are not evaluated again.
     """
 
-    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, rejected: Any, first_step: int = 0) -> None:
+    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, rejected: Any, run: int = 0) -> None:
         self.evaluator = evaluator
         self.phase = phase
         self.left = evaluations
         self.rejected = rejected
-        self.first_step = first_step
+        self.run = run
         self._idle = 0
         self._prior = {one.key: one for one in evaluator.prior if one.evaluation.verdict != SCREENED}
 
@@ -104,10 +104,10 @@ class Fitness:
         space = self.evaluator.space
         before = len(self.evaluator.trials)
         variants = [space.to_variant(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
-        step = self.first_step + int(ga.generations_completed)
+        step = int(ga.generations_completed)
         others = [one for one in variants if one.key not in self._prior]
         left_out = self.left_out(others)
-        found = self.evaluator.evaluate(others, self.phase, step, limit=self.left, left_out=left_out)
+        found = self.evaluator.evaluate(others, self.phase, step, limit=self.left, left_out=left_out, run=self.run)
         known = {**self._prior, **{one.key: trial for one, trial in zip(others, found, strict=True)}}
         trials = [known[one.key] for one in variants]
         new = len(self.evaluator.trials) - before

@@ -14,13 +14,13 @@ import numpy as np
 
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.fronts import energy_j
-from jumpcad.search.methods import METHODS, STEPS, Task
+from jumpcad.search.methods import Task
 from jumpcad.search.propose.bayesian import default_initial, run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, best_trial
 
-RUNS = METHODS["paper"].runs
+RUNS = 3
 """Runs of the genetic algorithm."""
 EXPLORED, EVOLVED = 0.15, 0.51
 """Shares of the evaluations for the random designs, and for all runs of the genetic algorithm; the three searches near
@@ -42,7 +42,7 @@ def run_paper(evaluator: Evaluator, task: Task) -> None:
     for run, seed in enumerate(seeds(task.seed)):
         before = len(evaluator.trials)
         share = int(EVOLVED * task.evaluations / RUNS)
-        run_genetic(evaluator, Task(share, seed, preset="published", first_step=run * STEPS))
+        run_genetic(evaluator, Task(share, seed, preset="published", run=run))
         found = best_trial(evaluator.trials[before:])
         best += [found] if found else []
     centre = max(best, key=_efficiency) if best else best_trial(evaluator.trials)
@@ -50,13 +50,11 @@ def run_paper(evaluator: Evaluator, task: Task) -> None:
         return
     for mode, (names, percent) in enumerate(((FEW, None), ((), NEAR_PERCENT), (LINKS, None))):
         left = task.evaluations - (len(evaluator.trials) - start)
-        share, first = left // (3 - mode), mode * STEPS
+        share = left // (3 - mode)
         with _inside(evaluator, space.near(centre.variant, names, percent)) as inner:
             if inner is not None and share > 0:
                 initial = default_initial(inner, share)
-                run_bayesian(
-                    evaluator, replace(task, evaluations=share, initial=initial, first_step=first), polls=False
-                )
+                run_bayesian(evaluator, replace(task, evaluations=share, initial=initial, run=mode), polls=False)
                 centre = best_trial([centre, *(one for one in evaluator.trials if inner.contains(one.variant))])
         assert centre is not None
 

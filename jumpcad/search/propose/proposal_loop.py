@@ -127,7 +127,7 @@ class Learner:
         if self._rehearsal is None or not self._rehearsal.guessing or self.tried:
             return
         found, last = _last_leap(self._trials), self._trials[-1]
-        if found is None or (found.phase, found.step) != (last.phase, last.step):
+        if found is None or found.position[:3] != last.position[:3]:
             return
         centre = self._space.to_unit(found.variant)
         numbers = np.eye(self._space.dimension)[np.array(self._space.categories) == 0]

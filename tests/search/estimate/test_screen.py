@@ -25,7 +25,7 @@ from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import Trial, best_trial
 from jumpcad.search.variant import Key, Variant
 from jumpcad.settings import load_settings

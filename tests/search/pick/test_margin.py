@@ -141,7 +141,7 @@ def test_for_each_confidence_another_design_is_proposed(evaluator, monkeypatch):
     found = propose_robust(one, trials, 3, 0, 0.01)
     assert len(known) == 1
     assert [trial.design for trial in found] == [SMALL.to_design(point) for point in points[1:4]]
-    assert [(trial.phase, trial.step, trial.place) for trial in found] == [("margin", 3, place) for place in range(3)]
+    assert [(trial.phase, trial.run, trial.place) for trial in found] == [("margin", 3, place) for place in range(3)]
     assert [trial.proposal["log_feasible"] for trial in found] == [-2.0] * 3
     assert "theta" in found[0].proposal
     best = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: -trial.score)[:4]

@@ -255,11 +255,13 @@ def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as
         return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0 - n) for n, point in enumerate(points)]
 
     one = evaluator()
-    assert run_steps(one, "bo", Task(11, 6, initial=4, batch=3, first_step=50), proposer) is False
+    assert run_steps(one, "bo", Task(11, 6, initial=4, batch=3, run=5), proposer) is False
     assert [(trials, count) for trials, count, _ in asked] == [(4, 3), (7, 3), (10, 1)]
-    assert [drawn for *_, drawn in asked] == [np.random.default_rng([6, 2, step]).random() for step in (51, 52, 53)]
-    places = [(trial.step, trial.place) for trial in one.trials]
-    assert places == [(50, n) for n in range(4)] + [(51, n) for n in range(3)] + [(52, n) for n in range(3)] + [(53, 0)]
+    assert [drawn for *_, drawn in asked] == [
+        np.random.default_rng([6, 2, step]).random() for step in (5_000_001, 5_000_002, 5_000_003)
+    ]
+    places = [(trial.run, trial.step, trial.place) for trial in one.trials]
+    assert places == [(5, step, n) for step, count in enumerate((4, 3, 3, 1)) for n in range(count)]
     notes = [dict(trial.proposal) for trial in one.trials]
     assert notes[:4] == [{}] * 4
     theta = {"theta": {"score": [0.1] * 5}}
@@ -277,7 +279,7 @@ def test_what_was_evaluated_before_a_stage_costs_it_nothing(evaluator):
 
     one = evaluator()
     one.evaluate([SMALL.to_design([0.9, 0.1 * n, 0.5]) for n in range(6)], "ga", 0)
-    assert run_steps(one, "bo", Task(10, 0, initial=3, batch=4, first_step=20), proposer) is False
+    assert run_steps(one, "bo", Task(10, 0, initial=3, batch=4, run=2), proposer) is False
     assert [trial.phase for trial in one.trials] == ["ga"] * 6 + ["bo"] * 10
 
 

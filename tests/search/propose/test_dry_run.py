@@ -25,7 +25,7 @@ from jumpcad.search.propose.local_search import STALLED, Progress
 from jumpcad.search.propose.proposal_loop import Learner
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
 from jumpcad.simulation import simulate
@@ -159,7 +159,7 @@ def test_figures_are_fitted_around_the_best_robot(trials, monkeypatch):
 
 
 def test_what_other_searches_tried_is_not_looked_at(trials, learned):
-    for other in (rehearsal_of(phase="pareto"), rehearsal_of(task=replace(TASK, first_step=1000))):
+    for other in (rehearsal_of(phase="pareto"), rehearsal_of(task=replace(TASK, run=1))):
         other.learn(trials)
         assert len(other.guesses(trials, [])) < len(learned.guesses(trials, []))
 

@@ -165,7 +165,7 @@ def test_a_search_with_a_screen_begins_at_its_own_step(monkeypatch):
     monkeypatch.setattr("jumpcad.search.estimate.screen.Screen", lambda *given: given)
     evaluator = SimpleNamespace(model=robot_model(), space="space", objective="objective", prior=[])
     fitness = ScreenedFitness(evaluator, "ga", 9, -2.0, 40)
-    assert (fitness.phase, fitness.left, fitness.rejected, fitness.first_step) == ("ga", 9, -2.0, 40)
+    assert (fitness.phase, fitness.left, fitness.rejected, fitness.run) == ("ga", 9, -2.0, 40)
 
 
 @pytest.mark.parametrize("batteries", ["lipo-2s-180,lipo-1s-300", "lipo-1s-300"])
@@ -189,13 +189,13 @@ def test_names_have_no_order_for_the_genetic_algorithm_however_few_they_are(monk
 def test_a_population_has_the_scores_of_its_designs_in_their_order(evaluator):
     """What is rejected, or beyond the evaluations, has the same fitness; steps are counted on from the first."""
     one = evaluator()
-    fitness = Fitness(one, "ga", 3, rejected=-5.0, first_step=40)
+    fitness = Fitness(one, "ga", 3, rejected=-5.0, run=40)
     points = [[0.5, 0.5, 0.5], [1.0, 0.5, 0.5], [0.2, 0.5, 0.5], [0.3, 0.5, 0.5]]
     found = fitness(SimpleNamespace(generations_completed=2), points, None)
     exact = [Hill()(SMALL.to_design(point)).metrics.get("fitness") for point in points]
     assert found == [exact[0], -5.0, exact[2], -5.0]
     assert exact[1] is None
-    assert [(trial.phase, trial.step, trial.place) for trial in one.trials] == [("ga", 42, n) for n in range(3)]
+    assert [trial.position for trial in one.trials] == [("ga", 40, 2, n) for n in range(3)]
     assert fitness.left == 0
     assert fitness.on_generation(None) == "stop"
 

@@ -8,15 +8,15 @@ from support.pictures import with_plain_figures
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.methods import STEPS, Task
+from jumpcad.search.methods import Task
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
 from jumpcad.search.propose import paper
 from jumpcad.search.propose.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
-from jumpcad.search.study import run_study
+from jumpcad.search.study.run import run_study
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study_plots import plot_study
 from jumpcad.search.trial import Trial
 
@@ -35,10 +35,10 @@ def test_each_stage_moves_what_it_should(searched):
     space, trials = Space.default(), searched.trials
     assert len(trials) <= 140
     assert searched.space == space
-    assert {trial.step // STEPS for trial in trials if trial.phase == "ga"} == set(range(RUNS))
+    assert {trial.run for trial in trials if trial.phase == "ga"} == set(range(RUNS))
 
     def moved(mode):
-        some = [trial for trial in trials if trial.phase == "bo" and trial.step // STEPS == mode]
+        some = [trial for trial in trials if trial.phase == "bo" and trial.run == mode]
         return some, {name for name in PARAMETERS if len({getattr(t.design, name) for t in some}) > 1}
 
     few, names = moved(0)
@@ -71,8 +71,8 @@ def test_the_sample_follows_from_the_seed(evaluator, monkeypatch):
 
 def test_every_run_begins_with_designs_of_its_own(searched):
     """Ten each, of the published preset; the same ones would be evaluated once."""
-    first = [trial for trial in searched.trials if trial.phase == "ga" and trial.step % STEPS == 0]
-    assert [sum(trial.step == run * STEPS for trial in first) for run in range(RUNS)] == [10] * RUNS
+    first = [trial for trial in searched.trials if trial.phase == "ga" and trial.step == 0]
+    assert [sum(trial.run == run for trial in first) for run in range(RUNS)] == [10] * RUNS
 
 
 def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(searched, evaluator, monkeypatch):
@@ -88,7 +88,7 @@ def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(sea
 def test_it_takes_the_largest_seed(evaluator):
     one = evaluator(space=Space.default())
     run_paper(one, Task(40, 2**32 - 1))
-    assert {trial.step // STEPS for trial in one.trials if trial.phase == "ga"} == set(range(RUNS))
+    assert {trial.run for trial in one.trials if trial.phase == "ga"} == set(range(RUNS))
 
 
 def test_it_resumes_and_its_study_is_read(tmp_path, monkeypatch):
@@ -158,20 +158,20 @@ def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_wh
 
     def genetic(one, task):
         runs.append(task)
-        one.evaluate([designs[len(runs) - 1]], "ga", task.first_step)
+        one.evaluate([designs[len(runs) - 1]], "ga", 0, run=task.run)
 
     def bayesian(one, task, polls):
         spaces.append(one.space)
         tasks.append(task)
         if len(spaces) == 2:
-            one.evaluate([better], "bo", task.first_step)
+            one.evaluate([better], "bo", 0, run=task.run)
 
     monkeypatch.setattr(paper, "run_genetic", genetic)
     monkeypatch.setattr(paper, "run_bayesian", bayesian)
     one = evaluator(space=Space.default())
     run_paper(one, Task(100, 9))
-    assert [(task.evaluations, task.seed, task.first_step, task.preset) for task in runs] == [
-        (17, seed, run * STEPS, "published") for run, seed in enumerate(seeds(9))
+    assert [(task.evaluations, task.seed, task.run, task.preset) for task in runs] == [
+        (17, seed, run, "published") for run, seed in enumerate(seeds(9))
     ]
     scores = [trial.score for trial in one.trials if trial.phase == "ga"]
     energies = [design.spring_energy_j for design in designs]
@@ -190,4 +190,4 @@ def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_wh
     held = {one.name: one.lower for one in spaces[2].parameters if not one.free}
     assert held == {name: getattr(better, name) for name in held}
     # 100 less the sample of 15 and three designs: a third, then halves of what is left
-    assert [(task.evaluations, task.first_step) for task in tasks] == [(27, 0), (41, STEPS), (81, 2 * STEPS)]
+    assert [(task.evaluations, task.run) for task in tasks] == [(27, 0), (41, 1), (81, 2)]

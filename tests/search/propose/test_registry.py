@@ -6,17 +6,25 @@ import typer
 from support.hills import SMALL, Hill
 
 from jumpcad.cli import optimize
-from jumpcad.search import methods, request
-from jumpcad.search.methods import FRONTS, METHODS, NAMES, SEQUENCES, Method, Task
+from jumpcad.search import request
+from jumpcad.search.methods import Task, run_method
+from jumpcad.search.phases import (
+    FRONTS,
+    LEARNING_PHASES,
+    METHODS,
+    NAMES,
+    PHASES,
+    SEQUENCES,
+    Method,
+)
 from jumpcad.search.request import Request, Stage, plan_stages
 from jumpcad.search.space import Space
-from jumpcad.search.trial import LEARNING_PHASES, PHASES
 
 
 @pytest.mark.parametrize("name", [name for name in METHODS if name != "paper"])  # it runs others
 def test_every_method_spends_its_evaluations_in_a_phase_of_its_name(evaluator, name):
     one = evaluator()
-    assert METHODS[name].run(one, Task(12, seed=0, initial=4, batch=2)) is False  # it did not end early
+    assert run_method(name, one, Task(12, seed=0, initial=4, batch=2)) is False  # it did not end early
     assert len(one.trials) == 12
     assert {trial.phase for trial in one.trials} == {name}
     learned = [trial for trial in one.trials if "theta" in trial.proposal]
@@ -28,7 +36,7 @@ def test_the_first_designs_follow_from_the_seed(evaluator, name):
     runs = []
     for seed in (0, 0, 1):
         one = evaluator()
-        METHODS[name].run(one, Task(4, seed=seed, initial=4))
+        run_method(name, one, Task(4, seed=seed, initial=4))
         runs.append([trial.key for trial in one.trials])
     assert runs[0] == runs[1]
     assert not set(runs[1]) & set(runs[2])
@@ -42,7 +50,7 @@ def test_generations_follow_from_the_seed(evaluator, monkeypatch, name):
     runs = []
     for seed in (0, 0, 1):
         one = evaluator()
-        METHODS[name].run(one, Task(60, seed=seed))
+        run_method(name, one, Task(60, seed=seed))
         steps = [[trial.key for trial in one.trials if (trial.step == 0) == first] for first in (True, False)]
         runs.append(steps)
     assert runs[0] == runs[1]
@@ -58,7 +66,7 @@ def test_proposals_follow_from_the_seed(evaluator, name):
     for seed in (0, 0, 1):
         one = evaluator()
         one.evaluate([SMALL.to_variant(point) for point in points], "sample", 0)
-        METHODS[name].run(one, Task(3, seed=seed))
+        run_method(name, one, Task(3, seed=seed))
         runs.append([trial.key for trial in one.trials[8:]])
     assert len(runs[0]) == 3
     assert runs[0] == runs[1] != runs[2]
@@ -83,9 +91,9 @@ def test_a_new_method_needs_one_line(evaluator, monkeypatch):
         one.evaluate([one.space.to_design(point) for point in points], "sample", 0)
 
     monkeypatch.setattr("jumpcad.search.propose.genetic.run_random", run_random, raising=False)
-    monkeypatch.setitem(methods.METHODS, "random", Method("random", "genetic.run_random", "uniformly random designs"))
+    monkeypatch.setitem(METHODS, "random", Method("random", "genetic.run_random", "uniformly random designs"))
     monkeypatch.setattr(request, "NAMES", (*NAMES, "random"))
     assert plan_stages(Request(SMALL, Hill(), method="random", evaluations=9)) == [Stage("random", 9)]
     one = evaluator()
-    METHODS["random"].run(one, Task(9, seed=1))
+    run_method("random", one, Task(9, seed=1))
     assert len(one.trials) == 9

@@ -15,13 +15,15 @@ from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.fronts import front
-from jumpcad.search.methods import METHODS, Task
-from jumpcad.search.pick.robust import MOST_PICK, active_bounds, rank_candidates
+from jumpcad.search.methods import Task, run_method
+from jumpcad.search.phases import METHODS, SEARCH_PHASES
+from jumpcad.search.pick.robust import active_bounds, rank_candidates
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
-from jumpcad.search.store import ENDED, StudyStore, difference
-from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
+from jumpcad.search.study.picks import keep_pick, pick_run
+from jumpcad.search.study.store import ENDED, StudyStore, difference
+from jumpcad.search.trial import Trial, best_trial, count_rejections
 from jumpcad.search.versions import versions
 
 FIRST = 50
@@ -136,7 +138,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                     stage.evaluations, request.seed, stage.initial, request.batch,
                     request.preset, least_gain, 0, request.screen, request.against,
                 )  # fmt: skip
-                converged = METHODS[stage.method].run(evaluator, task)
+                converged = run_method(stage.method, evaluator, task)
         trials = evaluator.trials
         timed = []
         if clock.is_over(request.pick) and not converged and evaluator.spent < request.searched:
@@ -145,15 +147,17 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         picking = True
         best = best_trial(trials)
         candidates, bounds = [], []
-        if request.pick and best is not None and request.is_front:
-            among = front(trials, request.cost)
-            candidates = rank_candidates(evaluator, trials, request.seed, request.making, request.pick, among)
-        elif request.pick and best is not None:
-            share = request.pick - min(request.space.dimension, request.pick // 4)
-            candidates = rank_candidates(evaluator, trials, request.seed, request.making, share)
-        if candidates and not request.is_front:
-            left = request.pick - (len(evaluator.trials) - len(trials))
-            bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
+        if request.pick and best is not None:
+            run, among, share = pick_run(store, len(trials), request.pick), None, request.pick
+            if request.is_front:
+                among = front(trials, request.cost)
+            else:
+                share -= min(request.space.dimension, request.pick // 4)
+            candidates = rank_candidates(evaluator, trials, request.seed, request.making, share, among, run)
+            if candidates and not request.is_front:
+                left = request.pick - (len(evaluator.trials) - len(trials))
+                bounds = active_bounds(evaluator, candidates[0].trial, left, run)
+            keep_pick(store, run, candidates, bounds)
         if cut and not timed:
             timed = [f"ended after {request.hours:g} h, during the robust pick: the same command goes on"]
         store.remember(ENDED, _end(request, evaluator.spent, len(trials), converged, bool(timed)))
@@ -170,11 +174,6 @@ def _end(request: Request, spent: int, designs: int, converged: bool, timed: boo
     if designs >= request.space.size:
         return {"by": "space"}
     return {"by": "evaluations" if spent >= request.searched else "proposals"}
-
-
-def _bounds_step(request: Request, trials: list[Trial]) -> int:
-    """Return a step of its own for every length of the search and of the pick."""
-    return (MOST_PICK + 1) * len(trials) + request.pick
 
 
 def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:

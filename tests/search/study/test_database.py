@@ -13,16 +13,16 @@ import pytest
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search import database
-from jumpcad.search.database import is_written, lock, plain_errors, require_study
-from jumpcad.search.store import StudyStore
+from jumpcad.search.study import database
+from jumpcad.search.study.database import is_written, lock, plain_errors, require_study
+from jumpcad.search.study.store import StudyStore
 
 
 def test_one_writer_at_a_time(tmp_path):
     with StudyStore.write(tmp_path / "s.db", IDENTITY):
         code = textwrap.dedent(f"""
             from pathlib import Path
-            from jumpcad.search.store import StudyStore
+            from jumpcad.search.study.store import StudyStore
             StudyStore.write(Path({str(tmp_path / "s.db")!r}), {IDENTITY})
         """)
         other = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
@@ -32,7 +32,7 @@ def test_one_writer_at_a_time(tmp_path):
 
 def test_locked_by_another_program(tmp_path, monkeypatch):
     StudyStore.write(tmp_path / "s.db", IDENTITY).close()
-    monkeypatch.setattr("jumpcad.search.database.PATIENCE_S", 0.1)
+    monkeypatch.setattr("jumpcad.search.study.database.PATIENCE_S", 0.1)
     other = sqlite3.connect(tmp_path / "s.db", isolation_level=None)
     other.execute("BEGIN EXCLUSIVE")
     with (

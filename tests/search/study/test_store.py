@@ -1,7 +1,5 @@
 """The study file: complete, readable while it is written, and never mistaken for another."""
 
-import contextlib
-import json
 import os
 import random
 import signal
@@ -16,10 +14,9 @@ from support.places import TESTS
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.database import connect
-from jumpcad.search.rows import APPLICATION_ID, COLUMNS, FORMATS, own_tables, to_row
 from jumpcad.search.space import Space
-from jumpcad.search.store import ENDED, MOST_NOTES, StudyStore, difference
+from jumpcad.search.study.database import connect
+from jumpcad.search.study.store import ENDED, FORMAT, MOST_NOTES, StudyStore, difference
 
 
 def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
@@ -31,17 +28,6 @@ def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
         assert store.trials() == [*second, *first]
         assert store.identity == IDENTITY
     assert os.listdir(tmp_path) == ["s.db"]
-
-
-@pytest.mark.parametrize("score", [0.0, -2.5, None])
-def test_a_score_of_nothing_is_not_the_score_of_a_rejected_design(tmp_path, score):
-    """An own objective may give 0, or less: such a design is scored, one that is rejected is not."""
-    (trial,) = trials(1)
-    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
-        store.append([replace(trial, score=score)])
-        (read,) = store.trials()
-    assert read.score == score
-    assert (read.score is None) == (score is None)
 
 
 def test_one_failing_row_undoes_its_batch(tmp_path):
@@ -80,11 +66,11 @@ def test_killed_writer_leaves_whole_batches(tmp_path):
         sys.path.insert(0, {str(TESTS)!r})
         from pathlib import Path
         from support.studies import trials, IDENTITY
-        from jumpcad.search.store import StudyStore
+        from jumpcad.search.study.store import StudyStore
         store = StudyStore.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
         store.append(trials(7))
         store._connection.execute("BEGIN")
-        store._connection.execute("DELETE FROM evaluations")
+        store._connection.execute("DELETE FROM trials")
         os.kill(os.getpid(), signal.SIGKILL)
     """)
     done = subprocess.run([sys.executable, "-c", code])
@@ -100,7 +86,7 @@ def test_full_disk_is_one_line_and_keeps_what_was_there(tmp_path):
         from pathlib import Path
         from support.studies import trials, IDENTITY
         from jumpcad.errors import JumpcadError
-        from jumpcad.search.store import StudyStore
+        from jumpcad.search.study.store import StudyStore
         store = StudyStore.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
         store.append(trials(3))
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -144,13 +130,6 @@ def test_damaged_study(tmp_path):
         StudyStore.read(tmp_path / "s.db")
 
 
-def test_study_of_another_format(tmp_path):
-    StudyStore.write(tmp_path / "s.db", IDENTITY).close()
-    sqlite3.connect(tmp_path / "s.db", isolation_level=None).execute("PRAGMA user_version = 99")
-    with pytest.raises(JumpcadError, match="format 99"):
-        StudyStore.read(tmp_path / "s.db")
-
-
 def edited(path, *statements):
     """Make a study of trials of two phases, then change it as another program would."""
     with StudyStore.write(path, IDENTITY) as store:
@@ -171,71 +150,29 @@ def read_all(path):
         return store.trials(), store.recall("stages"), store.notes()
 
 
-@pytest.mark.parametrize(
-    ("column", "value", "reason"),
-    [
-        ("phase", "'x'", r"row 'x' 0 2: phase = 'x' is none of sample, sweep, ga, bo"),
-        ("phase", "x'ff'", r"row '\\xff' 0 2: phase = b'\\xff' is not text"),
-        ("step", "'one'", r"step = 'one' is not a whole number"),
-        ("place", "-1", r"place = -1 is not a whole number of at least 0"),
-        ("c_coef", "'x'", r"row 'ga' 0 2: c_coef = 'x': must be a valid number"),
-        ("c_coef", "9e9", r"c_coef = 9000000000.0: must be at most 3"),
-        ("verdict", "char(27) || '[31m'", r"'\\x1b\[31m' is not the name of a verdict"),
-        ("score", "'x'", r"score = 'x' is not a plausible number"),
-        ("score", "9e999", r"score = inf is not a plausible number"),
-        ("metrics", "'{\"fitness\": NaN}'", r"fitness = nan is not a plausible figure"),
-        ("metrics", '\'{"fitness": "x"}\'', r"metrics.fitness: Input should be a valid number"),
-        ("metrics", "'{'", r"metrics: Invalid JSON"),
-        ("metrics", "'[]'", r"metrics: Input should be an object"),
-        ("metrics", "x'7b22ff223a317d'", r"row 'ga' 0 2: metrics: Invalid JSON"),
-        ("findings", "'[{\"name\": 1}]'", r"findings.0.name: Input should be a valid string"),
-        ("findings", "replace(findings, 'unit', 'init')", r"findings.0.(unit|init): "),
-        ("findings", "replace(findings, 'info', 'fine')", r"findings.0.severity: Input should be 'info'"),
-        ("findings", "replace(findings, 'loop', '=1+1')", r"'=1\+1' is not the name of a verdict, a finding"),
-        ("proposal", '\'{"theta": {"score": [1.0]}}\'', r"proposal.theta: must be lists of at most 9 hyperparameters"),
-        ("proposal", "'{\"tried\": [[0.5, 2.0]]}'", r"proposal.tried"),
-        ("proposal", "'{\"tried\": [[]]}'", r"proposal.tried: must be lists of at most 7 coordinates"),
-        ("proposal", "'{\"log_improvement\": [[0.5]]}'", r"proposal: must be numbers, besides theta and tried"),
-        ("proposal", "'5'", r"proposal: Input should be an object"),
-        ("duration_s", "'x'", r"duration_s = 'x' is not a plausible number"),
-    ],
-)
-def test_a_damaged_row_is_named(tmp_path, column, value, reason):
-    where = "phase = 'ga' AND place = 2"
-    path = edited(tmp_path / "s.db", f"UPDATE evaluations SET {column} = {value} WHERE {where}")
-    with pytest.raises(JumpcadError, match=rf"s.db: is damaged: .*{reason}") as caught:
-        read_all(path)
-    assert str(caught.value).isprintable()
-    with pytest.raises(JumpcadError, match="is damaged"), StudyStore.write(path, IDENTITY) as store:
-        store.trials()
-
-
-@pytest.mark.parametrize(
-    ("statement", "reason"),
-    [
+def test_a_study_that_another_program_changed_is_refused_in_a_line(tmp_path):
+    where = "WHERE phase = 'ga' AND place = 2"
+    endless = "WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n FROM r) SELECT n FROM r"
+    for statement, reason in (
+        (f"UPDATE trials SET phase = 'x' {where}", "row 'x' 0 0 2: phase: is none of sample, sweep, ga, bo"),
+        (f"UPDATE trials SET phase = CAST(x'ff' AS TEXT) {where}", "is damaged"),
+        (f"UPDATE trials SET record = '{{' {where}", "row 'ga' 0 0 2: record: Invalid JSON"),
+        (f"UPDATE trials SET record = CAST(x'7bff' AS TEXT) {where}", "is damaged"),
+        ("UPDATE trials SET record = replace(record, '\"jump\"', 'char(27)')", "record: Invalid JSON"),
+        (f"UPDATE trials SET phase = x'6761', place = 1 {where}", "row b'ga' 0 0 1: phase"),  # a key of its own
         ("DELETE FROM study WHERE key = 'identity'", "identity"),
-        ("UPDATE study SET value = '[]' WHERE key = 'identity'", "identity"),
-        ("UPDATE study SET value = replace(value, 'objective', 'x') WHERE key = 'identity'", "identity.objective"),
-        ("UPDATE study SET value = replace(value, 'd_coef', 'x') WHERE key = 'identity'", "must have all eight"),
-        ("UPDATE study SET value = '{' WHERE key = 'stages'", "its stages cannot be read"),
-        ("UPDATE study SET value = '[]' WHERE key = 'stages'", "stages: List should have at least 1"),
-        ("UPDATE study SET value = replace(value, 'ga', 'zz') WHERE key = 'stages'", r"stages.0.method"),
-        ("INSERT INTO study VALUES ('ended', '{\"by\": \"boredom\"}')", r"ended.by: Input should be 'evaluations'"),
-        ("INSERT INTO study VALUES ('ended', '0')", "ended: Input should be"),
-        (
-            "CREATE VIEW endless AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n FROM r) SELECT n FROM r",
-            "tables",
-        ),
-        ("CREATE TRIGGER t AFTER INSERT ON notes BEGIN DELETE FROM evaluations; END", "unknown tables"),
-        ("ALTER TABLE evaluations RENAME COLUMN metrics TO m", "unknown tables"),
+        ("UPDATE study SET value = '{' WHERE key = 'stages'", "stages: Invalid JSON"),
+        ("INSERT INTO study VALUES ('ended', x'ff')", "ended: Invalid JSON"),
+        (f"CREATE VIEW endless AS {endless}", "tables"),
+        ("CREATE TRIGGER t AFTER INSERT ON notes BEGIN DELETE FROM trials; END", "unknown tables"),
+        ("ALTER TABLE trials RENAME COLUMN record TO r", "unknown tables"),
         ("DROP TABLE notes", "unknown tables"),
-    ],
-)
-def test_a_study_that_another_program_changed(tmp_path, statement, reason):
-    path = edited(tmp_path / "s.db", statement)
-    with pytest.raises(JumpcadError, match=reason) as caught:
-        read_all(path)
-    assert str(caught.value).isprintable()
+    ):
+        path = edited(tmp_path / "s.db", statement)
+        with pytest.raises(JumpcadError, match=reason) as caught:
+            read_all(path)
+        assert str(caught.value).isprintable(), statement
+        path.unlink()
 
 
 def test_what_is_noted_once_stands_there_once(tmp_path):
@@ -296,41 +233,13 @@ def test_a_study_in_a_folder_that_may_not_be_written_to(tmp_path):
     assert os.listdir(tmp_path) == ["s.db"]
 
 
-@pytest.mark.parametrize("number", [0, -1, max(FORMATS) + 1])
-def test_only_formats_that_there_were_are_read(tmp_path, number):
-    path = edited(tmp_path / "s.db", f"PRAGMA user_version = {number}")
-    for open_it in (StudyStore.read, lambda file: StudyStore.write(file, IDENTITY)):
-        with pytest.raises(JumpcadError, match=f"format {number}; this version of jumpcad reads 1 to {max(FORMATS)}"):
-            open_it(path)
-
-
-@pytest.mark.parametrize("version", [1, 2, 3])
-def test_a_study_of_an_earlier_format_is_read(tmp_path, version):
-    """Its rows have the names of their figures; from the third they have values of the workshop."""
-    path, (trial,) = tmp_path / "s.db", trials(1)
-    trial = replace(trial, evaluation=replace(trial.evaluation, findings=()))
-    names = [*COLUMNS]
-    values = dict(zip(COLUMNS, to_row(trial, lambda _: 1), strict=True))
-    values |= {"metrics": json.dumps(dict(trial.evaluation.metrics)), "findings": "[]"}
-    identity, held = IDENTITY, {}
-    if version < 3:
-        names.remove("workshop")
-    else:
-        held = {"body.plate_mm": 2.0}
-        identity = IDENTITY | {"space": IDENTITY["space"] | {"body.plate_mm": {"lower": 1.6, "upper": 2.4}}}
-        values["workshop"] = json.dumps(held)
-    with contextlib.closing(sqlite3.connect(path)) as made:
-        for _, _, text in own_tables(version):
-            if text is not None:
-                made.execute(text)
-        made.execute(f"PRAGMA user_version = {version}")
-        made.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-        made.execute("INSERT INTO study VALUES ('identity', ?)", (json.dumps(identity),))
-        marks = ", ".join("?" for _ in names)
-        made.execute(f"INSERT INTO evaluations ({', '.join(names)}) VALUES ({marks})", [values[name] for name in names])
-        made.commit()
-    with StudyStore.read(path) as store:
-        assert store.trials() == [replace(trial, workshop=held)]
+def test_a_study_of_another_format_is_refused(tmp_path):
+    for number in (0, FORMAT - 1, FORMAT + 1):
+        path = edited(tmp_path / "s.db", f"PRAGMA user_version = {number}")
+        for open_it in (StudyStore.read, lambda file: StudyStore.write(file, IDENTITY)):
+            with pytest.raises(JumpcadError, match=f"of format {number}; this version of jumpcad reads format"):
+                open_it(path)
+        path.unlink()
 
 
 def test_a_file_that_was_made_for_a_wrong_request_is_gone_again_unless_it_holds_an_evaluation(tmp_path):
@@ -371,18 +280,15 @@ def test_progress_counts_phases_and_has_the_best_of_what_the_search_proposed(tmp
         assert store.progress() == ({"ga": 6, "robust": 3}, 5.0)
 
 
-@pytest.mark.parametrize(
-    ("there", "here", "said"),
-    [
+def test_the_first_difference_of_two_studies_is_named():
+    for there, here, said in (
         ({"a": 1, "b": {"c": 2}}, {"a": 1, "b": {"c": 2}}, ""), ({"a": 1}, {"a": 2}, "a: 1 there, 2 here"),
         ({"a": {"b": 1, "c": 2}}, {"a": {"b": 1, "c": 3}}, "a.c: 2 there, 3 here"),
         ({"a": 1, "b": 2}, {"a": 1}, "b: 2 there, null here"), ({}, {"b": [1]}, "b: null there, [1] here"),
         ({"x": 1, "y": 2}, {"x": 3, "y": 4}, "x: 1 there, 3 here"),
         ({"a": {"b": 1}}, {"a": 1}, 'a: {"b": 1} there, 1 here'),
-    ],
-)  # fmt: skip
-def test_the_first_difference_of_two_studies_is_named(there, here, said):
-    assert difference(there, here) == said
+    ):  # fmt: skip
+        assert difference(there, here) == said
 
 
 def test_of_very_many_notes_the_newest_are_read_in_their_order(tmp_path):
@@ -409,8 +315,7 @@ def test_what_is_remembered_is_recalled_and_replaced():
 
 
 def test_an_apostrophe_is_no_end_of_an_identity(tmp_path):
-    """A file of an own objective may have one in its name."""
-    identity = IDENTITY | {"objective": "it's", "note": "''); DROP TABLE evaluations; --"}
+    identity = IDENTITY | {"note": "it's ''); DROP TABLE trials; --"}
     for _ in range(2):
         with StudyStore.write(tmp_path / "s.db", identity) as store:
             assert store.identity == identity
@@ -422,7 +327,7 @@ def test_a_study_for_which_there_is_no_space_or_that_cannot_be_opened_leaves_no_
         connection.execute("PRAGMA max_page_count = 1")
         return connection
 
-    monkeypatch.setattr("jumpcad.search.store.connect", full)
+    monkeypatch.setattr("jumpcad.search.study.store.connect", full)
     with pytest.raises(JumpcadError, match="disk is full"):
         StudyStore.write(tmp_path / "s.db", {})
     assert list(tmp_path.iterdir()) == []
@@ -434,29 +339,29 @@ def test_a_study_for_which_there_is_no_space_or_that_cannot_be_opened_leaves_no_
     def closed(_):
         raise sqlite3.OperationalError("unable to open database file")
 
-    monkeypatch.setattr("jumpcad.search.store.connect", closed)
+    monkeypatch.setattr("jumpcad.search.study.store.connect", closed)
     for name, left in (("s.db", False), ("mine.db", True)):
         with pytest.raises(JumpcadError, match="unable to open"):
             StudyStore.write(tmp_path / name, {})
         assert (tmp_path / name).exists() == left
 
 
-@pytest.mark.parametrize(("there", "here"), [({}, "mass"), ({"against": "mass"}, "rise"), ({"against": "mass"}, None)])
-def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path, there, here):
-    """One that names no figure was made when all were against the energy in the springs."""
-    path = tmp_path / "front.db"
-    StudyStore.write(path, IDENTITY | there).close()
-    mine = {"against": here} if here else {}
-    named, asked = there.get("against", "spring-energy"), here or "spring-energy"
-    words = f"holds a front against {named}, not {asked}: say --against {named}, or name another file$"
-    with pytest.raises(JumpcadError, match=words):
-        StudyStore.write(path, IDENTITY | mine)
+def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path):
+    """One that names no figure is against the energy in the springs."""
+    for number, (there, here) in enumerate((({}, "mass"), ({"against": "mass"}, "rise"), ({"against": "mass"}, None))):
+        path = tmp_path / f"{number}.db"
+        StudyStore.write(path, IDENTITY | there).close()
+        mine = {"against": here} if here else {}
+        named, asked = there.get("against", "spring-energy"), here or "spring-energy"
+        words = f"holds a front against {named}, not {asked}: say --against {named}, or name another file$"
+        with pytest.raises(JumpcadError, match=words):
+            StudyStore.write(path, IDENTITY | mine)
 
 
 def test_a_file_of_which_it_cannot_be_read_whether_it_is_empty_is_not_removed(tmp_path, monkeypatch):
     """Neither when it is made nor when its request turns out wrong."""
     store = StudyStore.write(tmp_path / "a.db", IDENTITY)
-    store._connection.execute("DROP TABLE evaluations")
+    store._connection.execute("DROP TABLE trials")
     store.__exit__(JumpcadError, JumpcadError("wrong"), None)
     assert (tmp_path / "a.db").exists()
 
@@ -467,7 +372,7 @@ def test_a_file_of_which_it_cannot_be_read_whether_it_is_empty_is_not_removed(tm
         def close(self):
             pass
 
-    monkeypatch.setattr("jumpcad.search.store.connect", lambda _: Unreadable())
+    monkeypatch.setattr("jumpcad.search.study.store.connect", lambda _: Unreadable())
     with pytest.raises(JumpcadError, match="unreadable"):
         StudyStore.write(tmp_path / "b.db", IDENTITY)
     assert (tmp_path / "b.db").exists()
@@ -491,10 +396,3 @@ def test_a_study_of_another_program_says_how_one_goes_on(tmp_path):
     assert '(versions.numpy: "1.26.4" there, "2.1.0" here)' in str(caught.value)
     with pytest.raises(JumpcadError, match=r"holds another study \(seed: 1 there, 2 here\)"):
         StudyStore.write(path, ours | {"seed": 2})
-
-
-def test_two_designs_in_one_place_are_damage(tmp_path):
-    """To SQLite a text and its bytes are two keys."""
-    moved = "UPDATE evaluations SET phase = x'6761', place = 1 WHERE phase = 'ga' AND place = 2"
-    with pytest.raises(JumpcadError, match="is damaged: two rows ga 0 1"):
-        read_all(edited(tmp_path / "s.db", moved))

@@ -15,16 +15,16 @@ from support.places import TESTS
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search import study
-from jumpcad.search.methods import Method, Task
+from jumpcad.search.methods import Task
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.local_search import gains
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
-from jumpcad.search.study import _read_prior, run_study
+from jumpcad.search.study import run as study
+from jumpcad.search.study.run import _read_prior, run_study
+from jumpcad.search.study.store import StudyStore
 from jumpcad.search.trial import Trial
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4, until_percent=0.0)
@@ -79,7 +79,7 @@ def test_a_search_that_ended_by_itself_was_not_cut_off(monkeypatch, converged):
         return converged
 
     monkeypatch.setattr(study.Clock, "is_over", lambda self, following=0: bool(over))
-    monkeypatch.setattr(study, "METHODS", {"bo": SimpleNamespace(ends=True, run=search)})
+    monkeypatch.setattr(study, "run_method", lambda _, *given: search(*given))
     result = run(replace(REQUEST, method="bo", hours=2.0))
     assert result.converged == converged
     where = "during the robust pick" if converged else f"before {REQUEST.searched} designs"
@@ -338,7 +338,7 @@ def test_a_timed_pick_looks_at_the_clock_after_four_evaluations_for_each_worker(
     def search(evaluator, task):
         evaluator.evaluate([low.to_design([0.5, 0.5, place]) for place in (0.1, 0.5, 0.9)], "bo", 0)
 
-    monkeypatch.setattr(study, "METHODS", {"bo": SimpleNamespace(ends=True, run=search)})
+    monkeypatch.setattr(study, "run_method", lambda _, *given: search(*given))
     parts = {0.0: [], 1.0: []}
     for hours, seen in parts.items():
         with local_pool(0) as pool:
@@ -505,17 +505,9 @@ def test_wrong_requests(change, message):
 def test_a_pick_leaves_a_quarter_for_bounds_or_one_evaluation_a_parameter(monkeypatch, evaluations, kept):
     """Of 60 evaluations eight for the eight parameters, of 20 five."""
     shares = []
-    monkeypatch.setattr(study, "rank_candidates", lambda *given: shares.append(given[-1]) or [])
+    monkeypatch.setattr(study, "rank_candidates", lambda *given: shares.append(given[4]) or [])
     run(Request(Space.default(), Hill(), method="ga", evaluations=evaluations))
     assert shares == [evaluations // 4 - kept]
-
-
-def test_bounds_have_a_step_of_their_own_for_every_length_of_the_search_and_every_pick():
-    """Whoever asks for more has another winner perhaps, and other designs beyond its bounds."""
-    steps = [
-        study._bounds_step(SimpleNamespace(pick=pick), [None] * length) for pick in range(201) for length in range(9)
-    ]
-    assert len(set(steps)) == 201 * 9
 
 
 def test_bounds_get_what_the_neighbours_leave_of_the_pick(monkeypatch):
@@ -523,7 +515,7 @@ def test_bounds_get_what_the_neighbours_leave_of_the_pick(monkeypatch):
     monkeypatch.setattr(study, "active_bounds", lambda *asked: given.append(asked) or look(*asked))
     request = replace(REQUEST, method="ga", evaluations=80)
     result = run(request)
-    ((evaluator, winner, _, left),) = given
+    ((evaluator, winner, left, _),) = given
     around = [trial for trial in evaluator.trials if trial.phase == "robust"]
     assert winner is result.winner
     assert left == request.pick - len(around) > 0
@@ -534,7 +526,7 @@ def test_bounds_of_the_winner_are_examined_with_what_its_pick_leaves(monkeypatch
     """Of the most robust candidate, whatever scores best."""
     asked, rank = [], study.rank_candidates
     monkeypatch.setattr(study, "rank_candidates", lambda *given: rank(*given)[::-1])
-    monkeypatch.setattr(study, "active_bounds", lambda _, trial, step, left: asked.append((trial, left)) or [])
+    monkeypatch.setattr(study, "active_bounds", lambda _, trial, left, run: asked.append((trial, left)) or [])
     request = replace(REQUEST, method="ga", evaluations=80)
     found = run(request)
     used = found.evaluations - len(found.trials)
@@ -546,7 +538,7 @@ def test_bounds_of_the_winner_are_examined_with_what_its_pick_leaves(monkeypatch
 def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
     """Its share of the evaluations, first designs where it learns; only the last one ends early, if it can."""
     asked = []
-    monkeypatch.setattr(Method, "run", lambda self, evaluator, task: asked.append((self.name, task)) or False)
+    monkeypatch.setattr(study, "run_method", lambda name, evaluator, task: asked.append((name, task)) or False)
     given = {"seed": 7, "batch": 3, "until_percent": 2.0}
     for request in (
         Request(SMALL, Hill(), method="ga+bo", evaluations=90, preset="published", **given),

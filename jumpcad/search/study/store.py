@@ -1,44 +1,46 @@
 """The study file: one SQLite file in which every trial is a row.
 
 A batch of trials is one transaction in write-ahead mode: the file stays valid if the writer is killed, and others may
-read it meanwhile. Rows are identified by where the search proposed them (phase, step, place in the step), so the same
-search fills the same rows, whatever computes them and however often it is interrupted.
+read it meanwhile. Rows are identified by where the search proposed them (phase, run, step, place in the step), so the
+same search fills the same rows, whatever computes them and however often it is interrupted.
 """
 
-import itertools
 import json
 import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError, without_controls
-from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
-from jumpcad.search.database import connect, lock, open_to_read, plain_errors
 from jumpcad.search.fronts import SPRING_ENERGY
-from jumpcad.search.rows import (
-    APPLICATION_ID,
-    COLUMNS,
-    FORMAT,
-    FORMATS,
-    SCHEMA,
-    TEXTS,
-    own_tables,
-    read_trial,
-    tables,
-    to_row,
-)
-from jumpcad.search.stored import require_remembered, stored_text
-from jumpcad.search.stored_evaluation import stored_names
-from jumpcad.search.trial import SEARCH_PHASES, Trial
+from jumpcad.search.phases import SEARCH_PHASES
+from jumpcad.search.study.database import connect, lock, open_to_read, plain_errors
+from jumpcad.search.study.record import COLUMNS, read_trial, remembered, to_row
+from jumpcad.search.trial import Trial, in_order
 
+APPLICATION_ID = 0x4A554D50
+FORMAT = 5
+"""Of the file; no other is read."""
+SCHEMA = f"""
+CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
+CREATE TABLE notes (text TEXT NOT NULL);
+CREATE TABLE trials (
+  phase TEXT NOT NULL, run INTEGER NOT NULL, step INTEGER NOT NULL, place INTEGER NOT NULL,
+  score REAL, record TEXT NOT NULL, PRIMARY KEY (phase, run, step, place)
+);
+PRAGMA application_id = {APPLICATION_ID};
+PRAGMA user_version = {FORMAT};
+"""
 ENDED = "ended"
 """Key under which a study remembers what ended its search; None while it runs, and where it was interrupted."""
 """Key under which a study remembers the space whose bounds the search moved."""
+PICKS = "picks"
+"""Key under which a study remembers its robust picks, one for each length of search and pick, with what they found."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
@@ -107,7 +109,7 @@ class StudyStore:
             store = cls(path, open_to_read(path))
             try:
                 store._check_format()
-                store._require("identity", store.identity)
+                _ = store.identity
                 store._connection.execute("PRAGMA query_only = ON")
             except BaseException:
                 store.close()
@@ -139,25 +141,17 @@ class StudyStore:
         identity: dict[str, Any] = self.recall("identity")
         return identity
 
-    @property
-    def space(self) -> dict[str, Any]:
-        """The space of the search as plain data."""
-        space: dict[str, Any] = self.identity["space"]
-        return space
-
     def recall(self, key: str, default: Any = None) -> Any:
         """Return what was remembered under a key."""
         with plain_errors(self.path):
             found = self._connection.execute("SELECT value FROM study WHERE key = ?", (key,)).fetchone()
-        if found is None:
+        if found is None and key != "identity":
             return default
         try:
-            value = json.loads(found[0])
-        except (TypeError, ValueError, RecursionError) as error:
-            raise JumpcadError(f"{self.path}: is damaged: its {key} cannot be read ({shown(str(error))})") from None
-        if key in ("stages", ENDED) and value is not None:
-            self._require(key, value)
-        return value
+            text = found[0] if found else ""
+            return json.loads(text) if self.path is None else remembered(key, text)  # in memory it is this process's
+        except JumpcadError as error:
+            raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
     def remember(self, key: str, value: Any) -> None:
         """Keep plain data under a key."""
@@ -166,58 +160,30 @@ class StudyStore:
 
     def trials(self) -> list[Trial]:
         """Return all trials in the order of their study."""
-        columns = [f"CAST({name} AS BLOB)" if name in TEXTS else name for name in COLUMNS]
+        space = self.identity.get("space", {})
+        free, keys = sum("fixed" not in part for part in space.values()), [name for name in space if "." in name]
         with plain_errors(self.path):
-            if self._format() < 3:
-                columns[COLUMNS.index("workshop")] = "CAST('{}' AS BLOB)"
-            space = self.identity.get("space", {})
-            free, keys = sum("fixed" not in part for part in space.values()), [name for name in space if "." in name]
-            # Row by row: all of them as text would take more memory than the trials.
-            records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations")
+            rows = self._connection.execute(f"SELECT {', '.join(COLUMNS)} FROM trials")
             try:
-                names = self._names()
-                trials = [read_trial(dict(zip(COLUMNS, record, strict=True)), free, keys, names) for record in records]
+                return in_order(read_trial(row, free, keys) for row in rows)
             except JumpcadError as error:
                 raise JumpcadError(f"{self.path}: is damaged: {error}") from None
-        trials.sort(key=lambda trial: trial.position)
-        for one, other in itertools.pairwise(trials):
-            if one.position == other.position:
-                raise JumpcadError(f"{self.path}: is damaged: two rows {one.phase} {one.step} {one.place}")
-        return trials
 
     def progress(self) -> tuple[dict[str, int], float | None]:
         """Return the number of trials by phase, and the best score; quick, whatever the number of rows."""
         with plain_errors(self.path):
-            rows = self._connection.execute(
-                "SELECT CAST(phase AS BLOB), count(*), max(score) FROM evaluations GROUP BY phase"
-            ).fetchall()
-        counts = {stored_text({"phase": phase}, "phase"): count for phase, count, _ in rows}
-        scores = [best for phase, _, best in rows if best is not None and phase.decode() in SEARCH_PHASES]
-        return counts, max(scores, default=None)
+            rows = self._connection.execute("SELECT phase, count(*), max(score) FROM trials GROUP BY phase").fetchall()
+        scores = [best for phase, _, best in rows if best is not None and phase in SEARCH_PHASES]
+        return {phase: count for phase, count, _ in rows}, max(scores, default=None)
 
     def append(self, trials: Iterable[Trial]) -> None:
         """Add trials, all or none."""
-        marks = ", ".join("?" * len(COLUMNS))
         with self._transaction():
-            rows = [to_row(trial, self._number_of) for trial in trials]
-            self._connection.executemany(f"INSERT INTO evaluations VALUES ({marks})", rows)
-
-    def _number_of(self, names: str) -> int:
-        """Return the number of a list of names, which is kept if it is new."""
-        self._connection.execute("INSERT OR IGNORE INTO names (names) VALUES (?)", (names,))
-        (number,) = self._connection.execute("SELECT number FROM names WHERE names = ?", (names,)).fetchone()
-        return int(number)
-
-    def _names(self) -> dict[int, tuple[Any, ...]]:
-        """Return the lists of names that rows share, by their numbers."""
-        if self._format() < FORMAT:
-            return {}
-        rows = self._connection.execute("SELECT number, CAST(names AS BLOB) FROM names")
-        return {number: stored_names(names) for number, names in rows}
+            self._connection.executemany("INSERT INTO trials VALUES (?, ?, ?, ?, ?, ?)", map(to_row, trials))
 
     def _is_empty(self) -> bool:
         with suppress(JumpcadError), plain_errors(self.path):
-            return not self._connection.execute("SELECT EXISTS (SELECT 1 FROM evaluations)").fetchone()[0]
+            return not self._connection.execute("SELECT EXISTS (SELECT 1 FROM trials)").fetchone()[0]
         return False
 
     def note(self, text: str) -> None:
@@ -287,30 +253,33 @@ class StudyStore:
                 f"{self.path}: holds another study ({differs}); repeat its own request or name another file"
             )
 
-    def _require(self, key: str, value: Any) -> None:
-        """Reject what no study remembers under a key."""
-        try:
-            require_remembered(key, value)
-        except JumpcadError as error:
-            raise JumpcadError(f"{self.path}: is damaged: {error}") from None
-
-    def _format(self) -> int:
-        return int(self._connection.execute("PRAGMA user_version").fetchone()[0])
-
     def _check_format(self) -> None:
-        application = self._connection.execute("PRAGMA application_id").fetchone()[0]
-        version = self._format()
+        application, version = (
+            self._connection.execute(f"PRAGMA {name}").fetchone()[0] for name in ("application_id", "user_version")
+        )
         if application != APPLICATION_ID:
             raise JumpcadError(f"{self.path}: is not a study file")
-        if version not in FORMATS:
+        if version != FORMAT:
             raise JumpcadError(
-                f"{self.path}: is a study of format {version}; "
-                f"this version of jumpcad reads {FORMATS[0]} to {FORMATS[-1]}"
+                f"{self.path}: is a study of format {version}; this version of jumpcad reads format {FORMAT}: "
+                "repeat its search with another file"
             )
-        if tables(self._connection) != own_tables(version):
+        if _tables(self._connection) != _own_tables():
             raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
+
+
+def _tables(connection: sqlite3.Connection) -> list[tuple[str, str, str]]:
+    """Return type, name and definition of everything that a database holds."""
+    return connection.execute("SELECT type, name, sql FROM sqlite_master ORDER BY name").fetchall()
+
+
+@cache
+def _own_tables() -> list[tuple[str, str, str]]:
+    connection = sqlite3.connect(":memory:")
+    connection.executescript(SCHEMA)
+    return _tables(connection)
 
 
 def _holds_nothing(connection: sqlite3.Connection) -> bool:

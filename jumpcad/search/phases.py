@@ -1,0 +1,74 @@
+"""Names that all of a search shares: its methods, and the phases of a study, which say what proposed a trial."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Method:
+    """An entry of the registry.
+
+    Parameters
+    ----------
+    name
+        Name on the command line; also the phase of the method's trials in a study file.
+    function
+        Where it is: `module.function` in `jumpcad.search.propose`. The module is imported when the method runs.
+    meaning
+        Description in the help.
+    front
+        Whether it searches a front of score against a cost, not one best design.
+    learns
+        Whether it fits a surrogate: it then starts with evenly spread designs, and each proposal carries the
+        hyperparameters (`theta`) with which the next step starts.
+    ends
+        Whether it ends where its proposals promise less than a task's `least_gain`.
+    shares
+        Whether its parts have shares of the evaluations: a search with more of them is another one.
+    least
+        Fewest evaluations that it takes: each of its parts has one.
+    """
+
+    name: str
+    function: str
+    meaning: str
+    front: bool = False
+    learns: bool = False
+    ends: bool = False
+    shares: bool = False
+    least: int = 0
+
+
+METHODS = {
+    method.name: method
+    for method in (
+        Method("ga", "genetic.run_genetic", "genetic algorithm"),
+        Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True, ends=True),
+        Method(
+            "pareto",
+            "pareto.run_pareto",
+            "front of two figures, such as range against electrical energy",
+            front=True,
+            learns=True,
+        ),
+        Method("paper", "paper.run_paper", "the published study's stages", shares=True, least=7),
+        Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
+    )
+}
+SEQUENCES = {"ga+bo": ("ga", "bo")}
+"""Two methods, one after the other; the second learns from the first."""
+DEFAULT = "bo"
+"""Of printed robots, it needs about 35 designs to come within a hundredth of the best known, after `ga` 100 to 150."""
+EVALUATIONS, UNTIL_PERCENT = 250, 0.05
+"""What a search may cost at most unless the user says something else, and the promised gain at which it ends."""
+NAMES = (*SEQUENCES, *METHODS)
+FRONTS = tuple(name for name, method in METHODS.items() if method.front)
+
+EXPLORED = ("sample", "sweep")
+"""Phases of a view; the random designs of `paper` are samples too."""
+AROUND = ("margin", "bounds", "robust")
+"""Phases that examine designs near the best."""
+SEARCH_PHASES = (*EXPLORED, *METHODS)
+PHASES = (*SEARCH_PHASES, *AROUND)
+"""All phases in the order of a study."""
+LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learns)
+"""Phases that, after a first step, start from the hyperparameters of the step before."""

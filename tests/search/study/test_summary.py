@@ -1,0 +1,72 @@
+"""What a study file knows of the pick is what the run that wrote it found."""
+
+import contextlib
+import shutil
+import sqlite3
+
+import pytest
+from support.bumps import REST, Bump, studied
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
+from jumpcad.search.space import Space
+from jumpcad.search.study.run import run_study
+from jumpcad.search.study.store import StudyStore
+from jumpcad.search.study.summary import summary
+from jumpcad.search.trial import best_trial
+
+
+@pytest.mark.parametrize("top", [0.45, 0.72], ids=["bound below the bump", "constraint beside it"])
+def test_candidates_and_bounds_are_those_of_the_run(tmp_path, top):
+    space = Space.parse(fix=REST, bound=[f"compression_ratio=0.1:{top}"])
+    request = Request(space, Bump(), method="ga", evaluations=120, seed=3)
+    with local_pool(0) as pool:
+        result = run_study(request, tmp_path / "s.db", pool)
+    with StudyStore.read(tmp_path / "s.db") as store:
+        found = summary(store)
+    assert [one.to_dict() for one in found.candidates] == [one.to_dict() for one in result.candidates]
+    assert result.candidates
+    assert found.bounds == result.bounds
+    assert found.winner is not None
+    assert found.winner.key == result.winner.key
+    assert [trial.key for trial in found.trials] == [trial.key for trial in result.trials]
+
+
+def test_what_a_bound_costs_is_the_fall_of_the_bump(tmp_path):
+    space = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"])
+    with studied(tmp_path / "s.db", space, "bo", 40) as store:
+        found = summary(store)
+    (bound,) = found.bounds
+    assert (bound.name, bound.side, bound.value) == ("compression_ratio", "upper", 0.4)
+    assert bound.beyond == pytest.approx(0.4 + 0.05 * 0.3)
+    at = found.winner.design.compression_ratio
+    assert bound.worth == pytest.approx(20.0 * ((0.5 - at) ** 2 - (0.5 - bound.beyond) ** 2), abs=1e-9)
+
+
+def test_a_pick_that_has_not_ended_or_belongs_to_a_shorter_search_is_none(tmp_path):
+    """The winner is the best then, and its bounds are named alone."""
+    space = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"])
+    studied(tmp_path / "s.db", space, "bo", 40).close()
+    for change in (
+        "UPDATE study SET value = '[{\"designs\": 30, \"evaluations\": 10}]' WHERE key = 'picks'",
+        "UPDATE study SET value = replace(value, '\"designs\": 30', '\"designs\": 29') WHERE key = 'picks'",
+        "DELETE FROM study WHERE key = 'picks'",
+    ):
+        copy = tmp_path / "copy.db"
+        shutil.copy(tmp_path / "s.db", copy)
+        with contextlib.closing(sqlite3.connect(copy)) as connection, connection:
+            assert connection.execute(change).rowcount == 1
+        with StudyStore.read(copy) as store:
+            found = summary(store)
+        assert (found.candidates, found.winner) == ([], best_trial(found.trials))
+        assert [(bound.name, bound.unknown) for bound in found.bounds] == [("compression_ratio", True)]
+
+
+def test_a_candidate_that_is_none_of_the_trials_is_damage(tmp_path):
+    studied(tmp_path / "s.db", Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"]), "bo", 40).close()
+    with contextlib.closing(sqlite3.connect(tmp_path / "s.db")) as connection, connection:
+        connection.execute("DELETE FROM trials WHERE phase = 'bo'")
+        connection.execute("UPDATE study SET value = replace(value, ': 30', ': 0') WHERE key = 'picks'")
+    with StudyStore.read(tmp_path / "s.db") as store, pytest.raises(JumpcadError, match="damaged: a candidate"):
+        summary(store)
