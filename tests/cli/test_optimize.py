@@ -21,10 +21,10 @@ from jumpcad.cli.search_result import print_result
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.search import study
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import find_objective
 from jumpcad.search.space import Space
+from jumpcad.search.study import run as study
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
 

@@ -95,10 +95,10 @@ def test_a_row_has_every_column_of_any_trial_each_with_its_own_value(tmp_path):
     shared = {"body.plate_mm", "bought.spring", "fitness", "mass_kg", "size_m", "margin_bed", *design.model_dump()}
     told = [{name: text for name, text in row.items() if name not in shared} for row in (one, other)]
     assert told == [
-        {"phase": "ga", "run": "0", "step": "3", "place": "7", "verdict": "jump", "feasible": "True", "reasons": "", "score": "1.5",
-         "detail": "a, b", "duration_s": "0.75", "model": "first"},
-        {"phase": "bo", "run": "0", "step": "4", "place": "8", "verdict": "tips", "feasible": "False", "reasons": "tips",
-         "score": "", "detail": "", "duration_s": "0.5", "model": "second"},
+        {"phase": "ga", "run": "0", "step": "3", "place": "7", "verdict": "jump", "feasible": "True", "reasons": "",
+         "score": "1.5", "detail": "a, b", "duration_s": "0.75", "model": "first"},
+        {"phase": "bo", "run": "0", "step": "4", "place": "8", "verdict": "tips", "feasible": "False",
+         "reasons": "tips", "score": "", "detail": "", "duration_s": "0.5", "model": "second"},
     ]  # fmt: skip
     assert [one[name] for name in ("body.plate_mm", "bought.spring", "fitness", "mass_kg", "size_m", "margin_bed")] == [
         "2.0", "x", "2.0", "0.125", "", "-0.25",

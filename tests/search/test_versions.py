@@ -54,7 +54,7 @@ def test_no_evaluation_imports_what_the_digest_leaves_out():
     code = f"""
 import sys
 from jumpcad.design import load_design
-from jumpcad.search import study
+from jumpcad.search.study import run as study
 from jumpcad.search.models import MODELS, RobotModel
 from jumpcad.workshop import load_workshop
 for name in ("printed", "capsule"):
