@@ -31,9 +31,9 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import find_objective
 from jumpcad.search.propose import bayesian
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.objective import find_objective
+from jumpcad.search.study.variant import Variant
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.workshop import load_workshop

@@ -18,12 +18,12 @@ import numpy as np
 
 from jumpcad.design import load_design
 from jumpcad.search.models import RobotModel, robot_model
-from jumpcad.search.objective import Evaluation
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 
 TARGET_MB = 400.0
 BATCH = 1000
@@ -61,9 +61,9 @@ def write(path: Path, rows: int) -> None:
 
 def resume(path: Path, rows: int) -> None:
     """Go on: the evaluator reads all trials, and Bayesian optimisation proposes from them."""
-    from jumpcad.search.evaluator import Evaluator
-    from jumpcad.search.methods import Task
     from jumpcad.search.propose.bayesian import run_bayesian
+    from jumpcad.search.propose.task import Task
+    from jumpcad.search.study.evaluator import Evaluator
 
     request = request_of(rows)
     with StudyStore.write(path, request.identity([])) as store, local_pool(0) as pool:
@@ -87,7 +87,7 @@ def use(name: str, path: Path, rows: int) -> None:
 
             plot_study(store, path.parent / "plots")
         else:
-            from jumpcad.search.table import write_table
+            from jumpcad.search.study.table import write_table
 
             write_table(store.trials(), path.parent / "trials.csv")
 

@@ -44,20 +44,20 @@ import numpy as np
 from search import bayesian, genetic
 
 from jumpcad.design import SEARCH_BOUNDS
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods import Task
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import find_objective
 from jumpcad.search.parameter import physical_limits
-from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.bayesian import default_initial, incumbent
 from jumpcad.search.propose.dry_run import Rehearsal
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.posterior import VERDICT, constraint_margins, forwards, warped
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import find_objective
+from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial
-from jumpcad.search.versions import versions
+from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.versions import versions
 from jumpcad.transforms import Array
 
 EVALUATIONS = 60

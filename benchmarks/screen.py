@@ -16,15 +16,15 @@ import numpy as np
 from jumpcad import published as study
 from jumpcad.design import load_design
 from jumpcad.files import template_names
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods import Task
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import SCREENED, find_objective
-from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.genetic import run_genetic
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import SCREENED, find_objective
+from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import best_trial
+from jumpcad.search.study.trial import best_trial
 
 
 def climb(seed: int, candidates: int, screen: bool) -> dict[str, float]:

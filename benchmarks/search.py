@@ -19,14 +19,14 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.design import Design
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods import Task
 from jumpcad.search.models import RobotModel, robot_model
-from jumpcad.search.objective import Objective, find_objective
-from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.bayesian import default_initial, run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import Objective, find_objective
+from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.store import StudyStore
 
 MARKS = (40, 60, 100, 200, 250, 500, 1000)

@@ -18,13 +18,13 @@ from pathlib import Path
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 from jumpcad.workshop import load_workshop
 
 BATCH, BATCHES = 20, 15

@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 from jumpcad.collecting import THRESHOLDS, collect_seldom, collect_usually
-from jumpcad.search.local_workers import LocalWorkers
+from jumpcad.search.study.local_workers import LocalWorkers
 
 COMMAND = """
 import gc, sys, jumpcad, jumpcad.search

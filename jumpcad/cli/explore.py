@@ -21,7 +21,7 @@ from jumpcad.files import did_you_mean
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
-    from jumpcad.search.evaluator import Evaluator
+    from jumpcad.search.study.evaluator import Evaluator
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
 
@@ -86,9 +86,9 @@ def explore(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart
-    from jumpcad.search.evaluator import Evaluator
     from jumpcad.search.space import Space
     from jumpcad.search.study.database import require_study
+    from jumpcad.search.study.evaluator import Evaluator
     from jumpcad.search.study.store import StudyStore
 
     if view not in VIEWS:

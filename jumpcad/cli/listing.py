@@ -79,7 +79,7 @@ def described(kind: str) -> dict[str, str]:
 
         return {name: "installed" if engine.is_installed else "not installed" for name, engine in ENGINES.items()}
     if kind == "objectives":
-        from jumpcad.search.objective import OBJECTIVES
+        from jumpcad.search.study.objective import OBJECTIVES
 
         return {name: f"{one.meaning} ({one.unit})" for name, one in OBJECTIVES.items()}
     from jumpcad.catalogue import load_catalogue

@@ -13,10 +13,10 @@ from jumpcad.search.phases import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCE
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
-    from jumpcad.search.evaluator import Watch
     from jumpcad.search.models import RobotModel
-    from jumpcad.search.result import Result
-    from jumpcad.search.trial import Trial
+    from jumpcad.search.study.evaluator import Watch
+    from jumpcad.search.study.result import Result
+    from jumpcad.search.study.trial import Trial
 
 _MEANINGS = "; ".join(f"{name}: {method.meaning}" for name, method in METHODS.items())
 _SEQUENCES = "; ".join(f"{name}: {first}, then {second} on its results" for name, (first, second) in SEQUENCES.items())
@@ -97,10 +97,10 @@ def optimize(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
-    from jumpcad.search.request import Request
-    from jumpcad.search.result import workshop_file
     from jumpcad.search.space import Space
     from jumpcad.search.study.database import require_study
+    from jumpcad.search.study.request import Request
+    from jumpcad.search.study.result import workshop_file
     from jumpcad.search.study.run import run_study
 
     centre = None if around is None else load_design(around)

@@ -10,8 +10,8 @@ from jumpcad.cli.output import LINE_EVERY_S, console
 from jumpcad.counting import counted
 
 if TYPE_CHECKING:
-    from jumpcad.search.evaluator import Watch
-    from jumpcad.search.trial import Trial
+    from jumpcad.search.study.evaluator import Watch
+    from jumpcad.search.study.trial import Trial
 
 
 class Tally:

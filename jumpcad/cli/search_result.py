@@ -9,7 +9,7 @@ from jumpcad.counting import counted
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
-    from jumpcad.search.result import Result
+    from jumpcad.search.study.result import Result
 
 SHOWN = 10
 """Candidates that are printed; --json has all of them."""
@@ -88,7 +88,7 @@ def _print_bounds(result: "Result") -> None:
 
 def _print_next(result: "Result", design_file: Path, violated: "Sequence[Finding]", workshop: str | None) -> None:
     """Print the violated limits, and the command that builds the winner or checks it."""
-    from jumpcad.search.result import workshop_file
+    from jumpcad.search.study.result import workshop_file
 
     of_winner = result.winner is not None and result.winner.workshop
     used = str(workshop_file(design_file)) if of_winner else workshop

@@ -15,7 +15,7 @@ from jumpcad.simulation.engines import ENGINES, in_words
 
 if TYPE_CHECKING:
     from jumpcad.search.models import RobotModel
-    from jumpcad.search.pool import Pool
+    from jumpcad.search.study.pool import Pool
 
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Write pictures (SVG and PNG) into this folder.", metavar="FOLDER", file_okay=False)
@@ -81,7 +81,7 @@ class SearchOptions:
 
     def pool(self) -> "Pool":
         """Return the pool that the options describe."""
-        from jumpcad.search.pool import open_pool
+        from jumpcad.search.study.pool import open_pool
 
         return open_pool(self.workers, self.dask, self.limit)
 

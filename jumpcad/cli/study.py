@@ -44,7 +44,7 @@ def study(
     """Show a study, also while it runs; compare several; export the trials."""
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.search.study.store import StudyStore
-    from jumpcad.search.table import TABLES, write_table
+    from jumpcad.search.study.table import TABLES, write_table
 
     if len(files) > 1 and (export or plots):
         raise JumpcadError("--export and --plots are for one study; name one file")
@@ -76,9 +76,9 @@ def study(
 
 def _watch(file: Path) -> None:
     """Print the progress of a search whenever it changes, until no search writes the study."""
-    from jumpcad.search.objective import described_objective
     from jumpcad.search.phases import SEARCH_PHASES
     from jumpcad.search.study.database import is_written
+    from jumpcad.search.study.objective import described_objective
     from jumpcad.search.study.store import StudyStore
 
     printed = ""
@@ -102,7 +102,7 @@ def _watch(file: Path) -> None:
 
 def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
     from jumpcad.search.study.store import ENDED
-    from jumpcad.search.trial import count_rejections, feasible_trials, searched, trial_numbers
+    from jumpcad.search.study.trial import count_rejections, feasible_trials, searched, trial_numbers
 
     trials, identity = store.trials(), store.identity
     proposed = searched(trials)
@@ -170,7 +170,7 @@ def _done(designs: int, planned: int) -> str:
 
 
 def _print_comparison(summaries: list[dict[str, Any]]) -> None:
-    from jumpcad.search.objective import described_objective
+    from jumpcad.search.study.objective import described_objective
 
     for summary in summaries:
         identity, best = summary["identity"], summary["best"]

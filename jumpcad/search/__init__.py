@@ -10,7 +10,6 @@ from jumpcad.faces import face
 
 if TYPE_CHECKING:
     from jumpcad.search import plots as plots
-    from jumpcad.search.evaluator import Evaluator as Evaluator
     from jumpcad.search.explore import components as components
     from jumpcad.search.explore import feasibility_map as feasibility_map
     from jumpcad.search.explore import importance as importance
@@ -25,55 +24,56 @@ if TYPE_CHECKING:
     from jumpcad.search.models import MODELS as MODELS
     from jumpcad.search.models import RobotModel as RobotModel
     from jumpcad.search.models import robot_model as robot_model
-    from jumpcad.search.objective import OBJECTIVES as OBJECTIVES
-    from jumpcad.search.objective import Evaluation as Evaluation
-    from jumpcad.search.objective import Objective as Objective
-    from jumpcad.search.objective import find_objective as find_objective
     from jumpcad.search.optimization import optimize as optimize
     from jumpcad.search.parameter import SearchParameter as SearchParameter
     from jumpcad.search.phases import METHODS as METHODS
     from jumpcad.search.pick.robust import ActiveBound as ActiveBound
     from jumpcad.search.pick.robust import Candidate as Candidate
-    from jumpcad.search.pool import Pool as Pool
-    from jumpcad.search.pool import dask_pool as dask_pool
-    from jumpcad.search.pool import local_pool as local_pool
-    from jumpcad.search.request import Request as Request
-    from jumpcad.search.result import Result as Result
     from jumpcad.search.space import Space as Space
+    from jumpcad.search.study.evaluator import Evaluator as Evaluator
+    from jumpcad.search.study.objective import OBJECTIVES as OBJECTIVES
+    from jumpcad.search.study.objective import Evaluation as Evaluation
+    from jumpcad.search.study.objective import Objective as Objective
+    from jumpcad.search.study.objective import find_objective as find_objective
+    from jumpcad.search.study.pool import Pool as Pool
+    from jumpcad.search.study.pool import dask_pool as dask_pool
+    from jumpcad.search.study.pool import local_pool as local_pool
+    from jumpcad.search.study.request import Request as Request
+    from jumpcad.search.study.result import Result as Result
     from jumpcad.search.study.run import run_study as run_study
     from jumpcad.search.study.store import StudyStore as StudyStore
+    from jumpcad.search.study.table import write_table as write_table
+    from jumpcad.search.study.trial import Trial as Trial
     from jumpcad.search.study_plots import plot_study as plot_study
-    from jumpcad.search.table import write_table as write_table
-    from jumpcad.search.trial import Trial as Trial
 
 _HOMES = {
     "ActiveBound": "pick.robust",
     "Candidate": "pick.robust",
     "COSTS": "fronts",
     "Cost": "fronts",
-    "Evaluation": "objective",
-    "Evaluator": "evaluator",
+    "Evaluation": "study.objective",
+    "Evaluator": "study.evaluator",
     "METHODS": "phases",
     "MODELS": "models",
-    "OBJECTIVES": "objective",
-    "Objective": "objective",
-    "Pool": "pool",
-    "Request": "request",
-    "Result": "result",
+    "OBJECTIVES": "study.objective",
+    "Objective": "study.objective",
+    "Pool": "study.pool",
+    "Request": "study.request",
+    "Result": "study.result",
     "RobotModel": "models",
     "SearchParameter": "parameter",
     "Space": "space",
     "StudyStore": "study.store",
-    "Trial": "trial",
+    "Trial": "study.trial",
     "components": "explore",
-    "dask_pool": "pool",
+    "dask_pool": "study.pool",
     "energy_j": "fronts",
     "feasibility_map": "explore",
-    "find_objective": "objective",
+    "find_objective": "study.objective",
     "front": "fronts",
     "hypervolume": "fronts",
     "importance": "explore",
-    "local_pool": "pool",
+    "local_pool": "study.pool",
     "optimize": "optimization",
     "plot_study": "study_plots",
     "plots": "plots",
@@ -82,7 +82,7 @@ _HOMES = {
     "sample": "explore",
     "save_figure": "figures",
     "sweep": "explore",
-    "write_table": "table",
+    "write_table": "study.table",
 }
 
 __all__ = list(_HOMES)

@@ -10,13 +10,13 @@ from jumpcad.counting import counted
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.one_thread import one_thread
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.propose.posterior import warped
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, feasible_trials
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.trial import Trial, feasible_trials
+from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 from jumpcad.workshop import load_workshop, workshop_value
 from jumpcad.workshop.varied import Value

@@ -11,8 +11,8 @@ from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.search.objective import OBJECTIVES, Objective
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import OBJECTIVES, Objective
+from jumpcad.search.study.trial import Trial
 from jumpcad.transforms import Array
 
 REFERENCE_ENERGY_J = 1.5

@@ -17,10 +17,10 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.estimate.estimated_robot import figures_of, laid_out
 from jumpcad.search.estimate.refusal import refusal_findings, room_findings
-from jumpcad.search.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
 from jumpcad.search.pick.tolerances import PREFIX, Making, as_made
-from jumpcad.search.variant import NOTHING, Variant
-from jumpcad.search.versions import code_digest, versions
+from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
+from jumpcad.search.study.variant import NOTHING, Variant
+from jumpcad.search.study.versions import code_digest, versions
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
 from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE

@@ -8,13 +8,13 @@ from jumpcad.arguments import check_arguments
 from jumpcad.design import Design, load_design
 from jumpcad.search.models import robot_model
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, UNTIL_PERCENT
-from jumpcad.search.pool import open_pool
-from jumpcad.search.request import Request
-from jumpcad.search.result import Result
 from jumpcad.search.space import Space
 from jumpcad.search.study.database import require_study
+from jumpcad.search.study.pool import open_pool
+from jumpcad.search.study.request import Request
+from jumpcad.search.study.result import Result
 from jumpcad.search.study.run import run_study
-from jumpcad.search.variant import NOTHING
+from jumpcad.search.study.variant import NOTHING
 from jumpcad.settings import Settings
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.varied import Value

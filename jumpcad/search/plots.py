@@ -17,11 +17,11 @@ from jumpcad.design import PARAMETERS, Design
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, front
-from jumpcad.search.objective import Objective
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.propose.posterior import SearchPosterior, unwarped, warped
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, best_trial, feasible_trials
+from jumpcad.search.study.objective import Objective
+from jumpcad.search.study.trial import Trial, best_trial, feasible_trials
 from jumpcad.transforms import Array
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")

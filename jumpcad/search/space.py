@@ -26,7 +26,7 @@ from jumpcad.search.parameter import (
     read_change,
     several,
 )
-from jumpcad.search.variant import NOTHING, Variant
+from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.spread import sobol
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop

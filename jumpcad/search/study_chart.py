@@ -7,10 +7,10 @@ from itertools import combinations
 import numpy as np
 
 from jumpcad.search.fronts import Cost, front
-from jumpcad.search.objective import Objective
 from jumpcad.search.page_axes import Axes, evenly, scale
 from jumpcad.search.page_text import written
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Objective
+from jumpcad.search.study.trial import Trial
 
 MOST_DOTS = 3000
 """Largest number of other designs that are drawn, evenly chosen in the order of the search."""

@@ -9,8 +9,8 @@ from jumpcad.search.page_text import broken, table, written
 from jumpcad.search.pick.robust import ActiveBound
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary
+from jumpcad.search.study.trial import count_rejections
 from jumpcad.search.study_words import reason_words, with_unit
-from jumpcad.search.trial import count_rejections
 
 MOST_LEARNED = 200
 """Largest number of designs from which importances are computed, evenly chosen: the time grows with their cube."""

@@ -10,12 +10,12 @@ from jumpcad.arguments import check_arguments
 from jumpcad.search import plots
 from jumpcad.search.figures import save_figure
 from jumpcad.search.fronts import described_cost
-from jumpcad.search.objective import described_objective
 from jumpcad.search.phases import FRONTS, LEARNING_PHASES
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import described_objective
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial, searched
+from jumpcad.search.study.trial import Trial, searched
 
 
 @check_arguments

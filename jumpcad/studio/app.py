@@ -15,7 +15,7 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import is_sealed, require_free, sealed, write_atomically
 from jumpcad.robot import Robot
-from jumpcad.search.result import workshop_file
+from jumpcad.search.study.result import workshop_file
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
 from jumpcad.studio.inputs import slider_ends, slider_step, when_changed
 from jumpcad.studio.playback import Playback, playback

@@ -7,9 +7,9 @@ from jumpcad.building import build
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.search.fronts import described_cost, front
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import described_objective
+from jumpcad.search.study.objective import described_objective
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial, feasible_trials, searched, trial_numbers
+from jumpcad.search.study.trial import Trial, feasible_trials, searched, trial_numbers
 from jumpcad.workshop import Workshop, load_workshop
 
 STUDYS = "of the study"

@@ -22,9 +22,9 @@ from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import find_objective
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
+from jumpcad.search.study.objective import find_objective
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
 
@@ -73,7 +73,7 @@ def test_each_option_reaches_the_search(folder, monkeypatch, method, words, more
         raise JumpcadError("enough")
 
     monkeypatch.setattr(study, "run_study", stop)
-    monkeypatch.setattr("jumpcad.search.pool.open_pool", lambda *how: nullcontext(how))
+    monkeypatch.setattr("jumpcad.search.study.pool.open_pool", lambda *how: nullcontext(how))
     Path("shop.toml").write_text('[springs.own]\nlike = "9271K619"\nsource = "a test"\n')
     words = [*words, "--evaluations", 60, "--seed", 4, "--from-study", "before.db"]
     words += ["--objective", "rise", "--around", "kenan-2.0", "--only", "c_coef, rest_angle_deg", "--within", 5]

@@ -19,8 +19,8 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search import explore, figures
 from jumpcad.search.models import robot_model
-from jumpcad.search.request import Request
 from jumpcad.search.space import Space
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
 from jumpcad.settings import Settings, load_settings
 from jumpcad.workshop import load_workshop
@@ -46,7 +46,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         found.update(request=request, path=path)
         raise JumpcadError("enough")
 
-    for place in ("jumpcad.search.pool", "jumpcad.search.optimization"):
+    for place in ("jumpcad.search.study.pool", "jumpcad.search.optimization"):
         monkeypatch.setattr(f"{place}.open_pool", pool)
     for place in ("jumpcad.search.study", "jumpcad.search.optimization"):
         monkeypatch.setattr(f"{place}.run_study", run_study)

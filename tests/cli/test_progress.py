@@ -7,10 +7,10 @@ from rich.progress import Progress
 from support.hills import SMALL, Hill
 
 from jumpcad.cli.progress import Tally, duration, watching
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import FIRST, run_study
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 
 DESIGN = SMALL.to_design([0.2, 0.2, 0.2])
 

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 from jumpcad.cli.search_result import print_result
 from jumpcad.design import load_design
 from jumpcad.search.fronts import find_cost
-from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
+from jumpcad.search.study.objective import Evaluation, find_objective
 
 
 def test_robust_scores_stand_under_their_headings(capsys):

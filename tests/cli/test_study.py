@@ -11,7 +11,7 @@ from support.told import told_default
 
 from jumpcad.cli import study
 from jumpcad.design import load_design
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.store import StudyStore
 
 

@@ -9,9 +9,9 @@ from support.searches import refusal, run
 from support.studies import IDENTITY, trials
 
 from jumpcad.cli import study as command
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request
 from jumpcad.search.study.database import is_written
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 

@@ -295,7 +295,7 @@ IGNORED = {
     "a finalizer": (
         "class Last:\n"
         f"    def __del__(self): {PRESS}\n"
-        "import jumpcad.search.evaluator as module\n"
+        "import jumpcad.search.study.evaluator as module\n"
         "def ignored(*_): Last()\n"
         "module.Evaluator._require_a_working_model = ignored\n"
     ),

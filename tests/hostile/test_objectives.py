@@ -12,7 +12,7 @@ import pytest
 from support.sandbox import Sandbox
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.study.objective import Evaluation, find_objective
 
 JUMP = Evaluation("jump", {"fitness": 4.0})
 SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0", "--study", "s.db")
@@ -192,7 +192,7 @@ USED = {
 }  # fmt: skip
 HASHES = """
 import json, sys
-from jumpcad.search.objective import find_objective
+from jumpcad.search.study.objective import find_objective
 print(json.dumps({name: find_objective(name + ".py:f").code for name in json.load(sys.stdin)}))
 """
 

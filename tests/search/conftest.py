@@ -8,9 +8,9 @@ import pytest
 from support.hills import SMALL, Hill
 from support.proposals import with_less_work
 
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.objective import find_objective
-from jumpcad.search.pool import local_pool
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import find_objective
+from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.store import StudyStore
 
 

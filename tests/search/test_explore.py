@@ -24,10 +24,10 @@ from jumpcad.search.explore import (
     sweep,
 )
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
 from jumpcad.workshop import load_workshop, varied
 
 CENTRE = SMALL.to_design([0.5, 0.5, 0.5])

@@ -19,9 +19,9 @@ from jumpcad.search.fronts import (
     front,
     hypervolume,
 )
-from jumpcad.search.objective import OBJECTIVES, Evaluation
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import OBJECTIVES, Evaluation
+from jumpcad.search.study.trial import Trial
 
 
 @pytest.fixture

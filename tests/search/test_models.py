@@ -14,9 +14,9 @@ from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.estimate.refusal import room_findings
 from jumpcad.search.models import RobotModel, _figures, robot_model
-from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pick.tolerances import Making
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.variant import Variant
 from jumpcad.settings import load_settings
 from jumpcad.simulation import Jump
 from jumpcad.workshop import load_workshop, varied

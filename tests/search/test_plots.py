@@ -14,9 +14,9 @@ from jumpcad.search import plots
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import MEANINGS, PICTURES, panels, save_figure
 from jumpcad.search.fronts import energy_j, find_cost
-from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.trial import Trial
 
 
 def test_the_surrogate_in_the_picture_is_the_bump(tmp_path):

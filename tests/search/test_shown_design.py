@@ -3,9 +3,9 @@
 import re
 
 from jumpcad.design import load_design
-from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.shown_design import HEADLINES, shown_designs
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.trial import Trial
 
 DESIGN = load_design("best-ga")
 

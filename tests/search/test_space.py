@@ -10,7 +10,7 @@ from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.space import Space
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.variant import Variant
 from jumpcad.workshop import load_workshop
 
 

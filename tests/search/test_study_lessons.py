@@ -13,11 +13,11 @@ from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search import study_lessons
 from jumpcad.search.explore import Importance
-from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
+from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
+from jumpcad.search.study.trial import Trial
 from jumpcad.search.study_lessons import _bar, _cost, _gains, _is_clear, _matters, active, rejections
-from jumpcad.search.trial import Trial
 
 DESIGN = load_design("best-ga")
 LEARNED = Importance(

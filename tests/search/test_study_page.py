@@ -17,19 +17,19 @@ from jumpcad.design import load_design
 from jumpcad.search import study_lessons, study_page
 from jumpcad.search.explore import Importance
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
-from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound, Candidate
 from jumpcad.search.pick.tolerances import Making
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary, summary
+from jumpcad.search.study.table import write_table
+from jumpcad.search.study.trial import Trial
 from jumpcad.search.study_lessons import active
 from jumpcad.search.study_page import write_study_page
-from jumpcad.search.table import write_table
-from jumpcad.search.trial import Trial
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
 

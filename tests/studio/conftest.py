@@ -6,9 +6,9 @@ import pytest
 from support.studies import IDENTITY
 
 from jumpcad.design import load_design
-from jumpcad.search.objective import CANNOT_BUILD, Evaluation
+from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 
 CHANGES = (
     {"carrying_link_mm": 140.0},  # the best

@@ -9,9 +9,9 @@ from support.searches import refusal
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.table import write_table
+from jumpcad.search.study.table import write_table
 from jumpcad.studio.points import Points
 from jumpcad.workshop import load_workshop, varied
 

@@ -1,9 +1,9 @@
 """A model whose best design is known, and studies of it for pictures."""
 
 from jumpcad.design import Design
-from jumpcad.search.objective import Evaluation
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
 from jumpcad.findings import Finding
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.study.objective import Evaluation
 
 TOP = {"rest_angle_deg": 55.0, "compression_ratio": 0.6, "stiffness_nmm_per_deg": 20.0}
 FIXED = [f"{name}={limits.lower}" for name, limits in SEARCH_BOUNDS.items() if name not in TOP]

@@ -4,8 +4,8 @@ from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.search.estimate.estimated_robot import EXTENTS, figures_of, stand_in
 from jumpcad.search.models import RobotModel, robot_model
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.simulation import simulate
 
 BEST = load_design("best-printable")

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from jumpcad.design import Design
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.workshop import load_workshop
 from support.hills import FIXED, Hill
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 from support.hills import Hill
 
 IDENTITY = {

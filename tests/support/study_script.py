@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from support.hills import SMALL, Hill
 from support.proposals import with_less_work

@@ -15,8 +15,8 @@ from jumpcad.search.estimate.estimate import Fit, Guesser
 from jumpcad.search.estimate.fitting import STATICS, Table, of_layout
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, best_trial
-from jumpcad.search.variant import Key, Variant
+from jumpcad.search.study.trial import Trial, best_trial
+from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
 BESIDE, TRIED = 30, 20

@@ -20,10 +20,10 @@ from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.search.estimate.estimated_robot import EXTENTS, stand_in
 from jumpcad.search.estimate.fitting import MARGIN, STATICS, features, figures_of, of_layout
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import Evaluation, Objective
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
-from jumpcad.search.variant import NOTHING, Variant
+from jumpcad.search.study.objective import Evaluation, Objective
+from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.simulation import simulate
 from jumpcad.transforms import Array
 

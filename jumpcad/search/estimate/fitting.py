@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.search.estimate.estimated_robot import LAID
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 from jumpcad.transforms import Array
 
 MARK = "laid_coil_mm"

@@ -13,10 +13,10 @@ from jumpcad.search.estimate.corrected_estimate import Expected, Tier
 from jumpcad.search.estimate.estimate import Fit, Guesser
 from jumpcad.search.estimate.fitting import MARK, learned_rows
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import GUESSED, SCREENED, Evaluation, Objective
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, best_trial
-from jumpcad.search.variant import NOTHING, Key, Variant
+from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation, Objective
+from jumpcad.search.study.trial import Trial, best_trial
+from jumpcad.search.study.variant import NOTHING, Key, Variant
 
 LEAST, GROWTH = 16, 1.25
 """Robots from which on the screen works; it is fitted anew when there are so many times more."""

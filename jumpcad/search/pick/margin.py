@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from jumpcad.one_thread import one_thread
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.bayesian import incumbent, learned_trials, unproposed
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.trial import Trial
 from jumpcad.transforms import Array
 
 CONFIDENCES = (0.95, 0.99, 0.999)

@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 
 from jumpcad.design import PARAMETERS
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.parameter import active_sides
 from jumpcad.search.pick.margin import propose_robust
 from jumpcad.search.pick.tolerances import PERCENT, SAMPLES, Making, tenth
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, feasible_trials
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.trial import Trial, feasible_trials
+from jumpcad.search.study.variant import Variant
 
 MOST_PICK, LEAST_PICK = 200, 6
 """Most evaluations of the robust pick; with fewer than the least it examines nothing."""

@@ -16,7 +16,7 @@ from jumpcad.design import PARAMETERS, Design, limits_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.mechanism.variants import Robot, design_within_limits, with_length_errors, with_lengths, with_spring_factor
-from jumpcad.search.variant import NOTHING, Variant
+from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.settings import Settings, coefficients
 from jumpcad.spread import sobol
 from jumpcad.transforms import Array

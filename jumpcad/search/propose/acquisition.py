@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
 CANDIDATES = 1024

@@ -14,17 +14,17 @@ import numpy as np
 
 from jumpcad.counting import counted
 from jumpcad.one_thread import one_thread
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods import Task
-from jumpcad.search.objective import SCREENED
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, Rehearsal
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.local_search import FARTHEST, HOPELESS, STALLED, Progress
 from jumpcad.search.propose.proposal_loop import Learner
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, feasible_trials
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import SCREENED
+from jumpcad.search.study.trial import Trial, feasible_trials
+from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
 REFIT_AFTER, REFIT_EVERY = 80, 5

@@ -16,14 +16,14 @@ import numpy as np
 from jumpcad.findings import bare
 from jumpcad.search.estimate.estimate import Fit, Guess, Guesser
 from jumpcad.search.estimate.fitting import MARK, STATICS, Table, learned_rows
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods import Task
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.propose.initial_designs import ranked_points
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, best_trial
-from jumpcad.search.variant import Key, Variant
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial, best_trial
+from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
 TRIED = "tried"

@@ -14,15 +14,15 @@ import numpy as np
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods import Task
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
-from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.propose.initial_designs import first_points, ranked_points
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, best_trial, feasible_trials, searched
-from jumpcad.search.variant import Key, Variant
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation
+from jumpcad.search.study.own_objective import LARGEST
+from jumpcad.search.study.trial import Trial, best_trial, feasible_trials, searched
+from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
 PATIENCE = 50

@@ -10,9 +10,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.space import Space
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.variant import Variant
 from jumpcad.spread import sobol
 from jumpcad.transforms import Array
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from jumpcad.search.propose.acquisition import DIGITS, promised_gain
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 from jumpcad.transforms import Array
 
 STEP = 0.02

@@ -12,13 +12,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.fronts import energy_j
-from jumpcad.search.methods import Task
 from jumpcad.search.propose.bayesian import default_initial, run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, best_trial
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.trial import Trial, best_trial
 
 RUNS = 3
 """Runs of the genetic algorithm."""

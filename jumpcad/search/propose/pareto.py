@@ -14,17 +14,17 @@ import numpy as np
 from scipy.special import log_ndtr
 
 from jumpcad.design import PARAMETERS
-from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, find_cost, front
-from jumpcad.search.methods import Task
-from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.bayesian import incumbent, learned_trials, run_steps, unproposed
 from jumpcad.search.propose.genetic import Fitness, begun_with, evolve
 from jumpcad.search.propose.proposal_loop import Learner
 from jumpcad.search.propose.surrogate import Surrogate
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, searched
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.own_objective import LARGEST
+from jumpcad.search.study.trial import Trial, searched
 from jumpcad.transforms import Array
 
 CAPS = 8

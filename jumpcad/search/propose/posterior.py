@@ -16,8 +16,8 @@ from scipy.special import erfcx, log_ndtr
 
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
-from jumpcad.search.variant import Key
+from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.variant import Key
 from jumpcad.transforms import Array
 
 GUESS, MORE = "guess", "more"

@@ -12,8 +12,8 @@ from jumpcad.search.propose.dry_run import Rehearsal
 from jumpcad.search.propose.local_search import WITHIN, neighbours
 from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial, best_trial
-from jumpcad.search.variant import Key, Variant
+from jumpcad.search.study.trial import Trial, best_trial
+from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
 ROUNDS = 8

@@ -6,7 +6,7 @@ from dataclasses import asdict
 from jumpcad.errors import JumpcadError
 from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.study.store import PICKS, StudyStore
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 
 
 def pick_run(store: StudyStore, designs: int, evaluations: int) -> int:

@@ -17,10 +17,10 @@ from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
 from jumpcad.files.names import Name, Text
 from jumpcad.findings import Severity, bare
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.phases import LEARNING_PHASES, METHODS, PHASES
 from jumpcad.search.pick.tolerances import MADE, require_made
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
 
 KEY = re.compile(r"[^.\x00-\x1f\x7f]{1,80}(\.[^.\x00-\x1f\x7f]{1,80}){1,3}")
 """Dotted keys of a workshop."""

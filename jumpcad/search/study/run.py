@@ -13,18 +13,18 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
-from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.fronts import front
-from jumpcad.search.methods import Task, run_method
 from jumpcad.search.phases import METHODS, SEARCH_PHASES
 from jumpcad.search.pick.robust import active_bounds, rank_candidates
-from jumpcad.search.pool import Pool
-from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
-from jumpcad.search.result import Result
+from jumpcad.search.propose.task import Task, run_method
+from jumpcad.search.study.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.study.picks import keep_pick, pick_run
+from jumpcad.search.study.pool import Pool
+from jumpcad.search.study.request import LEARNING_VERSIONS, Request, Stage, plan_stages
+from jumpcad.search.study.result import Result
 from jumpcad.search.study.store import ENDED, StudyStore, difference
-from jumpcad.search.trial import Trial, best_trial, count_rejections
-from jumpcad.search.versions import versions
+from jumpcad.search.study.trial import Trial, best_trial, count_rejections
+from jumpcad.search.study.versions import versions
 
 FIRST = 50
 """Designs after which it is said that none jumps."""

@@ -21,7 +21,7 @@ from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.phases import SEARCH_PHASES
 from jumpcad.search.study.database import connect, lock, open_to_read, plain_errors
 from jumpcad.search.study.record import COLUMNS, read_trial, remembered, to_row
-from jumpcad.search.trial import Trial, in_order
+from jumpcad.search.study.trial import Trial, in_order
 
 APPLICATION_ID = 0x4A554D50
 FORMAT = 5

@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from jumpcad.search.objective import Objective, described_objective
 from jumpcad.search.phases import EXPLORED
 from jumpcad.search.pick.robust import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import Objective, described_objective
 from jumpcad.search.study.picks import read_pick
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Position, Trial, best_trial, searched, trial_numbers
+from jumpcad.search.study.trial import Position, Trial, best_trial, searched, trial_numbers
 
 
 @dataclass(frozen=True)

@@ -23,9 +23,9 @@ from jumpcad.search.estimate.corrected_estimate import (
 )
 from jumpcad.search.estimate.estimate import Guess
 from jumpcad.search.estimate.fitting import LAID, MARK
-from jumpcad.search.objective import Evaluation
-from jumpcad.search.trial import Trial
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
 Guessing = Callable[[Design], Guess | None]

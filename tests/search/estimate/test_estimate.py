@@ -11,9 +11,9 @@ from support.quick import BEST, FIGURES, LIKE, SPACE, quick
 from jumpcad.search.estimate.estimate import Fit, Guesser
 from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, laid_out, stand_in
 from jumpcad.search.estimate.fitting import MARK, Table, features, learned_rows
-from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.trial import Trial
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.variant import Variant
 from jumpcad.simulation import Settings, simulate
 from jumpcad.workshop import load_workshop, varied
 

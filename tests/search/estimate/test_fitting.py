@@ -20,8 +20,8 @@ from jumpcad.search.estimate.fitting import (
     learned_rows,
     of_layout,
 )
-from jumpcad.search.objective import Evaluation
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
 
 CENTRE = np.full(SPACE.dimension, 0.5)
 POINTS = SPACE.spread(FEW, np.random.default_rng(7))

@@ -12,7 +12,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.search.estimate.refusal import refusal_findings, room_findings
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.simulation import Settings, simulate
 
 

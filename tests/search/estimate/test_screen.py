@@ -17,17 +17,17 @@ from jumpcad.search.estimate.estimate import Fit, Guess
 from jumpcad.search.estimate.estimated_robot import LAID, stand_in
 from jumpcad.search.estimate.fitting import MARK
 from jumpcad.search.estimate.screen import LEAST, WORTH, Screen, leaves_out
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods import Task
 from jumpcad.search.models import GUESS_STEP_S, robot_model
-from jumpcad.search.objective import GUESSED, SCREENED, Evaluation, find_objective
-from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.genetic import run_genetic
-from jumpcad.search.request import Request
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation, find_objective
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial, best_trial
-from jumpcad.search.variant import Key, Variant
+from jumpcad.search.study.trial import Trial, best_trial
+from jumpcad.search.study.variant import Key, Variant
 from jumpcad.settings import load_settings
 from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop

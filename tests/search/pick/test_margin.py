@@ -7,13 +7,13 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.design import SEARCH_BOUNDS
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.pick.margin import STEEPNESS, _missed, propose_robust
 from jumpcad.search.pick.robust import rank_candidates
 from jumpcad.search.pick.tolerances import LENGTHS_ALONE
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.space import Space
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
 

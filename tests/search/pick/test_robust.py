@@ -11,7 +11,6 @@ from jumpcad.building import build
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.pick import robust
 from jumpcad.search.pick.robust import (
     NOT_EXAMINED,
@@ -28,8 +27,9 @@ from jumpcad.search.pick.robust import (
 )
 from jumpcad.search.pick.tolerances import LENGTHS_ALONE, MADE, Making, as_made, varied_parameters
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.variant import Variant
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop

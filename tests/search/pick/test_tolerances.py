@@ -22,7 +22,7 @@ from jumpcad.search.pick.tolerances import (
     require_made,
     tenth,
 )
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.variant import Variant
 from jumpcad.settings import Settings, coefficients
 
 DESIGN = load_design("kenan-2.0")

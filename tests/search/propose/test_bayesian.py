@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 
-from jumpcad.search.methods import Task
-from jumpcad.search.objective import SCREENED, Evaluation
 from jumpcad.search.propose import bayesian
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.propose.bayesian import (
@@ -24,8 +22,10 @@ from jumpcad.search.propose.bayesian import (
 )
 from jumpcad.search.propose.local_search import FARTHEST
 from jumpcad.search.propose.proposal_loop import Learner
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import SCREENED, Evaluation
+from jumpcad.search.study.trial import Trial
 
 
 def best(trials):

@@ -14,20 +14,20 @@ from jumpcad.findings import Finding
 from jumpcad.search.estimate.estimate import Guess, Guesser
 from jumpcad.search.estimate.estimated_robot import LAID
 from jumpcad.search.estimate.fitting import MARK, Table
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods import Task
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.bayesian import IDLE, run_bayesian
 from jumpcad.search.propose.dry_run import FAILED, GUESSED, TRIED, Rehearsal, _stayed
 from jumpcad.search.propose.local_search import STALLED, Progress
 from jumpcad.search.propose.proposal_loop import Learner
-from jumpcad.search.request import Request
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
+from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.variant import Variant
 from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop
 

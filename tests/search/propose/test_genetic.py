@@ -8,9 +8,7 @@ import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.methods import Task
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.propose import genetic
 from jumpcad.search.propose.genetic import (
     PATIENCE,
@@ -22,8 +20,10 @@ from jumpcad.search.propose.genetic import (
     find_preset,
     run_genetic,
 )
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation
+from jumpcad.search.study.trial import Trial
 from jumpcad.workshop import load_workshop
 
 

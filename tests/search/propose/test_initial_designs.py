@@ -7,8 +7,8 @@ from support.hills import SMALL, TOP, Hill
 
 from jumpcad.design import load_design
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import find_objective
 from jumpcad.search.propose.initial_designs import APART, first_points, ranked_points
+from jumpcad.search.study.objective import find_objective
 
 
 class Known(Hill):

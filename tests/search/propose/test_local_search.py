@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from support.hills import SMALL
 
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.propose.local_search import DRAWN, STEP, Progress, gains, neighbours
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
 from jumpcad.workshop import load_workshop
 
 HALF = {"theta": {}, "log_improvement": math.log(0.4), "log_feasible": math.log(0.5)}

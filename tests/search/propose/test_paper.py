@@ -8,17 +8,17 @@ from support.pictures import with_plain_figures
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.methods import Task
-from jumpcad.search.objective import Evaluation
-from jumpcad.search.pool import local_pool
 from jumpcad.search.propose import paper
 from jumpcad.search.propose.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
-from jumpcad.search.request import Request
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
+from jumpcad.search.study.trial import Trial
 from jumpcad.search.study_plots import plot_study
-from jumpcad.search.trial import Trial
 
 pytestmark = pytest.mark.usefixtures("quick_proposals")
 

@@ -8,12 +8,12 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
-from jumpcad.search.methods import Task
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.propose import pareto
 from jumpcad.search.propose.pareto import ParetoFitness, energy_caps_j, run_nsga2, run_pareto
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
 from jumpcad.workshop import load_workshop
 
 

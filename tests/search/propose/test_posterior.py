@@ -12,7 +12,6 @@ from scipy.stats import norm
 from support.hills import FIXED, SMALL, Hill
 
 from jumpcad.findings import Finding
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.propose.posterior import (
     VERDICT,
     SearchPosterior,
@@ -25,7 +24,8 @@ from jumpcad.search.propose.posterior import (
 )
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
 from jumpcad.workshop import load_workshop
 
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from support.hills import SMALL, Hill
 
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.propose.local_search import DRAWN, STEP, WITHIN
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.propose.proposal_loop import HELD, ROUNDS, Learner, _best_of, _last_leap
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import Trial
 
 
 def trial_of(unit):

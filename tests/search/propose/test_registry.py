@@ -6,8 +6,6 @@ import typer
 from support.hills import SMALL, Hill
 
 from jumpcad.cli import optimize
-from jumpcad.search import request
-from jumpcad.search.methods import Task, run_method
 from jumpcad.search.phases import (
     FRONTS,
     LEARNING_PHASES,
@@ -17,8 +15,10 @@ from jumpcad.search.phases import (
     SEQUENCES,
     Method,
 )
-from jumpcad.search.request import Request, Stage, plan_stages
+from jumpcad.search.propose.task import Task, run_method
 from jumpcad.search.space import Space
+from jumpcad.search.study import request
+from jumpcad.search.study.request import Request, Stage, plan_stages
 
 
 @pytest.mark.parametrize("name", [name for name in METHODS if name != "paper"])  # it runs others

@@ -10,9 +10,9 @@ from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import bare
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.record import COLUMNS, read_trial, remembered, to_row
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 
 MADE = {"made.spring_factor": 0.9, "made.friction_factor": 1.1}
 SCORED = next(trial for trial in trials(8, "bo", 1) if trial.score is not None)

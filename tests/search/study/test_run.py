@@ -15,17 +15,17 @@ from support.places import TESTS
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.methods import Task
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.pool import local_pool
 from jumpcad.search.propose.local_search import gains
-from jumpcad.search.request import Request
+from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import _read_prior, run_study
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4, until_percent=0.0)
 FEW = Space.parse(choose=["c_coef=0.9,1.0"], around=load_design("best-ga"), only=["c_coef"])

@@ -8,13 +8,13 @@ import pytest
 from support.bumps import REST, Bump, studied
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request
 from jumpcad.search.space import Space
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import summary
-from jumpcad.search.trial import best_trial
+from jumpcad.search.study.trial import best_trial
 
 
 @pytest.mark.parametrize("top", [0.45, 0.72], ids=["bound below the bump", "constraint beside it"])

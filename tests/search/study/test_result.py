@@ -15,11 +15,11 @@ from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.pick.robust import ActiveBound, Candidate
-from jumpcad.search.request import Request
-from jumpcad.search.result import Result
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.request import Request
+from jumpcad.search.study.result import Result
+from jumpcad.search.study.trial import Trial
 from jumpcad.workshop import load_workshop
 
 QUICK = {"model": "capsule", "settings": "screening", "workers": 0}

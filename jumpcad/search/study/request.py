@@ -14,15 +14,15 @@ from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import Model, Objective, find_objective
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 from jumpcad.search.pick.robust import pick_share
 from jumpcad.search.pick.tolerances import LENGTHS_ALONE, Making
 from jumpcad.search.propose.bayesian import default_initial
 from jumpcad.search.propose.genetic import find_preset
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
-from jumpcad.search.versions import versions
+from jumpcad.search.study.objective import Model, Objective, find_objective
+from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.versions import versions
 
 MOST_EVALUATIONS = 1_000_000
 """About a day of one core, at 80 ms an evaluation (docs/speed.md)."""
@@ -41,7 +41,7 @@ class Request:
     space, model, objective
         The space that is searched, the robot's model, and the name of the objective.
     method
-        One of `jumpcad.search.methods.NAMES`.
+        One of `jumpcad.search.propose.task.NAMES`.
     evaluations
         How many designs are evaluated at most, those of the robust pick included.
     seed

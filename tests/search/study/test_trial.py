@@ -7,9 +7,9 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.phases import LEARNING_PHASES
-from jumpcad.search.trial import (
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.trial import (
     Trial,
     best_trial,
     count_rejections,

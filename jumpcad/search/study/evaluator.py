@@ -8,12 +8,12 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.objective import QUARANTINED, Evaluation, Model, Objective
-from jumpcad.search.pool import Pool
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import QUARANTINED, Evaluation, Model, Objective
+from jumpcad.search.study.pool import Pool
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.trial import Position, Trial, in_order
-from jumpcad.search.variant import Key, Variant
+from jumpcad.search.study.trial import Position, Trial, in_order
+from jumpcad.search.study.variant import Key, Variant
 
 Watch = Callable[[Trial, bool], None]
 """Called with every trial, and whether it was computed now (or read from the study file)."""

@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search import code_hash as code_hash_module
-from jumpcad.search.code_hash import code_hash
+from jumpcad.search.study import code_hash as code_hash_module
+from jumpcad.search.study.code_hash import code_hash
 
 HELPER = "FACTOR = {factor}\n\ndef scaled(x):\n    return {factor} * x\n\ndef unused(x):\n    return {other} * x\n"
 

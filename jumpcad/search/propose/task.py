@@ -1,4 +1,4 @@
-"""The methods that propose designs: one module each, and one line in `jumpcad.search.phases.METHODS`.
+"""What a method is asked to do. Each is a module of this folder and a line in `jumpcad.search.phases.METHODS`.
 
 A method is a function that takes an `Evaluator` and a `Task` and returns when the task's evaluations are used up. All
 else follows from its entry: the choices and help of `jumpcad optimize`, the plan of a study, what its file may hold.
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from jumpcad.search.phases import METHODS
 
 if TYPE_CHECKING:
-    from jumpcad.search.evaluator import Evaluator
+    from jumpcad.search.study.evaluator import Evaluator
 
 
 @dataclass(frozen=True)

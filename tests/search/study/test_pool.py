@@ -16,10 +16,10 @@ from support.hills import SMALL, Hill, Trap
 
 from jumpcad import interrupts
 from jumpcad.errors import JumpcadError
-from jumpcad.search import pool as pool_module
-from jumpcad.search.objective import QUARANTINED
-from jumpcad.search.pool import InProcess, Pool, dask_pool, local_pool, open_pool
 from jumpcad.search.space import Space
+from jumpcad.search.study import pool as pool_module
+from jumpcad.search.study.objective import QUARANTINED
+from jumpcad.search.study.pool import InProcess, Pool, dask_pool, local_pool, open_pool
 
 SPACE = Space.parse(fix=["c_coef=1", "d_coef=0.8"])
 DESIGNS = [SPACE.to_design(point) for point in SPACE.spread(24, np.random.default_rng(3))]
@@ -187,7 +187,7 @@ def test_a_dask_scheduler_is_let_go_when_the_pool_is_closed_or_it_has_no_workers
 
 
 def test_dask_that_does_not_answer(monkeypatch):
-    monkeypatch.setattr("jumpcad.search.pool.ANSWER_S", 0.5)
+    monkeypatch.setattr("jumpcad.search.study.pool.ANSWER_S", 0.5)
     needs.package("distributed")
     with pytest.raises(JumpcadError, match="no Dask scheduler answers at"):
         dask_pool("tcp://127.0.0.1:1")

@@ -18,8 +18,8 @@ import cloudpickle
 from jumpcad.collecting import collect_seldom
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.objective import Evaluation, Model
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.objective import Evaluation, Model
+from jumpcad.search.study.variant import Variant
 
 
 @dataclass(frozen=True)

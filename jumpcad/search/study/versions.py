@@ -17,7 +17,7 @@ def code_digest() -> str:
 
     Between two releases the version number stays, but the code changes.
     """
-    package = Path(__file__).parents[1]
+    package = Path(__file__).parents[2]
     files = {path.relative_to(package).as_posix(): path for path in package.rglob("*.py")}
     files |= {f"hardware/{path.name}": path for path in (templates_folder() / "hardware").glob("*.toml")}
     found = hashlib.sha256()

@@ -11,9 +11,9 @@ from support.hills import SMALL
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.search.objective import Evaluation
-from jumpcad.search.table import write_table
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.table import write_table
+from jumpcad.search.study.trial import Trial
 
 
 @pytest.fixture

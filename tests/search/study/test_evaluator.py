@@ -5,9 +5,9 @@ import pytest
 from support.hills import SMALL, Hill, Trap
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.objective import QUARANTINED, Evaluation
+from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.variant import Variant
 
 
 def designs(count, seed=0):

@@ -7,9 +7,9 @@ from functools import cached_property
 from typing import Any
 
 from jumpcad.design import Design
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.phases import PHASES, SEARCH_PHASES
-from jumpcad.search.variant import Key, Variant
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.variant import Key, Variant
 from jumpcad.workshop.varied import Value
 
 Position = tuple[str, int, int, int]

@@ -10,8 +10,8 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, bare, errors
-from jumpcad.search.code_hash import code_hash
-from jumpcad.search.own_objective import SUFFIX, checked, load_function, name_of, require_function
+from jumpcad.search.study.code_hash import code_hash
+from jumpcad.search.study.own_objective import SUFFIX, checked, load_function, name_of, require_function
 
 SCREENED, GUESSED = "screened", "guessed_score"
 """Verdict of a candidate that a screen left out, and the figure that it had for its score."""

@@ -9,7 +9,7 @@ from typing import Any
 import loky
 
 from jumpcad.interrupts import Held
-from jumpcad.search.worker import start_worker
+from jumpcad.search.study.worker import start_worker
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 """Environment of a worker: as many workers as cores, one thread each."""

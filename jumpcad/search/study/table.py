@@ -10,7 +10,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError
 from jumpcad.files.csv_text import to_csv
 from jumpcad.files.outputs import require_target, write_atomically
-from jumpcad.search.trial import Trial
+from jumpcad.search.study.trial import Trial
 
 TABLES = (".csv", ".parquet")
 

@@ -13,10 +13,10 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search import worker
-from jumpcad.search.objective import Evaluation
-from jumpcad.search.pool import local_pool
-from jumpcad.search.variant import Variant
+from jumpcad.search.study import worker
+from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.variant import Variant
 
 
 class Elsewhere(Hill):
@@ -37,9 +37,8 @@ def test_a_worker_with_another_program_computes_nothing():
 
 def test_a_worker_that_starts_after_its_parent_was_killed_ends():
     """Its parent is then another process: here, this test's child is told that it is its own parent."""
-    code = (
-        "import os, signal; from jumpcad.search.worker import start_worker; start_worker(os.getpid()); signal.pause()"
-    )
+    start = "from jumpcad.search.study.worker import start_worker; start_worker(os.getpid())"
+    code = f"import os, signal; {start}; signal.pause()"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 1
 
 

@@ -6,16 +6,16 @@ import sys
 import numpy as np
 import pytest
 
-from jumpcad.search import versions
 from jumpcad.search.models import RobotModel
-from jumpcad.search.versions import PRESENTATION, code_digest
+from jumpcad.search.study import versions
+from jumpcad.search.study.versions import PRESENTATION, code_digest
 
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
     """Return the folder of a small package that stands in for this one."""
     root = tmp_path / "jumpcad"
-    for name in ("search/versions.py", "simulation/run.py", "cli/study.py"):
+    for name in ("search/study/versions.py", "simulation/run.py", "cli/study.py"):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(f"# {name}\n")
     (tmp_path / "templates" / "hardware").mkdir(parents=True)

@@ -13,8 +13,8 @@ from jumpcad.files.outputs import require_target, sealed, write_atomically
 from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import RobotModel
 from jumpcad.search.pick.robust import ActiveBound, Candidate
-from jumpcad.search.request import Request
-from jumpcad.search.trial import Trial, count_rejections
+from jumpcad.search.study.request import Request
+from jumpcad.search.study.trial import Trial, count_rejections
 from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"

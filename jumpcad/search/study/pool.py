@@ -23,9 +23,9 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.interrupts import raise_if_seen
-from jumpcad.search.objective import QUARANTINED, Evaluation, Model
-from jumpcad.search.variant import Variant
-from jumpcad.search.worker import Failure, evaluate_task
+from jumpcad.search.study.objective import QUARANTINED, Evaluation, Model
+from jumpcad.search.study.variant import Variant
+from jumpcad.search.study.worker import Failure, evaluate_task
 
 TASK_S = 0.1
 """Longest duration of a task, which has several evaluations; sending one takes 0.3 ms."""
@@ -193,7 +193,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
         return Pool(InProcess, InProcess.shutdown, 1)
 
     def open_executor() -> Executor:
-        from jumpcad.search.local_workers import LocalWorkers
+        from jumpcad.search.study.local_workers import LocalWorkers
 
         return LocalWorkers(workers)
 

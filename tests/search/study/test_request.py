@@ -16,11 +16,11 @@ from jumpcad.cli import optimize
 from jumpcad.errors import JumpcadError
 from jumpcad.search.models import robot_model
 from jumpcad.search.pick.tolerances import Making
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request, plan_stages
 from jumpcad.search.space import Space
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request, plan_stages
 from jumpcad.search.study.run import run_study
-from jumpcad.search.versions import versions
+from jumpcad.search.study.versions import versions
 from jumpcad.workshop import load_workshop
 
 

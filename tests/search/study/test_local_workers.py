@@ -5,8 +5,8 @@ import os
 import loky
 import pytest
 
-from jumpcad.search.local_workers import LocalWorkers
-from jumpcad.search.worker import start_worker
+from jumpcad.search.study.local_workers import LocalWorkers
+from jumpcad.search.study.worker import start_worker
 
 
 def test_workers_compute_in_one_thread_and_know_who_started_them(monkeypatch: pytest.MonkeyPatch) -> None:

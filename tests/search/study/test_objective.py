@@ -4,7 +4,7 @@ import pytest
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.search.objective import OBJECTIVES, Evaluation, described_objective, find_objective
+from jumpcad.search.study.objective import OBJECTIVES, Evaluation, described_objective, find_objective
 
 JUMP = {
     "body_lengths": 6.0,

@@ -15,10 +15,10 @@ from support.hills import SMALL, Hill
 from support.searches import NARROW, QUICK, data, refusal
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.code_hash import code_hash
-from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request
+from jumpcad.search.study.code_hash import code_hash
+from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 

@@ -4,7 +4,7 @@ import pytest
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.variant import Variant
+from jumpcad.search.study.variant import Variant
 
 DESIGN = load_design("kenan-2.0")
 VARIANT = Variant(DESIGN, {"body.plate_mm": 3.0, "bought.retention": "nuts"})
