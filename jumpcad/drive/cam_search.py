@@ -93,10 +93,10 @@ class _Shapes:
         if (self.lower >= self.upper).any():
             fits = 2.0 * (limits.lever_max_mm - lever_min + limits.roller_radius_mm)
             raise CannotBuildError(
-                f"no lever from {lever_min:.1f} mm (hub, roller and clearance) to {limits.lever_max_mm:g} mm with the "
-                f"cam's axis {limits.gap_min_mm:.1f} to {limits.gap_max_mm:g} mm beyond it and at least "
-                f"{math.degrees(limits.overshoot_rad):.1f}° of overshoot: a bought.roller of less than {fits:.1f} mm "
-                "diameter, a smaller bought.leg_bearing, or a lower stiffness_nmm_per_deg, whose dog is smaller"
+                f"no lever from {lever_min:.1f} mm (hub, roller and clearance) to {limits.lever_max_mm:g} mm (cam's "
+                f"axis {limits.gap_min_mm:.1f} to {limits.gap_max_mm:g} mm beyond it, overshoot at least "
+                f"{math.degrees(limits.overshoot_rad):.1f}°): choose a bought.roller of less than {fits:.1f} mm "
+                "diameter, a smaller bought.leg_bearing, or a lower stiffness_nmm_per_deg"
             )
         self.known: dict[bytes, tuple[float, Array, Array, Array]] = {}
 

@@ -117,10 +117,9 @@ def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) 
     raise NoTrainError(
         f"no motor turns the cam: it needs {1000 * torque:.0f} mN·m, the strongest allowed motor may give "
         f"{1000 * allowed:.0f} mN·m, and no one or two gear pairs make "
-        f"{torque / allowed / limits.pair_efficiency:.1f}:1 at no more than "
-        f"{math.degrees(limits.cam_speed_max_rad_s):.0f} °/s with a cam gear of at most "
-        f"{limits.cam_gear_tip_max_mm:.1f} mm radius and {limits.stress_mpa:g} MPa in "
-        f"teeth {limits.face_width_mm:g} mm wide: {remedy}"
+        f"{torque / allowed / limits.pair_efficiency:.1f}:1 (limits: {math.degrees(limits.cam_speed_max_rad_s):.0f} "
+        f"°/s, {limits.cam_gear_tip_max_mm:.1f} mm radius of the cam gear, {limits.stress_mpa:g} MPa in "
+        f"teeth {limits.face_width_mm:g} mm wide): {remedy}"
     )
 
 

@@ -59,10 +59,10 @@ HYPERPARAMETERS = (
 )
 
 READING = (
-    "published: as given by the study; again: its simulation, run here; measured: built robots, electrical energy "
-    "with all losses; evaluator: the same masses (capsule robot) in jumpcad's own simulation: ballistic range of the "
-    "centre of mass, the body's displacement at touchdown, rise of the centre of mass, and the share of the springs' "
-    "energy that is mechanical energy at take-off. "
+    "published: as given by the study. again: its simulation, run here. measured: built robots, electrical energy with "
+    "all losses.\n"
+    "evaluator: the same masses (capsule robot) in jumpcad's own simulation: ballistic range, displacement of the body "
+    "at touchdown, rise of the centre of mass, share of the springs' energy at take-off.\n"
     "Kenan 1.0's published height is the one figure here that the study's simulation does not give.\n"
 )
 

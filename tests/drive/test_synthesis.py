@@ -166,7 +166,7 @@ def test_gears_widen_where_their_teeth_are_too_weak():
         force = 2000.0 * LIMITS.train.pair_efficiency * train.motor_torque_nm / (pinion.module_mm * pinion.teeth)
         lewis = force / (train.stages[0].face_width_mm * pinion.module_mm * pinion.lewis_factor)
         assert lewis <= stress
-    with pytest.raises(CannotBuildError, match=r"1.2 MPa in teeth 8 mm wide: lower stiffness_nmm_per_deg"):
+    with pytest.raises(CannotBuildError, match=r"1.2 MPa in teeth 8 mm wide\): lower stiffness_nmm_per_deg"):
         synthesise(design, dataclasses.replace(LIMITS, train=dataclasses.replace(LIMITS.train, stress_mpa=1.2)))
 
 
