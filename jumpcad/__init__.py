@@ -4,7 +4,7 @@ The public names load when they are first used, so that `import jumpcad` and the
 the latter runs does it answer an interrupt in one line.
 """
 
-from jumpcad.faces import face
+from jumpcad.lazy_exports import lazy_exports
 from jumpcad.version import __version__
 
 TYPE_CHECKING = False  # type checkers take it for true; to import typing takes longer than all else here
@@ -60,4 +60,4 @@ _HOMES = {
 }
 
 __all__ = ["__version__", *_HOMES]
-__getattr__, __dir__ = face(__name__, _HOMES)
+__getattr__, __dir__ = lazy_exports(__name__, _HOMES)

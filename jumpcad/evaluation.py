@@ -91,13 +91,13 @@ def evaluate_made(
     Robot, size and findings besides the jump's are those of the design. The robot of the design before is kept, so that
     of several made of one design only the first takes time to build.
     """
-    robot, findings = _designed(_Order(design, workshop))
+    robot, findings = _designed(_BuildKey(design, workshop))
     jump = simulate(*made(robot, settings or Settings()), engine)
     return EvaluationResult(robot, jump, (*jump.findings, *findings), _metrics(robot, jump))
 
 
 @dataclass(frozen=True)
-class _Order:
+class _BuildKey:
     """What a robot is built from; a workshop has no hash."""
 
     design: Design
@@ -108,7 +108,7 @@ class _Order:
 
 
 @lru_cache(maxsize=1)
-def _designed(order: _Order) -> tuple[Robot, tuple[Finding, ...]]:
+def _designed(order: _BuildKey) -> tuple[Robot, tuple[Finding, ...]]:
     robot, findings = built_and_checked(order.design, order.workshop, name="")
     return robot, tuple(findings)
 

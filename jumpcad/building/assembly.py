@@ -4,9 +4,9 @@ import math
 import pickle
 from dataclasses import replace
 
+from jumpcad.building.bearing_and_drive import solve_bearing_and_drive
 from jumpcad.building.bodies import bodies_of, friction_of
 from jumpcad.building.releasing import release_of
-from jumpcad.building.settle import settle
 from jumpcad.building.weighing import require_parts, weighed_part
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM
@@ -119,7 +119,7 @@ def _with_pin_room(design: Design, workshop: Workshop, growth: Growth) -> Layout
 
 def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad: tuple[float, ...]) -> Layout:
     """Return the layout with springs for one of the directions of the plates' pin."""
-    settled = settle(design, workshop, growth, plate_pins_rad)
+    settled = solve_bearing_and_drive(design, workshop, growth, plate_pins_rad)
     axles.require_retention(workshop.catalogue, workshop.bought)
     carried = chosen_parts(workshop)
     parts = carried.components

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from jumpcad.faces import face
+from jumpcad.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle as Bundle
@@ -13,4 +13,4 @@ if TYPE_CHECKING:
 _HOMES = {"Bundle": "manifest", "open_bundle": "manifest", "slice_bundle": "sliced", "verify": "manifest"}
 
 __all__ = list(_HOMES)
-__getattr__, __dir__ = face(__name__, _HOMES)
+__getattr__, __dir__ = lazy_exports(__name__, _HOMES)

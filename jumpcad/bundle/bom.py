@@ -8,10 +8,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from jumpcad.counting import counted
 from jumpcad.files.csv_text import to_csv
 from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.spring_wire import CHOOSE, ORDERED
+from jumpcad.plural import counted
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 

@@ -13,9 +13,9 @@ from typing import Annotated, Any, Literal, NoReturn
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from jumpcad.bundle.tree import above, is_safe, shown, tree, trouble
-from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files.names import Text
+from jumpcad.plural import counted
 
 MANIFEST = "manifest.json"
 FORMAT = 1

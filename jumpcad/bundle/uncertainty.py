@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
+from jumpcad.plural import counted
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import uncertain_jump

@@ -59,7 +59,7 @@ def main() -> "NoReturn":
     if listening:
         sys.excepthook, sys.unraisablehook = _unhandled, _unraisable
     try:
-        from jumpcad.collecting import collect_seldom
+        from jumpcad.gc_tuning import collect_seldom
 
         collect_seldom()
         from jumpcad.cli.commands import run

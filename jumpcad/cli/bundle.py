@@ -17,8 +17,8 @@ from jumpcad.cli.subjects import (
     note_template,
     printed_robot,
 )
-from jumpcad.counting import counted
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle

@@ -14,7 +14,7 @@ from jumpcad.cli.subjects import (
     name_of,
     note_template,
 )
-from jumpcad.counting import counted
+from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -15,9 +15,9 @@ from jumpcad.cli.searching import (
     require_plots,
     with_search_options,
 )
-from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
+from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.design import Design

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from jumpcad.cli.output import LINE_EVERY_S, console
-from jumpcad.counting import counted
+from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.search.study.evaluator import Watch

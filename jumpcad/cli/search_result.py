@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from jumpcad.cli.output import escaped, shell_quoted
-from jumpcad.counting import counted
+from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding

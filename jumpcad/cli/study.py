@@ -8,8 +8,8 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
 from jumpcad.cli.searching import PlotsOption, require_plots
-from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
+from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.search.study.store import StudyStore

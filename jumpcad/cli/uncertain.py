@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from jumpcad.cli.output import status
-from jumpcad.counting import counted
+from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.robot import Robot

@@ -5,7 +5,7 @@ A simulation, which runs the MJCF model, loads that format alone.
 
 from typing import TYPE_CHECKING
 
-from jumpcad.faces import face
+from jumpcad.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from jumpcad.exporters.registry import EXPORTERS as EXPORTERS
@@ -14,4 +14,4 @@ if TYPE_CHECKING:
 _HOMES = {"EXPORTERS": "registry", "Exporter": "registry"}
 
 __all__ = list(_HOMES)
-__getattr__, __dir__ = face(__name__, _HOMES)
+__getattr__, __dir__ = lazy_exports(__name__, _HOMES)

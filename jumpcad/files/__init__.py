@@ -5,7 +5,7 @@ The public names load when they are first used: the command line's help needs no
 
 from typing import TYPE_CHECKING
 
-from jumpcad.faces import face
+from jumpcad.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from jumpcad.files.complaints import did_you_mean as did_you_mean
@@ -39,4 +39,4 @@ _HOMES = {
 }
 
 __all__ = list(_HOMES)
-__getattr__, __dir__ = face(__name__, _HOMES)
+__getattr__, __dir__ = lazy_exports(__name__, _HOMES)

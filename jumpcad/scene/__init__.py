@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from jumpcad.faces import face
+from jumpcad.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from jumpcad.scene.assembly_steps import Step as Step
@@ -13,4 +13,4 @@ if TYPE_CHECKING:
 _HOMES = {"Renderer": "renderer", "Step": "assembly_steps", "View": "camera", "Visual": "visuals"}
 
 __all__ = list(_HOMES)
-__getattr__, __dir__ = face(__name__, _HOMES)
+__getattr__, __dir__ = lazy_exports(__name__, _HOMES)

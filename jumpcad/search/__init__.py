@@ -6,7 +6,7 @@
 
 from typing import TYPE_CHECKING
 
-from jumpcad.faces import face
+from jumpcad.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from jumpcad.search import plots as plots
@@ -86,4 +86,4 @@ _HOMES = {
 }
 
 __all__ = list(_HOMES)
-__getattr__, __dir__ = face(__name__, _HOMES)
+__getattr__, __dir__ = lazy_exports(__name__, _HOMES)

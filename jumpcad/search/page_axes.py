@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from jumpcad.search.page_text import written
+from jumpcad.search.page_text import escape_html
 
 Scale = tuple[float, float, list[float]]
 """Lowest and highest value of an axis, and its ticks."""
@@ -68,14 +68,14 @@ class Axes:
             label = f"{value + self.first:g}"
             lines.append(f'<path class="grid" d="M{self.x(value):.1f} {self.top:g}V{foot:g}" />')
             lines.append(
-                f'<text x="{self.x(value):.1f}" y="{foot + 22:g}" text-anchor="middle">{written(label)}</text>'
+                f'<text x="{self.x(value):.1f}" y="{foot + 22:g}" text-anchor="middle">{escape_html(label)}</text>'
             )
         for value in self.up[2]:
             lines.append(f'<path class="grid" d="M{self.left:g} {self.y(value):.1f}H{right:g}" />')
             lines.append(f'<text x="{self.left - 7:g}" y="{self.y(value) + 5:.1f}" text-anchor="end">{value:g}</text>')
         middle = (self.left + right) / 2.0
-        lines.append(f'<text x="{middle:g}" y="{self.height - 10:g}" text-anchor="middle">{written(across)}</text>')
-        lines.append(f'<text x="4" y="22">{written(up)}</text>')
+        lines.append(f'<text x="{middle:g}" y="{self.height - 10:g}" text-anchor="middle">{escape_html(across)}</text>')
+        lines.append(f'<text x="4" y="22">{escape_html(up)}</text>')
         return lines
 
 

@@ -6,14 +6,14 @@ from html import escape
 from jumpcad.exporters.xml import allowed
 
 
-def written(text: str) -> str:
+def escape_html(text: str) -> str:
     """Return a text escaped for the page."""
     return escape(allowed(text))
 
 
 def broken(name: str) -> str:
     """Return an escaped name with a possible line break after each underscore."""
-    return written(name).replace("_", "_<wbr />")
+    return escape_html(name).replace("_", "_<wbr />")
 
 
 def table(
@@ -33,7 +33,7 @@ def table(
         for place in range(len(head))
     ]
     marks = [f' class="{kind}"' if kind else "" for kind in kinds]
-    heads = [written(title) for title in head]
+    heads = [escape_html(title) for title in head]
     yield f'<div class="wide{"" if extra else " stacked"}"><table>'
     yield f"<tr>{''.join(f'<th{mark}>{broken(title)}</th>' for mark, title in zip(marks, head, strict=True))}</tr>"
     for row in rows:

@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from jumpcad.arguments import check_arguments
-from jumpcad.counting import counted
 from jumpcad.design import PARAMETERS, Design
+from jumpcad.plural import counted
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, front

@@ -4,7 +4,7 @@ import shlex
 from collections.abc import Iterator, Sequence
 
 from jumpcad.search.fronts import energy_j
-from jumpcad.search.page_text import broken, written
+from jumpcad.search.page_text import broken, escape_html
 from jumpcad.search.side_view import Box, box_mm, side_view
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.trial import Trial
@@ -22,7 +22,7 @@ def shown_designs(shown: Sequence[Trial], numbers: Sequence[int], objective: Obj
     box = box_mm(trial.design for trial in shown)
     for number, (trial, of_study) in enumerate(zip(shown, numbers, strict=True), start=1):
         yield f'<section class="design" id="design-{number}">'
-        yield f"<h3>Design {number} (trial {of_study}): {trial.score:.4g} {written(objective.unit)}</h3>"
+        yield f"<h3>Design {number} (trial {of_study}): {trial.score:.4g} {escape_html(objective.unit)}</h3>"
         yield from _drawn(trial, box)
         first, others = _lines(trial)
         yield from _rows(first)
@@ -31,13 +31,15 @@ def shown_designs(shown: Sequence[Trial], numbers: Sequence[int], objective: Obj
             yield from _rows(others)
             yield "</details>"
         command = f"jumpcad studio {shlex.quote(file)} --trial {of_study}"
-        yield f'<p class="command">In the studio: <code>{written(command)}</code></p>'
+        yield f'<p class="command">In the studio: <code>{escape_html(command)}</code></p>'
         yield "</section>"
 
 
 def _rows(lines: Sequence[tuple[str, str]]) -> Iterator[str]:
     yield "<table>"
-    yield from (f'<tr><td>{broken(name)}</td><td class="number">{written(value)}</td></tr>' for name, value in lines)
+    yield from (
+        f'<tr><td>{broken(name)}</td><td class="number">{escape_html(value)}</td></tr>' for name, value in lines
+    )
     yield "</table>"
 
 

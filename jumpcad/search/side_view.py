@@ -11,7 +11,7 @@ from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.mechanism.planar import points
-from jumpcad.search.page_text import written
+from jumpcad.search.page_text import escape_html
 from jumpcad.transforms import Array
 
 POINTS = ("toe tip", "ankle", "front eye", "front pivot", "back pivot")
@@ -71,7 +71,7 @@ def side_view(design: Design, box: Box) -> str:
     try:
         poses = joints_mm(design)
     except CannotBuildError as error:
-        return f"<p>{written(str(error))}</p>"
+        return f"<p>{escape_html(str(error))}</p>"
     left, low, right, high = box
     width, height = right - left, high - low + 16.0
     lines = [

@@ -27,7 +27,7 @@ from jumpcad.search.parameter import (
     several,
 )
 from jumpcad.search.study.variant import NOTHING, Variant
-from jumpcad.spread import sobol
+from jumpcad.sobol import sobol
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.varied import Value

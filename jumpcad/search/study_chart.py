@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.search.fronts import Cost, front
 from jumpcad.search.page_axes import Axes, evenly, scale
-from jumpcad.search.page_text import written
+from jumpcad.search.page_text import escape_html
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.trial import Trial
 
@@ -54,7 +54,7 @@ def chart(
     others = [place(feasible[index]) for index in evenly(len(feasible), MOST_DOTS)]
     lines = [
         f'<svg class="chart" viewBox="0 0 {axes.width:g} {axes.height:g}" role="group" '
-        f'aria-label="{written(meaning)} over {written(cost.figure.meaning)}">',
+        f'aria-label="{escape_html(meaning)} over {escape_html(cost.figure.meaning)}">',
         *axes.drawn(f"{cost.figure.meaning} ({cost.figure.unit})", meaning),
         axes.dots(others, "other"),
     ]
@@ -65,7 +65,7 @@ def chart(
         zip(places, _radii(places), shown, numbers, strict=True), start=1
     ):
         figures = f"{trial.score:.4g} {objective.unit} with {cost.shown(cost.of(trial)):.3f} {cost.figure.unit}"
-        said = written(f"design {number} (trial {of_study}): {figures}")
+        said = escape_html(f"design {number} (trial {of_study}): {figures}")
         at = f'cx="{x:.1f}" cy="{y:.1f}"'
         lines.append(
             f'<a href="#design-{number}" data-design="{number}" aria-label="{said}"><title>{said}</title>'

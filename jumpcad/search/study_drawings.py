@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from jumpcad.search.page_axes import Axes, evenly, scale
-from jumpcad.search.page_text import broken, written
+from jumpcad.search.page_text import broken, escape_html
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Objective
@@ -45,7 +45,7 @@ def history(found: StudySummary) -> Iterator[str]:
     axes = Axes(scale([1.0, float(len(trials))], whole=True), scale(scores[feasible].tolist()))
     meaning = f"{objective.meaning} ({objective.unit})"
     yield f'<svg class="drawn" viewBox="0 0 {axes.width:g} {axes.height:g}" role="img" '
-    yield f'aria-label="{written(meaning)} of every design in the order of the search">'
+    yield f'aria-label="{escape_html(meaning)} of every design in the order of the search">'
     yield from axes.drawn("number of the design in the search", meaning)
     phases = list(dict.fromkeys(trial.phase for trial in trials))
     chosen = [int(feasible[index]) for index in evenly(len(feasible), MOST_DOTS)]
@@ -92,7 +92,7 @@ def slices(found: StudySummary, shown: Sequence[Trial]) -> Iterator[str]:
         return
     objective = found.objective
     yield "<h2>Slices</h2>"
-    yield f"<p>The score, {written(objective.meaning)} ({written(objective.unit)}), over one parameter at a time; "
+    yield f"<p>The score, {escape_html(f'{objective.meaning} ({objective.unit})')}, over one parameter at a time; "
     yield "every dot is a design that jumps, the others of its parameters are what they were. Where the upper edge of "
     yield "the dots falls to both sides of the best design, its value is the right one; where it still rises at an "
     yield "end of the range, look beyond it.</p>"
@@ -122,7 +122,7 @@ def _slice(
     axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, first=first)
     unit = unit_of(parameter.name)
     yield f'<figure><svg class="drawn" viewBox="0 0 {axes.width:g} {axes.height:g}" role="img" '
-    yield f'aria-label="score over {written(parameter.name)}">'
+    yield f'aria-label="score over {escape_html(parameter.name)}">'
     yield from axes.drawn("", f"score ({objective.unit})")
     for age in range(AGES):
         yield axes.dots([at(trial) for place, trial in chosen if place == age], f"age{age}")
@@ -131,7 +131,7 @@ def _slice(
         x, y = at(trial)
         yield f'<circle class="of" data-of="{number}" cx="{axes.x(x):.1f}" cy="{axes.y(y):.1f}" r="7" />'
     meaning = meaning_of(parameter.name) or ", ".join(f"{n} is {name}" for n, name in enumerate(parameter.names, 1))
-    said = f"{f' ({written(unit)})' if unit else ''}{f': {written(meaning)}' if meaning else ''}"
+    said = f"{f' ({escape_html(unit)})' if unit else ''}{f': {escape_html(meaning)}' if meaning else ''}"
     best_at = _best(parameter, at(best)[0])
     yield f"</svg><figcaption><b>{broken(parameter.name)}</b>{said}. Best: {best_at}.</figcaption></figure>"
 
@@ -140,7 +140,7 @@ def _best(parameter: SearchParameter, number: float) -> str:
     """Return a parameter's value in the best design, and where it lies in its range."""
     value = parameter.value(number)
     if isinstance(value, str):
-        return written(value)
+        return escape_html(value)
     ends = {"at the lower end of the range": parameter.lower, "at the upper end of the range": parameter.upper}
     at = next((f", {words}" for words, end in ends.items() if abs(number - end) <= 1e-3 * parameter.width), "")
     return f"{with_unit(f'{value:.4g}', parameter.name)}{at}"
@@ -179,7 +179,7 @@ def parallel(found: StudySummary, shown: Sequence[Trial]) -> Iterator[str]:
             (middle, "middle", named(parameter.name)),
             (RIGHT, "end", _end(parameter, parameter.upper)),
         ):
-            yield f'<text x="{x:g}" y="{y - 8:g}" text-anchor="{anchor}">{written(text)}</text>'
+            yield f'<text x="{x:g}" y="{y - 8:g}" text-anchor="{anchor}">{escape_html(text)}</text>'
     yield "</svg>"
 
 
@@ -202,7 +202,9 @@ def _spread(space: Space, best: Sequence[Trial]) -> str:
         f"spread over more than half of the range in {', '.join(apart)}" if apart else "",
     ]
     words = "; they ".join(part for part in said if part)
-    return f"Here the best {len(best)} {written(words or 'neither run together nor spread widely in any parameter')}."
+    return (
+        f"Here the best {len(best)} {escape_html(words or 'neither run together nor spread widely in any parameter')}."
+    )
 
 
 def _end(parameter: SearchParameter, number: float) -> str:
@@ -220,5 +222,5 @@ def _legend(keys: Sequence[tuple[str, str]]) -> Iterator[str]:
         if kind == "dot of":
             shape = '<circle class="of" cx="9" cy="7" r="5" />'
         yield f'<span><svg class="drawn mark lines" viewBox="0 0 18 14" aria-hidden="true">{shape}</svg>'
-        yield f"{written(words)}</span>"
+        yield f"{escape_html(words)}</span>"
     yield "</p>"

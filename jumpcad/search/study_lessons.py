@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
+from jumpcad.plural import counted
 from jumpcad.search.explore import LEAST_R_SQUARED, Importance, importance_in
-from jumpcad.search.page_text import broken, table, written
+from jumpcad.search.page_text import broken, escape_html, table
 from jumpcad.search.pick.robust import ActiveBound
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary
@@ -35,14 +35,14 @@ def importances(store: StudyStore, found: StudySummary) -> Iterator[str]:
         return
     yield "<p>How much worse the score of a design is predicted when the values of one parameter are exchanged among "
     yield "the designs: R² is 1 for a perfect prediction, 0 for a guess, and falls by the length of the bar. "
-    yield f"{written(_matters(learned))} Learned from {learned.designs} designs; R² on designs held out: "
+    yield f"{escape_html(_matters(learned))} Learned from {learned.designs} designs; R² on designs held out: "
     yield f"{learned.r_squared:.2f}. The search looked mostly near its best designs: over the whole space, ask "
     yield "<code>jumpcad explore importance</code>.</p>"
     order = sorted(range(len(learned.names)), key=lambda index: (-round(float(learned.mean[index]), 2), index))
     most = max(float(learned.mean.max()), 0.01)
     rows = [
         [
-            written(learned.names[index]),
+            escape_html(learned.names[index]),
             _bar(float(learned.mean[index]) / most),
             f"{round(float(learned.mean[index]), 2) + 0.0:.2f} ± {float(learned.deviation[index]):.2f}",
             "yes" if _is_clear(learned, index) else "no",
@@ -83,11 +83,11 @@ def active(found: StudySummary) -> Iterator[str]:
     yield f"{_gains(found)}</p>"
     rows = [
         [
-            written(one.name),
+            escape_html(one.name),
             one.side,
-            written(with_unit(f"{one.value:g}", one.name)),
-            written(with_unit(f"{one.beyond:g}", one.name)),
-            written(_cost(one, unit, found.winner.score or 0.0)),
+            escape_html(with_unit(f"{one.value:g}", one.name)),
+            escape_html(with_unit(f"{one.beyond:g}", one.name)),
+            escape_html(_cost(one, unit, found.winner.score or 0.0)),
         ]
         for one in found.bounds
     ]
@@ -99,7 +99,7 @@ def _gains(found: StudySummary) -> str:
     score = abs(found.winner.score or 0.0) if found.winner else 0.0
     rising = [one.name for one in found.bounds if one.worth is not None and one.worth > LEAST_GAIN * score]
     if rising:
-        return f"Here it rises beyond that of {written(', '.join(rising))}."
+        return f"Here it rises beyond that of {escape_html(', '.join(rising))}."
     if any(one.worth is not None for one in found.bounds):
         return "Here it rises beyond none that was examined."
     return "This search did not examine them: one that picks a robust design does (method ga or bo)."
@@ -116,10 +116,10 @@ def rejections(found: StudySummary) -> Iterator[str]:
     if counts:
         most, first = max(counts.values()), next(iter(counts))
         meaning = reason_words(first)
-        said = f": {written(meaning)}" if meaning else ""
+        said = f": {escape_html(meaning)}" if meaning else ""
         yield f"<p>The most frequent reason is {broken(first)}, of {counted(counts[first], 'design')}{said}.</p>"
         rows = [
-            [broken(reason), written(reason_words(reason)), _bar(count / most), str(count)]
+            [broken(reason), escape_html(reason_words(reason)), _bar(count / most), str(count)]
             for reason, count in counts.items()
         ]
         yield from table(("reason", "what it means", "", "designs"), rows, numbers=(3,), bars=2)

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from jumpcad.arguments import check_arguments
-from jumpcad.counting import counted
 from jumpcad.files.templates import templates_folder
+from jumpcad.plural import counted
 from jumpcad.search.figures import MEANINGS, svg_text
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
-from jumpcad.search.page_text import broken, table, written
+from jumpcad.search.page_text import broken, escape_html, table
 from jumpcad.search.phases import FRONTS
 from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Making
@@ -59,7 +59,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
     folder = templates_folder() / "report"
     style = "".join((folder / file).read_text(encoding="ascii") for file in ("style.css", "study.css"))
     program = (folder / "study.js").read_text(encoding="ascii")
-    found, title = summary(store), written(name)
+    found, title = summary(store), escape_html(name)
     shown = _shown(found, described_cost(store.identity) if store.identity["method"] in FRONTS else None)
     return "\n".join(
         [
@@ -100,8 +100,8 @@ def _verdict(store: StudyStore, found: StudySummary) -> Iterator[str]:
             "most robust of the best designs" if found.candidates else f"best of {counted(len(found.trials), 'design')}"
         )
         yield (
-            f'<p class="verdict">The {which}: {written(objective.meaning)} '
-            f"{found.winner.score:.4g} {written(objective.unit)}.</p>"
+            f'<p class="verdict">The {which}: {escape_html(objective.meaning)} '
+            f"{found.winner.score:.4g} {escape_html(objective.unit)}.</p>"
         )
     planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
     cards = [
@@ -114,7 +114,7 @@ def _verdict(store: StudyStore, found: StudySummary) -> Iterator[str]:
         ("time of all evaluations", f"{sum(trial.duration_s for trial in trials):.0f} s"),
     ]
     yield '<dl class="cards">'
-    yield from (f"<div><dt>{written(term)}</dt><dd>{written(value)}</dd></div>" for term, value in cards)
+    yield from (f"<div><dt>{escape_html(term)}</dt><dd>{escape_html(value)}</dd></div>" for term, value in cards)
     yield "</dl>"
 
 
@@ -125,16 +125,17 @@ def _asked(store: StudyStore, found: StudySummary) -> Iterator[str]:
     stages = [f"{stage['method']}, {counted(stage['evaluations'], 'design')}" for stage in store.recall("stages", [])]
     yield "<h2>What was asked</h2>"
     yield (
-        f"<p>The highest {written(identity['objective'])} ({written(objective.meaning)}, {written(objective.unit)})"
+        f"<p>The highest {escape_html(identity['objective'])} "
+        f"({escape_html(objective.meaning)}, {escape_html(objective.unit)})"
         f"{f' against {described_cost(identity).figure.meaning}' if method in FRONTS else ''}, "
-        f"{'evaluated' if found.is_explored else 'searched'} by {written(', then '.join(stages) or method)}.</p>"
+        f"{'evaluated' if found.is_explored else 'searched'} by {escape_html(', then '.join(stages) or method)}.</p>"
     )
     rows = []
     for parameter in found.space.parameters:
         value = "" if found.winner is None else _value(found.winner.variant.value(parameter.name))
         searched = with_unit(_range(parameter.describe()), parameter.name)
-        meaning, name = written(meaning_of(parameter.name)), parameter.name
-        rows.append([broken(name), meaning, written(searched), with_unit(value, name) if value else ""])
+        meaning, name = escape_html(meaning_of(parameter.name)), parameter.name
+        rows.append([broken(name), meaning, escape_html(searched), with_unit(value, name) if value else ""])
     whose = "best" if found.is_explored else "highest" if method in FRONTS and not found.candidates else "winner"
     yield from table(
         ("parameter", "meaning", "searched", whose),
@@ -162,10 +163,10 @@ def _best(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) -> Ite
         return
     yield f"<h2>{'The front' if is_front else 'The best designs'}</h2>"
     if is_front:
-        area, unit = hypervolume(found.trials, cost=cost), written(cost.figure.unit)
+        area, unit = hypervolume(found.trials, cost=cost), escape_html(cost.figure.unit)
         end = f"{'up' if cost.less_is_better else 'down'} to {cost.shown(cost.reference):g} {unit}"
-        yield f"<p>{MEANINGS['pareto']} {written(_reach(shown, objective, cost))} The area below its line, {end}, "
-        yield f"is {area:.4g} {written(objective.unit)}·{unit} (hypervolume); of two searches, the better one has "
+        yield f"<p>{MEANINGS['pareto']} {escape_html(_reach(shown, objective, cost))} The area below its line, {end}, "
+        yield f"is {area:.4g} {escape_html(objective.unit)}·{unit} (hypervolume); of two searches, the better one has "
         yield "more.</p>"
         if len(shown) < (whole := len(front(found.trials, cost))):
             yield f"<p>{len(shown)} of its {whole} designs are shown, evenly chosen along it.</p>"
@@ -240,8 +241,8 @@ def _designs(found: StudySummary, shown: Sequence[Trial], numbers: Sequence[int]
         ]
         head: tuple[str, ...] = CANDIDATE_HEAD
         yield "<p>Most robust first. ±1 % and as made: the score that nine of ten neighbours reach when every "
-        yield f"parameter varies by ±1 %, and within what may be made otherwise ({written(making.words)}); how many "
-        yield "of the neighbours were rejected.</p>"
+        yield f"parameter varies by ±1 %, and within what may be made otherwise ({escape_html(making.words)}); "
+        yield "how many of the neighbours were rejected.</p>"
     else:
         neighbours, head = [[] for _ in shown], ()
     rows = [
@@ -286,8 +287,8 @@ def _pictures(store: StudyStore) -> Iterator[str]:
 
 def _notes(store: StudyStore) -> Iterator[str]:
     if notes := store.notes():
-        yield f"<h2>Notes of the run</h2><ul>{''.join(f'<li>{written(note)}</li>' for note in notes)}</ul>"
+        yield f"<h2>Notes of the run</h2><ul>{''.join(f'<li>{escape_html(note)}</li>' for note in notes)}</ul>"
     versions = store.identity.get("versions", {})
     if isinstance(versions, dict) and versions:
         told = ", ".join(f"{name} {str(version)[:12]}" for name, version in versions.items())
-        yield f"<p>Evaluated with {written(told)}.</p>"
+        yield f"<p>Evaluated with {escape_html(told)}.</p>"

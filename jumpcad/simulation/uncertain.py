@@ -20,7 +20,7 @@ from jumpcad.robot import Robot
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
 from jumpcad.simulation.simulator import simulate
-from jumpcad.spread import sobol
+from jumpcad.sobol import sobol
 from jumpcad.transforms import Array
 
 SAMPLES = 256

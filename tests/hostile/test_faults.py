@@ -398,7 +398,7 @@ def test_ctrl_c_is_answered_before_anything_is_loaded() -> None:
         "atexit",
         "jumpcad",
         "jumpcad.cli",
-        "jumpcad.faces",
+        "jumpcad.lazy_exports",
         "jumpcad.interrupts",
         "jumpcad.version",
     }

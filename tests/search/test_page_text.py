@@ -5,14 +5,14 @@ from xml.etree import ElementTree
 import pytest
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.page_text import broken, table, written
+from jumpcad.search.page_text import broken, escape_html, table
 from jumpcad.search.study_words import figure_words
 
 
 def test_texts_are_escaped_and_break_after_underscores() -> None:
-    assert written("<b> & c") == "&lt;b&gt; &amp; c"
+    assert escape_html("<b> & c") == "&lt;b&gt; &amp; c"
     with pytest.raises(JumpcadError):  # XML has no way to write it
-        written("bell\x07")
+        escape_html("bell\x07")
     assert broken("body_joint_mm") == "body_<wbr />joint_<wbr />mm"
 
 

@@ -8,7 +8,7 @@ that were held out. A guess is never a score: what is proposed as the best was b
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from jumpcad.one_thread import one_thread
+from jumpcad.blas_threads import one_thread
 from jumpcad.search.estimate.corrected_estimate import Expected, Tier
 from jumpcad.search.estimate.estimate import Fit, Guesser
 from jumpcad.search.estimate.fitting import MARK, learned_rows

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.one_thread import one_thread
+from jumpcad.blas_threads import one_thread
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.bayesian import incumbent, learned_trials, unproposed
 from jumpcad.search.propose.posterior import SearchPosterior

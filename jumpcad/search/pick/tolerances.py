@@ -18,7 +18,7 @@ from jumpcad.files.complaints import shown
 from jumpcad.mechanism.variants import Robot, design_within_limits, with_length_errors, with_lengths, with_spring_factor
 from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.settings import Settings, coefficients
-from jumpcad.spread import sobol
+from jumpcad.sobol import sobol
 from jumpcad.transforms import Array
 from jumpcad.workshop.varied import Value
 

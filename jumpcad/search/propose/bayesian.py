@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.counting import counted
-from jumpcad.one_thread import one_thread
+from jumpcad.blas_threads import one_thread
+from jumpcad.plural import counted
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, Rehearsal
 from jumpcad.search.propose.initial_designs import first_points

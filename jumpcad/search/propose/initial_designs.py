@@ -13,7 +13,7 @@ import numpy as np
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.variant import Variant
-from jumpcad.spread import sobol
+from jumpcad.sobol import sobol
 from jumpcad.transforms import Array
 
 SCREENED = 512

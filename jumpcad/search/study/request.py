@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any, Self
 
 from jumpcad.arguments import check_fields
-from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
+from jumpcad.plural import counted
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
 from jumpcad.search.models import RobotModel
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT

@@ -5,11 +5,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from jumpcad.counting import counted
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_atomically
+from jumpcad.plural import counted
 from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import RobotModel
 from jumpcad.search.pick.robust import ActiveBound, Candidate

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.arguments import check_arguments
-from jumpcad.counting import counted
 from jumpcad.errors import JumpcadError
+from jumpcad.plural import counted
 from jumpcad.search.fronts import front
 from jumpcad.search.phases import METHODS, SEARCH_PHASES
 from jumpcad.search.pick.robust import active_bounds, rank_candidates

@@ -15,9 +15,9 @@ from typing import Any
 
 import cloudpickle
 
-from jumpcad.collecting import collect_seldom
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
+from jumpcad.gc_tuning import collect_seldom
 from jumpcad.search.study.objective import Evaluation, Model
 from jumpcad.search.study.variant import Variant
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jumpcad.spread import sobol
+from jumpcad.sobol import sobol
 
 
 @pytest.mark.parametrize("dimension", [1, 3, 20])

@@ -10,9 +10,9 @@ import pytest
 from support.built import built
 from threadpoolctl import threadpool_limits
 
-from jumpcad.building import settle as settling
+from jumpcad.building import bearing_and_drive as settling
+from jumpcad.building.bearing_and_drive import Settled, _require_hub_room, fall_s, solve_bearing_and_drive
 from jumpcad.building.limits import drive_limits
-from jumpcad.building.settle import Settled, _require_hub_room, fall_s, settle
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import synthesise
@@ -45,7 +45,7 @@ def load_n(settled: Settled) -> float:
 def test_settling_again_changes_nothing(name: str, factor: float) -> None:
     """Sections, limits and drive that follow from what was settled are those that were settled."""
     workshop, design = careful(factor), load_design(name)
-    settled = settle(design, workshop, Growth())
+    settled = solve_bearing_and_drive(design, workshop, Growth())
     sizes = sections(settled.linkage, workshop, hub_width_mm(settled.holes.bearing), Growth())
     assert sizes == settled.sections
     limits = drive_limits(workshop, settled.roller, sizes, settled.holes)
@@ -68,7 +68,7 @@ def test_a_roller_falls_past_rest_to_the_stop_and_into_its_pad(monkeypatch: pyte
 
     monkeypatch.setattr(settling, "fall_s", noted)
     with pytest.raises(CannotBuildError, match="enough"):
-        settle(load_design("kenan-2.0"), far, Growth())
+        solve_bearing_and_drive(load_design("kenan-2.0"), far, Growth())
     assert [math.degrees(past_rad) for past_rad in asked] == pytest.approx([8.0])
 
 
@@ -79,7 +79,7 @@ def test_a_cam_does_not_depend_on_the_threads_of_the_linear_algebra() -> None:
     for threads in (1, 2):
         synthesise_cam.cache_clear()
         with threadpool_limits(threads):
-            outlines.append(settle(design, load_workshop(), Growth()).drive.cam.profile_mm.tobytes())
+            outlines.append(solve_bearing_and_drive(design, load_workshop(), Growth()).drive.cam.profile_mm.tobytes())
     assert outlines[0] == outlines[1]
 
 
@@ -87,7 +87,7 @@ def test_the_hub_has_the_lightest_bearing_that_bears_it() -> None:
     design, masses = load_design("best-bo"), []
     for factor in (0.4, 0.65, 0.75):  # times the reserves: the strongest of the catalogue bears no more
         workshop = careful(factor)
-        settled = settle(design, workshop, Growth())
+        settled = solve_bearing_and_drive(design, workshop, Growth())
         assert settled.holes.bearing is not None
         assert load_n(settled) <= allowed_n(settled.holes.bearing, workshop)
         masses.append(settled.holes.bearing.mass_g)
@@ -102,7 +102,7 @@ def test_the_hub_has_the_lightest_bearing_that_bears_it() -> None:
 
 def test_where_none_bears_it_the_strongest_stays() -> None:
     workshop = careful(20.0)
-    settled = settle(load_design("best-bo"), workshop, Growth())
+    settled = solve_bearing_and_drive(load_design("best-bo"), workshop, Growth())
     assert settled.holes.bearing == hub_bearings(workshop)[-1]
     assert load_n(settled) > allowed_n(settled.holes.bearing, workshop)
 
@@ -110,14 +110,14 @@ def test_where_none_bears_it_the_strongest_stays() -> None:
 def test_a_plain_hub_is_as_thin_as_the_leg() -> None:
     workshop = load_workshop()
     plain = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"leg_bearing": ""})})
-    settled = settle(load_design("kenan-2.0"), plain, Growth(thickness=1.1))
+    settled = solve_bearing_and_drive(load_design("kenan-2.0"), plain, Growth(thickness=1.1))
     assert settled.holes.bearing is None
     assert settled.sections.thickness_mm == pytest.approx(1.1 * 6.0)
 
 
 def test_the_hub_keeps_a_wall_and_a_gap_off_the_spacer_on_the_cams_axle() -> None:
     """From axle to axle, less spacer, gap and the hub's wall around the bearing, on both sides of its middle."""
-    settled = settle(load_design("kenan-2.0"), load_workshop(), Growth())
+    settled = solve_bearing_and_drive(load_design("kenan-2.0"), load_workshop(), Growth())
     wall = 2.0 * settled.holes.fits.wall_mm
     free = 2.0 * (16.0 - SPACER_RADIUS_MM - GAP_MM - wall - settled.holes.fits.press_mm)
     cam = SimpleNamespace(cam_axis_mm=np.array([0.0, 16.0]), lever_length_mm=100.0)
@@ -136,7 +136,7 @@ def test_the_hub_keeps_a_wall_and_a_gap_off_the_spacer_on_the_cams_axle() -> Non
 
 def test_the_hub_keeps_the_thinnest_wall_off_the_rollers_screw() -> None:
     """From the hub's middle to the roller's, less half of the screw's hole and what can be printed between the two."""
-    settled = settle(load_design("kenan-2.0"), load_workshop(), Growth())
+    settled = solve_bearing_and_drive(load_design("kenan-2.0"), load_workshop(), Growth())
     fits = settled.holes.fits.model_copy(update={"wall_min_mm": 0.9, "wall_mm": 1.7, "press_mm": 0.08})
     holes = replace(settled.holes, fits=fits)
     free = 2.0 * (14.0 - holes.m3_clearance_mm / 2.0 - 0.9 - 0.08)
@@ -156,7 +156,9 @@ def test_the_hub_keeps_the_thinnest_wall_off_the_rollers_screw() -> None:
 def test_the_leg_falls_by_springs_with_the_preload_of_the_workshop(monkeypatch: pytest.MonkeyPatch) -> None:
     seen, workshop = [], load_workshop()
     monkeypatch.setattr(settling, "fall_s", lambda *given: seen.append(given) or fall_s(*given))
-    settle(load_design("kenan-2.0"), workshop.model_copy(update={"spring": preloaded(workshop, 4.0)}), Growth())
+    solve_bearing_and_drive(
+        load_design("kenan-2.0"), workshop.model_copy(update={"spring": preloaded(workshop, 4.0)}), Growth()
+    )
     (_, springs, past_rad), *_ = seen
     assert math.degrees(springs.preload_rad) == pytest.approx(4.0)
     assert math.degrees(past_rad) == pytest.approx(workshop.body.stop_deg + 3.0)  # and what the pad gives
@@ -167,7 +169,7 @@ def test_the_leg_falls_by_springs_with_the_preload_of_the_workshop(monkeypatch: 
 def test_the_springs_have_the_directions_of_their_pin_that_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = []
     monkeypatch.setattr(settling, "drive_limits", lambda *given: asked.append(given[-1]) or drive_limits(*given))
-    settle(load_design("kenan-2.0"), load_workshop(), Growth(), (1.25,))
+    solve_bearing_and_drive(load_design("kenan-2.0"), load_workshop(), Growth(), (1.25,))
     assert set(asked) == {(1.25,)}
 
 

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from typing import Any
 
 
-def face(package: str, homes: "Mapping[str, str]") -> "tuple[Callable[[str], Any], Callable[[], list[str]]]":
+def lazy_exports(package: str, homes: "Mapping[str, str]") -> "tuple[Callable[[str], Any], Callable[[], list[str]]]":
     """Return `__getattr__` and `__dir__` of a package.
 
     Parameters

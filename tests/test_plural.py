@@ -2,7 +2,7 @@
 
 import pytest
 
-from jumpcad.counting import counted
+from jumpcad.plural import counted
 
 
 @pytest.mark.parametrize(

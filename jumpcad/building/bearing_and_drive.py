@@ -48,7 +48,7 @@ class Settled:
     roller: Bearing
 
 
-def settle(
+def solve_bearing_and_drive(
     design: Design, workshop: Workshop, growth: Growth, plate_pins_rad: tuple[float, ...] = PLATE_PINS_RAD
 ) -> Settled:
     """Return linkage, sections, holes and drive with the lightest hub bearing that carries its load.

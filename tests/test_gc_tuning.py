@@ -4,7 +4,7 @@ import gc
 import subprocess
 import sys
 
-from jumpcad.collecting import THRESHOLDS, collect_seldom, collect_usually
+from jumpcad.gc_tuning import THRESHOLDS, collect_seldom, collect_usually
 from jumpcad.search.study.local_workers import LocalWorkers
 
 COMMAND = """
