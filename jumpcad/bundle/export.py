@@ -7,10 +7,10 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.electronics import electronics_facts
 from jumpcad.bundle.firmware import firmware_files
-from jumpcad.bundle.folder import require_place, write_folder
 from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.guide_page import write_page
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP

@@ -1,19 +1,19 @@
-"""A bundle's manifest: reads it, and compares the bundle's files with it."""
+"""A bundle's manifest: reads it, and compares the bundle's files with it. No link is followed."""
 
 import hashlib
 import json
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping
+import stat
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, NoReturn
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from jumpcad.bundle.tree import above, is_safe, shown, tree, trouble
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.names import Text
 from jumpcad.plural import counted
 
@@ -26,61 +26,33 @@ KEEP_LINE_ENDS = (
 )
 LARGEST_BYTES = 16_000_000
 """A manifest has some 30 kB; a file that is far larger is not read."""
-
-
+NAMED = 3
+"""Files that an error names; the others are counted."""
 SUFFIXES = (
     ".3mf", ".config", ".csv", ".dxf", ".gif", ".glb", ".html", ".json", ".md", ".obj", ".png", ".rviz", ".sdf",
     ".step", ".stl", ".svg", ".toml", ".urdf", ".xacro", ".xml",
 )  # fmt: skip
-PROGRAMS = ("firmware/main.py", "firmware/robot.py", "firmware/winder.py")
-IN_ROS2 = re.compile(
+OTHERS = re.compile(
+    r"firmware/(main|robot|winder)\.py|"
     r"ros2/[a-z0-9_]+_description/(CMakeLists\.txt|launch/(view_robot|gazebo)\.launch\.py|config/controllers\.yaml)"
 )
-"""With `SUFFIXES` and `PROGRAMS`: the files that a bundle may have. A forged manifest that lists others, such as
-.git/HEAD or a Python module, would cause their removal when the bundle is built again."""
+"""With `SUFFIXES`: the files that a bundle may have. A forged manifest that lists others, such as .git/HEAD or a
+Python module, would cause their removal when the bundle is built again."""
 
 
-def _safe(path: str) -> str:
-    """Return a path below the bundle's folder; others raise `ValueError`."""
-    if not is_safe(path) or path == MANIFEST:
+def _part(name: str) -> str:
+    """Return a name that stays below its folder on every system and can be printed; others raise `ValueError`."""
+    if name in ("", ".", "..") or not name.isprintable() or any(sign in name for sign in "/\\:"):
         raise ValueError("leads out of the bundle")
-    return path
+    return name
 
 
-def _ours(path: str) -> str:
+def own_path(path: str) -> str:
     """Return the path of a file that jumpcad can have written; others raise `ValueError`."""
-    hidden = any(name.startswith(".") for name in path.split("/"))
-    if hidden or not (path.endswith(SUFFIXES) or path in PROGRAMS or IN_ROS2.fullmatch(path)):
+    hidden = any(_part(name).startswith(".") for name in path.split("/"))
+    if hidden or path == MANIFEST or not (path.endswith(SUFFIXES) or OTHERS.fullmatch(path)):
         raise ValueError("is no file of a bundle")
-    return _safe(path)
-
-
-def require_ours(paths: Iterable[str]) -> None:
-    """Require that files are such as a bundle may have: one with others could never be read.
-
-    Raises
-    ------
-    JumpcadError
-        If one is not.
-    """
-    for path in paths:
-        try:
-            _ours(path)
-        except ValueError as wrong:
-            raise JumpcadError(
-                f"{shown(path)}: {wrong}: an exporter's new suffix belongs in SUFFIXES of jumpcad/bundle/manifest.py"
-            ) from None
-
-
-def _no_file_is_folder(files: dict[str, str]) -> dict[str, str]:
-    """Return files of which none is the folder of another; others raise `ValueError`."""
-    if any(folder in files for path in files for folder in above(path)):
-        raise ValueError("a file is the folder of another")
-    return files
-
-
-Name = Annotated[str, Field(min_length=1, pattern=r"^[^/]*$"), AfterValidator(_safe)]
-Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+    return path
 
 
 class _MassLine(BaseModel):
@@ -102,12 +74,12 @@ class _Manifest(BaseModel):
     model_config = ConfigDict(strict=True)
 
     format: int
-    name: Name
+    name: Annotated[str, AfterValidator(_part)]
     versions: dict[str, str]
     masses: list[_MassLine] = []
     mass_kg: float = 0.0
     bodies: dict[str, Any] = {}
-    files: Annotated[dict[Annotated[str, AfterValidator(_ours)], Sha256], AfterValidator(_no_file_is_folder)]
+    files: dict[Annotated[str, AfterValidator(own_path)], Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]]
 
 
 @dataclass(frozen=True, repr=False)
@@ -118,7 +90,7 @@ class Bundle:
     manifest: Mapping[str, Any]
 
     def __repr__(self) -> str:
-        return f"<Bundle {self.name[:40]!r}: {counted(len(self.files), 'file')} in {shown(str(self.folder))[-100:]}>"
+        return f"<Bundle {self.name[:40]!r}: {counted(len(self.files), 'file')} in {str(self.folder)[-100:]!a}>"
 
     @property
     def name(self) -> str:
@@ -157,17 +129,15 @@ class Bundle:
         """
         wrong = trouble(self.folder, path) if path in self.manifest["files"] else "not in the manifest"
         if wrong:
-            raise JumpcadError(f"{self.folder}: {shown(path)}: {wrong}; build the bundle again with jumpcad build")
+            raise JumpcadError(f"{self.folder}: {path}: {wrong}; build the bundle again with jumpcad build")
         return self.folder / path
 
-    def is_unchanged(self, path: str) -> bool:
-        """Tell whether a plain file has the manifest's sha256."""
-        return bool(self.manifest["files"].get(path) == _sha256(self.folder / path))
-
-    def has_other_line_ends(self, path: str) -> bool:
-        """Tell whether a file is as it was written, but for CR LF in the place of LF."""
-        unix = (self.folder / path).read_bytes().replace(b"\r\n", b"\n")
-        return bool(self.manifest["files"].get(path) == hashlib.sha256(unix).hexdigest())
+    def difference(self, path: str) -> str:
+        """Return how the content of a plain file differs from the manifest's; empty if it does not."""
+        data, digest = (self.folder / path).read_bytes(), self.manifest["files"].get(path)
+        if sha256(data) == digest:
+            return ""
+        return LINE_ENDS if sha256(data.replace(b"\r\n", b"\n")) == digest else "changed"
 
 
 def open_bundle(folder: str | Path) -> Bundle:
@@ -203,15 +173,13 @@ def verify(folder: str | Path) -> list[str]:
     Raises
     ------
     JumpcadError
-        If the folder is not a bundle, or a file cannot be read.
+        If the folder is not a bundle.
     """
     bundle = open_bundle(folder)
     wrong = []
     for path in bundle.files:
         try:
-            reason = trouble(bundle.folder, path)
-            if not reason and not bundle.is_unchanged(path):
-                reason = LINE_ENDS if bundle.has_other_line_ends(path) else "changed"
+            reason = trouble(bundle.folder, path) or bundle.difference(path)
         except OSError as error:
             reason = f"cannot be read ({error.strerror})"
         if reason:
@@ -228,18 +196,49 @@ def unlisted(folder: str | Path) -> list[str]:
         If the folder is not a bundle, or cannot be read.
     """
     bundle = open_bundle(folder)
-    try:
-        there = tree(bundle.folder)
-    except OSError as error:
-        raise JumpcadError(f"{error.filename}: cannot be read: {error.strerror}") from None
+
+    def refuse(error: OSError) -> NoReturn:
+        raise JumpcadError(f"{error.filename}: cannot be read: {error.strerror}")
+
+    there = {
+        Path(inside, name).relative_to(bundle.folder).as_posix()
+        for inside, folders, names in os.walk(bundle.folder, onerror=refuse)
+        for name in (*folders, *names)
+    }
     own = {MANIFEST, *bundle.files}.union(*map(above, bundle.files))
-    inner = {parent for path in there for parent in above(path)}
-    return [shown(path) for path in sorted(there.keys() - own - inner)]
+    return [
+        without_controls(path) for path in sorted(there - own - {folder for path in there for folder in above(path)})
+    ]
 
 
-def _sha256(file: Path) -> str:
-    with file.open("rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
+def trouble(folder: Path, path: str) -> str:
+    """Return why a path is not a plain file below a folder; empty if it is one."""
+    for part in [*above(path), path]:
+        try:
+            mode = os.lstat(folder / part).st_mode
+        except (FileNotFoundError, NotADirectoryError):
+            return "missing"
+        except OSError as error:
+            return str(error.strerror)
+        if stat.S_ISLNK(mode):
+            return "a link" if part == path else "behind a link"
+    return "" if stat.S_ISREG(mode) else "not a plain file"
+
+
+def above(path: str) -> list[str]:
+    """Return the folders of a path, the outermost first: `a/b/c` has `a` and `a/b`."""
+    names = path.split("/")
+    return ["/".join(names[:count]) for count in range(1, len(names))]
+
+
+def few(paths: Sequence[str]) -> str:
+    """Return the first of several paths as text, and how many more there are."""
+    return ", ".join(paths[:NAMED]) + (f" and {len(paths) - NAMED} more" if len(paths) > NAMED else "")
+
+
+def sha256(data: bytes) -> str:
+    """Return a digest in hexadecimal."""
+    return hashlib.sha256(data).hexdigest()
 
 
 def _finite(number: str) -> float:

@@ -9,12 +9,11 @@ import numpy as np
 import trimesh
 from manifold3d import Manifold, Mesh64
 
+from jumpcad.bundle.atomic_write import change_files
 from jumpcad.bundle.bom import BilledPlate, bill_of_facts, write_bom
-from jumpcad.bundle.folder import change_files
 from jumpcad.bundle.guide import with_bill
 from jumpcad.bundle.inputs import WORKSHOP, kept_workshop
-from jumpcad.bundle.manifest import Bundle, open_bundle, verify
-from jumpcad.bundle.tree import few
+from jumpcad.bundle.manifest import Bundle, few, open_bundle, verify
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version

@@ -68,8 +68,8 @@ def build(
     In a folder that holds the robot already, its files are replaced and
     everything else stays. A robot that does not jump is refused.
     """
+    from jumpcad.bundle.atomic_write import require_place
     from jumpcad.bundle.export import export
-    from jumpcad.bundle.folder import require_place
     from jumpcad.files.outputs import require_apart, require_writable
     from jumpcad.mechanism.capsule import capsule_robot
     from jumpcad.simulation import simulate
@@ -111,7 +111,7 @@ def render(
     as_json: JsonFlag = False,
 ) -> None:
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
-    from jumpcad.bundle.folder import change_files, require_unedited
+    from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.renders import RENDERS, jump_gif, renders
     from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
     from jumpcad.simulation import Settings, simulate

@@ -57,8 +57,8 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
 
 def _robot_page(subject: str, output: Path | None, workshop: str | None, force: bool) -> Path:
     """Write the page of a robot; return its path."""
+    from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
-    from jumpcad.bundle.folder import change_files, require_unedited
     from jumpcad.files.outputs import require_apart, require_target, write_files
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})

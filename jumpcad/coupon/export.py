@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from jumpcad.bundle.folder import require_place, write_folder
+from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from jumpcad.bundle.folder import write_folder
+from jumpcad.bundle.atomic_write import write_folder
 from jumpcad.bundle.inputs import kept_design, kept_workshop
 from jumpcad.bundle.manifest import open_bundle
 from jumpcad.errors import JumpcadError

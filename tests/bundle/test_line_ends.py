@@ -8,7 +8,7 @@ import pytest
 import typer
 from support.places import ROOT
 
-from jumpcad.bundle.folder import write_folder
+from jumpcad.bundle.atomic_write import write_folder
 from jumpcad.bundle.manifest import verify
 from jumpcad.cli.bundle import verify as verify_command
 from jumpcad.errors import JumpcadError

@@ -9,8 +9,8 @@ import trimesh
 from support.slicers import OBEDIENT, pretend_slicer, three_parts
 
 from jumpcad.bundle import sliced
+from jumpcad.bundle.atomic_write import write_folder
 from jumpcad.bundle.export import export
-from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, _modelled_grams, _StlPart, slice_bundle, write_times
 from jumpcad.errors import JumpcadError
 from jumpcad.printing.layer_mass import mass_properties

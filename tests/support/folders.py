@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from jumpcad.bundle.folder import write_folder
+from jumpcad.bundle.atomic_write import write_folder
 
 
 def old(target: Path) -> None:
