@@ -83,7 +83,7 @@ def use(name: str, path: Path, rows: int) -> None:
         if name == "read":
             assert len(store.trials()) == rows
         elif name == "plot":
-            from jumpcad.search.study_plots import plot_study
+            from jumpcad.search.report.study_plots import plot_study
 
             plot_study(store, path.parent / "plots")
         else:

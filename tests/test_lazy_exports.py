@@ -17,7 +17,7 @@ heavy = {"numpy", "scipy", "pydantic", "trimesh", "typer", "matplotlib", "sklear
 loaded = heavy & set(sys.modules)
 import jumpcad.search
 loaded |= heavy & set(sys.modules)
-import jumpcad.building, jumpcad.cli.commands, jumpcad.search.plots, jumpcad.simulation
+import jumpcad.building, jumpcad.cli.commands, jumpcad.search.report.plots, jumpcad.simulation
 print(sorted(loaded))
 for package in (jumpcad, jumpcad.search):
     print(dir(package) == sorted(package.__all__), *dir(package))

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from jumpcad.calibration.posterior import CalibrationPosterior
-from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, labels, panels
+from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, labels, panels
 from jumpcad.transforms import Array
 
 PICTURES = ("parameters", "measurements")

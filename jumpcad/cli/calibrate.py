@@ -97,7 +97,7 @@ def _document(posterior: "CalibrationPosterior", seed: int) -> dict[str, Any]:
 
 def _pictures(posterior: "CalibrationPosterior", folder: Path) -> list[str]:
     from jumpcad.calibration import plots
-    from jumpcad.search.figures import save_figure
+    from jumpcad.search.report.figures import save_figure
 
     drawn = {"parameters": plots.parameters(posterior), "measurements": plots.measurements(posterior)}
     return [str(save_figure(figure, folder, name)) for name, figure in drawn.items()]

@@ -122,7 +122,7 @@ def explore(
     ):
         data, lines, figures = run(Evaluator(space, objective, robot, store, pool, watch=watch))
     if plots is not None:
-        from jumpcad.search.figures import save_figure
+        from jumpcad.search.report.figures import save_figure
 
         data["pictures"] = [str(save_figure(draw(), plots, name)) for name, draw in figures.items()]
     if as_json:
@@ -137,8 +137,8 @@ View = Callable[["Evaluator"], tuple[dict[str, Any], list[str], dict[str, Callab
 
 def _swept(centre: "Design", points: int) -> View:
     def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
-        from jumpcad.search import plots
         from jumpcad.search.explore import sweep
+        from jumpcad.search.report import plots
 
         sweeps = sweep(evaluator, centre, points)
         data = {
@@ -167,8 +167,8 @@ def _swept(centre: "Design", points: int) -> View:
 
 def _sampled(view: str, samples: int, seed: int) -> View:
     def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
-        from jumpcad.search import plots
         from jumpcad.search.explore import LEAST_R_SQUARED, UNIFORM_NOTE, components, elite, importance, sample
+        from jumpcad.search.report import plots
 
         trials = sample(evaluator, samples, seed)
         if view == "importance":
@@ -215,8 +215,8 @@ def _mapped(centre: "Design", over: str, points: int) -> View:
         raise JumpcadError(f"--over {over}: a map has two parameters, NAME,NAME")
 
     def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
-        from jumpcad.search import plots
         from jumpcad.search.explore import feasibility_map
+        from jumpcad.search.report import plots
 
         found = feasibility_map(evaluator, centre, names[0], names[1], points)
         reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]

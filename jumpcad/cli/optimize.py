@@ -176,8 +176,8 @@ def _headed(heading: str, watch: "Watch") -> "Watch":
 def _plot(path: Path, folder: Path | None) -> list[str]:
     if folder is None:
         return []
+    from jumpcad.search.report.study_plots import plot_study
     from jumpcad.search.study.store import StudyStore
-    from jumpcad.search.study_plots import plot_study
 
     with StudyStore.read(path) as store:
         return [str(picture) for picture in plot_study(store, folder)]

@@ -42,8 +42,8 @@ def report(
 def _study_page(study: Path, output: Path | None, workshop: str | None, force: bool) -> Path:
     """Write the page of a study; return its path."""
     from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
+    from jumpcad.search.report.page import write_study_page
     from jumpcad.search.study.store import StudyStore
-    from jumpcad.search.study_page import write_study_page
 
     reject_workshop(workshop, f"{study} is a study, which keeps the workshop of its robots; leave --workshop out")
     page = output or Path(f"{study.stem}-{PAGE}")

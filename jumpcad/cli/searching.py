@@ -114,7 +114,7 @@ def with_search_options(command: Callable[..., None]) -> Callable[..., None]:
 def require_plots(folder: Path | None, force: bool) -> None:
     """Require, before a search, that its pictures can be written to a folder without replacing a user's files."""
     if folder is not None:  # without matplotlib, which takes 0.4 s to load
-        from jumpcad.search.figures import PICTURES
+        from jumpcad.search.report.figures import PICTURES
 
         require_pictures(folder, PICTURES, force)
 

@@ -63,7 +63,7 @@ def study(
             if export is not None:
                 write_table(store.trials(), export, force)
             if plots is not None:
-                from jumpcad.search.study_plots import plot_study
+                from jumpcad.search.report.study_plots import plot_study
 
                 summaries[-1]["pictures"] = [str(picture) for picture in plot_study(store, plots)]
     if as_json:

@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING
 from jumpcad.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from jumpcad.search import plots as plots
     from jumpcad.search.explore import components as components
     from jumpcad.search.explore import feasibility_map as feasibility_map
     from jumpcad.search.explore import importance as importance
     from jumpcad.search.explore import sample as sample
     from jumpcad.search.explore import sweep as sweep
-    from jumpcad.search.figures import save_figure as save_figure
     from jumpcad.search.fronts import COSTS as COSTS
     from jumpcad.search.fronts import Cost as Cost
     from jumpcad.search.fronts import energy_j as energy_j
@@ -29,6 +27,9 @@ if TYPE_CHECKING:
     from jumpcad.search.phases import METHODS as METHODS
     from jumpcad.search.pick.robust import ActiveBound as ActiveBound
     from jumpcad.search.pick.robust import Candidate as Candidate
+    from jumpcad.search.report import plots as plots
+    from jumpcad.search.report.figures import save_figure as save_figure
+    from jumpcad.search.report.study_plots import plot_study as plot_study
     from jumpcad.search.space import Space as Space
     from jumpcad.search.study.evaluator import Evaluator as Evaluator
     from jumpcad.search.study.objective import OBJECTIVES as OBJECTIVES
@@ -44,7 +45,6 @@ if TYPE_CHECKING:
     from jumpcad.search.study.store import StudyStore as StudyStore
     from jumpcad.search.study.table import write_table as write_table
     from jumpcad.search.study.trial import Trial as Trial
-    from jumpcad.search.study_plots import plot_study as plot_study
 
 _HOMES = {
     "ActiveBound": "pick.robust",
@@ -75,12 +75,12 @@ _HOMES = {
     "importance": "explore",
     "local_pool": "study.pool",
     "optimize": "optimization",
-    "plot_study": "study_plots",
-    "plots": "plots",
+    "plot_study": "report.study_plots",
+    "plots": "report.plots",
     "robot_model": "models",
     "run_study": "study.run",
     "sample": "explore",
-    "save_figure": "figures",
+    "save_figure": "report.figures",
     "sweep": "explore",
     "write_table": "study.table",
 }

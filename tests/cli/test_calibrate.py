@@ -229,7 +229,9 @@ def test_a_document_has_every_figure_of_the_posterior_under_its_name() -> None:
 def test_each_picture_is_drawn_under_its_own_name(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(plots, "parameters", lambda posterior: ("parameters", posterior))
     monkeypatch.setattr(plots, "measurements", lambda posterior: ("measurements", posterior))
-    monkeypatch.setattr("jumpcad.search.figures.save_figure", lambda figure, folder, name: (folder / name, figure))
+    monkeypatch.setattr(
+        "jumpcad.search.report.figures.save_figure", lambda figure, folder, name: (folder / name, figure)
+    )
     assert _pictures("p", Path("pics")) == [  # type: ignore[arg-type]
         str((Path("pics") / name, (name, "p"))) for name in ("parameters", "measurements")
     ]

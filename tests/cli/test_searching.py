@@ -9,7 +9,7 @@ from support.searches import NARROW, QUICK, data, refusal, run
 from jumpcad.cli.searching import SearchOptions, require_plots
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.figures import PICTURES
+from jumpcad.search.report.figures import PICTURES
 from jumpcad.settings import load_settings
 from jumpcad.workshop import load_workshop
 

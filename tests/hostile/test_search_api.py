@@ -11,7 +11,7 @@ from support.sandbox import LONGEST, Sandbox
 import jumpcad
 from hostile.test_api import ODD
 from jumpcad import search
-from jumpcad.search import plots
+from jumpcad.search.report import plots
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(search, name) for name in search.__all__ if inspect.isfunction(getattr(search, name))},

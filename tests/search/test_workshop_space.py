@@ -10,12 +10,13 @@ from support.shops import HEIGHTS, PLATE_MM, SHOP, Shop
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.evaluation import evaluate
-from jumpcad.search import plots
 from jumpcad.search.explore import feasibility_map, sweep
 from jumpcad.search.models import RobotModel, robot_model
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.propose.task import Task
+from jumpcad.search.report import plots
+from jumpcad.search.report.study_plots import plot_study
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.pool import local_pool
@@ -24,7 +25,6 @@ from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.table import write_table
 from jumpcad.search.study.variant import Variant
-from jumpcad.search.study_plots import plot_study
 from jumpcad.workshop import load_workshop
 
 WORKSHOP = load_workshop()

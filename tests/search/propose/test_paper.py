@@ -11,6 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.propose import paper
 from jumpcad.search.propose.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
 from jumpcad.search.propose.task import Task
+from jumpcad.search.report.study_plots import plot_study
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.pool import local_pool
@@ -18,7 +19,6 @@ from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial
-from jumpcad.search.study_plots import plot_study
 
 pytestmark = pytest.mark.usefixtures("quick_proposals")
 

@@ -14,11 +14,14 @@ from support.shops import SHOP, Shop
 from support.studies import IDENTITY
 
 from jumpcad.design import load_design
-from jumpcad.search import study_lessons, study_page
 from jumpcad.search.explore import Importance
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound, Candidate
 from jumpcad.search.pick.tolerances import Making
+from jumpcad.search.report import lessons
+from jumpcad.search.report import page as study_page
+from jumpcad.search.report.lessons import active
+from jumpcad.search.report.page import write_study_page
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool
@@ -28,8 +31,6 @@ from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary, summary
 from jumpcad.search.study.table import write_table
 from jumpcad.search.study.trial import Trial
-from jumpcad.search.study_lessons import active
-from jumpcad.search.study_page import write_study_page
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
 
@@ -248,9 +249,9 @@ def test_a_parameter_without_effect_matters_least(tmp_path):
 
 def test_a_long_bar_within_its_error_is_not_what_matters_most(tmp_path, monkeypatch):
     learned = Importance(("c_coef", "d_coef"), np.array([0.33, 0.19]), np.array([0.42, 0.13]), 0.9, 40)
-    monkeypatch.setattr(study_lessons, "importance_in", lambda *_: learned)
+    monkeypatch.setattr(lessons, "importance_in", lambda *_: learned)
     with studied(tmp_path / "s.db", SPACE, "ga", 40) as store:
-        root = ElementTree.fromstring(f"<body>{''.join(study_lessons.importances(store, summary(store)))}</body>")
+        root = ElementTree.fromstring(f"<body>{''.join(lessons.importances(store, summary(store)))}</body>")
     assert [[text(cell) for cell in row][::3] for row in root.iter("tr")][1:] == [["c_coef", "no"], ["d_coef", "yes"]]
     assert "Of those beyond their error, d_coef matters most." in text(root)
     assert "perhaps nothing: c_coef." in text(root)

@@ -10,10 +10,10 @@ from support.bumps import REST, studied
 from support.hills import SMALL
 
 from jumpcad.findings import Finding
-from jumpcad.search import plots
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
-from jumpcad.search.figures import MEANINGS, PICTURES, panels, save_figure
 from jumpcad.search.fronts import energy_j, find_cost
+from jumpcad.search.report import plots
+from jumpcad.search.report.figures import MEANINGS, PICTURES, panels, save_figure
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.trial import Trial

@@ -5,8 +5,8 @@ from xml.etree import ElementTree
 import pytest
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.page_text import broken, escape_html, table
-from jumpcad.search.study_words import figure_words
+from jumpcad.search.report.text import broken, escape_html, table
+from jumpcad.search.report.words import figure_words
 
 
 def test_texts_are_escaped_and_break_after_underscores() -> None:

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from jumpcad.search.page_axes import Axes, evenly, scale
+from jumpcad.search.report.axes import Axes, evenly, scale
 
 LEFT, RIGHT, TOP, FOOT = 70.0, 640.0 - 14.0, 44.0, 410.0 - 62.0
 

@@ -7,8 +7,8 @@ from itertools import combinations
 import numpy as np
 
 from jumpcad.search.fronts import Cost, front
-from jumpcad.search.page_axes import Axes, evenly, scale
-from jumpcad.search.page_text import escape_html
+from jumpcad.search.report.axes import Axes, evenly, scale
+from jumpcad.search.report.text import escape_html
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.trial import Trial
 

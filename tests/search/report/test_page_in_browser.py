@@ -8,8 +8,8 @@ import pytest
 from support.browsers import PHONE, browser, needs_browser, require_quiet, webdriver
 from support.bumps import REST, studied
 
+from jumpcad.search.report.page import write_study_page
 from jumpcad.search.space import Space
-from jumpcad.search.study_page import write_study_page
 
 pytestmark = needs_browser
 Keys = webdriver.Keys

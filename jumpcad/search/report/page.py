@@ -13,22 +13,22 @@ import numpy as np
 from jumpcad.arguments import check_arguments
 from jumpcad.files.templates import templates_folder
 from jumpcad.plural import counted
-from jumpcad.search.figures import MEANINGS, svg_text
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
-from jumpcad.search.page_text import broken, escape_html, table
 from jumpcad.search.phases import FRONTS
 from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Making
-from jumpcad.search.shown_design import shown_designs
+from jumpcad.search.report.chart import chart
+from jumpcad.search.report.drawings import history, parallel, slices
+from jumpcad.search.report.figures import MEANINGS, svg_text
+from jumpcad.search.report.lessons import active, importances, rejections
+from jumpcad.search.report.shown_design import shown_designs
+from jumpcad.search.report.study_plots import study_figures
+from jumpcad.search.report.text import broken, escape_html, table
+from jumpcad.search.report.words import meaning_of, named, with_unit
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary, summary
 from jumpcad.search.study.trial import Trial, feasible_trials
-from jumpcad.search.study_chart import chart
-from jumpcad.search.study_drawings import history, parallel, slices
-from jumpcad.search.study_lessons import active, importances, rejections
-from jumpcad.search.study_plots import study_figures
-from jumpcad.search.study_words import meaning_of, named, with_unit
 from jumpcad.workshop.varied import Value
 
 SHOWN = 10

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from jumpcad.search.page_text import escape_html
+from jumpcad.search.report.text import escape_html
 
 Scale = tuple[float, float, list[float]]
 """Lowest and highest value of an axis, and its ticks."""

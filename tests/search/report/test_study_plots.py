@@ -7,9 +7,9 @@ import pytest
 from support.bumps import REST, studied
 from support.studies import trials
 
-from jumpcad.search.figures import PICTURES
+from jumpcad.search.report.figures import PICTURES
+from jumpcad.search.report.study_plots import _moments, plot_study
 from jumpcad.search.space import Space
-from jumpcad.search.study_plots import _moments, plot_study
 
 pytestmark = pytest.mark.usefixtures("quick_proposals")
 

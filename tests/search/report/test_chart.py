@@ -6,10 +6,10 @@ import pytest
 
 from jumpcad.design import load_design
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost
-from jumpcad.search.page_axes import Axes, scale
+from jumpcad.search.report.axes import Axes, scale
+from jumpcad.search.report.chart import _radii, chart
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.trial import Trial
-from jumpcad.search.study_chart import _radii, chart
 
 DESIGN = load_design("best-ga")
 

@@ -11,7 +11,7 @@ from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.mechanism.planar import points
-from jumpcad.search.page_text import escape_html
+from jumpcad.search.report.text import escape_html
 from jumpcad.transforms import Array
 
 POINTS = ("toe tip", "ankle", "front eye", "front pivot", "back pivot")

@@ -15,10 +15,10 @@ from jumpcad.arguments import check_arguments
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.plural import counted
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
-from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, front
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.propose.posterior import SearchPosterior, unwarped, warped
+from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.trial import Trial, best_trial, feasible_trials

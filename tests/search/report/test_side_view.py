@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from jumpcad.design import Design, load_design
-from jumpcad.search.side_view import LINKS, POINTS, box_mm, joints_mm, side_view
+from jumpcad.search.report.side_view import LINKS, POINTS, box_mm, joints_mm, side_view
 
 DESIGN = Design.from_vector([100.0, 0.9, 0.8, 0.7, 0.6, 50.0, 20.0, 30.0])
 

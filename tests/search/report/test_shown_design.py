@@ -3,7 +3,7 @@
 import re
 
 from jumpcad.design import load_design
-from jumpcad.search.shown_design import HEADLINES, shown_designs
+from jumpcad.search.report.shown_design import HEADLINES, shown_designs
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.trial import Trial
 

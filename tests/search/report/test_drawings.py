@@ -10,11 +10,11 @@ from support.hills import FIXED, SMALL
 
 from jumpcad.files import templates_folder
 from jumpcad.search.parameter import SearchParameter
+from jumpcad.search.report.drawings import AGES, _best, _end, _gain, _line, _spread, history, parallel, slices
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial
-from jumpcad.search.study_drawings import AGES, _best, _end, _gain, _line, _spread, history, parallel, slices
 from jumpcad.workshop import load_workshop
 
 NAN = float("nan")

@@ -11,13 +11,13 @@ from support.hills import SMALL
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.search import study_lessons
 from jumpcad.search.explore import Importance
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
+from jumpcad.search.report import lessons
+from jumpcad.search.report.lessons import _bar, _cost, _gains, _is_clear, _matters, active, rejections
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial
-from jumpcad.search.study_lessons import _bar, _cost, _gains, _is_clear, _matters, active, rejections
 
 DESIGN = load_design("best-ga")
 LEARNED = Importance(
@@ -63,10 +63,10 @@ def test_three_that_are_clear_matter_most_the_largest_first() -> None:
 def test_the_longest_bar_is_full_and_two_hundred_designs_tell_evenly_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 401 that jump every third one; a fall of R² of 0.6 is a whole bar, one of 0.4 two thirds of it."""
     asked = []
-    monkeypatch.setattr(study_lessons, "importance_in", lambda *given: asked.append(given) or LEARNED)
+    monkeypatch.setattr(lessons, "importance_in", lambda *given: asked.append(given) or LEARNED)
     trials = [replace(WON, place=place, score=1.0 + place) for place in range(401)]
     store = SimpleNamespace(identity={"seed": 7})
-    page = "\n".join(study_lessons.importances(store, known(*trials)))  # type: ignore[arg-type]
+    page = "\n".join(lessons.importances(store, known(*trials)))  # type: ignore[arg-type]
     assert asked == [(SMALL, trials[::3], 7)]
     assert [int(width) for width in re.findall(r"width: (\d+)%", page)] == [100, 67, 33, 17, 8]
 
@@ -78,20 +78,20 @@ def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_impor
     monkeypatch: pytest.MonkeyPatch, r_squared: float, said: str
 ) -> None:
     """Nor do designs that are too few, or that all score alike."""
-    monkeypatch.setattr(study_lessons, "importance_in", lambda *_: replace(LEARNED, r_squared=r_squared))
+    monkeypatch.setattr(lessons, "importance_in", lambda *_: replace(LEARNED, r_squared=r_squared))
     store = SimpleNamespace(identity={"seed": 7})
     two, alike = known(WON, replace(WON, score=3.0), failed("tips")), known(WON, WON)
-    page = text(study_lessons.importances(store, two))  # type: ignore[arg-type]
+    page = text(lessons.importances(store, two))  # type: ignore[arg-type]
     assert said in page
     assert ("From 40 designs the score of others cannot be predicted" in page) == (r_squared != 0.5)
     assert ("c_<wbr" in page or "c_coef" in page) == (r_squared == 0.5)
-    assert list(study_lessons.importances(store, alike)) == []  # type: ignore[arg-type]
+    assert list(lessons.importances(store, alike)) == []  # type: ignore[arg-type]
 
     def refused(*_: object) -> None:
         raise JumpcadError("too few")
 
-    monkeypatch.setattr(study_lessons, "importance_in", refused)
-    page = text(study_lessons.importances(store, two))  # type: ignore[arg-type]
+    monkeypatch.setattr(lessons, "importance_in", refused)
+    page = text(lessons.importances(store, two))  # type: ignore[arg-type]
     assert page == "Importance 2 designs that jumped: too few to say what is important."
 
 

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
 from jumpcad.search.explore import LEAST_R_SQUARED, Importance, importance_in
-from jumpcad.search.page_text import broken, escape_html, table
 from jumpcad.search.pick.robust import ActiveBound
+from jumpcad.search.report.text import broken, escape_html, table
+from jumpcad.search.report.words import reason_words, with_unit
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import count_rejections
-from jumpcad.search.study_words import reason_words, with_unit
 
 MOST_LEARNED = 200
 """Largest number of designs from which importances are computed, evenly chosen: the time grows with their cube."""

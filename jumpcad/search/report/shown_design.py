@@ -4,11 +4,11 @@ import shlex
 from collections.abc import Iterator, Sequence
 
 from jumpcad.search.fronts import energy_j
-from jumpcad.search.page_text import broken, escape_html
-from jumpcad.search.side_view import Box, box_mm, side_view
+from jumpcad.search.report.side_view import Box, box_mm, side_view
+from jumpcad.search.report.text import broken, escape_html
+from jumpcad.search.report.words import figure_words, with_unit
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.trial import Trial
-from jumpcad.search.study_words import figure_words, with_unit
 
 HEADLINES = ("ballistic_range_m", "com_rise_m", "mass_kg", "winding_time_s")
 """Figures that are shown at once; the others open on a click."""

@@ -5,7 +5,7 @@ import re
 
 from support.places import ROOT
 
-from jumpcad.search.study_words import REASONS, figure_words, named, reason_words, with_unit
+from jumpcad.search.report.words import REASONS, figure_words, named, reason_words, with_unit
 
 
 def refusals():

@@ -7,11 +7,11 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from jumpcad.arguments import check_arguments
-from jumpcad.search import plots
-from jumpcad.search.figures import save_figure
 from jumpcad.search.fronts import described_cost
 from jumpcad.search.phases import FRONTS, LEARNING_PHASES
 from jumpcad.search.propose.posterior import SearchPosterior
+from jumpcad.search.report import plots
+from jumpcad.search.report.figures import save_figure
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import described_objective
 from jumpcad.search.study.store import StudyStore

@@ -5,7 +5,7 @@ from PIL import Image
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import require_free
-from jumpcad.search.figures import labels, panels, save_figure
+from jumpcad.search.report.figures import labels, panels, save_figure
 
 
 def test_an_unwritable_folder_is_one_line(tmp_path):

@@ -7,14 +7,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from jumpcad.search.page_axes import Axes, evenly, scale
-from jumpcad.search.page_text import broken, escape_html
 from jumpcad.search.parameter import SearchParameter
+from jumpcad.search.report.axes import Axes, evenly, scale
+from jumpcad.search.report.text import broken, escape_html
+from jumpcad.search.report.words import meaning_of, named, unit_of, with_unit
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial, best_trial, feasible_trials
-from jumpcad.search.study_words import meaning_of, named, unit_of, with_unit
 
 MOST_DOTS, MOST_SLICED, MOST_LINES = 3000, 1000, 400
 """Largest number of designs in the history and in a slice, evenly chosen; of lines, the best ones."""
