@@ -34,7 +34,6 @@ from jumpcad.solids.stack import Stack
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop
 
-TESTS = Path(__file__).parent
 ALONE = ("test_contributing.py", "test_examples.py", "test_notebooks.py", "test_packaging.py")
 THOROUGH = [Path(__file__).parent / name for name in ("clients", "hostile", *ALONE)]
 """Folders and files whose tests are all thorough; a quick run does not even import them."""

@@ -1,6 +1,5 @@
 """The public function that writes a bundle; that designs are taken for robots is in `test_arguments.py`."""
 
-import inspect
 import math
 from pathlib import Path
 from typing import Any
@@ -9,7 +8,7 @@ import pytest
 from support.pictures import with_few_pictures
 
 import jumpcad
-from jumpcad import api, checks
+from jumpcad import checks
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
 from jumpcad.search.models import robot_model
@@ -25,33 +24,6 @@ def test_a_bundle_has_pictures_and_no_step_files_unless_it_is_told_otherwise(
         suffixes = {Path(name).suffix for name in bundle.files}
         assert (".png" in suffixes) == pictures
         assert ".step" not in suffixes
-
-
-@pytest.mark.parametrize("option", ["pictures", "step", "force", "ros2"])
-def test_each_choice_for_a_bundle_is_that_of_its_writer(
-    small_robot: Robot, monkeypatch: pytest.MonkeyPatch, option: str
-) -> None:
-    written, signature = [], inspect.signature(api.export_robot)
-    monkeypatch.setattr(api, "export_robot", lambda *values: written.append(signature.bind(*values).arguments))
-    for value in (True, False):
-        jumpcad.export(small_robot, "folder", **{option: value})
-    assert [one[option] for one in written] == [True, False]
-    for other in {"pictures", "step", "force", "ros2"} - {option}:
-        assert written[0][other] == written[1][other]
-
-
-def test_a_bundle_without_choices_has_pictures_alone_and_keeps_what_a_user_changed(
-    small_robot: Robot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """STEP files, a ROS package and the loss of edited files are asked for."""
-    written, signature = [], inspect.signature(api.export_robot)
-    monkeypatch.setattr(api, "export_robot", lambda *values: written.append(signature.bind(*values).arguments))
-    jumpcad.export(small_robot, "folder")
-    (given,) = written
-    chosen = {"pictures": True, "step": False, "force": False, "ros2": False}
-    assert {key: given[key] for key in chosen} == chosen
-    assert given["folder"] == "folder"
-    assert {key: one.default for key, one in signature.parameters.items() if key in chosen} == chosen
 
 
 def test_a_robot_jumps_in_the_engine_and_with_the_settings_that_are_asked_for() -> None:

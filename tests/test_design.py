@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from support.each import each
 from support.places import ROOT
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of, load_design, unit_of
@@ -44,7 +45,7 @@ def test_spring_energy_and_torque_are_the_published_ones(name: str, energy_j: fl
         assert design.peak_spring_torque_nm == pytest.approx(torque_nm, rel=5e-3)
 
 
-@pytest.mark.parametrize("name", PARAMETERS)
+@each("name", PARAMETERS)
 def test_a_parameter_has_the_limits_within_which_a_design_is_one(name: str) -> None:
     """Just outside of either it is refused; a search's usual bounds lie within."""
     numbers, (low, high) = dict(zip(PARAMETERS, KENAN_2, strict=True)), limits_of(name)
@@ -56,7 +57,7 @@ def test_a_parameter_has_the_limits_within_which_a_design_is_one(name: str) -> N
     assert low <= SEARCH_BOUNDS[name].lower < SEARCH_BOUNDS[name].upper <= high
 
 
-@pytest.mark.parametrize("name", PARAMETERS)
+@each("name", PARAMETERS)
 def test_limits_and_searched_ranges_are_those_that_users_are_told(name: str) -> None:
     """docs/robot.md: the searched ones are the published study's."""
     page = (ROOT / "docs" / "robot.md").read_text(encoding="utf-8")
@@ -115,7 +116,7 @@ def test_vector_of_another_length_is_refused(count: int) -> None:
         Design.from_vector([1.0] * count)
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "value", "limit"),
     [
         ("carrying_link_mm", 9000.0, "at most 400"),

@@ -5,19 +5,15 @@ import os
 import subprocess
 import sys
 from dataclasses import replace
-from functools import lru_cache
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from support import needs
-from support.built import built
 from support.loaded import loaded_range_m
 from support.places import ROOT
 from support.workshops import changed
 
-from jumpcad import evaluation
 from jumpcad.building import build
 from jumpcad.bundle.export import export
 from jumpcad.checks import constraint_findings
@@ -166,54 +162,3 @@ def test_electricity_is_voltage_times_mean_current_times_time() -> None:
     assert result.metrics["electrical_energy_j"] == pytest.approx(power * result.metrics["winding_time_s"], rel=1e-9)
     parts = result.metrics["motor_energy_j"] + result.metrics["boards_energy_j"]
     assert result.metrics["electrical_energy_j"] == pytest.approx(parts)
-
-
-def test_a_made_robot_jumps_with_the_settings_and_the_engine_that_are_asked_for(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """`made` changes robot and settings; findings and size stay those of the design."""
-    robot, worn = built("kenan-2.0"), built("best-bo")
-    fine, icy = Settings(dt_s=1.0 / 8000.0), Settings(ground_friction=0.1)
-    (finding,) = constraint_findings(robot)[:1]
-    jump, asked = simulate(robot, engine="planar"), []
-    monkeypatch.setattr(evaluation, "_designed", lambda order: (robot, (finding,)))
-    monkeypatch.setattr(evaluation, "simulate", lambda *values: asked.append(values) or jump)
-    got = evaluation.evaluate_made(KENAN, None, fine, "mujoco", lambda one, given: (one, given))
-    evaluation.evaluate_made(KENAN, None, None, "planar", lambda one, given: (one, given))
-    evaluation.evaluate_made(KENAN, None, fine, "planar", lambda one, given: (worn, icy))
-    assert asked == [(robot, fine, "mujoco"), (robot, Settings(), "planar"), (worn, icy, "planar")]
-    assert (got.robot, got.jump, got.findings) == (robot, jump, (*jump.findings, finding))
-
-
-def test_what_is_made_is_designed_in_the_workshop_that_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Once for all that is made of one design, and again in another workshop."""
-    robot, solid, designed = built("kenan-2.0"), changed(mass={"model": "solid"}), []
-    monkeypatch.setattr(evaluation, "_designed", lru_cache(maxsize=1)(evaluation._designed.__wrapped__))
-    monkeypatch.setattr(
-        evaluation, "built_and_checked", lambda *order, name: designed.append((*order, name)) or (robot, [])
-    )
-    jump = simulate(robot, engine="planar")
-    monkeypatch.setattr(evaluation, "simulate", lambda *_: jump)
-    for workshop in (solid, solid, None):
-        evaluation.evaluate_made(KENAN, workshop, None, "planar", lambda one, given: (one, given))
-    assert designed == [(KENAN, solid, ""), (KENAN, None, "")]
-
-
-@pytest.mark.parametrize(("reach_m", "extent_m", "size_m"), [(0.8, 0.2, 0.2), (0.8, 0.1, 0.16), (None, 0.2, 0.2)])
-def test_each_figure_beside_the_jump_has_its_own_name(
-    monkeypatch: pytest.MonkeyPatch, reach_m: float | None, extent_m: float, size_m: float
-) -> None:
-    """The size is the largest extent of the standing robot, or the longest link; no jump has no body lengths."""
-    train = SimpleNamespace(electrical_j=5.0, motor_j=3.5, boards_j=1.5, winding_s=7.0)
-    bodies = {name: SimpleNamespace(mass_kg=mass) for name, mass in (("body", 0.08), ("foot", 0.03))}
-    robot = SimpleNamespace(
-        layout=SimpleNamespace(drive=SimpleNamespace(train=train)), design=SimpleNamespace(l_max_mm=160.0),
-        bodies=bodies, mass_kg=0.125,
-    )  # fmt: skip
-    monkeypatch.setattr(evaluation, "extent_m", lambda _: np.array([0.05, extent_m, 0.02]))
-    found = evaluation._metrics(robot, SimpleNamespace(ballistic_range_m=reach_m))  # type: ignore[arg-type]
-    assert found == {
-        "body_lengths": pytest.approx((reach_m or 0.0) / size_m), "size_m": size_m, "mass_kg": 0.125,
-        "electrical_energy_j": 5.0, "motor_energy_j": 3.5, "boards_energy_j": 1.5, "winding_time_s": 7.0,
-        "body_mass_kg": 0.08, "foot_mass_kg": 0.03,
-    }  # fmt: skip

@@ -1,14 +1,14 @@
 """A finding's margin and use follow from its value and limit."""
 
 import math
-from collections.abc import Callable
 
 import pytest
+from support.each import each
 
-from jumpcad.findings import SHOWN_AS, Finding, at_least, at_most, bare, is_bare, limit
+from jumpcad.findings import Finding, at_least, at_most, limit
 
 
-@pytest.mark.parametrize(
+@each(
     ("value", "allowed", "margin", "use", "severity"),
     [
         (10.0, 40.0, 30.0, 0.25, "info"),
@@ -46,13 +46,6 @@ def test_use_is_a_minimum_over_the_value(
     assert (finding.margin, finding.use, finding.severity) == (margin, use, severity)
 
 
-@pytest.mark.parametrize("make", [at_most, at_least])
-def test_what_is_not_a_number_keeps_no_limit(make: Callable[..., Finding]) -> None:
-    """A computation that failed says nothing about the robot: no comparison with it is true."""
-    assert make("stress", math.nan, 40.0, "MPa", "found", "remedy").severity == "error"
-    assert make("stress", 10.0, math.nan, "MPa", "found", "remedy").severity == "error"
-
-
 def test_a_margin_alone_has_no_use() -> None:
     finding = limit("walls", 0.1, "mm", "found", "remedy")
     assert (finding.value, finding.limit, finding.use, finding.grows) == (None, None, None, "")
@@ -63,20 +56,3 @@ def test_plain_data_gives_the_finding_back() -> None:
     data = finding.to_dict()
     assert list(data)[:6] == ["name", "severity", "margin", "unit", "message", "remedy"]
     assert Finding(**data) == finding
-
-
-@pytest.mark.parametrize(
-    ("unit", "read", "shown"),
-    [("rad", "°", 180.0), ("rad/s", "°/s", 180.0), ("J", "mJ", 1000.0 * math.pi), ("N·m", "mN·m", 1000.0 * math.pi)],
-)
-def test_people_read_degrees_and_thousandths(unit: str, read: str, shown: float) -> None:
-    """Of π radians, joules or newton metres."""
-    word, factor = SHOWN_AS[unit]
-    assert (word, factor * math.pi) == (read, pytest.approx(shown))
-
-
-def test_a_finding_is_bare_without_words_and_figures() -> None:
-    kept = bare("walls", "error", -0.1, "mm")
-    assert is_bare(kept)
-    assert not is_bare(limit("walls", -0.1, "mm", "found", "remedy"))
-    assert not is_bare(at_most("stress", 50.0, 40.0, "MPa", "", ""))

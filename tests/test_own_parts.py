@@ -19,9 +19,8 @@ from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
-from jumpcad.search.models import RobotModel
 from jumpcad.strength.bearings import hub_bearings
-from jumpcad.workshop import OWN_PARTS, load_workshop
+from jumpcad.workshop import load_workshop
 
 Tables = dict[str, dict[str, Any]]
 """Tables of a workshop by their headings."""
@@ -197,10 +196,6 @@ def test_what_fits_passes_every_check(robot: str, written: Write) -> None:
         pytest.fail(f"{found}; alone: { {case: faults(written, case) for case in ROBOTS[robot]} }")
 
 
-def test_every_part_that_fits_is_in_a_robot() -> None:
-    assert set(FITS) == set(chain(*ROBOTS.values()))
-
-
 @pytest.mark.parametrize("case", REFUSED)
 def test_what_does_not_fit_is_refused_by_its_name(case: str, written: Write) -> None:
     tables, words = REFUSED[case]
@@ -251,28 +246,6 @@ def test_own_parts_join_the_shipped_ones_and_no_other_workshop(written: Write) -
     assert "693" in [found.name for found in hub_bearings(anyone) if found]
 
 
-def test_a_written_workshop_keeps_own_parts_and_writes_no_empty_tables(written: Write) -> None:
-    workshop = load_workshop(written(EXAMPLE + SPRING))
-    again = load_workshop(written(workshop.to_toml()))
-    assert again == workshop == workshop.revalidated()
-    assert again.to_toml() == workshop.to_toml()
-    assert again.springs["stock"].rate_nmm_per_deg == 4.2
-    assert not any(f"[{kind}" in load_workshop().to_toml() for kind in OWN_PARTS)
-
-
-def test_a_base_passes_own_parts_on(written: Write, tmp_path: Path) -> None:
-    (tmp_path / "base.toml").write_text(EXAMPLE)
-    changed = load_workshop(written('base = "base.toml"\n[motors.square-16]\nmass_g = 33.0\n'))
-    assert (changed.motors["square-16"].mass_g, changed.motors["square-16"].width_mm) == (33.0, 16.0)
-    assert set(changed.bearings) == {"693"}
-
-
-def test_a_study_with_other_own_parts_is_another_study(written: Write) -> None:
-    one, other = (load_workshop(written(text)) for text in (EXAMPLE, EXAMPLE.replace("32.0", "33.0")))
-    digests = {RobotModel("printed", workshop).digest for workshop in (one, other, load_workshop())}
-    assert len(digests) == 3
-
-
 @pytest.mark.usefixtures("built_once", "checked_once")
 def test_a_bundle_with_own_parts_builds_again_from_itself(written: Write, tmp_path: Path) -> None:
     """What it read back otherwise would be another workshop, whose robot is built and checked anew."""
@@ -283,71 +256,6 @@ def test_a_bundle_with_own_parts_builds_again_from_itself(written: Write, tmp_pa
     listed = json.loads((first / "manifest.json").read_text())["files"]
     assert filecmp.cmpfiles(first, second, [*listed, "manifest.json"], shallow=False)[1:] == ([], [])
     assert "gear motor square-16" in (first / "bom.csv").read_text()
-
-
-WRONG = {
-    "shipped name": (
-        '[motors.n20-298]\nlike = "n20-298"\nsource = "x"',
-        r"^\S+my.toml:1: motors.n20-298 = 'n20-298': is the name of a shipped part: choose another one, and like = ",
-    ),
-    "no source": (
-        '[motors.a]\nlike = "n20-298"',
-        r"^\S+my.toml:1: motors.a.source: missing: say where the figures come from$",
-    ),
-    "blank source": ('[motors.a]\nlike = "n20-298"\nsource = " "', r"my.toml:3: motors.a.source = ' ': is empty: say"),
-    "no mass": (
-        '[bearings.b]\nsource = "x"\nbore_mm = 3.0\nouter_mm = 7.0\nwidth_mm = 3.0\nstatic_load_n = 99.0',
-        r"^\S+my.toml:1: bearings.b.mass_g: missing: weigh it, or take the maker's figure$",
-    ),
-    "missing": ('[motors]\n[bearings.b]\nsource = "x"', r"my.toml:2: bearings.b.bore_mm: missing"),
-    "unknown key": (
-        '[motors.a]\nlike = "n20-298"\nsource = "x"\nshaft = 3.0',
-        r"my.toml:4: motors.a.shaft: unknown key \(did you mean shaft_mm\?\)",
-    ),
-    "a name of its own": ('[motors.a]\nlike = "n20-298"\nsource = "x"\nname = "b"', r"my.toml:4: motors.a.name = 'b'"),
-    "unknown like": (
-        '[motors.a]\nlike = "n20-299"\nsource = "x"',
-        r"my.toml:2: motors.a.like = 'n20-299': is no shipped part of this kind .*did you mean n20-298\?",
-    ),
-    "like of another kind": ('[boards.a]\nlike = "n20-298"', r"my.toml:2: boards.a.like = 'n20-298': is no shipped"),
-    "like of a spring": ('[springs.a]\nlike = "b"', r"springs.a.like = 'b': is no shipped part .*9271K619"),
-    "like of a list": ("[motors.a]\nlike = [1]", r"motors.a.like = \[1\]: is no shipped part"),
-    "negative": (motor(mass_g=-1.0), r"my.toml:6: motors.own.mass_g = -1.0: must be at least 0.001"),
-    "not a number": ('[motors.a]\nlike = "n20-298"\nsource = "x"\nshaft_mm = nan', r"= nan: must be a finite number"),
-    "no table": ("[boards]\na = 3", r"my.toml:2: boards.a = 3: must be a table: \[boards.a\] with source, description"),
-    "flat wider than the shaft": (
-        motor(shaft_flat_mm=3.5),
-        r"my.toml:6: motors.own.shaft_flat_mm = 3.5: must be more than 1.5 and less than shaft_mm = 3",
-    ),
-    "round shaft": (motor(shaft_flat_mm=3.0), r"must be more than 1.5 and less than shaft_mm = 3: a flat turns the"),
-    "boss wider than the body": (motor(boss_mm=11.0), r"boss_mm = 11.0: must be at least shaft_mm = 3 and at most 10"),
-    "boss narrower than the shaft": (motor(boss_mm=2.9), r"boss_mm = 2.9: must be at least shaft_mm = 3"),
-    "boss longer than the shaft": (motor(boss_length_mm=9.0), r"shaft_length_mm = 9.0: must be more than boss_l"),
-    "lighter than its shaft": (motor(mass_g=0.4), r"mass_g = 0.4: must be more than 0.5, what its steel shaft alone"),
-    "torque in N·mm": (motor(stall_torque_nm=196.0), r"at half speed it would give 2.3e\+02 W and draw 1.1 W"),
-    "current": (motor(no_load_current_a=0.4), r"no_load_current_a = 0.4: must be less than stall_current_a = 0.36"),
-    "bore larger than the outside": (
-        bearing("roller", 10.0, 9.0, 4.0),
-        r"my.toml:7: bearings.own.outer_mm = 9.0: must be at least bore_mm \+ 2 = 12: rings and balls between",
-    ),
-    "arms that the turns do not have": (
-        SPRING.replace("arm_angle_deg = 90.0", "arm_angle_deg = 270.0"),
-        r"my.toml:6: springs.stock.arm_angle_deg = 270.0: 4.25 turns with tangent arms have 90° between them",
-    ),
-    "wire thicker than its coil": (SPRING.replace("wire_mm = 1.0", "wire_mm = 8.0"), r"my.toml:3: springs.stock.wire"),
-    "a path for a name": ('[motors."../x"]\nlike = "n20-298"\nsource = "x"', "a name has 1 to 50 letters, digits"),
-    "an escape in a source": ('[boards.a]\nlike = "drv8833"\nsource = "a\\u001b[31m"', "contains the control char"),
-    "an escape in a name": ('[boards."\\u001b[31m"]\nlike = "x"', "a name has 1 to 50 letters, digits"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("case", WRONG)
-def test_nonsense_is_one_line_with_its_place(case: str, written: Write) -> None:
-    text, words = WRONG[case]
-    with pytest.raises(JumpcadError, match=words) as caught:
-        load_workshop(written(text))
-    assert "\n" not in str(caught.value)
-    assert caught.value.exit_code == 2
 
 
 def test_what_does_not_fit_is_an_answer_and_not_a_wrong_request(written: Write) -> None:

@@ -3,11 +3,11 @@
 from pathlib import Path
 
 import pytest
+from support.each import each
 from support.machines import rubbing
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.settings import coefficients, takeoff_clearance_m
 from jumpcad.simulation import Settings, load_settings
@@ -32,20 +32,6 @@ def test_default_file_lists_every_key() -> None:
         "takeoff_clearance_m",
     }
     assert all(f"# {name} " in text for name in follow)
-
-
-def test_presets_load() -> None:
-    assert template_names("settings") == ["default", "fine", "published-table", "screening"]
-    assert load_settings("screening").dt_s == 1 / 1000
-    fine = load_settings("fine")
-    assert (fine.dt_s, fine.solver_iterations) == (1 / 16000, 200)
-
-
-def test_published_table_is_the_papers() -> None:
-    """Lateral friction 0.8, spinning 0.1, rolling 0.01, joint damping 0.001, restitution 0.8."""
-    table = load_settings("published-table")
-    assert (table.foot_friction, table.spinning_friction_m, table.rolling_friction_m) == (0.8, 0.1, 0.01)
-    assert (table.joint_damping_nms_per_rad, table.restitution) == (0.001, 0.8)
 
 
 def test_friction_of_the_contacts_is_that_of_the_reference_flights() -> None:
@@ -77,7 +63,7 @@ def test_a_printed_robot_that_jumps_clears_the_ground_by_a_millimetre() -> None:
             assert takeoff_clearance_m(robot, Settings(takeoff_clearance_m=asked)) == asked
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "message"),
     [
         ("dt_s = 0.1", r"mine.toml:1: dt_s = 0.1: must be at most 0.00416667"),

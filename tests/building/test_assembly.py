@@ -9,23 +9,20 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from support.built import LONG_TOES, body_in_plane, built, design, geared, placed
+from support.built import LONG_TOES, body_in_plane, built, design, geared
 from support.elsewhere import environment
 from support.places import ROOT
 from support.workshops import changed
 
-from jumpcad.building import assembly, build
-from jumpcad.building.assembly import _sensor_needs, assembled, layout_of
+from jumpcad.building import build
+from jumpcad.building.assembly import _sensor_needs, layout_of
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
-from jumpcad.mechanism.flight import leg_blow
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.solids.stl import write_stl
-from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -63,30 +60,6 @@ def test_the_leg_goes_from_loaded_springs_into_its_stop_as_far_as_it_gives(name:
     assert robot.stop_blow is not None
     assert robot.stop_blow.give_rad > 0.0
     assert leg.upper_rad == pytest.approx(robot.stop.angle_rad + robot.stop_blow.give_rad)
-
-
-def test_springs_stop_and_roller_of_a_robot_are_those_of_its_drive_and_layout() -> None:
-    """Springs wound by 4° at rest: at release k·(wind + 4°), the most that the leg's joint is turned with.
-
-    The pad's stiffness about the leg's joint is that along the impact times its distance from it squared.
-    """
-    shop = changed(spring={"preload_deg": 4.0})
-    robot = assembled(KENAN, shop, "", Growth())
-    layout, wound = robot.layout, robot.design.compression_rad + math.radians(4.0)
-    assert layout.drive.spring.preload_rad == robot.spring.preload_rad == math.radians(4.0)
-    assert robot.joint("leg").effort_nm == pytest.approx(robot.design.stiffness_nm_per_rad * wound)
-    assert robot.roller_off is not None
-    assert robot.roller_off is robot.release.off
-    assert robot.stop is robot.stop_blow.stop
-    assert robot.stop.angle_rad == layout.stop.angle_rad
-    pad = 1000.0 * layout.stop.pad_n_per_mm(layout.sections.thickness_mm)
-    assert robot.stop.stiffness_nm_per_rad == pytest.approx(pad * (layout.stop.radius_mm / 1000.0) ** 2)
-    blow = leg_blow(robot.bodies, robot.linkage, robot.spring, layout.stop.angle_rad)
-    assert robot.stop_blow.energy_j == pytest.approx(blow.energy_j, rel=1e-4)
-    # what the pad absorbs, by its stiffness: a spring's energy at the greatest deflection
-    give = robot.stop_blow.give_rad
-    assert robot.stop.stiffness_nm_per_rad * give**2 / 2.0 == pytest.approx(robot.stop_blow.energy_j, rel=1e-3)
-    assert robot.stop_blow.give_mm == pytest.approx(give * layout.stop.radius_mm, rel=1e-3)
 
 
 def test_the_foot_lies_flat_when_the_body_is_tilted_by_beta() -> None:
@@ -185,25 +158,6 @@ def test_screws_as_axles_have_one_size_and_a_thinner_one_is_no_way_out() -> None
         layout_of(KENAN, changed(bought={"axle_mm": 6.0, "leg_bearing": "", "retention": "nuts"}))
 
 
-def test_springs_for_a_free_direction_of_their_pin_are_tried_as_long_as_there_is_one(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    asked: list[tuple[float, ...]] = []
-    free = [(0.9, 1.2), (1.2,), ()]
-
-    def laid_out(_design: Design, _workshop: Workshop, _growth: Growth, directions: tuple[float, ...]) -> None:
-        asked.append(directions)
-        raise NoPinRoomError("no room for the spring pin: lower stiffness_nmm_per_deg", free[len(asked) - 1])
-
-    monkeypatch.setattr(assembly, "_laid_out", laid_out)
-    with pytest.raises(NoPinRoomError, match="lower stiffness_nmm_per_deg"):
-        layout_of(KENAN, changed())
-    assert asked == [PLATE_PINS_RAD, (0.9, 1.2), (1.2,)]
-    asked.clear()
-    with pytest.raises(NoPinRoomError, match=r"bought\.spring"):  # springs from stock are of one stiffness
-        layout_of(KENAN, changed(bought={"spring": "any"}))
-
-
 def test_springs_that_are_bought_are_as_stiff_as_their_maker_says() -> None:
     """Two of them, whatever stiffness the design has."""
     stock = load_catalogue().springs["9271K589"]
@@ -225,26 +179,6 @@ def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
         layout_of(KENAN, changed(bought={"axle_mm": 4.5, "leg_bearing": ""}))
     assert caught.value.exit_code == 2
-
-
-def test_stop_plates_and_toes_are_those_of_the_workshops_body() -> None:
-    """A degree farther and 0.4 mm thicker than in the default workshop, and toes with bars across them."""
-    usual = load_workshop().body
-    wanted = {"stop_deg": usual.stop_deg + 1.0, "plate_mm": usual.plate_mm + 0.4, "toe_half_width_mm": 65.0}
-    layout = layout_of(KENAN, changed(body=wanted, bought={"axle_mm": 2.0, "leg_bearing": ""}))
-    assert layout.axle_mm == 2.0
-    assert math.degrees(layout.stop.angle_rad) == pytest.approx(wanted["stop_deg"])
-    for low, high in (layout.lateral.left_plate, layout.lateral.right_plate):
-        assert high - low == pytest.approx(wanted["plate_mm"])
-    assert layout.toe_half_width_mm == 65.0
-    assert not layout.toes_apart
-    wide = layout_of(KENAN, changed(body={"toe_half_width_mm": 170.0}, bought={"retention": "nuts"}))
-    assert wide.toes_apart  # 340 mm from side to side
-    assert wide.retention == "nuts"
-    # its pin's head passes the left plate with a loose fit, 0.3 mm all around; ears beside a counterbore of 4 mm
-    shop = load_workshop()
-    assert wide.pin_hole.diameter_mm == pytest.approx(pin_head_mm(shop.catalogue, shop.bought) + 2.0 * 0.3)
-    assert wide.cap_ear_mm == pytest.approx(4.0 + 2.0 * shop.fits.wall_min_mm)
 
 
 def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
@@ -269,42 +203,6 @@ def test_the_sensors_place_knows_the_workshops_errors_and_how_far_the_cam_runs_o
     assert slower.stop_rad == pytest.approx(0.08 / seats.sensor_stop_s * needs.stop_rad, rel=1e-4)
     thick = changed(process={"first_layer_mm": 0.3, "layer_height_mm": 0.15})
     assert _sensor_needs(thick, chosen_parts(thick), robot.layout.drive).layer_mm == 0.15
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_spacers_keep_the_front_link_and_the_cam_where_they_are(name: str) -> None:
-    """A quarter of a millimetre at either end of what moves along its axle; the cam's spacer stands on the plate."""
-    robot = built(name)
-    low, high = robot.layout.lateral.inside
-    right, link, left, cam, spacer = (
-        placed(robot, one).bounds[:, 1]
-        for one in ("front_spacer_right", "front_link", "front_spacer_left", "cam", "cam_spacer_right")
-    )
-    gaps = [right[0] - low, link[0] - right[1], left[0] - link[1], high - left[1], cam[0] - spacer[1]]
-    assert gaps == pytest.approx(5 * [0.25], abs=1e-3)
-    assert spacer[0] == pytest.approx(low, abs=1e-3)
-
-
-@pytest.mark.parametrize("which", ["one pair", "two pairs"])
-def test_spacers_are_on_their_axles(which: str) -> None:
-    robot = built("kenan-2.0") if which == "one pair" else geared()
-    spacers = [part.name for part in robot.parts if "_spacer_" in part.name]
-    assert len(spacers) == (3 if which == "one pair" else 5)
-    for name in spacers:
-        middle = placed(robot, name).bounds.mean(axis=0)[[0, 2]]
-        assert middle == pytest.approx(robot.layout.axles[name.split("_")[0]], abs=1e-3), name
-
-
-def test_spacers_of_the_idler_have_as_much_play_to_either_side() -> None:
-    """Between the right plate and the wheel; that of the cam touches the left plate and leaves the gear its play."""
-    robot = geared()
-    lateral = robot.layout.lateral
-    low, high = placed(robot, "idler_spacer_right").bounds[:, 1]
-    assert low - lateral.inside[0] == pytest.approx(lateral.gears[0][0] - high, abs=1e-3)
-    assert 0.1 < low - lateral.inside[0] < 0.5
-    start, end = placed(robot, "cam_spacer_left").bounds[:, 1]
-    assert end == pytest.approx(lateral.inside[1], abs=1e-3)
-    assert 0.0 < start - lateral.gears[0][1] < 0.5
 
 
 def test_nothing_that_is_printed_is_left_out() -> None:

@@ -166,13 +166,6 @@ def test_the_leg_falls_by_springs_with_the_preload_of_the_workshop(monkeypatch: 
     assert fall_s(linkage, springs, past_rad) < fall_s(linkage, replace(springs, preload_rad=0.0), past_rad)
 
 
-def test_the_springs_have_the_directions_of_their_pin_that_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = []
-    monkeypatch.setattr(settling, "drive_limits", lambda *given: asked.append(given[-1]) or drive_limits(*given))
-    solve_bearing_and_drive(load_design("kenan-2.0"), load_workshop(), Growth(), (1.25,))
-    assert set(asked) == {(1.25,)}
-
-
 @pytest.mark.parametrize("name", ["kenan-1.0", "best-printable"])
 def test_the_typical_body_turns_like_two_halves_on_a_rod(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Half its mass at each end of a rod whose half length is the radius of gyration, here so long that turns count."""

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import LONG_TOES, built
+from support.each import each
 from support.workshops import changed
 
 from jumpcad.building import build
@@ -34,8 +35,8 @@ def pieces(robot: Robot, body: str) -> list[tuple[trimesh.Trimesh, float]]:
     return [(mesh.apply_scale(0.001), mass) for mesh, mass in found]
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
-@pytest.mark.parametrize("body", BODY_NAMES)
+@each("name", ["kenan-2.0", LONG_TOES])
+@each("body", BODY_NAMES)
 def test_bodies_are_the_sum_of_their_meshes(name: str, body: str) -> None:
     """Mass, centre and tensor of every mesh by trimesh, and Steiner's theorem."""
     robot = built(name, mass_model="solid")

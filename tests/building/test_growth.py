@@ -170,16 +170,3 @@ def test_any_check_can_make_a_section_grow(monkeypatch: pytest.MonkeyPatch) -> N
     assert build(load_design("kenan-2.0")).layout.sections.dog_mm < 11.7
     monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, checks.Check(wide_dog, {}, cheap=True)))
     assert 11.7 <= build(load_design("kenan-2.0")).layout.sections.dog_mm < 11.8
-
-
-def test_what_finds_no_room_to_grow_stays_and_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    layout_of = assembly.layout_of
-
-    def narrow(design: Any, shop: Any, growth: Growth) -> Any:
-        if growth.toe > 1.15:
-            raise CannotBuildError("no room")
-        return layout_of(design, shop, growth)
-
-    monkeypatch.setattr(assembly, "layout_of", narrow)
-    robot = build(load_design("best-bo"), workshop(landing_stop_mm=4.0))
-    assert "toe_landing" in {finding.name for finding in errors(strength_findings(robot))}

@@ -5,15 +5,14 @@ from dataclasses import fields, replace
 from typing import Any
 
 import pytest
+from support.each import each
 from support.limits import default_limits
 from support.strengths import with_own
 
 from jumpcad.building.limits import drive_limits, release_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
-from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.sizing import sections
@@ -33,7 +32,7 @@ def changed(table: str, **values: Any) -> Workshop:
     return workshop.model_copy(update={table: getattr(workshop, table).model_copy(update=values)})
 
 
-@pytest.mark.parametrize(
+@each(
     ("table", "key", "value", "of", "names"),
     [
         ("safety", "spring_stress_share", 0.3, "spring", {"stress_share"}),
@@ -87,40 +86,9 @@ def test_the_default_workshop_has_the_limits_of_its_comments() -> None:
     assert (found.preload_rad, limits(changed("spring", preload_deg=4.0)).preload_rad) == (0.0, math.radians(4.0))
 
 
-def test_reserves_are_kept_on_the_side_where_it_is_harder() -> None:
-    """Above gaps of 0.5 mm, below the cam's 45° and below the motor's torque with the stiffest springs."""
-    none, much = (
-        limits(changed("safety", gap_reserve_mm=gap, pressure_angle_reserve_deg=angle, motor_torque_reserve=torque))
-        for gap, angle, torque in ((0.0, 0.0, 0.0), (0.2, 5.0, 0.3))
-    )
-    assert math.degrees(none.cam.pressure_angle_rad) == pytest.approx(45.0)
-    assert math.degrees(much.cam.pressure_angle_rad) == pytest.approx(40.0)
-    assert (none.cam.clearance_mm, much.cam.clearance_mm) == pytest.approx((0.5, 0.7))
-    assert much.cam.undercut_margin_mm == pytest.approx(none.cam.undercut_margin_mm + 0.2)
-    safety = load_workshop().safety
-    stiffest = safety.motor_torque_max_nm / (1.0 + safety.spring_rate_scatter)
-    assert none.train.torque_max_nm == pytest.approx(stiffest)
-    assert much.train.torque_max_nm == pytest.approx(0.7 * stiffest)
-    assert (
-        none.train.blocked_nm == much.train.blocked_nm == safety.motor_torque_max_nm
-    )  # that of a blocked motor itself
-    assert none.train.stall_share == pytest.approx(safety.motor_stall_share / (1.0 + safety.spring_rate_scatter))
-    assert much.train.stall_share == pytest.approx(0.7 * none.train.stall_share)
-
-
 def test_springs_that_last_longer_are_stressed_less() -> None:
     """Shigley, table 10-10: 50 % of the tensile strength for a million jumps."""
     assert limits(changed("safety", jumps=1e6)).spring.stress_share == pytest.approx(0.5 / 1.05)
-
-
-def test_springs_pins_pass_hub_or_leg_whichever_is_thicker() -> None:
-    """With the usual clearance, and the half diagonal of a pin of 3 mm."""
-    workshop, holes = load_workshop(), HoleSizes.of(load_workshop(), None)
-    for leg_mm, rail_mm in ((14.0, 5.0), (40.0, 60.0)):
-        sized = replace(SECTIONS, leg_root_mm=leg_mm, rail_root_mm=rail_mm)
-        least = drive_limits(workshop, ROLLER, sized, holes).spring.pin_radius_min_mm
-        thicker = max(holes.hub_radius_mm, leg_mm / 2.0)
-        assert least == pytest.approx(thicker + CLEAR_MM + 3.0 / math.sqrt(2.0))
 
 
 def test_a_thick_lever_or_dog_pushes_the_cam_away() -> None:
@@ -134,7 +102,7 @@ def test_a_thick_lever_or_dog_pushes_the_cam_away() -> None:
     assert thick.train.cam_gear_root_min_mm == pytest.approx(usual.train.cam_gear_root_min_mm + corner)
 
 
-@pytest.mark.parametrize(
+@each(
     ("table", "key", "value", "name"),
     [
         ("release", "energy_ratio_min", 0.9, "energy_ratio_min"), ("release", "corner_radius_mm", 1.2, "rounding_mm"),
@@ -166,28 +134,3 @@ def test_the_release_is_computed_with_the_workshops_figures_in_si_units() -> Non
     assert found.contact_n_per_m == pytest.approx(7e5)
     assert found.teeth_mpa == pytest.approx(limits(shop).train.stress_mpa)
     assert found.motor_nm == shop.safety.motor_torque_max_nm
-
-
-def test_an_axle_of_3_mm_leaves_room_for_its_spacer_and_its_lever() -> None:
-    """Cam's axis to lever: an eye of 4.5 mm, a spacer and the clear gap; spring's pin: its corner beside the hub."""
-    found = default_limits()
-    assert found.cam.gap_min_mm == pytest.approx(4.5 + SPACER_RADIUS_MM + CLEAR_MM)
-    thick = limits(changed("bought", axle_mm=4.0))
-    usual = limits(load_workshop())
-    assert thick.spring.mandrel_min_mm == pytest.approx(usual.spring.mandrel_min_mm + 1.0)
-    assert thick.train.pinion_root_min_mm == pytest.approx(usual.train.pinion_root_min_mm + 0.5)
-
-
-def test_a_cam_gear_without_a_track_has_a_wall_around_its_pockets() -> None:
-    """Half of the dog, a sliding fit and three lines; a sensor's track needs more.
-
-    Its pin, on either side the error of its place, 0.3 mm to the track's edge, and a wall of 1.6 mm.
-    """
-    workshop = load_workshop()
-    none = limits(changed("bought", sensor=""))
-    fits = workshop.fits
-    assert none.train.cam_gear_root_min_mm == pytest.approx(SECTIONS.dog_mm / 2.0 + fits.sliding_mm + fits.wall_mm)
-    travel = chosen_parts(workshop).components["sensor"].travel
-    assert travel is not None
-    track = travel.pin_mm + 2.0 * (workshop.seats.sensor_along_mm + 0.3 + 1.6)
-    assert limits(workshop).train.cam_gear_root_min_mm == pytest.approx(SECTIONS.dog_mm / 2.0 + track)

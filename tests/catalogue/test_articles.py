@@ -6,8 +6,8 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 from support.documented import documented_ranges, wrongly_taken
 
-from jumpcad.catalogue import Pad, load_catalogue
-from jumpcad.catalogue.articles import OwnParts, Volts
+from jumpcad.catalogue import load_catalogue
+from jumpcad.catalogue.articles import Volts
 
 
 def test_shipped_parts_keep_the_rules_of_own_ones() -> None:
@@ -26,23 +26,6 @@ def test_shipped_parts_keep_the_rules_of_own_ones() -> None:
 def test_lengths_and_masses_of_ones_own_may_be_what_the_reference_tells(kind: str) -> None:
     assert documented_ranges(f"{kind}.NAME")
     assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []
-
-
-@pytest.mark.parametrize("source", ["", " ", " \u00a0 "])
-def test_a_blank_source_is_none(source: str) -> None:
-    table = load_catalogue().pads["tpu-2"].model_dump()
-    with pytest.raises(ValidationError, match="say where the figures come from"):
-        Pad(name="soft", **table | {"source": source})
-
-
-def test_an_article_of_ones_own_has_the_name_of_its_table() -> None:
-    table = load_catalogue().pads["tpu-2"].model_dump()
-    assert "name" not in table
-    own = TypeAdapter(OwnParts[Pad]).validate_python({"soft": table, "softer": table})
-    assert {key: pad.name for key, pad in own.items()} == {"soft": "soft", "softer": "softer"}
-    for wrong in (3, {"soft": 3}):
-        with pytest.raises(ValidationError):
-            TypeAdapter(OwnParts[Pad]).validate_python(wrong)
 
 
 @pytest.mark.parametrize(("volts", "taken"), [((3.0, 3.001), True), ((3.0, 3.0), False), ((4.2, 3.0), False)])

@@ -7,29 +7,6 @@ import pytest
 from jumpcad.catalogue import Board, load_catalogue
 
 
-def test_a_usb_socket_of_which_nothing_is_said_is_one_of_usb_c_on_a_usual_board() -> None:
-    """Its middle above the underside of a board of 1.2 mm; the socket is 3.2 mm high."""
-    plain = Board(
-        name="own", source="a label", description="board", length_mm=21.0, width_mm=17.8, height_mm=3.5, mass_g=3.0
-    )
-    assert plain.usb_height_mm == pytest.approx(1.2 + 3.2 / 2.0)
-
-
-def test_a_pin_at_two_places_is_named_once_at_the_side_where_it_is_first() -> None:
-    """Supply, ground and outputs may stand at several places; others are told apart by theirs."""
-    board = load_catalogue().boards["xiao-esp32c3"]
-    pins = {"A": ("gpio1",), "B": ("gpio2",), "G": ("ground",), "V": ("out",)}
-    plain = board.model_copy(update={"pins": pins, "supply_v": {"5V": (4.0, 6.0)}, "diode_at": (), "button": ""})
-    for left, right, found in (
-        (("A", "G", "5V", "V"), ("B", "G", "5V", "V"), []),
-        (("A", "B"), ("B", "A"), [("left", "A"), ("left", "B")]),
-        (("A", "A"), ("B", "B", "A"), [("left", "A"), ("right", "B")]),
-        (("NC",), ("NC",), []),
-    ):
-        twice = plain.model_copy(update={"left": left, "right": right})
-        assert [(*place, value) for place, value, _ in twice.contradictions()] == found
-
-
 def test_a_boards_pins_contradict_each_other_by_what_they_say() -> None:
     """Each GPIO of a controller has one pin and each pin one GPIO, up to 63; what a pin does is one of a list."""
     board = load_catalogue().boards["xiao-esp32c3"]

@@ -55,15 +55,6 @@ def test_a_motor_is_refused_by_its_figures_from_just_beyond_what_can_be() -> Non
         assert (key,) not in [place for place, *_ in inside.contradictions()], key
 
 
-def test_a_battery_is_refused_whose_voltage_is_not_between_empty_and_full() -> None:
-    battery = next(iter(load_catalogue().batteries.values()))
-    low, high = battery.range_v
-    for volts, refused in ((low, True), (low + 1e-6, False), (high - 1e-6, False), (high, True)):
-        own = battery.model_copy(update={"voltage_v": volts, "empty_v": low, "full_v": high})
-        told = [(place, value) for place, value, _ in own.contradictions()]
-        assert told == ([(("voltage_v",), volts)] if refused else [])
-
-
 @pytest.mark.parametrize(
     ("voltage_v", "empty_v", "full_v", "refused"),
     [
@@ -102,13 +93,6 @@ def test_a_cell_of_unknown_resistance_has_0_15_ohm() -> None:
     battery = load_catalogue().batteries["lipo-2s-180"]
     assert battery.ohm == battery.resistance_ohm == 0.4
     assert battery.model_copy(update={"resistance_ohm": None}).ohm == pytest.approx(2 * 0.15)
-
-
-@pytest.mark.parametrize(("volts", "cells"), [(1.2, 1), (3.2, 1), (3.7, 1), (6.4, 2), (7.4, 2), (11.1, 3), (12.8, 3)])
-def test_a_battery_has_as_many_cells_as_its_voltage_says_and_one_at_least(volts: float, cells: int) -> None:
-    """3.7 V of lithium polymer, 3.2 V of iron phosphate; a single cell of any other kind is one."""
-    battery = load_catalogue().batteries["lipo-2s-180"].model_copy(update={"voltage_v": volts})
-    assert battery.cells == cells
 
 
 def test_of_the_shipped_small_parts_the_diode_alone_drops_a_voltage() -> None:

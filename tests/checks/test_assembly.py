@@ -14,13 +14,9 @@ from jumpcad.building import assembly, build
 from jumpcad.checks import assembly as checked_assembly
 from jumpcad.checks.assembly import (
     BASIS,
-    TOLERANCE_MM2,
     Blocked,
     Way,
-    _covered,
-    _findings,
     _in_the_way,
-    _reach,
     _tool,
     _tool_blocked,
     assembly_findings,
@@ -167,19 +163,6 @@ def test_what_stands_in_the_way_covers_its_section(axis: int, sign: float) -> No
     assert _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path) is None
 
 
-@pytest.mark.parametrize("axis", [0, 1, 2])
-def test_a_path_begins_5_mm_before_all_that_is_there(axis: int) -> None:
-    """The cube's front then is as far behind the rear of the rearmost thing; what lies ahead of it all is nearer."""
-    along = np.roll([1.0, 0.0, 0.0], axis)
-    cube = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0))
-    near, far = (block(name, (3.0, 3.0, 3.0), tuple(at * along)) for name, at in (("near", -4.0), ("far", -9.0)))
-    assert _reach(cube, [near, far], along) == pytest.approx(2.0 + 9.0 + 5.0)
-    assert _reach(cube, [near], along) == pytest.approx(2.0 + 4.0 + 5.0)
-    assert _reach(cube, [far], -along) == pytest.approx(5.0)
-    assert _reach(cube, [near, far], -along) == pytest.approx(5.0)
-    assert _reach(cube, [], along) == 0.0
-
-
 @pytest.mark.parametrize(("past", "free"), [("", False), ("post", True), ("post|wall", True), ("po|wall", False)])
 def test_a_part_passes_what_its_move_names_and_nothing_else(past: str, free: bool) -> None:
     """A ring comes along its post; a tool stands on it there too."""
@@ -188,16 +171,6 @@ def test_a_part_passes_what_its_move_names_and_nothing_else(past: str, free: boo
     path, key = np.array([0.0, 0.0, 20.0]), Tool("key", 4.0, 50.0)
     assert (_in_the_way(way, cube, path) is None) == free
     assert (_tool_blocked(way, key, cube, path) is None) == free
-
-
-def test_an_oblique_way_is_sampled_from_its_beginning_to_its_end() -> None:
-    """What is shared at the worst position counts over the whole way: never less than what is swept."""
-    cube, path = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), np.array([12.0, 0.0, 16.0])
-    for share in (0.0, 0.5, 1.0):
-        post = block("post", (4.0, 4.0, 4.0), tuple(-1.0 - share * path))
-        assert _covered(cube, None, post, path) == pytest.approx(8.0 * 20.0)
-    for away in (-0.3, 1.3):
-        assert _covered(cube, None, block("post", (4.0, 4.0, 4.0), tuple(-1.0 - away * path)), path) == 0.0
 
 
 @pytest.mark.parametrize("side", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, -0.8)])
@@ -212,29 +185,6 @@ def test_a_tool_stands_on_the_middle_of_its_fasteners_face(side: tuple[float, fl
     assert shaft.shape.volume_mm3 == pytest.approx(50.0 * np.pi * 4.0, rel=0.01)
 
 
-@pytest.mark.parametrize(("low_mm", "height_mm"), [(20.0, 4.0), (-30.0, 200.0)])
-def test_what_stands_in_a_tools_way_covers_its_section(low_mm: float, height_mm: float) -> None:
-    """A key of 4 mm stands on a head, where that came from: a block, short or longer than it, covers half of it."""
-    head = block("head", (6.0, 6.0, 6.0), (-3.0, -3.0, -3.0))
-    way = replace(way_past(), placed=SimpleNamespace(move=SimpleNamespace(past="", reach="")))
-    wall, beside = (block("wall", (9.0, 9.0, height_mm), (x, -4.5, low_mm)) for x in (0.0, 2.01))
-    key, path = Tool("key", 4.0, 50.0), np.array([0.0, 0.0, -20.0])
-    found = _tool_blocked(replace(way, there=[head, wall]), key, head, path)
-    assert found is not None
-    assert (found.name, found.by) == ("head", "wall")
-    assert found.share_mm2 == pytest.approx(np.pi * 4.0 / 2.0, rel=0.01)
-    assert _tool_blocked(replace(way, there=[head], movers=[wall]), key, head, path) == found
-    assert _tool_blocked(replace(way, there=[head, beside]), key, head, path) is None
-
-
-@pytest.mark.parametrize(("length", "blocked"), [(0.0, False), (0.4, False), (1.0, True), (2.0, True)])
-def test_what_does_not_move_is_not_in_the_way(length: float, blocked: bool) -> None:
-    """A cube of 2 mm comes from 1 mm away at least past a block that begins 0.5 mm behind it."""
-    cube, behind = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), block("behind", (3.0, 2.0, 2.0), (-3.5, 0.0, 0.0))
-    found = _in_the_way(way_past(behind), cube, np.array([length, 0.0, 0.0]))
-    assert (found is not None) == blocked
-
-
 @pytest.mark.parametrize("angle_deg", [66.0, 76.0, 88.0])
 def test_toes_that_point_sideways_leave_the_ankles_pin_its_way(angle_deg: float) -> None:
     """They begin behind it, so that pin, split pin and pliers pass them."""
@@ -242,27 +192,6 @@ def test_toes_that_point_sideways_leave_the_ankles_pin_its_way(angle_deg: float)
     robot = build(sideways)
     assert errors(assembly_findings(robot)) == []
     assert errors([one for one in printability_findings(robot) if one.name == "walls"]) == []
-
-
-def test_what_blocks_pins_of_the_foot_is_to_point_more_ahead() -> None:
-    blocked = Blocked(SimpleNamespace(title="Foot onto the legs"), "ankle_pin", "foot", 1.0)
-    (found,) = _findings("assembly_paths", [blocked], "")
-    assert "lower ground_link_angle_deg" in found.remedy
-
-
-def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
-    blocked = Blocked(SimpleNamespace(title="Close the body"), "leg_axle", "body_plate_left", 2.5)
-    for name, what in (("assembly_paths", "path"), ("tool_access", "tool")):
-        (found,) = _findings(name, [blocked], "all is free")
-        assert found.message.startswith(
-            f"body_plate_left blocks the {what} of leg_axle in step Close the body: it covers 2.50 mm²; "
-        )
-        assert (found.name, found.severity, found.value, found.limit) == (name, "error", 2.5, TOLERANCE_MM2)
-        assert found.margin == TOLERANCE_MM2 - 2.5
-        (free,) = _findings(name, [], "all is free")
-        assert (free.severity, free.message, free.margin) == ("info", "all is free", free.limit)
-        assert free.limit > 0.0
-        assert f"{free.limit:g} mm² are allowed" in found.message
 
 
 @pytest.mark.parametrize(("path", "tool"), [(False, True), (True, False)])

@@ -9,6 +9,7 @@ from fnmatch import fnmatchcase
 
 import pytest
 from support.built import LONG_TOES, built, checked
+from support.each import each
 from support.places import ROOT
 
 from jumpcad import checks
@@ -47,7 +48,7 @@ def test_no_name_is_left_over() -> None:
     assert {name for name, block in blocks.items() if "Not met" in block} == NOT_MET
 
 
-@pytest.mark.parametrize("name", BASES)
+@each("name", BASES)
 def test_formula_and_source_name_what_there_is(name: str) -> None:
     basis, workshop = BASES[name], load_workshop("default")
     assert basis.formula.strip(" .") == basis.formula

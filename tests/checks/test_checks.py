@@ -1,6 +1,6 @@
 """All checks together, the cheap ones among them, and those of the drive."""
 
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import pytest
 from support.built import checked
@@ -41,21 +41,6 @@ def test_a_check_of_the_registry_is_run_by_all_that_is_cheap(kenan: Robot, monke
     assert (checks.check(kenan), checks.quick_findings(kenan), constraint_findings(kenan)) == ([weight], [], [])
     assert checks.costly_findings(kenan) == [weight]
     assert checks.check(capsule_robot(kenan.design)) == []
-
-
-def test_a_remedy_names_the_springs_that_are_made_or_those_that_are_bought(
-    kenan: Robot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The design's stiffness is that of springs made to order alone."""
-    heavy = at_most("weight", 3.0, 2.0, "g", "found", "lower stiffness_nmm_per_deg or compression_ratio")
-    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [heavy], {}, cheap=True),))
-    assert checks.check(kenan) == [heavy]
-    bought = kenan.workshop.bought.model_copy(update={"spring": "9271K589"})
-    stock = replace(kenan, workshop=kenan.workshop.model_copy(update={"bought": bought}))
-    (found,) = checks.check(stock)
-    assert "stiffness_nmm_per_deg" not in found.remedy
-    assert "bought.spring" in found.remedy
-    assert replace(found, remedy=heavy.remedy) == heavy
 
 
 def test_margins_are_the_distance_from_value_to_limit() -> None:

@@ -5,29 +5,11 @@ from dataclasses import replace
 
 import pytest
 from support.built import built
+from support.each import each
 
-from jumpcad.checks import constraint_findings
 from jumpcad.checks.drive import drive_findings
-from jumpcad.findings import Finding, errors
+from jumpcad.findings import errors
 from jumpcad.robot import Robot
-
-
-def test_drive_reports_what_its_synthesis_found(kenan: Robot) -> None:
-    assert kenan.layout is not None
-    slipping = Finding("motor_torque", "info", -0.01, "N·m", "too little torque", "a stronger motor")
-    train = replace(kenan.layout.drive.train, findings=(slipping,))
-    robot = replace(kenan, layout=replace(kenan.layout, drive=replace(kenan.layout.drive, train=train)))
-    (error,) = errors(constraint_findings(robot))
-    assert (error.name, error.margin) == ("motor_torque", -0.01)
-    names = {finding.name for finding in constraint_findings(kenan)}
-    assert {
-        "spring_stress",
-        "cam_pressure_angle",
-        "cam_undercut",
-        "cam_drop",
-        "gear_strength_1",
-        "motor_torque",
-    } < names
 
 
 def test_a_margin_that_is_not_a_number_is_an_error(kenan: Robot) -> None:
@@ -37,7 +19,7 @@ def test_a_margin_that_is_not_a_number_is_an_error(kenan: Robot) -> None:
     assert error.name == lost.name
 
 
-@pytest.mark.parametrize("name", sorted({finding.name for finding in built("kenan-2.0").layout.drive.findings}))
+@each("name", sorted({finding.name for finding in built("kenan-2.0").layout.drive.findings}))
 def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
     assert kenan.layout is not None
     drive = kenan.layout.drive

@@ -1,6 +1,5 @@
 """Kits that fit, and what is said of those that do not: every finding with which range misses which."""
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
@@ -9,6 +8,7 @@ from pathlib import Path
 import pytest
 from support.built import built
 from support.documented import documented_bases
+from support.each import each
 from support.said import well_told
 
 from jumpcad.building import build
@@ -18,7 +18,7 @@ from jumpcad.design import load_design
 from jumpcad.electronics.chain import Link
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -104,18 +104,6 @@ def test_a_battery_whose_current_nobody_states_is_named() -> None:
     assert finding.severity == "warning"
     assert "0.44 A" in finding.message
     assert "not known" in finding.message
-
-
-def test_the_cap_of_pwm_is_told() -> None:
-    finding = found('[bought]\nkit = "strong-2s"')["gearbox_torque"]
-    motor = load_workshop().catalogue.motors["n20-298-hpcb12"]
-    stalled = 0.196 / motor.stall_torque_nm * (motor.stall_current_a - motor.no_load_current_a)
-    mean = (motor.no_load_current_a + stalled) * motor.voltage_v / motor.stall_current_a / 8.4
-    share = math.floor(1000.0 * (1.0 + mean) / 2.0) / 10.0  # in the pauses the battery is the other way round
-    assert f"PWM of at most {share:g} %" in finding.message
-    assert "PWM" not in found("[bought]")["gearbox_torque"].message  # of a motor that a full battery may drive alone
-    # the resistance of battery and driver, which the cap leaves out, takes a little more
-    assert 0.9 * finding.limit < finding.value < finding.limit
 
 
 @pytest.mark.parametrize("kit", KITS)
@@ -258,21 +246,6 @@ capacity_mah = 350.0
     assert "1 C" in finding.message
 
 
-def test_a_kit_gives_its_parts_and_names_beside_it_override_them(workshop: Write) -> None:
-    bought = workshop('[bought]\nkit = "strong-2s"\nbattery = "lipo-1s-300"').bought
-    assert (bought.battery, bought.regulator, bought.motors) == ("lipo-1s-300", "s7v7f5", ("n20-298-hpcb12",))
-
-
-def test_an_unknown_kit_is_refused_with_a_hint(workshop: Write) -> None:
-    with pytest.raises(JumpcadError, match=r"my.toml:2: bought.kit = 'light-2s': is none of the kits light-1s, strong"):
-        workshop('[bought]\nkit = "light-2s"')
-
-
-def test_a_complete_workshop_reads_back_the_same(workshop: Write) -> None:
-    shop = workshop('[bought]\nkit = "strong-2s"\nmotors = ["n20-75-hpcb12"]')
-    assert workshop(shop.to_toml()) == shop
-
-
 def test_a_pin_that_the_board_lacks_is_refused_in_one_line(workshop: Write) -> None:
     from jumpcad.bundle.firmware import numbers
 
@@ -293,7 +266,7 @@ BLOCKED = '[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298-mp"\nsource
 """A motor of 1 ohm, which draws 2.8 A when blocked."""
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "text"),
     [
         ("supply_voltage_controller", HIGH),

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support.built import LONG_TOES, built, checked
+from support.each import each
 from support.limits import default_limits
 from support.places import TESTS
 
@@ -41,7 +42,7 @@ def test_every_name_stands_in_a_test() -> None:
     assert {name for name in names if name not in texts} == set()
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "tighter"),
     [
         ("cam_pressure_angle", {"pressure_angle_rad": 0.01}),

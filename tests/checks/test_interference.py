@@ -1,12 +1,11 @@
 """Interference: none in the templates, and exact for parts that are pushed into one another."""
 
 import itertools
-from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.built import body_in_plane, checked, in_body
+from support.built import checked, in_body
 from support.documented import documented_bases
 from support.said import well_told
 
@@ -15,8 +14,6 @@ from jumpcad.checks.interference import (
     BASIS,
     Piece,
     Position,
-    _near,
-    box_of,
     interference_findings,
     overlaps,
     pieces_of,
@@ -25,7 +22,7 @@ from jumpcad.checks.interference import (
     shared_volume_mm3,
 )
 from jumpcad.findings import errors
-from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
+from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.parts.part import lying_on_left
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import disc, rectangle
@@ -67,32 +64,6 @@ def test_fires_on_a_plates_pin_in_the_way_of_the_legs_arm(kenan: Robot, side: st
     assert any("spring_pin" in finding.message and arm.name in finding.message for finding in found)
 
 
-def test_every_two_boxes_that_overlap_are_looked_at_once() -> None:
-    """Four cubes of 2 mm in a row, 1, 2 and 1.5 mm apart: the second and the third only touch."""
-    lows = np.array([[x, 0.3 * x, -0.2 * x] for x in (0.0, 1.0, 3.0, 4.5)])
-    boxes = [np.stack([low, low + 2.0]) for low in lows]
-    for row in (boxes, boxes[::-1]):
-        assert [(int(i), int(j)) for i, j in _near(row)] == [(0, 1), (2, 3)]
-    assert [(int(i), int(j)) for i, j in _near([boxes[0]] * 3)] == [(0, 1), (0, 2), (1, 2)]
-
-
-def test_the_box_of_a_piece_is_that_of_its_mesh_where_it_is_placed(kenan: Robot) -> None:
-    """Turned out of all axes, as far as its own box reaches: never less than the mesh, and the same where it is not."""
-    piece = next(one for one in pieces_of(kenan) if one.name == "front_link")
-    turned = np.eye(4)
-    turned[:3, :3] = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]]
-    turned[:3, 3] = 1.0, -2.0, 3.0
-    for pose, exact in ((np.eye(4), True), (turned, False)):
-        corners = np.asarray(piece.solid.transform(pose[:3]).to_mesh64().vert_properties)[:, :3]
-        low, high = box_of(piece, pose)
-        assert (low <= corners.min(axis=0) + 1e-3).all()
-        assert (high >= corners.max(axis=0) - 1e-3).all()
-        if exact:
-            assert np.concatenate([low, high]) == pytest.approx(
-                np.concatenate([corners.min(axis=0), corners.max(axis=0)]), abs=1e-3
-            )
-
-
 @pytest.mark.parametrize("name", ["eye", "cam"])
 def test_what_meets_in_one_position_only_is_found_there_with_all_that_it_shares(
     kenan: Robot, monkeypatch: pytest.MonkeyPatch, name: str
@@ -113,20 +84,6 @@ def test_what_meets_in_one_position_only_is_found_there_with_all_that_it_shares(
     assert pair == [name, "post"]
     assert label.endswith(f" {-np.degrees(at.leg_rad):.1f}°")
     assert volume == pytest.approx(np.pi * 16.0 * 4.0, rel=5e-3)
-
-
-def test_what_turns_as_one_is_looked_at_anew_only_where_the_cam_has_run_ahead(
-    kenan: Robot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Large discs, so that all boxes always meet: cam and gear differ by none, half and all of the dog's play."""
-    slab, seen = Stack.of([(0.0, 4.0, disc(300.0))]), Counter[tuple[str, str]]()
-    names = ("post", "cam", "cam_gear", "motor_pinion", "plate")
-    discs = [Piece(name, BODY, slab, lying_on_left(2.0, 0.0, 0.0)) for name in names]
-    monkeypatch.setattr(interference, "pieces_of", lambda _: discs)
-    monkeypatch.setattr(interference, "shared_volume_mm3", lambda a, _, b, __: seen.update([(a.name, b.name)]) or 0.0)
-    assert list(overlaps(kenan)) == []
-    once = {("post", "plate"): 1, ("cam", "cam_gear"): 3}
-    assert seen == {pair: once.get(pair, len(positions(kenan))) for pair in itertools.combinations(names, 2)}
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -160,14 +117,6 @@ def in_plane(pose: np.ndarray) -> np.ndarray:
     return pose[np.ix_([0, 2, 3], [0, 2, 3])]
 
 
-@pytest.mark.parametrize("body", BODY_NAMES)
-@pytest.mark.parametrize("wind_deg", [0.0, 20.0])
-def test_a_piece_moves_with_its_body(kenan: Robot, body: str, wind_deg: float) -> None:
-    box = Piece("box", body, Stack.of([(0.0, 4.0, rectangle((10.0, 6.0)))]), np.eye(4))
-    pose = pose_of(box, kenan.layout, kenan.linkage, Position("", -np.radians(wind_deg), 0.0))
-    np.testing.assert_allclose(in_plane(pose), body_in_plane(kenan, body, np.radians(wind_deg)), atol=1e-6)
-
-
 @pytest.mark.parametrize("pairs", [1, 2])
 def test_teeth_that_mesh_go_the_same_way_equally_far(kenan: Robot, pairs: int) -> None:
     """Where two pitch circles touch, both wheels have the same velocity; the cam alone runs ahead of its gear."""
@@ -196,29 +145,6 @@ def test_teeth_that_mesh_go_the_same_way_equally_far(kenan: Robot, pairs: int) -
         assert driver * pair.pinion.teeth == pytest.approx(-driven * pair.wheel.teeth)
     assert turn("motor_shaft", position) == turns[-1]
     assert turn("cam", position) == pytest.approx(0.21)
-
-
-def test_the_positions_are_those_of_a_jump(kenan: Robot) -> None:
-    """Wound from rest with the roller on the cam, fallen with the cam at its end, and past rest into the pad."""
-    cam, stop, wound = kenan.layout.drive.cam, kenan.layout.stop, kenan.design.compression_rad
-    found = positions(kenan)
-    rising = [one for one in found if one.cam_rad < cam.law.lift_rad]
-    assert [len(rising), rising[0].leg_rad] == [12, 0.0]
-    assert all(-one.leg_rad == pytest.approx(float(cam.wind_rad(one.cam_rad))) for one in rising)
-    play = kenan.layout.drive.dog.play_rad
-    at_end = [(one.leg_rad, one.ahead_rad) for one in found if one.cam_rad == cam.law.lift_rad]
-    assert at_end[0] == (pytest.approx(-wound), 0.0)
-    falling = [leg for leg, ahead in at_end[1:] if ahead == play > 0.0]
-    assert falling == pytest.approx(np.linspace(-wound, 0.0, 13))  # as many as the message says
-    free = [one for one in found if one.cam_rad == cam.free_rad]
-    assert len(rising) + len(at_end) + len(free) == len(found)
-    legs = sorted({one.leg_rad for one in free})
-    assert legs[-1] == pytest.approx(stop.angle_rad + kenan.stop_blow.give_rad)
-    assert stop.angle_rad in legs
-    assert 0.0 in legs
-    beyond = {one.ahead_rad for one in free if one.leg_rad == legs[-1]}
-    assert beyond == {0.0, play / 2.0, play}
-    assert {one.ahead_rad for one in free if one.leg_rad <= 0.0} == {0.0}
 
 
 def test_formulas_and_limits_are_those_of_the_reference() -> None:

@@ -1,12 +1,11 @@
 """Leads of sensor and motor: clear of what moves; as much wire is bought as is cut."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
-from support.built import built, geared
+from support.built import built
 from support.documented import documented_bases
 
 from jumpcad.bundle.wiring import wires
@@ -79,37 +78,6 @@ def test_inside_the_plates_a_lead_runs_beside_its_plate(
     monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.05, y + 0.05))])
     (finding,) = lead_findings(built("kenan-2.0"))
     assert finding.severity == severity
-
-
-def test_a_robot_without_a_sensor_has_no_leads_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whatever moves where the controller is, which has no leads outside the plates."""
-    robot = built("kenan-2.0")
-    layout = replace(robot.layout, sensor=None)
-    ((x, y, z),) = way_in(layout, "sensor")
-    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.1, y + 0.1))])
-    (finding,) = lead_findings(replace(robot, layout=layout))
-    assert (finding.severity, finding.message.split("'")[0]) == ("info", "the motor")
-
-
-def test_what_is_far_away_is_said_to_be_at_least_so_far(monkeypatch: pytest.MonkeyPatch) -> None:
-    robot = built("kenan-2.0")
-    (finding,) = lead_findings(robot)
-    assert f" pass {finding.value:.1f} mm from what moves" in finding.message
-    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [])
-    (finding,) = lead_findings(robot)
-    assert finding.value == 100.0
-    assert " pass at least 100.0 mm from what moves" in finding.message
-
-
-def test_an_idler_is_among_what_moves() -> None:
-    """The leads of the sensor come in through a hole in front of the idler's axle: they pass through its wheel."""
-    robot = geared()
-    layout = robot.layout
-    (silent,) = lead_findings(robot)
-    assert silent.severity == "info"
-    hole = replace(layout.fittings, left_mm=layout.idler_mm)
-    (finding,) = lead_findings(replace(robot, layout=replace(layout, fittings=hole)))
-    assert (finding.severity, finding.message.split("'")[0]) == ("error", "the sensor")
 
 
 def test_the_bill_has_the_wire_that_is_cut() -> None:

@@ -48,36 +48,10 @@ def place_of(case: LoadCase) -> BarPlace:
     return place
 
 
-def test_a_robot_without_bars_has_nothing_to_find() -> None:
-    assert list(leg_bar_findings(LoadCase(built("kenan-2.0")))) == []
-
-
 @pytest.mark.parametrize("missing", ["leg_bar_place", "front_bar_place"])
 def test_bars_come_in_both_legs_or_in_none(missing: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(leg_bar, missing, lambda *_: None)
     assert found_in(LoadCase(robot("carbon-tube-4x2"))) == {}
-
-
-def test_the_five_findings_are_named_and_tell_what_they_are_of() -> None:
-    """In stress, in a share of the springs' energy, in force."""
-    found = found_in(LoadCase(robot("carbon-tube-4x2")))
-    assert {name: finding.unit for name, finding in found.items()} == {
-        "leg_bar_strength": "MPa", "leg_socket_strength": "MPa", "leg_bar_bond": "MPa", "leg_bar_flex": "%",
-        "front_bar_buckling": "N",
-    }  # fmt: skip
-    begins = {
-        "leg_bar_strength": "carbon-tube-4x2 of the main leg at its socket: ",
-        "leg_socket_strength": "the main leg's socket around its bar: ",
-        "leg_bar_bond": "the glue of the legs' bars: ",
-        "front_bar_buckling": "the front link's bar under the whole landing force: ",
-    }
-    for name, words in begins.items():
-        assert found[name].message.startswith(words)
-    assert "of the springs' energy bends the main leg and its bar at release" in found["leg_bar_flex"].message
-    for finding in found.values():
-        assert 'a stronger bought.leg, or bought.leg = ""' in finding.remedy
-        assert well_told(finding)
-    assert found["leg_socket_strength"].remedy.endswith("a stronger material for the links")
 
 
 def test_a_load_on_its_limit_is_borne_and_one_above_it_is_not() -> None:

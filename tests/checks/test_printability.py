@@ -8,14 +8,12 @@ import pytest
 import trimesh
 from support.built import checked
 from support.documented import documented_bases
+from support.each import each
 from support.said import well_told
 
 from jumpcad.checks.printability import (
     BASIS,
-    _contours,
-    _longest_mm,
     _mesh_undersides,
-    _tall_regions,
     _undersides,
     bed_findings,
     printability_findings,
@@ -52,7 +50,7 @@ def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
     assert {severity[kind] for kind in KINDS} == {"info"}
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "slabs", "margin"),
     [
         # 0.8 mm are the least wall, 1.6 mm the least hole, 3 mm the least column, 10 mm the longest bridge
@@ -144,14 +142,6 @@ def test_a_ledge_that_ends_beside_a_wall_hangs(kenan: Robot, gap_mm: float, name
     assert (findings["overhangs"].severity == "error") == (name == "overhangs")
 
 
-def test_of_a_plain_block_no_width_is_told_as_found(kenan: Robot) -> None:
-    """Nothing is narrower than twice the least: how much wider it is, is not known; the limit is."""
-    findings = found(kenan, Stack.of([(0.0, 5.0, BLOCK)]))
-    for name, least_mm in (("walls", 0.8), ("holes", 1.6), ("pins", 3.0)):
-        assert (findings[name].value, findings[name].limit) == (None, least_mm)
-        assert findings[name].message.startswith(f"no {'column' if name == 'pins' else name[:-1]} is under")
-
-
 def test_steps_of_45_degrees_are_no_overhang_and_steeper_ones_are(kenan: Robot) -> None:
     def steps(out_mm: float) -> Stack:
         return Stack.of([(0.2 * step, 0.2 * step + 0.2, disc(10.0 + 2.0 * out_mm * step)) for step in range(10)])
@@ -222,54 +212,6 @@ def test_bed(kenan: Robot, size: tuple[float, float, float], margin: float) -> N
     (finding,) = bed_findings(robot)
     assert finding.margin == pytest.approx(margin)
     assert finding.severity == ("info" if margin >= 0 else "error")
-
-
-def test_bed_either_way_round(kenan: Robot) -> None:
-    # MK4: 250 x 210 mm; 240 mm fit along x alone
-    (finding,) = bed_findings(robot_of(kenan, Stack.of([(0.0, 5.0, rectangle((100.0, 240.0)))])))
-    assert finding.margin == pytest.approx(10.0)
-
-
-def test_of_several_parts_the_one_with_the_least_room_is_told(kenan: Robot) -> None:
-    """MK4: 250 x 210 mm."""
-    sizes = {"short": (100.0, 50.0), "long": (247.0, 60.0), "middling": (180.0, 180.0)}
-    parts = []
-    for name, size in sizes.items():
-        (part,) = robot_of(kenan, Stack.of([(0.0, 5.0, rectangle(size))])).parts
-        parts.append(replace(part, drawing=replace(part.drawing, name=name)))
-    for order in (parts, parts[::-1]):
-        (finding,) = bed_findings(replace(kenan, parts=tuple(order)))
-        assert finding.message.startswith("long, 247 x 60 x 5 mm, on a bed of 250 x 210 x ")
-        assert finding.margin == pytest.approx(3.0)
-
-
-@pytest.mark.parametrize("middle", [(0.0, 0.0), (50.0, 30.0), (-40.0, 70.0)])
-def test_outlines_and_holes_are_told_apart_wherever_they_lie(middle: tuple[float, float]) -> None:
-    x, y = middle
-    region = rectangle((30.0, 20.0), middle) - rectangle((4.0, 3.0), (x + 9.0, y + 5.0)) - disc(2.0, (x - 8.0, y - 6.0))
-    assert [one.area() for one in _contours(region, 1.0)] == pytest.approx([600.0])
-    assert sorted(one.area() for one in _contours(region, -1.0)) == pytest.approx([math.pi, 12.0], rel=0.02)
-
-
-@pytest.mark.parametrize("middle", [(0.0, 0.0), (20.0, -7.0)])
-def test_a_region_is_at_most_as_long_as_its_diagonal(middle: tuple[float, float]) -> None:
-    """3, 4, 5; wherever it lies."""
-    assert _longest_mm(rectangle((3.0, 4.0), middle)) == pytest.approx(5.0)
-
-
-def test_solids_that_are_no_stacks_are_cut_every_so_often_from_bottom_to_top(kenan: Robot) -> None:
-    """A wall of 0.5 mm from 5 to 15 mm of height, which needs 0.8 mm, and a wedge whose sections fall with height."""
-    foot = Bar(rectangle((20.0, 5.0), (0.0, 2.5)), ((-10.0, 10.0),))
-    wall = Bar(rectangle((20.0, 11.0), (0.0, 9.5)), ((-0.25, 0.25),))
-    findings = found(kenan, Blocks((foot, wall)))
-    assert [finding.name for finding in errors(findings.values())] == ["walls"]
-    assert findings["walls"].margin == pytest.approx(0.5 - 0.8, abs=0.08)
-    wedge = Blocks((Bar(polygon(np.array([(-10.0, 0.0), (10.0, 0.0), (0.0, 20.0)])), ((-5.0, 5.0),)),))
-    drawing = Drawing("piece", "body", wedge, (Placement(BODY, np.eye(4)),))
-    regions = [(height, section.area()) for height, section in _tall_regions(drawing, 0.3)]
-    assert sum(height for height, _ in regions) == pytest.approx(20.0, abs=2.0 * regions[0][0])
-    assert sum(height * area for height, area in regions) == pytest.approx(20.0 * 20.0 / 2.0 * 10.0, rel=0.1)
-    assert [area for _, area in regions] == sorted((area for _, area in regions), reverse=True)
 
 
 def test_undersides_of_a_mesh_that_a_wall_parts_are_looked_at_apart() -> None:

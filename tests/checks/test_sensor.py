@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from support.built import built, geared, placed
 from support.documented import documented_bases
-from support.said import said, well_told
 
 from jumpcad.building import build
 from jumpcad.bundle.firmware import numbers
@@ -108,33 +107,6 @@ def test_a_robot_without_a_sensor_has_no_track() -> None:
     assert robot.layout.sensor is None
     assert not list(sensor_findings(robot))
     assert "sensor_mount" not in [part.name for part in robot.parts]
-
-
-def test_limits_are_those_that_the_messages_say() -> None:
-    """Of every finding but the press itself: 0 of what is left."""
-    for finding in sensor_findings(built("kenan-2.0")):
-        if "of 0 mm at least" in finding.message or "of 0° at least" in finding.message:
-            assert finding.limit == 0.0, finding.name
-            assert finding.value == pytest.approx(finding.margin)
-        else:
-            assert f"{finding.limit:.2f}" in finding.message
-
-
-def test_what_is_told_of_the_sensor_has_all_angles_of_the_cam_and_their_scatter() -> None:
-    """Positions and tolerances of the data sheet; the lift takes 310°, the motor runs on for 0.06 s."""
-    robot = built("best-bo")
-    sensor, found = robot.layout.sensor, {one.name: one for one in sensor_findings(robot)}
-    assert all(map(well_told, found.values()))
-    pressed = OPERATES_MM - (OPERATES_MM - TOLERANCE_MM + TOTAL_MM) / 2.0
-    assert f"({pressed:.2f} +- {0.45 + TOLERANCE_MM:.2f} mm)" in found["sensor_press"].message
-    scatter, ready, opens = (math.degrees(angle) for angle in (sensor.scatter_rad, sensor.ready_rad, sensor.open_rad))
-    stop = math.degrees(sensor.needs.stop_rad)
-    assert f"closes {ready:.1f} +- {scatter:.1f}° " in found["sensor_ready"].message
-    assert f"the motor stops in {stop:.1f}°, " in found["sensor_ready"].message
-    last = opens + scatter + math.degrees(0.06 * robot.layout.drive.train.cam_speed_rad_s)
-    assert f"opens {opens:.1f} +- {scatter:.1f}° " in found["sensor_open"].message
-    assert f"the motor stands {last:.1f}° after it" in found["sensor_open"].message
-    assert said(found["sensor_open"].message, 360.0 - math.degrees(robot.layout.drive.cam.law.lift_rad))
 
 
 def test_formulas_and_limits_are_those_of_the_reference() -> None:

@@ -10,9 +10,8 @@ import shapely.affinity
 from support.documented import documented_bases
 
 from jumpcad.building import build
-from jumpcad.checks import sideways
 from jumpcad.checks.interference import Position, pieces_of, pose_of
-from jumpcad.checks.sideways import BASIS, Roll, play_rad, rolls, sideways_findings, stance_deg
+from jumpcad.checks.sideways import BASIS, play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
@@ -155,20 +154,6 @@ def test_landing_is_in_the_worst_pose_from_one_end_of_the_play_to_the_other(stro
     assert landing.play_deg == pytest.approx(2.0 * rest.play_deg)
     assert landing.stance_deg <= min(rest.stance_deg, loaded.stance_deg)
     assert landing.margin_deg == pytest.approx(landing.stance_deg - landing.play_deg)
-
-
-@pytest.mark.parametrize("state", ["at rest", "springs loaded", "landing"])
-def test_the_state_in_which_least_is_left_is_told(kenan: Robot, state: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is left, not where the robot tips first: much play may take more."""
-    states = ("at rest", "springs loaded", "landing")
-    told = tuple(Roll(one, 9.0, 5.0) if one == state else Roll(one, 8.0, 1.0) for one in states)
-    monkeypatch.setattr(sideways, "rolls", lambda *_: told)
-    (finding,) = sideways_findings(kenan)
-    assert finding.message == (
-        f"{state}, the robot tips sideways at 9.0° of roll, of which play of the joints takes 5.0°; 4.0° are left, "
-        "of 2° at least"
-    )
-    assert (finding.value, finding.limit) == (4.0, 2.0)
 
 
 @pytest.mark.parametrize("reserve_deg", [0.5, 2.0, 60.0])

@@ -3,14 +3,11 @@
 import math
 import re
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 from support.built import built
 from support.documented import documented_bases
 from support.fits import LOADS
-from support.said import said, well_told
 from support.strengths import changed, helped, margins
 
 from jumpcad.building import build
@@ -59,21 +56,6 @@ def test_axles_and_pins_stay_in_a_landing_sideways(kenan: Robot) -> None:
     hard = changed(kenan, "safety", landing_stop_mm=0.5)
     worse = {found.name for found in strength_findings(hard) if found.severity == "error"}
     assert {"axle_retention", "pin_retention"} <= worse
-
-
-@pytest.mark.parametrize(
-    ("retention", "axle", "pin"),
-    [
-        ("plates", "the plates over its ends", "its split pin"), ("clips", "its clips", "its clips"),
-        ("nuts", "its nut", "its split pin"),
-    ],
-)  # fmt: skip
-def test_what_holds_an_axle_and_a_pin_is_told(kenan: Robot, retention: str, axle: str, pin: str) -> None:
-    """Clevis pins have split pins; with clips everything has clips."""
-    robot = changed(replace(kenan, layout=replace(kenan.layout, retention=retention)), "bought", retention=retention)
-    found = {one.name: one.message for one in steel._retention(LoadCase(robot))}
-    assert f" N; {axle} may carry " in found["axle_retention"]
-    assert f" N; {pin} may carry " in found["pin_retention"]
 
 
 def test_the_legs_pin_is_a_cantilever_beside_the_leg(kenan: Robot) -> None:
@@ -183,18 +165,6 @@ def test_the_rollers_screw_is_a_cantilever_beside_the_lever(robot: str, request:
     assert screw.limit == pytest.approx(640.0 / 1.5 / LOADS)  # property class 8.8
 
 
-@pytest.mark.parametrize("robot", ["kenan", "strongest"])
-def test_what_is_told_of_steel_has_value_and_limit(robot: str, request: pytest.FixtureRequest) -> None:
-    """And what they are for: so many jumps, and a bearing's rating over its factor."""
-    safety = {"jumps": 43210.0, "bearing_factor": 0.625}
-    case = LoadCase(changed(request.getfixturevalue(robot), "safety", **safety))
-    found = {one.name: one for one in steel.steel_findings(case)}
-    assert [name for name, one in found.items() if not well_told(one)] == []
-    assert said(found["spring_fatigue"].message, 43210.0)
-    assert said(found["axle_fatigue"].message, 43210.0)
-    assert said(found["hub_bearing_load"].message, 0.625)
-
-
 def test_what_is_advised_to_lower_or_to_raise_helps_the_steel(strongest: Robot) -> None:
     """Of what the landing's force bends; the springs' own arms and the cam stay as they are."""
     assert "foot_pin_strength" in helped(strongest, lambda robot: steel.steel_findings(LoadCase(robot)))
@@ -214,50 +184,6 @@ def test_a_rod_has_its_yield_stress_over_0_78_as_tensile_strength(kenan: Robot, 
     assert finding.limit == pytest.approx(allowed / LOADS)
 
 
-@pytest.mark.parametrize(
-    ("retention", "name", "advised"),
-    [
-        ("nuts", "leg_axle", ""), ("nuts", "foot_pin", ""), ("clips", "leg_axle", ""), ("clips", "foot_pin", ""),
-        ("plates", "leg_axle", "3.1 or more"), ("plates", "foot_pin", "4"),
-    ],
-)  # fmt: skip
-def test_a_thicker_axle_is_advised_only_where_it_can_be_bought(retention: str, name: str, advised: str) -> None:
-    """Of 3 mm, 10 % too weak: screws as axles and clips end at 3 mm, the next clevis pin has 4 mm, rods have any."""
-    case = LoadCase(changed(built("kenan-2.0"), "bought", retention=retention, axle="silver-steel"))
-    words = steel._stronger(case, name, 330.0, 300.0)
-    assert words.partition("bought.axle_mm of ")[2].partition(" with")[0] == advised
-
-
-@pytest.mark.parametrize("share", [1.02, 1.13, 1.3, 1.7, 2.5])
-def test_a_rod_that_is_advised_is_thick_enough_to_a_tenth(kenan: Robot, share: float) -> None:
-    """The stress falls with the cube of the diameter, so that a tenth less would not be enough."""
-    words = steel._thicker(LoadCase(kenan), "leg_axle", share)
-    advised = float(words.partition("bought.axle_mm of ")[2].partition(" or more")[0])
-    assert (advised - 0.1) ** 3 < share * 3.0**3 <= advised**3
-
-
-def test_where_clevis_pins_are_not_made_so_thin_clips_set_the_next_diameter() -> None:
-    """Pins of 2 mm have clips, though axles have none: 2·2^(1/3) = 2.52 mm is the next clip's 3 mm, for both."""
-    bought = SimpleNamespace(retention="plates", axle_mm=2.0)
-    clips, pins = ({f"{size}": SimpleNamespace(**{key: size}) for size in sizes} for key, sizes in (
-        ("shaft_mm", (2.0, 3.0)), ("diameter_mm", (2.8, 4.0))))  # fmt: skip
-    catalogue = SimpleNamespace(clips=clips, clevis_pins=pins, rods=built("kenan-2.0").workshop.catalogue.rods)
-    bars = dict.fromkeys(("leg_axle", "foot_pin"), SimpleNamespace(diameter_mm=2.0))
-    case: Any = SimpleNamespace(workshop=SimpleNamespace(bought=bought, catalogue=catalogue), bars=bars)
-    for name in bars:
-        assert "bought.axle_mm of 3 with" in steel._thicker(case, name, 2.0)
-
-
-def test_a_tube_is_not_advised_for_its_yield_stress() -> None:
-    """Its bore takes some of what its steel would bear."""
-    rods = {name: SimpleNamespace(name=name, yield_mpa=900.0, bore_share=bore) for name, bore in (("t", 0.7), ("r", 0))}
-    shop = SimpleNamespace(
-        bought=SimpleNamespace(retention="nuts"), catalogue=SimpleNamespace(rods=rods), stock_spring=None
-    )
-    case: Any = SimpleNamespace(workshop=shop, bars={"leg_axle": SimpleNamespace(yield_mpa=400.0, diameter_mm=3.0)})
-    assert "(bought.axle of r with" in steel._stronger(case, "leg_axle", 600.0, 300.0)
-
-
 @pytest.mark.parametrize("roller_mm", [3.0, 6.0])
 def test_a_wider_roller_is_farther_from_the_hubs_bearings(kenan: Robot, roller_mm: float) -> None:
     """Statics of two supports, the roller's middle half its width and a washer of 0.5 mm beside the leg."""
@@ -270,17 +196,6 @@ def test_a_wider_roller_is_farther_from_the_hubs_bearings(kenan: Robot, roller_m
     thick = layout.sections.thickness_mm
     aside = (thick / 2.0 + 0.5 + roller_mm / 2.0) / (thick - layout.hub_bearing.width_mm)
     assert found.value == pytest.approx(math.hypot(*(arms / 2.0 + push * (0.5 + aside))))
-
-
-def test_the_thinnest_clip_that_is_enough_is_advised() -> None:
-    """Of clips for 2, 3, 4 and 5 mm: twice the stress needs 2·2^(1/3) = 2.52 mm, ten times 4.31 mm, 30 times more."""
-    bought = SimpleNamespace(retention="clips")
-    clips = {f"{size}": SimpleNamespace(shaft_mm=size) for size in (5.0, 3.0, 2.0, 4.0)}
-    shop = SimpleNamespace(bought=bought, catalogue=SimpleNamespace(clips=clips))
-    case: Any = SimpleNamespace(workshop=shop, bars={"leg_axle": SimpleNamespace(diameter_mm=2.0)})
-    for share, advised in ((2.0, "3"), (10.0, "5"), (30.0, "")):
-        words = steel._thicker(case, "leg_axle", share)
-        assert words.partition("bought.axle_mm of ")[2].partition(" with")[0] == advised
 
 
 def test_formulas_and_limits_are_those_of_the_reference() -> None:

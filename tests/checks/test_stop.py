@@ -11,7 +11,6 @@ import pytest
 import trimesh
 from support.built import built, placed
 from support.documented import documented_bases
-from support.said import well_told
 
 from jumpcad.building import build
 from jumpcad.checks import check, constraint_findings
@@ -148,16 +147,6 @@ def test_a_leg_that_is_quick_enough_breaks_every_limit(name: str) -> None:
     just, beyond = (found(quicker(robot, share * usual.limit / usual.value))[name] for share in (0.99, 1.01))
     assert (just.severity, beyond.severity) == ("info", "error")
     assert beyond.remedy
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_what_is_told_of_the_stop_has_the_blows_energy_and_the_stops_angle_too(name: str) -> None:
-    robot = built(name)
-    findings = found(robot)
-    assert all(map(well_told, findings.values()))
-    assert f" at {1000.0 * robot.stop_blow.energy_j:.0f} mJ; " in findings["stop_pad"].message
-    angle = math.degrees(robot.layout.stop.angle_rad)
-    assert f" beyond its stop at {angle:.1f}° past rest; " in findings["stop_clearance"].message
 
 
 def test_a_harder_pad_hits_harder_and_gives_less() -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.documented import documented_bases
+from support.each import each
 from support.fits import LOADS, with_fits_apart
 from support.said import well_told
 from support.strengths import changed, helped, margins, with_own
@@ -60,7 +61,7 @@ WEAK_LINKS = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(
+@each(
     ("role", "figures", "names"),
     [
         ("links", {"strength_in_plane_mpa": 0.3}, WEAK_LINKS),

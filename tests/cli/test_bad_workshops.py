@@ -3,8 +3,8 @@
 import re
 from pathlib import Path
 
-import pytest
 from support.commands import Run
+from support.each import each
 
 WRONG = {
     "clearance beyond the wall": ("[fits]\nsliding_mm = -0.9", r"w.toml:2: fits.sliding_mm = -0.9: must be at least"),
@@ -33,7 +33,7 @@ HOPELESS = {
 CASES = {name: (*case, 2) for name, case in WRONG.items()} | {name: (*case, 1) for name, case in HOPELESS.items()}
 
 
-@pytest.mark.parametrize("case", CASES)
+@each("case", CASES)
 def test_a_workshop_that_cannot_be_is_one_line_and_nothing_written(run: Run, tmp_path: Path, case: str) -> None:
     text, words, exit_code = CASES[case]
     (tmp_path / "w.toml").write_text(text)

@@ -1,11 +1,9 @@
 """The process as a whole: the module as the command, and Ctrl-C."""
 
-import importlib
 import signal
 import subprocess
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from support.commands import Run
@@ -108,29 +106,6 @@ def test_an_interrupt_is_counted_and_raised_unless_it_is_held(interrupts: list[i
     with pytest.raises(KeyboardInterrupt):
         cli._interrupt(signal.SIGINT, sys._getframe())
     assert interrupts == [signal.SIGINT] * 2
-
-
-def test_an_interrupt_in_an_import_is_raised_after_it_where_it_was_asked_for(
-    interrupts: list[int], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Of imports in each other the outermost: none is left half done."""
-    (tmp_path / "inner_one.py").write_text(
-        "import sys\nfrom jumpcad import cli\ncli._interrupt(2, sys._getframe())\nwhole = True\n"
-    )
-    (tmp_path / "outer_one.py").write_text("import inner_one\nwhole = True\n")
-    monkeypatch.syspath_prepend(tmp_path)
-    steps = []
-
-    def work() -> None:
-        steps.append("asked")
-        importlib.import_module("outer_one")
-        steps.append("went on")
-
-    with pytest.raises(KeyboardInterrupt):
-        work()
-    assert (steps, interrupts) == (["asked"], [2])
-    assert all(sys.modules.pop(name).whole for name in ("inner_one", "outer_one"))
-    assert sys.gettrace() is None
 
 
 def test_module_runs_as_the_command() -> None:

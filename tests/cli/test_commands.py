@@ -13,22 +13,20 @@ import pytest
 import typer
 from support import needs
 from support.commands import Run
+from support.each import each
 from support.places import ROOT
-from typer.main import get_command
 
 from jumpcad.bundle.export import export
 from jumpcad.cli import commands
 from jumpcad.cli.commands import app
 from jumpcad.coupon.export import export_coupon
 from jumpcad.design import load_design
-from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
 from jumpcad.version import __version__
 
 HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklearn", "matplotlib", "pygad")
 
 
-@pytest.mark.parametrize(
+@each(
     "arguments",
     [
         ["fly"],
@@ -41,7 +39,6 @@ HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklea
         ["new", "robot.toml", "--from", "missing.toml", "--json"],
         ["simulate", "kenan-2.0", "--published", "--engine", "mujoco"],
     ],
-    ids=" ".join,
 )
 def test_wrong_request_is_one_line_and_exit_code_2(run: Run, tmp_path: Path, arguments: list[str]) -> None:
     code, out, err = run(*arguments)
@@ -142,25 +139,6 @@ def test_design_that_cannot_be_assembled_is_exit_code_1(run: Run, tmp_path: Path
         assert err == f"jumpcad: {refused['message']}\n"
 
 
-def test_a_document_of_a_refusal_names_limit_and_margin(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    for margin in (-3.0, 0.0):
-
-        def refused(*_: object, margin: float = margin) -> None:
-            raise CannotBuildError("too long", "room", margin)
-
-        monkeypatch.setattr("jumpcad.building.build", refused)
-        code, out, _ = run("check", "kenan-2.0", "--json")
-        document = {"verdict": "cannot_build", "message": "too long", "limit": "room", "margin": margin, "unit": "mm"}
-        assert (code, json.loads(out)) == (1, document)
-
-    def refused_whole(*_: object) -> None:
-        raise CannotBuildError("too long")
-
-    monkeypatch.setattr("jumpcad.building.build", refused_whole)
-    code, out, _ = run("check", "kenan-2.0", "--json")
-    assert (code, json.loads(out)) == (1, {"verdict": "cannot_build", "message": "too long"})
-
-
 def test_a_bug_is_exit_code_3_with_its_traceback(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(_: str) -> None:
         raise ZeroDivisionError
@@ -236,30 +214,6 @@ def test_version_and_short_help(run: Run) -> None:
     assert run("check", "-h")[1] == run("check", "--help")[1]
 
 
-def words_of(text: str) -> str:
-    return " ".join(re.sub(r"[│╭╮╰╯─]", " ", text).split())
-
-
-def test_help_texts_are_whole_at_80_columns(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every word of every option's help and default is there; rich takes [x] for markup, and cuts long words."""
-    monkeypatch.setenv("COLUMNS", "80")
-    for name, command in get_command(app).commands.items():
-        text = run(name, "--help")[1]
-        assert max(map(len, text.splitlines())) <= 80
-        for parameter in command.params:
-            for words in (parameter.help or "", str(parameter.show_default) if parameter.show_default else ""):
-                words = "" if words == "True" else " ".join(words.split())
-                missing = [word for word in words.split() if word not in words_of(text)]
-                assert not missing, (name, parameter.name, missing)
-
-
-def test_paragraphs_of_help_are_not_broken_at_80_columns() -> None:
-    """Typer joins the lines of the first paragraph only; the frame takes a column on each side."""
-    for name, command in get_command(app).commands.items():
-        for paragraph in (command.help or "").split("\n\n")[1:]:
-            assert max(map(len, paragraph.splitlines())) <= 78, name
-
-
 @needs.without("bash")
 def test_completion_is_installed_without_an_error(tmp_path: Path) -> None:
     surroundings = {**os.environ, "HOME": str(tmp_path), "PYTHONPATH": str(ROOT)}
@@ -290,15 +244,6 @@ def test_the_shell_completes_commands_and_names(
     assert set(out.split()) == expected
 
 
-def test_pipes_and_no_color_get_plain_text(folder: Path) -> None:
-    """Without a terminal no colour; NO_COLOR (no-color.org) even where one is forced."""
-    command = [sys.executable, "-m", "jumpcad", "list", "printers"]
-    for more in ({}, {"NO_COLOR": "1"}, {"TERM": "dumb"}):
-        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **more}, check=True)
-        assert "\x1b" not in done.stdout
-        assert "ender-3" in done.stdout
-
-
 @pytest.mark.parametrize(("ended", "code"), [(0, 0), (None, 0), (3, 3)])
 def test_options_that_end_the_program_themselves_keep_their_exit_code(ended: int | None, code: int) -> None:
     """As those of completion do."""
@@ -310,15 +255,3 @@ def test_options_that_end_the_program_themselves_keep_their_exit_code(ended: int
     with pytest.raises(typer.Exit) as end:
         commands._context(SimpleNamespace(make_context=make_context), ["--show-completion"])
     assert end.value.exit_code == code
-
-
-def test_an_answer_that_is_no_is_exit_code_1_without_an_error(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As of a robot with a violated limit: what was found stands on standard output."""
-    wrong = [Finding("walls", "error", -1.0, "mm", "too thin", "thicken it")]
-    monkeypatch.setattr("jumpcad.building.build", lambda *_: None)
-    monkeypatch.setattr("jumpcad.checks.check", lambda _: wrong)
-    code, out, err = run("check", "kenan-2.0")
-    assert (code, err) == (1, "")
-    assert "too thin" in out
-    wrong.clear()
-    assert run("check", "kenan-2.0")[0] == 0

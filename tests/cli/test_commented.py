@@ -1,12 +1,11 @@
 """Design and workshop files with comments: they read back as what they were made of, and differ where that differs."""
 
-import difflib
 import tomllib
 from pathlib import Path
 
 import pytest
 
-from jumpcad.cli.commented import commented_design, commented_workshop, printer_name
+from jumpcad.cli.commented import commented_design, commented_workshop
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.files import find_template
 from jumpcad.workshop import Workshop, load_workshop, varied
@@ -51,32 +50,10 @@ def test_of_a_shipped_material_what_was_measured_is_written_and_nothing_else(tmp
     assert read_back(text, tmp_path) == weaker
 
 
-def test_only_values_that_differ_are_other_lines() -> None:
-    """Of a workshop with two other values, all comments stay beside theirs."""
-    plain = commented_workshop(DEFAULT, "here").splitlines()
-    other = commented_workshop(varied(DEFAULT, {"body.plate_mm": 2.0, "process.infill": 0.3}), "here").splitlines()
-    lines = [line for line in difflib.ndiff(plain, other) if line[0] in "+-"]
-    keys = [line[2:].split(" = ")[0] for line in lines]
-    assert sorted(keys) == ["infill", "infill", "plate_mm", "plate_mm"]
-    before, after = ([line.partition("#")[2] for line in lines if line[0] == sign] for sign in "-+")
-    assert before == after
-    assert all(before)
-
-
 def test_the_default_workshop_is_its_template_but_for_the_head() -> None:
     template = find_template("workshops", "default").read_text(encoding="utf-8")
     tables = template[template.index("\n[") :]
     assert commented_workshop(DEFAULT, "here").rstrip().endswith(tables.rstrip())
-
-
-def test_a_shipped_printer_is_named_and_another_one_written_out(tmp_path: Path) -> None:
-    assert printer_name(DEFAULT) == "mk4"
-    assert 'printer = "mk4"' in commented_workshop(DEFAULT, "here")
-    mine = SHOPS["own"]
-    assert printer_name(mine) == ""
-    text = commented_workshop(mine, "here")
-    assert tomllib.loads(text)["printer"]["nozzle_mm"] == 0.5
-    assert text.count("[bought.pins]") == text.count('[batteries."my cell"]') == 1
 
 
 def test_a_design_s_numbers_stand_with_what_they_do_and_their_searched_range() -> None:

@@ -1,9 +1,7 @@
 """`jumpcad coupon`: from the coupon through its readings to a workshop that robots are built in."""
 
 import json
-import math
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -43,41 +41,6 @@ def test_a_coupon_is_printed_tried_and_built_with(run: Run, tmp_path: Path) -> N
     assert found == pytest.approx(3.0 + 2.0 * 0.15, abs=0.01)
 
 
-def test_what_is_told(run: Run) -> None:
-    code, out, _ = run("coupon", "-o", "gauges")
-    assert code == 0
-    assert "next: read gauges/coupon.md" in out
-    Path("r.toml").write_text("[gauge.PLA]\naxle_sliding_mm = 0.25")
-    code, out, _ = run("coupon", "--measured", "r.toml", "--workshop", "gauges/workshop.toml", "-o", "w.toml")
-    assert code == 0
-    assert out.splitlines() == [
-        "sliding_mm                   0.200 -> 0.250",
-        "w.toml: gauges/workshop.toml with these values",
-    ]
-
-
-def test_a_lowered_strength_is_told(run: Run) -> None:
-    Path("r.toml").write_text("[joints]\nfloor_n = 100")
-    lowered = f"{round(100.0 * math.sqrt(3.0) / (math.pi * 3.0 * 0.8), 1):.1f}"
-    code, out, _ = run("coupon", "--measured", "r.toml", "-o", "w.toml")
-    assert (code, out.splitlines()) == (
-        0,
-        [
-            f"PLA strength_in_plane_mpa    54.0 -> {lowered}",
-            f"PLA strength_interlayer_mpa  30.0 -> {lowered}",
-            "w.toml: default with these values",
-        ],
-    )
-    assert load_workshop(Path("w.toml")).materials["PLA"].strength_in_plane_mpa == float(lowered)
-    Path("r.toml").write_text("[joints]\nfloor_n = 1000")
-    assert run("coupon", "--measured", "r.toml", "-o", "same.toml")[1] == "same.toml: default unchanged\n"
-    Path("same.toml").write_text("# my own\n")
-    assert run("coupon", "--measured", "r.toml", "-o", "same.toml")[0] == 2
-    assert Path("same.toml").read_text() == "# my own\n"
-    assert run("coupon", "--measured", "r.toml", "-o", "same.toml", "--force")[0] == 0
-    assert load_workshop(Path("same.toml")) == load_workshop()
-
-
 @pytest.mark.parametrize(
     ("arguments", "exit_code", "complaint"),
     [
@@ -102,18 +65,3 @@ def test_a_wrong_request_is_one_line(run: Run, arguments: list[str], exit_code: 
     assert complaint in err
     assert err.count("\n") == 1
     assert sorted(Path().rglob("*")) == before
-
-
-def test_a_coupon_is_told_with_its_files_and_its_grams(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The manifest is one more file; it has kilograms."""
-    made = SimpleNamespace(files={"a.stl": "1", "coupon.md": "2"}, manifest={"mass_kg": 0.0125})
-    asked: list[object] = []
-    monkeypatch.setattr("jumpcad.coupon.export.export_coupon", lambda *given: asked.append(given) or made)
-    assert run("coupon", "--workshop", "light", "-o", "gauges", "--force")[1].splitlines() == [
-        "gauges: 3 files, 12.5 g to print", "next: read gauges/coupon.md"
-    ]  # fmt: skip
-    document = json.loads(run("coupon", "--json")[1])
-    assert document == {"folder": "exports/coupon", "files": ["a.stl", "coupon.md"], "grams": 12.5}
-    assert asked == [
-        (load_workshop("light"), Path("gauges"), True), (load_workshop("default"), Path("exports/coupon"), False)
-    ]  # fmt: skip

@@ -1,9 +1,6 @@
 """`jumpcad new`: a copy of a template with comments, and nothing replaced unasked."""
 
-import json
-import os
 import re
-import tomllib
 from pathlib import Path
 from unittest.mock import ANY
 
@@ -12,7 +9,7 @@ from support.commands import Run
 
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.files import template_names, templates_folder
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import load_workshop
 
 
 def test_new_writes_a_copy_that_can_be_loaded(run: Run, tmp_path: Path) -> None:
@@ -34,19 +31,6 @@ def test_new_keeps_what_is_there(run: Run, tmp_path: Path) -> None:
     assert code == 2
     assert "exists already" in err
     assert (tmp_path / "frog.toml").read_text() == "mine"
-
-
-def test_a_new_file_is_as_open_as_the_umask_says(run: Run, tmp_path: Path) -> None:
-    before = os.umask(0o027)
-    try:
-        assert run("new", tmp_path / "a.toml")[0] == 0
-    finally:
-        os.umask(before)
-    assert (tmp_path / "a.toml").stat().st_mode & 0o777 == 0o640
-    (tmp_path / "a.toml").write_text("mine")
-    assert "a.toml: exists already" in run("new", tmp_path / "a.toml")[2]
-    assert (tmp_path / "a.toml").read_text() == "mine"
-    assert run("new", tmp_path / "a.toml", "--force")[0] == 0
 
 
 def test_every_number_of_a_new_design_has_a_comment_with_its_searched_range(run: Run, tmp_path: Path) -> None:
@@ -138,24 +122,6 @@ def test_a_workshop_has_no_design(run: Run, tmp_path: Path) -> None:
     assert code == 2
     assert "leave --from out" in err
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize("shop", ["", "default", "fine"])
-def test_a_new_file_is_told_in_json_with_the_values_that_it_has(run: Run, tmp_path: Path, shop: str) -> None:
-    """What a file leaves out, as what nobody knows of a part, is left out there too: TOML has no null."""
-    kind = ("--workshop", shop) if shop else ("--from", "best-ga")
-    told = json.loads(run("new", "made.toml", *kind, "--json")[1], parse_constant=pytest.fail)
-    assert told["file"] == "made.toml"
-    if shop:
-        assert Workshop.model_validate(told["workshop"]) == load_workshop(tmp_path / "made.toml")
-    else:
-        assert told["design"] == tomllib.loads((tmp_path / "made.toml").read_text())
-
-    def values(table: object) -> list[object]:
-        inner = table.values() if isinstance(table, dict) else table if isinstance(table, list) else ()
-        return [table, *(value for one in inner for value in values(one))]
-
-    assert None not in values(told)
 
 
 @pytest.mark.parametrize(

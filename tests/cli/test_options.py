@@ -7,7 +7,6 @@ and `jumpcad.cli.calibrate`.
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 from unittest.mock import ANY
 
@@ -17,12 +16,11 @@ from support.commands import Run
 import jumpcad
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search import explore, figures
 from jumpcad.search.models import robot_model
 from jumpcad.search.space import Space
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
-from jumpcad.settings import Settings, load_settings
+from jumpcad.settings import load_settings
 from jumpcad.workshop import load_workshop
 
 SEARCH = (
@@ -165,47 +163,6 @@ def test_every_command_builds_in_the_workshop_that_is_named(
     assert built == [(load_design("kenan-1.0"), shop)]
 
 
-@pytest.mark.parametrize("view", ["pca", "importance"])
-def test_a_view_s_samples_and_seed_are_those_asked_for(run: Run, monkeypatch: pytest.MonkeyPatch, view: str) -> None:
-    """The regression of importance has its own chance: it takes the seed too."""
-    seen = []
-
-    def sample(_: object, samples: int, seed: int) -> list[object]:
-        seen.append((samples, seed))
-        return []
-
-    def importance(_evaluator: object, _trials: object, seed: int) -> None:
-        seen.append((33, seed))
-        raise JumpcadError("enough")
-
-    def components(*_: object) -> None:
-        raise JumpcadError("enough")
-
-    monkeypatch.setattr(explore, "sample", sample)
-    monkeypatch.setattr(explore, "importance", importance)
-    monkeypatch.setattr(explore, "components", components)
-    command = ("explore", view, "--model", "capsule", "--workers", "0", "--samples", 33, "--seed", 6)
-    assert run(*command)[::2] == (2, "jumpcad: enough\n")
-    assert set(seen) == {(33, 6)}
-    assert len(seen) == (2 if view == "importance" else 1)
-
-
-@pytest.mark.parametrize("suffix", [".svg", ".png"])
-def test_no_picture_of_one_s_own_is_replaced_unasked(run: Run, asked: dict[str, Any], suffix: str) -> None:
-    """Before the search: of all pictures that a search may draw."""
-    Path("pictures").mkdir()
-    command = ("optimize", "ga", "--model", "capsule", "--study", "s.db", "--plots", "pictures")
-    for name in figures.PICTURES:
-        mine = Path("pictures", f"{name}{suffix}")
-        mine.write_text("mine")
-        code, _, err = run(*command)
-        assert (code, "request" in asked) == (2, False)
-        assert f"pictures/{name}{suffix}: exists already" in err
-        mine.unlink()
-    mine.write_text("mine")
-    assert run(*command, "--force")[2] == "jumpcad: enough\n"
-
-
 def test_no_design_or_workshop_of_one_s_own_is_replaced_unasked(run: Run, asked: dict[str, Any]) -> None:
     """A search that varies the workshop writes two files."""
     command = ("optimize", "bo", "--study", "s.db", "-o", "best.toml", "--bound", "body.plate_mm=1.6:2.4")
@@ -219,37 +176,3 @@ def test_no_design_or_workshop_of_one_s_own_is_replaced_unasked(run: Run, asked:
         Path(name).unlink()
     Path("best-workshop.toml").write_text("mine")
     assert run(*command[:6])[2] == "jumpcad: enough\n"  # the workshop is not varied: it is not written
-
-
-def test_a_calibration_s_seed_is_that_asked_for(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of the chains, and of the predictions."""
-    seen: list[object] = []
-
-    def calibrated(files: list[str], seed: int) -> SimpleNamespace:
-        seen.append((files, seed))
-        return SimpleNamespace(model=SimpleNamespace(subjects=[]))
-
-    def predicted(_posterior: object, other: Any, seed: int) -> None:
-        seen.append((other.name, seed))
-        raise JumpcadError("enough")
-
-    monkeypatch.setattr("jumpcad.calibration.calibrate", calibrated)
-    monkeypatch.setattr("jumpcad.calibration.load_subject", lambda name: SimpleNamespace(name=name))
-    monkeypatch.setattr("jumpcad.calibration.predicted_jump", predicted)
-    assert run("calibrate", "kenan-2.0", "--predict", "kenan-1.0", "--seed", 9)[0] == 2
-    assert seen == [(["kenan-2.0"], 9), ("kenan-1.0", 9)]
-
-
-def test_the_drawn_jump_has_its_flight(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Up to the touchdown, moment by moment."""
-    asked = []
-
-    def simulate(_: object, settings: Settings, *__: object) -> None:
-        asked.append((settings.flight, settings.trajectory))
-        raise JumpcadError("enough")
-
-    monkeypatch.setattr("jumpcad.cli.bundle.printed_robot", lambda *_: SimpleNamespace(name="frog"))
-    monkeypatch.setattr("jumpcad.bundle.renders.renders", lambda _: {})
-    monkeypatch.setattr("jumpcad.simulation.simulate", simulate)
-    assert run("render", "kenan-2.0")[::2] == (2, ANY)
-    assert asked == [("simulated", True)]

@@ -1,21 +1,16 @@
 """Any kind of standard output, any file name, Ctrl-C at any time: one line and one exit code."""
 
-import json
-import math
 import os
 import signal
 import subprocess
 import sys
-from io import StringIO
 from pathlib import Path
-from threading import Event, active_count
-from time import sleep
 
-import numpy as np
 import pytest
 from support.commands import Run, interruptible
+from support.each import each
 
-from jumpcad.cli.output import Output, console, escaped, print_json, shortened, status
+from jumpcad.cli.output import escaped
 from jumpcad.design import Design, load_design
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -84,52 +79,6 @@ def test_a_deleted_folder_is_one_line(tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "jumpcad: the current folder was deleted: change into another one\n"
-
-
-def test_what_is_being_done_is_logged_without_a_terminal(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """One line each time that the wait for the end runs out, with the newest text; none after the end."""
-    asked, told = Event(), Event()
-
-    class Waits(Event):
-        def wait(self, timeout: float | None = None) -> bool:
-            asked.set()
-            told.wait()
-            told.clear()
-            if self.is_set():
-                sleep(0.02)  # the thread is late to see the end
-            return self.is_set()
-
-        def set(self) -> None:
-            super().set()
-            told.set()
-
-    monkeypatch.setattr("jumpcad.cli.output.Event", Waits)
-    threads = active_count()
-    with status("slicing …") as tell:
-        asked.wait()
-        tell("slicing foot\n…")
-        asked.clear()
-        told.set()
-        asked.wait()
-    assert active_count() <= threads
-    assert capsys.readouterr().err == "jumpcad: slicing foot\\n…\n"
-
-
-def test_on_a_terminal_what_is_being_done_is_on_standard_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whether standard output is a terminal too or not: it may be kept in a file."""
-    for out_too in (False, True):
-        out, err = StringIO(), StringIO()
-        monkeypatch.setattr(out, "isatty", lambda shown=out_too: shown)
-        monkeypatch.setattr(err, "isatty", lambda: True)
-        monkeypatch.setenv("TERM", "xterm")
-        monkeypatch.setattr(sys, "stdout", out)
-        monkeypatch.setattr(sys, "stderr", err)
-        with status("slicing …") as tell:
-            tell("slicing foot")
-        assert out.getvalue() == ""
-        assert "slicing" in err.getvalue()
 
 
 PRESSED = """
@@ -204,14 +153,7 @@ def test_a_name_as_long_as_a_file_system_allows_is_refused(run: Run, tmp_path: P
     assert list(tmp_path.iterdir()) == [file]
 
 
-def test_a_link_to_itself_is_no_folder(run: Run, tmp_path: Path) -> None:
-    (tmp_path / "loop").symlink_to("loop")
-    code, out, err = run("build", "kenan-2.0", "--no-pictures", "-o", "loop")
-    assert (code, out) == (2, "")
-    assert err.startswith("jumpcad: loop: cannot be a path")
-
-
-@pytest.mark.parametrize(
+@each(
     "arguments",
     [
         *([*SWEEP, "--points", number] for number in ("-1", "0", "1", "1001", "nan", "1e3", "9" * 30)),
@@ -226,7 +168,6 @@ def test_a_link_to_itself_is_no_folder(run: Run, tmp_path: Path) -> None:
         [*SEARCH[:-1], "."],
         [*SWEEP[:-1], "."],
     ],
-    ids=lambda arguments: " ".join(arguments[-2:]),
 )
 def test_a_number_that_no_search_can_have_is_one_line(run: Run, tmp_path: Path, arguments: list[str]) -> None:
     code, out, err = run(*arguments)
@@ -235,38 +176,3 @@ def test_a_number_that_no_search_can_have_is_one_line(run: Run, tmp_path: Path, 
     assert err.count("\n") == 1
     assert arguments[-1] in err
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_table_shows_what_looks_like_markup_as_it_is(capsys: pytest.CaptureFixture[str]) -> None:
-    """Names of users may hold brackets and colons: neither a style nor a picture."""
-    console(width=60).print("a [red]b[/red] :frog:")
-    assert capsys.readouterr().out.strip() == "a [red]b[/red] :frog:"
-
-
-def test_json_has_every_number_and_null_for_what_is_none(capsys: pytest.CaptureFixture[str]) -> None:
-    """NaN and infinities are no JSON (RFC 8259); numpy's values, tuples and keys that are no text are like Python's."""
-    data = {"a": 1.5, "b": (0.0, -2), 3: np.array([[1.0, np.nan], [np.inf, -4.5]]), "c": np.float64(0.1), "d": None}
-    print_json(data | {"e": True, "f": "text", "g": {"h": [np.int64(7), -math.inf]}})
-    told = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
-    assert told == {
-        "a": 1.5, "b": [0.0, -2], "3": [[1.0, None], [None, -4.5]], "c": 0.1, "d": None, "e": True, "f": "text",
-        "g": {"h": [7, None]},
-    }  # fmt: skip
-
-
-def test_colours_are_kept_where_they_are_asked_for_and_no_other_sequence_ever(monkeypatch: pytest.MonkeyPatch) -> None:
-    """ECMA-48: SGR (ESC [ numbers m) colours what follows; ED (ESC [ 2 J) would clear the screen, BEL rings."""
-    text = "\x1b[1;31mred\x1b[0m\n\ttab \x1b[2J\x07\u202e"
-    for coloured, start, end in ((True, "\x1b[1;31m", "\x1b[0m"), (False, r"\x1b[1;31m", r"\x1b[0m")):
-        stream = StringIO()
-        assert Output(stream, coloured).write(text) == len(text)
-        assert stream.getvalue() == start + "red" + end + "\n\ttab " + r"\x1b[2J\x07\u202e"
-        assert Output(stream, coloured).coloured().write("\x1b[0m") == 4
-        assert stream.getvalue().endswith("\x1b[0m")
-
-
-def test_of_a_line_that_is_too_long_both_ends_are_shown() -> None:
-    """Two thousand characters at most, and what stands for the others."""
-    longest = "".join(chr(0x4E00 + number) for number in range(2000))
-    assert shortened(longest) == longest
-    assert shortened(longest + "x") == f"{longest[:1000]} … {longest[1001:]}x"

@@ -1,18 +1,13 @@
 """`jumpcad report`: the page of a bundle and of a template, and what it refuses."""
 
-import json
 import shutil
-from collections.abc import Iterable
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from support.commands import Run
 from support.searches import QUICK
 
-from jumpcad.bundle.manifest import open_bundle
 from jumpcad.errors import JumpcadError
-from jumpcad.robot import Robot
 
 
 def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, bundle: Path, tmp_path: Path) -> None:
@@ -21,17 +16,6 @@ def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, b
     assert (code, out.strip()) == (0, str(copy / "report.html"))
     assert 'id="viewer-glb"' in (copy / "report.html").read_text()  # built without pictures it had none
     assert run("verify", copy)[0] == 0
-
-
-def test_a_page_is_of_the_robot_of_the_workshop_that_is_named(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    built, robot = [], SimpleNamespace(name="frog")
-    monkeypatch.setattr("jumpcad.cli.report.printed_robot", lambda *given: built.append(given) or robot)
-    monkeypatch.setattr("jumpcad.bundle.export.report_page", lambda one, files: f"<p>{one.name}{len(files)}</p>")
-    assert run("report", "kenan-2.0", "--workshop", "light")[:2] == (0, "frog-report.html\n")
-    assert built == [("kenan-2.0", "light")]
-    assert "<p>frog0</p>" in (tmp_path / "frog-report.html").read_text()
 
 
 def test_an_edited_page_of_a_bundle_is_not_replaced(
@@ -107,53 +91,6 @@ def test_what_is_no_study_is_refused(run: Run, tmp_path: Path, arguments: tuple[
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert said in err
     assert [path.name for path in tmp_path.iterdir()] == ["text.db"]
-
-
-def test_a_bundle_in_a_folder_that_is_called_like_a_study_is_a_bundle(
-    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("jumpcad.bundle.export.report_page", lambda robot, files: f"{robot.name} {len(files)}")
-    copy = shutil.copytree(bundle, tmp_path / "robots.db")
-    assert run("report", copy) == (0, f"{copy / 'report.html'}\n", "")
-    assert (copy / "report.html").read_text().startswith("kenan-2.0 ")
-
-
-def test_a_page_that_is_edited_while_another_is_drawn_is_not_replaced(
-    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    copy = shutil.copytree(bundle, tmp_path / "kenan-2.0")
-
-    def drawn(*_: object) -> str:
-        (copy / "report.html").write_text("mine")
-        return "drawn"
-
-    monkeypatch.setattr("jumpcad.bundle.export.report_page", drawn)
-    code, out, err = run("report", copy)
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert (copy / "report.html").read_text() == "mine"
-    assert run("report", copy, "--force")[0] == 0
-    assert (copy / "report.html").read_text() == "drawn"
-
-
-def test_a_page_tells_of_the_files_of_its_bundle(
-    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Of a robot that is no bundle there are none; each page is that of the robot that was asked for."""
-    own = Path(shutil.copytree(bundle, tmp_path / "own"))
-    asked: list[tuple[str, tuple[str, ...]]] = []
-
-    def page(robot: Robot, files: Iterable[str]) -> str:
-        asked.append((robot.name, tuple(files)))
-        return "<html></html>"
-
-    monkeypatch.setattr("jumpcad.bundle.export.report_page", page)
-    assert run("report", own)[:2] == (0, f"{own / 'report.html'}\n")
-    assert run("report", own, "-o", "else.html")[:2] == (0, "else.html\n")
-    assert json.loads(run("report", "best-bo", "--workshop", "light", "--json")[1]) == {"file": "best-bo-report.html"}
-    files = tuple(open_bundle(bundle).files)
-    assert "stl/main_leg.stl" in files
-    assert asked == [("kenan-2.0", files), ("kenan-2.0", ()), ("best-bo", ())]
-    assert (own / "report.html").read_text() == (tmp_path / "else.html").read_text() == "<html></html>"
 
 
 @pytest.mark.usefixtures("inputs")

@@ -15,8 +15,6 @@ from support.slicers import OBEDIENT, pretend_slicer, three_parts, with_seams_be
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle, verify
-from jumpcad.bundle.sliced import SlicedPart, SlicedPlate
-from jumpcad.cli.slicing import _print_sliced, slice_facts
 from jumpcad.printing.prusaslicer import slicer_program
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -64,24 +62,6 @@ def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(
     before, after = load_workshop(bundle / "workshop.toml"), load_workshop(tmp_path / "weighed.toml")
     assert after.mass.weighed_g == {name: pytest.approx(part["grams"], abs=6e-4) for name, part in parts.items()}
     assert after.model_copy(update={"mass": before.mass}) == before
-
-
-def test_grams_and_times_are_told_in_tables(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
-    pretend(OBEDIENT.replace("TAMPER", ""))
-    code, out, err = run("slice", str(bundle), "--write-masses", "weighed.toml")
-    assert (code, err) == (0, "")
-    assert out.endswith("written   weighed.toml: try jumpcad build DESIGN --workshop weighed.toml\n")
-    # 100 mm of filament of 1.75 mm are 0.24053 cm³
-    petg, pla = (f"{0.24053 * density:.2f}" for density in (1.27, 1.24))
-    rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line}
-    assert rows["ring"][:3] == ["4", "PETG", petg]
-    assert rows["ring"][-2:] == ["1:02", "h"]
-    assert rows["plate-1-PLA"] == ["PLA", pla, "1:02", "h"]
-    assert rows["all"] == ["0.60", "2:05", "h"]
-    assert rows["slicer"] == ["PrusaSlicer", "2.9.1"]
-    assert rows["settings"] == ["all", "taken", "over"]
-    ends = {len(line.rstrip()) for line in out.splitlines() if line.lstrip().startswith(("plate", "all"))}
-    assert len(ends) == 1  # figures and the head of their column end below each other
 
 
 def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, pretend: Callable[[str], None]) -> None:
@@ -200,22 +180,6 @@ def test_changed_and_missing_files_are_named(run: Run, bundle: Path, tmp_path: P
     assert err.count("\n") == 1
 
 
-def test_many_changed_files_are_few_words(run: Run, bundle: Path) -> None:
-    for file in bundle.glob("urdf/meshes/*.stl"):
-        file.unlink()
-    code, _, err = run("slice", str(bundle))
-    assert code == 2
-    assert " more; build it again with jumpcad build" in err
-    assert err.count(": missing") == 3
-
-
-def test_notes_in_a_bundle_are_in_nobodys_way(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
-    pretend(OBEDIENT.replace("TAMPER", ""))
-    (bundle / "notes.txt").write_text("mine")
-    assert run("slice", "frog")[0] == 0
-    assert (bundle / "notes.txt").read_text() == "mine"
-
-
 def test_nothing_is_written_or_read_outside_of_a_bundle(
     run: Run, bundle: Path, pretend: Callable[[str], None], tmp_path: Path
 ) -> None:
@@ -254,17 +218,6 @@ def test_a_plate_of_an_unknown_material_is_one_line(run: Run, bundle: Path, pret
     assert "parts of GOLD" in err
 
 
-def test_what_is_no_bundle_of_parts_is_refused(run: Run, bundle: Path, tmp_path: Path) -> None:
-    shutil.copytree(bundle, tmp_path / "bare")
-    manifest = json.loads((bundle / "manifest.json").read_text())
-    manifest["masses"] = [line for line in manifest["masses"] if line["kind"] != "printed"]
-    (tmp_path / "bare" / "manifest.json").write_text(json.dumps(manifest))
-    assert run("slice", "bare") == (2, "", "jumpcad: bare: has no printed parts to slice\n")
-    code, _, err = run("slice", "nowhere")
-    assert (code, err.count("\n")) == (2, 1)
-    assert "nowhere/manifest.json: missing; a bundle has one" in err
-
-
 @pytest.mark.parametrize(
     ("file", "complaint"),
     [("mine.toml", "exists already"), ("mine.txt", "must end in .toml"), ("no/mine.toml", "there is no folder no")],
@@ -275,45 +228,6 @@ def test_masses_replace_nothing(run: Run, bundle: Path, file: str, complaint: st
     assert (code, out) == (2, "")
     assert complaint in err
     assert Path("mine.toml").read_text() == "years of weighing"
-
-
-def test_a_part_that_is_heavier_than_the_model_by_a_twentieth_is_printed_so(capsys):
-    part = SimpleNamespace(
-        name="foot", quantity=1, material="PETG", grams=10.5, modelled_grams=10.0, difference=0.05, time_s=60.0
-    )
-    plate = SimpleNamespace(name="plate-1-PETG", material="PETG", grams=10.5, time_s=60.0)
-    left_out = ("print/pads-1-TPU.3mf",)
-    found = SimpleNamespace(parts=(part,), plates=(plate,), version="2.5.0", ignored={}, left_out=left_out)
-    _print_sliced(found)  # type: ignore[arg-type]
-    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
-    assert ["foot", "1", "PETG", "10.50", "10.00", "+5.0", "%", "0:01", "h"] in rows
-    assert ["plate-1-PETG", "PETG", "10.50", "0:01", "h"] in rows
-    assert ["all", "10.50", "0:01", "h"] in rows
-    assert ["left", "out", "print/pads-1-TPU.3mf:"] in [row[:3] for row in rows]
-
-
-def test_the_document_has_every_mass_and_time_under_its_name() -> None:
-    """Sums are of plates, which hold all copies of the parts; the model's mass differs by a share of the sliced one."""
-    part = SlicedPart("foot", "PETG", 2, 10.0, 10.5, 60.0)
-    plates = (SlicedPlate("one", "PETG", 21.5, 125.0), SlicedPlate("two", "PLA", 3.25, 40.0))
-    found = SimpleNamespace(
-        version="2.5.0", ignored={"infill": ("0.2", "0.3")}, parts=(part,), plates=plates, billed=True,
-        left_out=("print/pads-1-TPU.3mf",),
-    )  # fmt: skip
-    assert slice_facts(Path("frog"), found, Path("w.toml")) == {  # type: ignore[arg-type]
-        "bundle": "frog", "slicer": "2.5.0", "ignored": {"infill": {"asked": "0.2", "used": "0.3"}},
-        "parts": [{
-            "name": "foot", "material": "PETG", "quantity": 2, "grams": 10.0, "modelled_grams": 10.5, "time_s": 60.0,
-            "difference": pytest.approx(0.05),
-        }],
-        "plates": [
-            {"name": "one", "material": "PETG", "grams": 21.5, "time_s": 125.0},
-            {"name": "two", "material": "PLA", "grams": 3.25, "time_s": 40.0},
-        ],
-        "left_out": ["print/pads-1-TPU.3mf"],
-        "grams": 24.75, "time_s": 165.0, "workshop": "w.toml", "written": True,
-    }  # fmt: skip
-    assert slice_facts(Path("frog"), found, None)["workshop"] is None  # type: ignore[arg-type]
 
 
 @pytest.mark.usefixtures("inputs")

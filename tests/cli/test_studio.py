@@ -3,24 +3,13 @@
 import sys
 from pathlib import Path
 from types import SimpleNamespace
-from unittest.mock import ANY
 
 import pytest
 from support.commands import Run
 from support.places import ROOT
 
 from jumpcad.cli.studio import _design, _point
-from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.files import template_names
-from jumpcad.workshop import load_workshop
-
-
-def test_a_bundle_brings_its_own_workshop() -> None:
-    design, workshop = _design(str(ROOT / "exports" / "kenan-2.0"), None)
-    assert design == load_design("kenan-2.0")
-    assert workshop == str(ROOT / "exports" / "kenan-2.0" / "workshop.toml")
-    assert load_workshop(workshop).printer == load_workshop().printer
 
 
 def test_a_bundle_whose_workshop_is_not_its_own_is_not_opened(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -30,10 +19,6 @@ def test_a_bundle_whose_workshop_is_not_its_own_is_not_opened(monkeypatch: pytes
     monkeypatch.setattr("jumpcad.bundle.inputs.kept_workshop", refuse)
     with pytest.raises(JumpcadError, match="names other files"):
         _design(str(ROOT / "exports" / "kenan-2.0"), None)
-
-
-def test_a_template_comes_in_the_default_workshop() -> None:
-    assert _design("best-bo", None) == (load_design("best-bo"), "default")
 
 
 class Server:
@@ -69,30 +54,6 @@ def opened(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[tuple[object
     monkeypatch.setitem(sys.modules, "jumpcad.studio.server", SimpleNamespace(own_server=Server))
     monkeypatch.setattr("jumpcad.cli.studio._point", lambda file, trial, shop: ("design", "its", "points", trial or 7))
     return found
-
-
-def test_a_design_is_opened_with_the_workshops_to_choose_from(opened: list[tuple[object, ...]], run: Run) -> None:
-    """Its own first, then those of the templates, each once; there is no study, so that its number is 1."""
-    assert run("studio", "best-bo", "--port", 8123) == (0, ANY, "")
-    ((design, name, shops, server, _, points, number),) = opened
-    assert (design, name, points, number) == (load_design("best-bo"), "best-bo", None, 1)
-    assert isinstance(shops, list)
-    assert shops[0] == "default"
-    assert sorted(shops) == sorted(template_names("workshops"))
-    assert isinstance(server, Server)
-    assert server.port == 8123
-
-
-def test_a_robot_is_called_after_its_file_and_saved_where_the_command_runs(
-    opened: list[tuple[object, ...]], run: Run, tmp_path: Path
-) -> None:
-    (tmp_path / "robots").mkdir()
-    (tmp_path / "robots" / "frog.toml").write_text(load_design("best-ga").to_toml())
-    code, said, _ = run("studio", "robots/frog.toml")
-    assert code == 0
-    assert said.startswith("http://127.0.0.1:8080 ")  # docs/reference/commands.md
-    ((design, name, _, _, folder, *_),) = opened
-    assert (design, name, folder) == (load_design("best-ga"), "frog", tmp_path)
 
 
 def test_a_studio_is_started_and_ends_however_its_server_does(
@@ -137,19 +98,3 @@ def test_a_study_is_opened_at_its_best_trial_or_the_one_that_is_named(monkeypatc
         assert points.file == Path("s.db")
     with pytest.raises(JumpcadError, match="trial 4 cannot be built"):
         _point(Path("s.db"), 4, None)
-
-
-def test_a_file_that_ends_in_db_is_a_study_and_a_folder_is_not(
-    opened: list[tuple[object, ...]], run: Run, tmp_path: Path
-) -> None:
-    (tmp_path / "s.db").touch()
-    assert run("studio", "s.db", "--workshop", "fine", "--trial", 3)[0] == 0
-    ((design, name, shops, _, _, points, number),) = opened
-    assert (design, name, points, number) == ("design", "s", "points", 3)
-    assert isinstance(shops, list)
-    assert shops[:2] == ["fine", "its"]
-    (tmp_path / "folder.db").mkdir()
-    code, _, said = run("studio", "folder.db", "--trial", 3)
-    assert (code, said) == (2, "jumpcad: --trial 3: folder.db is no study (F.db)\n")
-    assert run("studio", "best-bo", "--trial", 1)[0] == 2
-    assert len(opened) == 1

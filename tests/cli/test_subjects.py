@@ -7,10 +7,7 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
-from jumpcad.cli.subjects import completion, design_file, printed_robot, robot_from_file
-from jumpcad.design import Design, load_design
-from jumpcad.errors import JumpcadError
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.cli.subjects import completion
 
 
 def test_a_bare_name_is_the_template_and_a_path_the_bundle(
@@ -61,39 +58,3 @@ def test_a_shell_completes_names_of_templates_however_they_are_typed() -> None:
     assert completion("materials")("P") == ["pa12", "petg", "pla"]
     assert completion("robots")("kenan-") == ["kenan-1.0", "kenan-2.0"]
     assert completion("robots")("x") == []
-
-
-def test_a_robot_is_called_after_its_file_or_bundle_and_made_in_the_workshop_that_is_asked_for(
-    bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A bundle's design and workshop are its own."""
-    made: list[tuple[Design, Workshop, str]] = []
-    monkeypatch.setattr("jumpcad.building.build", lambda *given: made.append(given))
-    own = tmp_path / "my.frog.toml"
-    own.write_text(load_design("best-bo").to_toml())
-    printed_robot(str(own), "light")
-    printed_robot("kenan-1.0", None, "a1-mini", "PLA")
-    printed_robot(str(bundle), None)
-    assert made == [
-        (load_design("best-bo"), load_workshop("light"), "my.frog"),
-        (load_design("kenan-1.0"), load_workshop("default", "a1-mini", "PLA"), "kenan-1.0"),
-        (load_design("kenan-2.0"), load_workshop(bundle / "workshop.toml"), "kenan-2.0"),
-    ]
-    for option in ({"printer": "a1-mini"}, {"material": "PLA"}):
-        ((name, value),) = option.items()
-        with pytest.raises(JumpcadError, match=f"--{name} {value}: .* is a bundle"):
-            printed_robot(str(bundle), None, **option)
-    assert design_file(str(bundle)) == bundle / "design.toml"
-    assert load_design(design_file("best-ga")) == load_design("best-ga")
-    assert design_file(str(own)) == own
-
-
-def test_a_robot_from_a_file_is_that_of_a_urdf(bundle: Path, tmp_path: Path) -> None:
-    urdf = bundle / "urdf" / "kenan-2.0.urdf"
-    for subject in (bundle, urdf):
-        robot = robot_from_file(str(subject), None)
-        assert robot is not None
-        assert (robot.name, robot.design) == ("kenan-2.0", load_design("kenan-2.0"))
-    assert robot_from_file("kenan-2.0", None) is robot_from_file(str(tmp_path / "frog.toml"), "light") is None
-    with pytest.raises(JumpcadError, match="is simulated as it is written; leave --workshop out"):
-        robot_from_file(str(urdf), "light")

@@ -11,7 +11,7 @@ from support.fits import with_fits_apart
 from jumpcad.coupon import joints
 from jumpcad.coupon.export import _guide
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
-from jumpcad.coupon.pieces import MARGIN_MM, Piece, coupon_holes, engraved
+from jumpcad.coupon.pieces import MARGIN_MM, Piece, coupon_holes
 from jumpcad.solids.outline import hole, rectangle
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.text import text
@@ -72,11 +72,6 @@ def test_steps_lie_on_both_sides_of_a_fit_and_ribs_are_never_negative() -> None:
     assert joints._number(-0.15) == "m15"
 
 
-def test_every_piece_has_a_name_of_its_own() -> None:
-    names = [piece.name for piece in joint_pieces(load_workshop(), coupon_holes(load_workshop()))]
-    assert len(set(names)) == len(names)
-
-
 @pytest.fixture(scope="module")
 def pieces() -> dict[str, Piece]:
     shop = load_workshop()
@@ -88,15 +83,6 @@ def holes_of(region: CrossSection) -> list[np.ndarray]:
     boxes = [np.array([points.min(axis=0), points.max(axis=0)]) for points in region.to_polygons()]
     whole = max(boxes, key=lambda box: np.ptp(box, axis=0).prod())
     return [np.ptp(box, axis=0) for box in sorted(boxes, key=lambda box: box[0, 0]) if box is not whole]
-
-
-@pytest.mark.parametrize(("allowed", "first"), [(("n20-50", "n20-298"), "n20-50"), ((), None)])
-def test_the_motor_is_the_first_that_is_allowed(allowed: tuple[str, ...], first: str | None) -> None:
-    """Without a list every motor is."""
-    shop = load_workshop()
-    bought = shop.bought.model_copy(update={"motors": allowed})
-    found = joints._motor(shop.model_copy(update={"bought": bought}))
-    assert found == shop.catalogue.motors[first or next(iter(shop.catalogue.motors))]
 
 
 def test_openings_are_what_they_hold_with_the_engraved_offset_on_every_side(pieces: dict[str, Piece]) -> None:
@@ -166,44 +152,3 @@ def test_lying_holes_are_tried_around_their_own_fit() -> None:
     assert "**lying_holes**" in _guide(workshop, holes)
     (line,) = (one for one in _guide(workshop, holes).splitlines() if "**lying_holes**" in one)
     assert ".10 .15 .20" in line
-
-
-def test_every_opening_has_its_label_in_front_of_it_3_mm_from_the_plates_edge(pieces: dict[str, Piece]) -> None:
-    """Engraved 0.6 mm deep: diameters of taps, offsets per side of everything else, in letters of 3.5 mm."""
-    fits = load_workshop().fits
-    labels = {
-        "taps": [f"{fits.m2_tap_mm + more:.1f}" for more in (-0.1, 0.0, 0.1)],
-        "shaft_bores": [engraved(step) for step in rib_steps_mm(fits)],
-        "motor_sockets": [engraved(step) for step in steps_mm(fits.sliding_mm)],
-        "tray_slots": [engraved(step) for step in steps_mm(fits.sliding_mm)],
-        "seat": [engraved(step) for step in steps_mm(fits.press_mm)],
-    }
-    for name, expected in labels.items():
-        solid = pieces[name].shape.solid()
-        top = solid.bounding_box()[5]
-        whole, cut = solid.slice(top - 0.65), solid.slice(top - 0.05)
-        letters = whole - cut
-        low_x, low_y, high_x, _ = whole.bounds()
-        pitch = (high_x - low_x) / len(expected)
-        for number, label in enumerate(expected):
-            middle = low_x + (number + 0.5) * pitch
-            column = rectangle((pitch - 0.2, 100.0), (middle, 0.0))
-            word = text(label, 3.5)
-            left, bottom, right, _ = word.bounds()
-            placed = word.translate((middle - (left + right) / 2.0, low_y + 3.0))
-            found = letters ^ column
-            assert (found - placed).area() + (placed - found).area() < 0.02 * word.area(), (name, label)
-            assert bottom == pytest.approx(0.0, abs=0.1)
-
-
-def test_pockets_have_their_label_inside_their_rim(pieces: dict[str, Piece]) -> None:
-    """Below the pockets of 14 mm: letters of 3.5 mm, 3 mm beyond them, and 2 mm of rim around all."""
-    for step in steps_mm(load_workshop().fits.sliding_mm):
-        solid = pieces[f"dog_pockets_{joints._number(step)}"].shape.solid()
-        whole, cut = solid.slice(5.0 - 0.65), solid.slice(5.0 - 0.05)
-        assert solid.bounding_box()[5] == pytest.approx(5.0)
-        assert whole.bounds()[2] == pytest.approx(7.0 + 3.0 + 3.5 + 2.0, abs=0.01)
-        word = text(engraved(step), 3.5)
-        left, _, right, _ = word.bounds()
-        placed, letters = word.translate((-(left + right) / 2.0, -7.0 - 3.0 - 3.5)), whole - cut
-        assert (letters - placed).area() + (placed - letters).area() < 0.02 * word.area()

@@ -15,13 +15,8 @@ from jumpcad.coupon.joints import joint_pieces
 from jumpcad.coupon.pieces import (
     Piece,
     _holder,
-    _offsets,
     coupon_holes,
-    engraved,
-    gauge_rows,
     pieces,
-    pinion,
-    series_of,
 )
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
@@ -92,35 +87,6 @@ def test_holes_are_as_wide_as_is_engraved_under_them(material: str) -> None:
         assert cut.area() == pytest.approx(word.area(), rel=0.01)
 
 
-def test_a_row_s_letter_stands_beside_the_middle_of_its_holes() -> None:
-    solid = reread(PIECES["gauge_PETG"])
-    low, high = solid.slice(1.5), solid.slice(2.8)
-    _, holes = contours(low)
-    rows = [[polygon for polygon in holes if (width(polygon) < 5.0) == small] for small in (True, False)]
-    engraved, _ = contours(low - high)
-    left = min(polygon[:, 0].min() for polygon in holes)
-    beside = [polygon for polygon in engraved if polygon[:, 0].max() < left]
-    for row in rows:
-        middle = max((polygon.min(axis=0) + polygon.max(axis=0))[1] / 2.0 for polygon in row)
-        letter = min(beside, key=lambda polygon: abs(polygon[:, 1].mean() - middle))
-        assert (letter[:, 1].min() + letter[:, 1].max()) / 2.0 == pytest.approx(middle, abs=0.1)
-        assert np.ptp(letter[:, 1]) == pytest.approx(5.0, abs=0.1)
-
-
-def test_a_letter_stands_at_the_first_row_of_its_kind_alone() -> None:
-    """Five holes a row: nine for the axle (A) go on in a second one; five for the bearing (B); pegs (P)."""
-    holes = coupon_holes(WORKSHOP)
-    rows = gauge_rows(holes, series_of(holes))
-    assert [(row.letter, len(row.places)) for row in rows] == [("A", 5), ("", 4), ("B", 5), ("P", 3)]
-
-
-@pytest.mark.parametrize(
-    ("offset", "label"), [(0.05, ".05"), (-0.05, "-.05"), (0.0, ".00"), (-0.3, "-.30"), (1.0, "1.00")]
-)
-def test_an_offset_is_engraved_without_the_zero_before_its_point(offset: float, label: str) -> None:
-    assert engraved(offset) == label
-
-
 @pytest.mark.parametrize("material", ["PETG", "PLA"])
 def test_a_gauge_has_its_materials_name_at_its_back(material: str) -> None:
     """Whole, 5 mm high, 3 mm from both edges, above all else that is engraved."""
@@ -187,41 +153,6 @@ def test_pinions_play_by_the_backlash_engraved_on_them() -> None:
     assert played == pytest.approx(expected, abs=6e-3)
 
 
-def test_series_reach_beyond_the_fits_on_both_sides() -> None:
-    for workshop in (WORKSHOP, load_workshop("fine"), changed("fits", press_mm=-0.3, loose_mm=0.9)):
-        fits, steps = workshop.fits, series_of(coupon_holes(workshop))
-        assert steps.axle_mm[1] < fits.press_mm
-        assert steps.axle_mm[-2] > fits.loose_mm
-        assert steps.bearing_mm[1] < fits.press_mm < steps.bearing_mm[-2]
-        assert len(steps.axle_mm) <= 15
-        assert np.ptp(np.diff(steps.axle_mm)) == pytest.approx(0.0, abs=1e-9)
-    tight = series_of(coupon_holes(changed("fits", backlash_circumferential_mm=0.0)))
-    assert tight.backlash_mm == (0.0, 0.05, 0.1)
-
-
-@pytest.mark.parametrize("span", range(41))
-def test_a_wide_series_has_twice_the_steps_so_that_fifteen_reach(span: int) -> None:
-    """Steps of 0.05 mm, or 0.10, or 0.20: as few doublings as three rows of five allow, two steps past either fit."""
-    for low in (-0.3, 0.1, 0.12):
-        high = low + 0.05 * span
-        steps = np.array(_offsets(low, high))
-        (step,) = {round(float(one), 6) for one in np.diff(steps)}
-        assert step in (0.05, 0.1, 0.2)
-        assert len(steps) <= 15
-        assert step == 0.05 or round((high - low) / (step / 2.0)) + 5 > 15
-        assert steps / step == pytest.approx(np.round(steps / step))
-        assert abs(steps[2] - low) <= step / 2.0 + 1e-9
-        assert abs(steps[-3] - high) <= step + 1e-9
-
-
-def test_pinions_keep_their_tips_whatever_the_backlash() -> None:
-    """Teeth of a module of 1.25 mm that are 0.7 mm thinner would be pointed."""
-    for backlash in (0.4, 0.6, 1.0):
-        steps = series_of(coupon_holes(changed("fits", backlash_circumferential_mm=backlash))).backlash_mm
-        assert steps == pytest.approx((0.3, 0.35, 0.4, 0.45, 0.5))
-    assert pinion(steps[-1]).tip_thickness_mm > 0.15
-
-
 def test_legs_without_a_bearing_need_no_seats() -> None:
     workshop = changed("bought", leg_bearing="")
     _, holes = contours(reread(coupon(workshop)["gauge_PLA"]).slice(1.5))
@@ -237,20 +168,6 @@ def test_one_material_needs_one_gauge() -> None:
 def test_a_coupon_fits_the_smallest_bed() -> None:
     plates = packed(PIECES.values(), (180.0, 180.0, 180.0), 5.0)
     assert [plate.name for plate in plates] == ["plate-1-PETG", "plate-1-PLA"]
-
-
-def test_joints_have_three_steps_each() -> None:
-    """M2 taps by their diameters; sockets for a gearbox of 10 x 12 mm and slots for tabs of 1.6 mm, per side."""
-    _, taps = contours(reread(PIECES["taps"]).slice(4.0))
-    assert sorted(width(polygon) for polygon in taps) == pytest.approx([1.5, 1.6, 1.7], abs=2e-3)
-    for name, nominal in (("motor_sockets", 10.0), ("tray_slots", 1.6)):
-        _, rooms = contours(reread(PIECES[name]).slice(1.0))
-        narrow = sorted(min(np.ptp(polygon, axis=0)) for polygon in rooms)
-        assert narrow == pytest.approx([nominal + 2.0 * step for step in (0.15, 0.2, 0.25)], abs=2e-3)
-    _, seats = contours(reread(PIECES["seat"]).slice(1.0))
-    assert sorted(width(polygon) for polygon in seats) == pytest.approx([7.1, 7.2, 7.3], abs=2e-3)  # a 683: 7 mm
-    assert reread(PIECES["axle_floor"]).slice(0.75).num_contour() == 1  # closed
-    assert reread(PIECES["axle_floor"]).slice(0.85).num_contour() == 2
 
 
 @pytest.mark.parametrize("step", [15, 20, 25])

@@ -5,6 +5,7 @@ import tomllib
 
 import pytest
 from manifold3d import JoinType
+from support.each import each
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.pieces import coupon_holes, coupon_pair, pinion, series_of
@@ -107,36 +108,13 @@ def test_a_floor_as_strong_as_the_material_says_changes_nothing_and_a_weaker_one
     }
 
 
-@pytest.mark.parametrize(("source", "begins"), [("maker.", "maker; "), ("maker", "maker; "), ("", "")])
-def test_what_a_floor_says_is_added_to_the_source_as_one_sentence(source: str, begins: str) -> None:
-    own = WORKSHOP.materials["PLA"].model_copy(update={"source": source})
-    shop = WORKSHOP.model_copy(update={"materials": {**WORKSHOP.materials, "PLA": own}})
-    found = read("[joints]\nfloor_n = 200", shop).materials["PLA"].source
-    assert found == f"{begins}strength in plane: a bore's floor broke at 200 N"
-
-
 @pytest.mark.parametrize(("floor_n", "between"), [(200.0, 30.0), (100.0, 23.0)])
 def test_layers_hold_each_other_no_better_than_a_floor_that_broke_holds_itself(floor_n: float, between: float) -> None:
     """By hand: 100 N·√3 on pi·3·0.8 mm² are 23.0 MPa, below the 30 MPa of PLA between its layers; 200 N are 45.9."""
     assert read(f"[joints]\nfloor_n = {floor_n}").materials["PLA"].strength_interlayer_mpa == between
 
 
-def test_a_reading_that_is_asked_for_is_of_a_material_that_the_workshop_prints() -> None:
-    roles = WORKSHOP.roles.model_copy(update={"links": "PLA", "gears": "PLA"})
-    shop = WORKSHOP.model_copy(update={"roles": roles, "materials": {"PLA": WORKSHOP.materials["PLA"]}})
-    with pytest.raises(JumpcadError, match=r"such as axle_press_mm under \[gauge\.PLA\]"):
-        read("axle_mm = 3", shop)
-
-
-@pytest.mark.parametrize("joint", ["dog", "socket", "tray"])
-def test_of_running_fits_the_widest_of_any_joint_counts(joint: str) -> None:
-    """Each alone too: parts of one robot have one fit."""
-    assert read(f"[joints]\n{joint}_sliding_mm = 0.25").fits.sliding_mm == 0.25
-    others = "\n".join(f"{one}_sliding_mm = 0.15" for one in ("dog", "socket", "tray") if one != joint)
-    assert read(f"[joints]\n{others}\n{joint}_sliding_mm = 0.2").fits.sliding_mm == 0.2
-
-
-@pytest.mark.parametrize(
+@each(
     ("text", "message"),
     [
         ("", r"r\.toml: no reading: fill in at least one"),

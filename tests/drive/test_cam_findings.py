@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.built import built
 from support.documented import documented_bases
+from support.each import each
 from support.limits import default_limits
 from support.said import well_told
 
@@ -23,8 +24,8 @@ def shown(checked: Limit, room: float) -> float:
     return math.degrees(room) if checked.unit == "rad" else room
 
 
-@pytest.mark.parametrize("checked", LIMITS, ids=lambda one: one.name)
-@pytest.mark.parametrize("times", [-3.0, 0.0, 3.0])
+@each("checked", LIMITS)
+@each("times", [-3.0, 0.0, 3.0])
 def test_what_is_found_differs_from_the_limit_by_the_margin(checked: Limit, times: float) -> None:
     room = times * checked.scale
     words = _found(checked.name, room, CAM)
@@ -46,7 +47,7 @@ def test_the_limit_that_is_said_is_the_cams_own() -> None:
     assert [name for name, limit in said.items() if limit not in _found(name, 0.1, own)] == []
 
 
-@pytest.mark.parametrize("checked", LIMITS, ids=lambda one: one.name)
+@each("checked", LIMITS)
 def test_a_cam_on_its_limit_has_no_negative_zeros(checked: Limit) -> None:
     """The search ends on its limits, a billionth inside or outside."""
     words = [_found(checked.name, room, CAM) for room in (-1e-9, 0.0, 1e-9)]
@@ -85,7 +86,7 @@ def test_what_is_missed_by_much_is_a_plain_number_and_hardly_anything_a_hundredt
         assert f"({said} MPa short)" in missed(CAM, margin)
 
 
-@pytest.mark.parametrize(
+@each(
     ("remedy", "law", "limits", "mends"),
     [
         ("lower compression_ratio", {"compression_rad": 0.95}, {}, ("hub", "place")),

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.documented import documented_bases
+from support.each import each
 from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
@@ -63,8 +64,8 @@ def test_pins_keep_away_from_the_hub_though_the_coil_is_small(least_mm):
     assert spring.pin_radius_mm >= max(least_mm, spring.outer_diameter_mm / 2 + limits.arm_reach_mm) - 1e-6
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("preload_deg", [0.0, 15.0])
+@each("name", NAMES)
+@each("preload_deg", [0.0, 15.0])
 def test_a_preloaded_coil_winds_up_by_preload_and_travel_together(name, preload_deg):
     """Wire's length kept: D·n is the same relaxed and loaded. Body, bushing and stress keep their limits loaded."""
     design, preload = load_design(name), math.radians(preload_deg)
@@ -83,9 +84,9 @@ def test_a_preloaded_coil_winds_up_by_preload_and_travel_together(name, preload_
     assert spring.stress_mpa <= spring.allowable_mpa + 1e-6
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("plate_pin_deg", [20.0, 40.0, 75.0])
-@pytest.mark.parametrize("preload_deg", [0.0, 4.0])
+@each("name", NAMES)
+@each("plate_pin_deg", [20.0, 40.0, 75.0])
+@each("preload_deg", [0.0, 4.0])
 def test_relaxed_arms_are_tangents_that_touch_the_sides_of_their_pins(name, plate_pin_deg, preload_deg):
     """Drawn by complex numbers: along the coil from the plate's arm, and off along the tangent to the leg's pin."""
     design = load_design(name)

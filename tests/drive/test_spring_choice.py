@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.each import each
 from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
@@ -93,8 +94,8 @@ def test_the_turns_of_a_coil_follow_from_the_stiffness() -> None:
     assert spring.torque_nmm == pytest.approx(200.0 * 0.6)
 
 
-@pytest.mark.parametrize("between", [0.3, 1.9, 4.4, 6.2])
-@pytest.mark.parametrize("preload", [0.0, 0.25])
+@each("between", [0.3, 1.9, 4.4, 6.2])
+@each("preload", [0.0, 0.25])
 def test_turns_and_both_arms_lead_from_one_pin_to_the_other(between: float, preload: float) -> None:
     """Around the hub: back from the plate's pin to the coil, the turns, on to the leg's pin, and the preload.
 
@@ -162,8 +163,8 @@ def test_a_wire_that_cannot_make_the_spring_is_none(changed: dict[str, float]) -
         assert (arms is not None) == found
 
 
-@pytest.mark.parametrize("stiffness", [0.1, 0.4, 0.7])
-@pytest.mark.parametrize("mandrel", [2.0, 5.0, 8.0])
+@each("stiffness", [0.1, 0.4, 0.7])
+@each("mandrel", [2.0, 5.0, 8.0])
 def test_the_smallest_coil_keeps_every_limit(stiffness: float, mandrel: float) -> None:
     """Loaded by 0.6 rad: length, bushing and stress; the wire keeps its length, so that D·n stays."""
     limits, on_leg, d = replace(LIMITS, mandrel_min_mm=mandrel), Spring("leg", stiffness, 0.5, 0.1), 1.2
@@ -342,8 +343,8 @@ def test_no_coil_is_wider_or_longer_than_its_room(stiffness: float) -> None:
     assert refused > 20
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("preload_deg", [0.0, 15.0])
+@each("name", NAMES)
+@each("preload_deg", [0.0, 15.0])
 def test_the_smallest_coil_of_a_wire_is_at_one_of_its_limits(name: str, preload_deg: float) -> None:
     """Index, stress, length or bushing: no coil of that wire is narrower, whatever its whole turns."""
     design, preload = load_design(name), math.radians(preload_deg)

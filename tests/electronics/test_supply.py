@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from support.each import each
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.electronics.chain import chain
@@ -34,8 +35,8 @@ def test_the_12_v_motor_on_two_cells(volts: float, rpm: float, stall_nm: float) 
     assert driven.stall_torque_nm == pytest.approx(stall_nm, rel=0.01)
 
 
-@pytest.mark.parametrize("ohm", [0.0, 0.5, 3.0])
-@pytest.mark.parametrize("name", ["n20-298", "n20-298-mp", "n20-75-hpcb12"])
+@each("ohm", [0.0, 0.5, 3.0])
+@each("name", ["n20-298", "n20-298-mp", "n20-75-hpcb12"])
 def test_every_working_point_obeys_kirchhoff(name: str, ohm: float) -> None:
     """U = I·(R + r) + k·speed at no load, half torque and stall, and torque rises in proportion to current."""
     motor, volts = MOTORS[name], 5.0

@@ -1,8 +1,5 @@
 """The jump in a GLB file, read back by pygltflib: the robot stands, flies a parabola, and comes down."""
 
-import json
-import struct
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -10,7 +7,7 @@ from support import needs
 from support.built import built
 
 from jumpcad.bundle.jump_motion import jump_motion
-from jumpcad.exporters.animation import BodyMotion, _chunks, _continuous, _packed, animated
+from jumpcad.exporters.animation import _continuous, animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
@@ -95,72 +92,9 @@ def test_a_robot_that_does_not_jump_has_no_motion(monkeypatch: pytest.MonkeyPatc
     assert jump_motion(built("kenan-2.0")) is None
 
 
-def test_times_state_their_least_and_largest(glb: bytes) -> None:
-    """As glTF 2.0 asks for the input of samplers (3.11)."""
-    for name in ("jump", "jump, a tenth of the speed"):
-        film = Film(glb, name)
-        stated = film.file.accessors[film.animation.samplers[0].input]
-        assert stated.min == pytest.approx([film.time_s.min()])
-        assert stated.max == pytest.approx([film.time_s.max()])
-        assert film.time_s.min() < film.time_s.max()
-
-
-def test_the_meshes_data_come_first_and_stay_as_they_were(glb: bytes) -> None:
-    """Views of the still file keep their numbers and bytes; what moves comes after all of it."""
-    still, moving = (pygltflib.GLTF2().load_from_bytes(data) for data in (write_glb(built("kenan-2.0")), glb))
-    before, after = still.binary_blob(), moving.binary_blob()
-    assert after[: len(before)] == before
-    assert still.bufferViews == moving.bufferViews[: len(still.bufferViews)]
-    assert min(view.byteOffset for view in moving.bufferViews[len(still.bufferViews) :]) >= len(before)
-    assert moving.buffers[0].byteLength == len(after)
-
-
-@pytest.mark.parametrize("length", range(4))
-def test_chunks_are_padded_to_whole_words(length: int) -> None:
-    """glTF 2.0, 4.4: a header of 12 bytes with the file's length; chunks end at multiples of 4 bytes, the document
-
-    padded with blanks, the binary data with zeros.
-    """
-    tree, data = {"asset": "x" * length}, b"\1" * (5 + length)
-    glb = _packed(tree, data)
-    assert struct.unpack_from("<4sII", glb) == (b"glTF", 2, len(glb))
-    size, kind = struct.unpack_from("<I4s", glb, 12)
-    text = glb[20 : 20 + size]
-    assert (size % 4, kind) == (0, b"JSON")
-    assert json.loads(text) == tree
-    assert text.rstrip(b" ") == text.rstrip()
-    more, what = struct.unpack_from("<I4s", glb, 20 + size)
-    assert (more % 4, what) == (0, b"BIN\0")
-    assert glb[28 + size :] == data + b"\0" * (more - len(data))
-    assert size - len(text.rstrip()) < 4 > more - len(data)
-    assert _chunks(glb) == (tree, glb[28 + size :])
-
-
 def test_rotations_are_told_without_jumps_of_sign() -> None:
     """q and -q are one rotation; each is told by the one that is nearer to the one before."""
     turns = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
     smooth = np.column_stack([np.zeros((5, 1)), np.sin(turns), np.zeros((5, 1)), np.cos(turns)])
     found = _continuous(smooth * np.array([[1.0], [-1.0], [-1.0], [1.0], [-1.0]]))
     np.testing.assert_allclose(found, smooth)
-
-
-def test_views_say_what_they_hold(glb: bytes) -> None:
-    """glTF 2.0, 5.11.5: 34962 for vertices, 34963 for their indices."""
-    file = pygltflib.GLTF2().load_from_bytes(glb)
-    kinds = {"vertices": set(), "indices": set()}
-    for primitive in (one for mesh in file.meshes for one in mesh.primitives):
-        kinds["indices"].add(file.bufferViews[file.accessors[primitive.indices].bufferView].target)
-        for accessor in (primitive.attributes.POSITION, primitive.attributes.NORMAL):
-            kinds["vertices"].add(file.bufferViews[file.accessors[accessor].bufferView].target)
-    assert kinds == {"vertices": {34962}, "indices": {34963}}
-
-
-def test_rotations_recorded_with_either_sign_are_written_without_jumps() -> None:
-    """Of one body, from 0 to 2 rad about y; its places stay as they are."""
-    bare = _packed({"nodes": [{"name": "leg_frame"}], "bufferViews": [], "accessors": [], "buffers": [{}]}, b"")
-    half = np.linspace(0.0, 1.0, 5)
-    smooth = np.column_stack([np.zeros(5), np.sin(half), np.zeros(5), np.cos(half)])
-    places, signs = np.arange(15.0).reshape(5, 3), np.array([[1.0], [-1.0], [-1.0], [1.0], [-1.0]])
-    film = Film(animated(bare, BodyMotion(half, {"leg": places}, {"leg": signs * smooth})), "jump")
-    np.testing.assert_allclose(film.quaternions, smooth, atol=1e-6)
-    np.testing.assert_allclose(film.places["leg"], places)

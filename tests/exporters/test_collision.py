@@ -1,17 +1,14 @@
 """Collision shapes: capsules along the links, and a box about the body that never reaches the ground."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-import trimesh
 from support.built import built
 from support.decimals import decimals
 
 from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.scene.visuals import visuals
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -62,20 +59,3 @@ def test_the_box_holds_the_bodys_parts_above_a_millimetre_over_the_ground(name: 
     assert not raised or heights.min() == pytest.approx(0.001, abs=2e-4)
     assert box.low_m[2] > low[2] - 0.006
     assert body_box(robot, [one for one in seen if one.body != BODY]) is None
-
-
-@pytest.mark.parametrize(("name", "leans"), [("kenan-1.0", 1.0), ("best-printable", -1.0)])
-def test_a_low_box_is_raised_until_its_lower_end_is_a_millimetre_over_the_ground(name: str, leans: float) -> None:
-    """With loaded springs the body of the one leans back, that of the other forwards."""
-    robot, ends = built(name), (-0.09, 0.07)
-    item = replace(robot.hardware[0], body=BODY)
-    low, high = [1000.0 * ends[0], -20.0, -300.0], [1000.0 * ends[1], 30.0, 250.0]
-    vars(item)["look"] = trimesh.creation.box(bounds=[low, high])  # the mesh that is seen
-    box = body_box(robot, [Visual("block", "block", BODY, np.eye(4), (0.0, 0.0, 0.0), item)])
-    assert box is not None
-    assert box.low_m[:2] == pytest.approx([ends[0], -0.02])
-    assert box.high_m == pytest.approx([ends[1], 0.03, 0.25])
-    pose = body_poses(robot, 1.0)[BODY]
-    heights = [float(pose[2] @ [end, 0.0, box.low_m[2], 1.0]) for end in ends]
-    assert leans * (heights[1] - heights[0]) > 0.001
-    assert min(heights) == pytest.approx(0.001, abs=1e-4)

@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 from support.built import built
 
-from jumpcad.exporters.dxf import MILLIMETRES, sheet, write_dxf, write_dxfs
-from jumpcad.parts.engraving import TEXT_HEIGHTS_MM
+from jumpcad.exporters.dxf import MILLIMETRES, write_dxf, write_dxfs
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle
-from jumpcad.solids.text import text
 
 
 def read(text: str) -> ezdxf.document.Drawing:
@@ -78,32 +76,3 @@ def test_plates_are_drawn_with_their_axle_holes_and_their_names(robot: Robot) ->
             assert np.abs(gaps - apart).min() < 0.01
         assert enclosed_mm2(document, "ENGRAVE") > 10.0
     assert files == write_dxfs(robot)
-
-
-@pytest.mark.parametrize(("side", "label"), [("left", "L"), ("right", "R")])
-def test_the_name_reads_from_the_outside(robot: Robot, side: str, label: str) -> None:
-    """The engraving covers the letters of the label, not their mirror image."""
-    assert robot.layout is not None
-    low, high = getattr(robot.layout.lateral, f"{side}_plate")
-    part = next(part for part in robot.parts if part.name == f"body_plate_{side}")
-    _, engraved = sheet(part, high - low)
-    x0, y0, x1, y1 = engraved.bounds()
-    tall, short = (text(f"{robot.name} {label}", height) for height in TEXT_HEIGHTS_MM)
-    letters = tall if tall.area() < 1.05 * engraved.area() else short
-    shared = []
-    for wanted in (letters, letters.mirror((1.0, 0.0))):
-        a0, b0, a1, b1 = wanted.bounds()
-        moved = wanted.translate(((x0 + x1 - a0 - a1) / 2.0, (y0 + y1 - b0 - b1) / 2.0))
-        shared.append((moved ^ engraved).area() / engraved.area())
-    assert shared[0] > 0.8 > shared[1]
-
-
-@pytest.mark.parametrize("before", [False, True])
-def test_other_sheets_of_ezdxf_keep_their_time_of_day(before: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What a program sets for its own sheets stays as it is, also where one of these fails."""
-    monkeypatch.setattr(ezdxf.options, "write_fixed_meta_data_for_testing", before)
-    write_dxf(disc(9.0), disc(2.0))
-    assert ezdxf.options.write_fixed_meta_data_for_testing is before
-    with pytest.raises(AttributeError):
-        write_dxf(None, None)  # type: ignore[arg-type]
-    assert ezdxf.options.write_fixed_meta_data_for_testing is before

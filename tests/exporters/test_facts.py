@@ -121,10 +121,6 @@ def test_hinges_have_their_places_limits_and_losses(robot: Robot, urdf: ET.Eleme
         assert float(other.findtext("axis/dynamics/damping")) == pytest.approx(0.00045)
 
 
-def test_descriptions_have_the_robots_name(robot: Robot, urdf: ET.Element, sdf: ET.Element) -> None:
-    assert urdf.get("name") == sdf.get("name") == robot.name
-
-
 def test_the_stop_is_critically_damped_in_sdf(robot: Robot, sdf: ET.Element) -> None:
     """Stiffness k and 2·sqrt(k·I) about the leg's joint; other hinges have none."""
     stop = robot.stop

@@ -1,6 +1,5 @@
 """The stop, one-sided springs and the released state in every format that can say them."""
 
-import json
 import math
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -92,13 +91,6 @@ def test_the_urdf_jumps_as_the_robot_in_memory(robot: Mechanism, engine: str, tm
     here, there = simulate(robot, Settings(), engine), simulate(again, Settings(), engine)
     assert there.ballistic_range_m == pytest.approx(here.ballistic_range_m, rel=1e-9)
     assert there.release_energy_ratio == pytest.approx(here.release_energy_ratio, rel=1e-9)
-
-
-def test_a_loop_file_of_capsules_is_as_it_was() -> None:
-    """Files written before there were stops read as robots without one."""
-    data = json.loads(write_loop(capsule_robot(load_design("best-bo"))))
-    assert set(data) == {"design", "loop", "spring", "travel_rad", "release", "foot_depth_m", "surfaces"}
-    assert set(data["spring"]) == {"joint", "stiffness_nm_per_rad", "rest_rad", "wind_rad"}
 
 
 def test_a_preloaded_spring_that_pulls_too_is_a_joints_own() -> None:

@@ -124,42 +124,6 @@ def test_mujoco_slides_spins_and_rolls_as_the_settings_say() -> None:
         assert row[2:] == pytest.approx([0.8 * 0.003, 0.8 * 0.001, 0.8 * 0.001])
 
 
-@pytest.mark.parametrize(("spinning", "rolling"), [(0.003, 0.0), (0.0, 0.001), (0.0, 0.0)])
-def test_a_contact_that_only_spins_or_rolls_has_both_frictions(spinning: float, rolling: float) -> None:
-    """MuJoCo leaves out what a contact of three dimensions has not."""
-    settings = Settings(ground_friction=0.8, rolling_friction_m=rolling, spinning_friction_m=spinning)
-    mujoco, robot = needs.package("mujoco"), capsule_robot(load_design("kenan-2.0"))
-    model = mujoco.MjModel.from_xml_string(write_mjcf(robot, settings))
-    assert set(model.pair_dim) == {6 if spinning or rolling else 3}
-    assert model.pair_friction[0][2:] == pytest.approx([0.8 * spinning, 0.8 * rolling, 0.8 * rolling])
-
-
-@pytest.mark.parametrize("one_sided", [True, False])
-def test_dry_friction_in_joints_is_as_stiff_as_the_time_step_allows(one_sided: bool) -> None:
-    """Of every hinge, also of those without a stop: MuJoCo's own has a time constant of 20 ms."""
-    mujoco, robot = needs.package("mujoco"), capsule_robot(load_design("kenan-2.0"))
-    robot = replace(robot, spring=replace(robot.spring, one_sided=one_sided))
-    model = mujoco.MjModel.from_xml_string(write_mjcf(robot, Settings(joint_friction_nm=0.01)))
-    for joint in robot.joints:
-        dof = model.joint(joint.name).dofadr[0]
-        assert model.dof_frictionloss[dof] == pytest.approx(0.01)
-        assert model.dof_solref[dof] == pytest.approx([2.0 * model.opt.timestep, 1.0])
-        assert model.dof_solimp[dof][:2] == pytest.approx([0.99, 0.9999])
-
-
-@pytest.mark.parametrize(("asked", "made"), [(10, 50), (50, 50), (60, 60), (100, 100), (200, 200)])
-def test_the_solver_takes_as_many_steps_as_the_settings_say_and_fifty_at_least(asked: int, made: int) -> None:
-    """It ends earlier where it has converged, to 1e-12."""
-    mujoco, robot = needs.package("mujoco"), capsule_robot(load_design("kenan-2.0"))
-    model = mujoco.MjModel.from_xml_string(write_mjcf(robot, Settings(solver_iterations=asked)))
-    assert model.opt.iterations == made
-    assert model.opt.tolerance == 1e-12
-    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    assert model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
-    assert model.opt.impratio == 100.0  # a sticking foot must not creep
-    assert model.names.split(b"\0", 1)[0].decode() == robot.name
-
-
 def test_spheres_lie_where_the_robot_touches_the_ground_and_touch_it_alone() -> None:
     """Each is paired with the floor; without pairs nothing would touch anything."""
     mujoco, robot = needs.package("mujoco"), built("kenan-2.0")
@@ -180,34 +144,6 @@ def test_spheres_lie_where_the_robot_touches_the_ground_and_touch_it_alone() -> 
     assert not np.any(model.geom_contype[:, None] & model.geom_conaffinity)
 
 
-def test_loop_and_friction_are_held_hard_and_contacts_from_nothing_on() -> None:
-    """`solimp`: from 0.99 to 0.9999 within 0.1 mm or rad; of contacts from 0 to 0.95."""
-    mujoco, robot = needs.package("mujoco"), built("kenan-2.0")
-    model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
-    leg = model.joint(robot.spring.joint)
-    for impedance in (
-        model.eq_solimp[model.equality("loop").id],
-        model.jnt_solimp[leg.id],
-        model.dof_solimp[leg.dofadr[0]],
-    ):
-        assert impedance == pytest.approx([0.99, 0.9999, 0.0001, 0.5, 2.0])
-    assert model.pair_solimp == pytest.approx(np.tile([0.0, 0.95, 0.0001, 0.5, 1.0], (model.npair, 1)))
-
-
-def test_mujoco_reads_angles_in_radians() -> None:
-    """The leg's range, from loaded springs to its stop; the angle at which springs that also pull are relaxed."""
-    mujoco, robot = needs.package("mujoco"), built("kenan-2.0")
-    leg = mujoco.MjModel.from_xml_string(write_mjcf(robot)).joint(robot.spring.joint)
-    assert robot.stop is not None
-    assert leg.limited[0]
-    assert leg.range[0] <= -robot.spring.wind_rad
-    assert leg.range[1] == pytest.approx(robot.stop.angle_rad, abs=1e-9)
-    pulling = replace(robot, stop=None, spring=replace(robot.spring, one_sided=False, preload_rad=0.1))
-    model = mujoco.MjModel.from_xml_string(write_mjcf(pulling))
-    assert model.qpos_spring[model.joint(robot.spring.joint).qposadr[0]] == pytest.approx(0.1)
-    assert not model.joint(robot.spring.joint).limited[0]
-
-
 @pytest.mark.parametrize("write", [write_mjcf, write_robot])
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0"])
 def test_as_it_is_loaded_the_robot_stands_on_the_ground_at_rest(write: Callable[[Robot], str], name: str) -> None:
@@ -225,14 +161,6 @@ def test_as_it_is_loaded_the_robot_stands_on_the_ground_at_rest(write: Callable[
         for contact in body.contacts
     )
     assert lowest == pytest.approx(0.0, abs=1e-6)
-
-
-@pytest.mark.parametrize("gravity_m_s2", [9.81, 1.62])
-def test_weight_pulls_straight_down(gravity_m_s2: float) -> None:
-    root = ET.fromstring(write_mjcf(capsule_robot(load_design("kenan-2.0")), Settings(gravity_m_s2=gravity_m_s2)))
-    option = root.find("option")
-    assert option is not None
-    assert list(map(float, option.attrib["gravity"].split())) == [0.0, 0.0, -gravity_m_s2]
 
 
 @pytest.mark.parametrize("preload_rad", [0.0, 0.1])

@@ -2,7 +2,6 @@
 
 import math
 import os
-import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from typing import Any
@@ -15,7 +14,6 @@ from support.machines import one_sided
 
 from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.mjcf_robot import mjcf_files, write_robot
-from jumpcad.exporters.mjcf_scene import readme
 from jumpcad.exporters.urdf import urdf_files
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
@@ -89,30 +87,6 @@ def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any
     assert model.equality("loop").active0[0] == 1
     pushing = mujoco.MjModel.from_xml_string(write_robot(one_sided(robot)))
     assert pushing.tendon_stiffness[pushing.tendon("springs").id] == pytest.approx(robot.spring.stiffness_nm_per_rad)
-
-
-def test_options_are_those_that_the_notes_name(robot: Robot, model: Any) -> None:
-    """`mjcf/README.md`: timestep 0.00025, implicitfast, elliptic cones, impratio 100; the motor's control to hold."""
-    notes = readme(robot)
-    assert model.opt.timestep == pytest.approx(0.00025)
-    assert "`timestep` to 0.00025" in notes
-    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    assert model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
-    assert model.opt.impratio == 100.0
-    assert model.opt.gravity.tolist() == [0.0, 0.0, -9.81]
-    assert f"Its control {-1.25 * robot.spring.peak_torque_nm:.3g} N·m holds" in notes
-    rubs = coefficients(robot, Settings())
-    assert f"{rubs.contact('foot'):g} under the feet, {rubs.contact('body'):g}" in notes
-
-
-@pytest.mark.parametrize("keys", [("home", "wound", "released"), ("home", "wound")])
-def test_the_notes_name_the_key_frames_that_the_model_has(robot: Robot, keys: tuple[str, ...]) -> None:
-    """Where no roller leaves a cam, there is no key of that moment."""
-    own = robot if "released" in keys else replace(robot, roller_off=None)
-    root = ET.fromstring(write_robot(own))
-    assert tuple(key.get("name") for key in root.iter("key")) == keys
-    (line,) = (line for line in readme(own).splitlines() if line.startswith("Key frames: "))
-    assert tuple(re.findall(r"`(\w+)`", line)) == keys
 
 
 def test_the_scene_lies_beside_the_robot_that_it_includes_and_meshes_beside_both(small_robot: Robot) -> None:

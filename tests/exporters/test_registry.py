@@ -36,8 +36,3 @@ def test_an_optional_exporter_is_asked_for_and_says_what_it_lacks(monkeypatch: p
     assert [exporter.name for exporter in chosen()] == ["a"]
     with pytest.raises(JumpcadError, match="needs a library"):
         chosen(["b"])
-
-
-def test_paths_of_exporters_do_not_meet(small_robot: Robot) -> None:
-    paths = [path for exporter in chosen() for path, _ in exporter.files(small_robot)]
-    assert len(set(paths)) == len(paths)

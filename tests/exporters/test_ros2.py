@@ -1,7 +1,5 @@
 """Joints that mimic the leg's in ROS: the line through their angles, against numpy's polynomial fit."""
 
-import itertools
-import math
 import re
 import xml.etree.ElementTree as ET
 from functools import cache
@@ -11,13 +9,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support.built import built
+from support.each import each
 
 from jumpcad.design import load_design
 from jumpcad.exporters.collision import body_box, capsules
-from jumpcad.exporters.ros2 import TEMPLATES, Mimic, _links, mimicked, model_name, ros2_files
+from jumpcad.exporters.ros2 import Mimic, _links, mimicked, model_name, ros2_files
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.poses import standing
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 
@@ -45,18 +43,6 @@ def files() -> dict[str, str | bytes]:
 def package() -> dict[str, ET.Element]:
     """The files of XML of the ROS package, by name."""
     return {path: ET.fromstring(text) for path, text in files().items() if path.endswith((".xacro", ".sdf"))}
-
-
-def test_arguments_have_their_defaults(package: dict[str, ET.Element]) -> None:
-    """Joints mimic, the mock of ros2_control, no file of controllers."""
-    top = next(root for name, root in package.items() if name.endswith(".urdf.xacro"))
-    given = {one.get("name"): one.get("default") for one in top if one.tag.endswith("arg")}
-    assert given == {"mimic": "true", "gazebo": "false", "controllers": ""}
-    included = [one.get("filename") for one in top if one.tag.endswith("include")]
-    assert included == ["links.xacro", "ros2_control.xacro", "gazebo.xacro"]
-    plugins = {one.tag.split("}")[1]: one.find("plugin").text for one in package["ros2_control.xacro"].iter()
-               if one.get("value") == "$(arg gazebo)"}  # fmt: skip
-    assert plugins == {"if": "gz_ros2_control/GazeboSimSystem", "unless": "mock_components/GenericSystem"}
 
 
 def expanded(package: dict[str, ET.Element], given: dict[str, str]) -> ET.Element:
@@ -208,7 +194,7 @@ def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.E
             assert float(mimics[0].get("offset")) == pytest.approx(line.offset_rad, abs=1e-6)
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "model"),
     [("Kenan-2.0", "kenan_2_0"), ("2nd", "robot_2nd"), ("--", "robot"), ("a__b", "a_b"), ("r2d2", "r2d2"), ("X", "x"),
      ("Kenan 2.0 (light)", "kenan_2_0_light"), ("_x", "x")],
@@ -261,31 +247,3 @@ def test_in_gazebo_a_robot_is_put_on_its_foot() -> None:
     leg = Rotation.from_euler("y", float(pitch) + angles["leg"]).apply(robot.joint("ankle").origin_m)
     lowest = min(point.centre_m[2] - point.radius_m for point in robot.bodies["foot"].contacts)
     assert float(height) + hip[2] + leg[2] + lowest == pytest.approx(0.0, abs=1e-4)
-
-
-def test_texts_have_the_robots_height_and_a_torque_that_holds_its_loaded_springs() -> None:
-    """The springs pull with stiffness times loaded angle (and preload); a hold of up to twice that is no snap."""
-    robot, texts = built("kenan-2.0"), {name: text for name, text in files().items() if isinstance(text, str)}
-    peak = robot.spring.stiffness_nm_per_rad * (robot.spring.wind_rad + robot.spring.preload_rad)
-    for name in ("controllers.yaml", "README.md"):
-        found = re.findall(r"-(\d+\.\d+) N.m|\[-(\d+\.\d+)\]", texts[name])
-        assert found
-        assert all(1.02 * peak < float("".join(one)) < 2.0 * peak for one in found), name
-    ((height, pitch),) = re.findall(r'HEIGHT_M, PITCH_RAD = "(.*)", "(.*)"', texts["gazebo.launch.py"])
-    assert pitch == "0.0000"  # its links are parallel
-    rest = standing(robot, 0.0)
-    assert float(height) == pytest.approx(rest.body_position_m[2], abs=5.1e-5)
-    assert not any(re.search("@[A-Z_]+@", text) for text in texts.values())
-
-
-def test_the_notes_tell_how_far_the_lines_are_off() -> None:
-    """In degrees, front and ankle; links that are not parallel turn by no line."""
-    robot = built("kenan-1.0")
-    (text,) = (text for path, text in itertools.islice(ros2_files(robot), len(TEMPLATES)) if path.endswith("README.md"))
-    ((front, ankle),) = re.findall(r"(\d+\.\d+)° and (\d+\.\d+)°", text)
-    leg = np.linspace(-robot.spring.wind_rad, 0.0, 200)
-    pose, lines = robot.linkage.pose(leg), mimicked(robot)
-    for said, angle, line in ((front, pose.front_rad, lines["front"]), (ankle, pose.ankle_rad, lines["ankle"])):
-        off = math.degrees(np.abs(line.slope * leg + line.offset_rad - angle).max())
-        assert float(said) == pytest.approx(off, abs=0.006)
-        assert off > 0.1

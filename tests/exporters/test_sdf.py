@@ -10,9 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.design import load_design
 from jumpcad.exporters.sdf import sdf_files, write_sdf
-from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, Mechanism
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -113,25 +111,6 @@ def hinges(mechanism: Mechanism) -> dict[str, ET.Element]:
     return {str(joint.get("name")): joint for joint in root.iter("joint") if joint.get("type") == "revolute"}
 
 
-def test_the_travel_lies_within_the_limits_and_a_quarter_turn_beyond(mechanism: Mechanism) -> None:
-    """The loop, solved at 200 leg angles, says how far every joint turns; a leg that swings on meets no stop."""
-    pose = Linkage(mechanism.design).pose(np.linspace(-mechanism.design.compression_rad, 0.0, 200))
-    for name, turn in (("leg", pose.leg_rad), ("front", pose.front_rad), ("ankle", pose.ankle_rad)):
-        limit = hinges(mechanism)[name].find("axis/limit")
-        assert limit is not None
-        assert number(limit, "lower") == pytest.approx(turn.min() - math.pi / 2, abs=2e-3), name
-        assert number(limit, "upper") == pytest.approx(turn.max() + math.pi / 2, abs=2e-3), name
-
-
-def test_urdf_and_sdf_stop_at_the_same_angles(mechanism: Mechanism) -> None:
-    root = ET.fromstring(write_urdf(mechanism))
-    for joint in root.iter("joint"):
-        twin, limit = hinges(mechanism)[str(joint.get("name"))], joint.find("limit")
-        assert limit is not None
-        for ours, key in (("lower", "lower"), ("upper", "upper"), ("effort", "effort"), ("velocity", "velocity")):
-            assert number(twin, f"axis/limit/{ours}") == pytest.approx(float(limit.attrib[key]), rel=1e-9)
-
-
 def test_the_spring_holds_the_designs_energy(mechanism: Mechanism) -> None:
     """Stiffness on the leg's hinge alone, at rest where the angle is 0: half of it times the loading squared."""
     springs = {
@@ -153,17 +132,6 @@ def test_a_preload_pushes_the_leg_on_at_rest(mechanism: Mechanism) -> None:
     assert stiffness * (rest - 0.0) == pytest.approx(mechanism.design.stiffness_nm_per_rad * preload)
     wound = -mechanism.design.compression_rad
     assert stiffness * (rest - wound) == pytest.approx(mechanism.design.stiffness_nm_per_rad * (preload - wound))
-
-
-def test_friction_is_the_grounds_times_the_surfaces(mechanism: Mechanism) -> None:
-    root = ET.fromstring(
-        write_sdf(mechanism, settings=Settings(ground_friction=0.8, foot_friction=0.9, body_friction=0.3))
-    )
-    for link in root.iter("link"):
-        expected = 0.8 * (0.9 if link.get("name") == FOOT else 0.3)
-        for key in ("mu", "mu2"):
-            for found in link.iter(key):
-                assert float(str(found.text)) == pytest.approx(expected, rel=1e-9)
 
 
 def test_the_loop_is_one_point_of_two_links_and_masses_lie_where_they_do(mechanism: Mechanism) -> None:

@@ -1,6 +1,5 @@
 """STEP files read back: volume, box, faces, one valid solid."""
 
-import io
 import math
 import os
 import subprocess
@@ -9,13 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.built import built
 from support.places import ROOT, TESTS
 from support.stacks import HOLED
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import verify
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import JumpcadError
 from jumpcad.exporters import step
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
@@ -39,14 +37,6 @@ def read(data: bytes, folder: Path):
     (solid,) = import_step(folder / "part.step").solids()
     assert solid.is_valid
     return solid
-
-
-def exported(solid) -> bytes:
-    from build123d import export_step
-
-    buffer = io.BytesIO()
-    export_step(solid, buffer)
-    return buffer.getvalue()
 
 
 @needs_step
@@ -108,36 +98,6 @@ def test_the_same_bytes_in_another_process(tmp_path: Path) -> None:
         [sys.executable, "-c", code, str(tmp_path / "there.step")], check=True, env=os.environ | {"PYTHONPATH": paths}
     )
     assert (tmp_path / "there.step").read_bytes() == here == step.write_step(drawn(HOLED))
-
-
-@needs_step
-def test_faces_within_a_thousandth_of_a_millimetre_are_one(tmp_path: Path) -> None:
-    """As rounding leaves them; farther apart they are two solids."""
-
-    def plate(gap_mm: float) -> Drawing:
-        return drawn(Stack.of([(0.0, 3.0, rectangle((20, 10))), (3.0 + gap_mm, 6.0, rectangle((10, 5)))]))
-
-    assert read(step.write_step(plate(5e-4)), tmp_path).volume == pytest.approx(3.0 * 200.0 + 3.0 * 50.0, rel=1e-3)
-    with pytest.raises(CannotBuildError, match="no valid solid"):
-        step.write_step(plate(5e-3))
-
-
-@needs_step
-def test_slivers_between_an_arc_and_its_circle_are_closed_before_the_file_is_written(tmp_path: Path) -> None:
-    """The cam's jaws stand on a boss of their diameter: as made the solid is valid, read again it would not be."""
-    cam = next(part for part in built("kenan-2.0").parts if part.name == "cam")
-    made = next(step._stacked(cam.drawing.shape))
-    assert made.is_valid
-    assert not step._read(exported(made)).is_valid
-    solid = read(step.write_step(cam.drawing), tmp_path)
-    assert solid.volume == pytest.approx(cam.mesh.volume, rel=1e-3)
-
-
-@needs_step
-def test_faces_that_do_not_close_are_refused() -> None:
-    apart = Stack.of([(0, 3, rectangle((5, 5)) + rectangle((5, 5), (20, 0)))])
-    with pytest.raises(CannotBuildError, match="part plate is no valid solid as STEP: build without --step"):
-        step.write_step(drawn(apart))
 
 
 def test_a_missing_library_is_named_before_anything_is_written(

@@ -3,17 +3,15 @@
 import io
 import re
 import zipfile
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 import trimesh
-from PIL import Image
 
-from jumpcad.exporters.threemf import _in_words, pad_plates, threemf_files, write_threemf
-from jumpcad.exporters.thumbnail import thumbnail
+from jumpcad.exporters.threemf import _in_words, pad_plates, write_threemf
 from jumpcad.printing.plates import packed
 from jumpcad.workshop import load_workshop
 
@@ -95,28 +93,6 @@ def test_the_picture_and_the_settings_are_where_slicers_look_for_them(plate):
         assert suffixes <= {one.get("Extension") for one in types}
 
 
-def test_a_thumbnail_shows_the_parts_on_the_bed():
-    """Flat things that lie in one plane are seen under one slope, so the shares of their areas stay."""
-    bed = (180.0, 180.0, 180.0)
-    (plate,) = packed([Part("sheet", trimesh.creation.box((90, 60, 0.2)), quantity=2)], bed, 5.0)
-    drawn = Image.open(io.BytesIO(thumbnail(plate, bed)))
-    assert (drawn.format, drawn.size) == ("PNG", (256, 256))
-    picture = np.asarray(drawn.convert("RGB"), dtype=int)
-    orange = (picture[..., 0] - picture[..., 2] > 60).sum()
-    grey = (abs(picture[..., 0] - picture[..., 2]) < 20) & (picture[..., 0] < 250)
-    assert orange / (orange + grey.sum()) == pytest.approx(2 * 90 * 60 / 180**2, rel=0.07)
-
-
-def test_the_settings_stand_in_words_beside_the_plates(small_robot):
-    process = small_robot.workshop.process
-    said = dict(threemf_files(small_robot))["print/README.md"]
-    assert f"perimeters (walls): {process.perimeters}\n" in said
-    assert f"infill: {100 * process.infill:g} %, {process.infill_pattern}\n" in said
-    assert re.search(r"## plate-1-PETG\.3mf\n\nPETG: nozzle \d+ °C, bed \d+ °C\n", said)
-    for part in small_robot.parts:
-        assert f"- {part.quantity} × {part.name}\n" in said
-
-
 def test_each_plate_has_the_heat_of_its_own_material():
     """Temperatures that the workshop does not know are the user's to enter."""
     shop = load_workshop("default")
@@ -139,36 +115,6 @@ def test_the_same_plate_gives_the_same_bytes_without_a_date(plate):
         assert {entry.date_time for entry in package.infolist()} == {(1980, 1, 1, 0, 0, 0)}
         assert {entry.external_attr >> 16 for entry in package.infolist()} == {0o644}  # unpacked, all may read them
         assert not re.search(rb"20\d\d-\d\d-\d\d", package.read("3D/3dmodel.model"))
-
-
-def test_prusaslicers_list_has_every_object_with_its_copies_and_triangles(plate, model):
-    """By the objects' own numbers; each is one volume from its first triangle to its last."""
-    with zipfile.ZipFile(io.BytesIO(write_threemf(plate, SETTINGS, PICTURE))) as package:
-        config = ElementTree.fromstring(package.read("Metadata/Slic3r_PE_model.config"))
-    objects = {one.get("id"): one for one in model.iter(f"{CORE}object")}
-    items = [item.get("objectid") for item in model.iter(f"{CORE}item")]
-    listed = {one.get("id"): one for one in config.iter("object")}
-    assert listed.keys() == objects.keys()
-    for number, one in listed.items():
-        assert {node.get("value") for node in one.iter("metadata")} == {objects[number].get("name")}
-        assert int(one.get("instances_count")) == items.count(number)
-        (volume,) = one.iter("volume")
-        triangles = sum(1 for _ in objects[number].iter(f"{CORE}triangle"))
-        assert (int(volume.get("firstid")), int(volume.get("lastid"))) == (0, triangles - 1)
-
-
-@pytest.mark.parametrize("corner", [(-1, -1), (1, -1), (-1, 1), (1, 1)])
-def test_a_thumbnail_is_seen_from_the_printers_front(corner):
-    """A slicer's bed has x to the right and y to the back: what lies on its left is on the left, in front below."""
-    (plate,) = packed([Part("sheet", trimesh.creation.box((40, 40, 0.2)))], (180.0, 180.0, 180.0), 5.0)
-    pose = plate.items[0].T_bed_part.copy()
-    pose[:2, 3] += 90.0 + 60.0 * np.array(corner) - plate.items[0].part.mesh.bounds.mean(axis=0)[:2] - pose[:2, 3]
-    moved = replace(plate, items=(replace(plate.items[0], T_bed_part=pose),))
-    drawn = Image.open(io.BytesIO(thumbnail(moved, (180.0, 180.0, 180.0)))).convert("RGB")
-    picture = np.asarray(drawn, dtype=int)
-    rows, columns = np.nonzero(picture[..., 0] - picture[..., 2] > 60)
-    assert np.sign(columns.mean() - 127.5) == corner[0]
-    assert np.sign(127.5 - rows.mean()) == corner[1]
 
 
 @pytest.mark.parametrize("spacing_mm", [2.0, 11.0])

@@ -135,13 +135,6 @@ def test_the_legs_joint_has_the_friction_of_all_pins() -> None:
     assert friction == pytest.approx({"leg": 0.001 + pins, "front": 0.001, "ankle": 0.001})
 
 
-def test_what_is_seen_hangs_on_the_link_that_it_moves_with() -> None:
-    robot = built("kenan-2.0")
-    root = ET.fromstring(write_urdf(robot, visuals(robot)))
-    seen = {visual.get("name"): link.get("name") for link in root.iter("link") for visual in link.iter("visual")}
-    assert seen == {shape.name: shape.body for shape in visuals(robot)}
-
-
 def test_mujoco_loads_the_files_with_the_mass_of_the_root_and_what_is_seen(small_robot: Robot) -> None:
     """Meshes lie in a folder beside the URDF, which would drop them, and the body, unless it is told not to."""
     mujoco = needs.package("mujoco")

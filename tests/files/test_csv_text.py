@@ -3,12 +3,12 @@
 import csv
 import io
 
-import pytest
+from support.each import each
 
 from jumpcad.files.csv_text import BOM, to_csv
 
 
-@pytest.mark.parametrize("text", ["=1+1", "+x", "-x", "@SUM(A1)", "\tx", "\n=1", "＝1+1", "-1+cmd|' /C calc'!A0"])
+@each("text", ["=1+1", "+x", "-x", "@SUM(A1)", "\tx", "\n=1", "＝1+1", "-1+cmd|' /C calc'!A0"])
 def test_text_that_a_spreadsheet_would_compute_gets_an_apostrophe(text: str) -> None:
     cells = next(csv.reader(io.StringIO(to_csv([[text, "a=b"]]).removeprefix(BOM), newline="")))
     assert cells == [f"'{text}", "a=b"]

@@ -18,7 +18,6 @@ from jumpcad.files.outputs import (
     require_path,
     require_target,
     require_writable,
-    same_file,
     sealed,
     sealed_png,
     write_atomically,
@@ -135,20 +134,6 @@ def test_a_target_has_a_fitting_name_and_a_folder(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine")
     with pytest.raises(JumpcadError, match="cannot be written: there is no folder"):
         require_target(tmp_path / "file" / "t.csv", (".csv",))
-
-
-def test_one_file_under_many_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("a").write_text("")
-    Path("other").write_text("")
-    os.link("a", "hard")
-    os.symlink("a", "soft")
-    os.symlink("future", "early")
-    for name in ("./a", str(tmp_path / "a"), "hard", "soft"):
-        assert same_file(Path("a"), Path(name))
-    assert same_file(Path("early"), Path("future"))
-    assert not same_file(Path("a"), Path("other"))
-    assert not same_file(Path("a"), Path("future"))
 
 
 def test_a_folder_that_cannot_be_made_is_one_line(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from support.each import each
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import (
@@ -71,7 +72,7 @@ def test_a_file_that_grows_is_not_read_in_half(tmp_path: Path, monkeypatch: pyte
     assert read_json(file) == 123456789
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "reason"),
     [
         ('{"a": NaN}', "NaN is no number"),

@@ -36,24 +36,6 @@ def test_a_record_that_was_changed_behind_its_back_is_found_out() -> None:
         wrong.revalidated()
 
 
-@pytest.mark.filterwarnings("error")
-def test_a_value_of_another_kind_is_told_once_without_a_warning_beside_it() -> None:
-    wrong = Printer(name="x", bed=Bed(width_mm=1.0)).model_copy(update={"nozzle_mm": "wide"})
-    with pytest.raises(JumpcadError, match=r"^nozzle_mm = 'wide': must be a valid number"):
-        wrong.revalidated()
-
-
-def test_a_record_that_is_made_or_changed_the_wrong_way_says_the_right_one() -> None:
-    """What it says to do, done, gives the copy that differs."""
-    with pytest.raises(JumpcadError, match=r"^Printer takes its values by name, Printer\(name=…\), not 'MK4' \(str\)$"):
-        Printer("MK4", 0.4)
-    old = Printer(name="MK4", bed=Bed(width_mm=250.0))
-    with pytest.raises(JumpcadError, match=r"Printer\.nozzle_mm cannot be changed") as caught:
-        old.nozzle_mm = 0.6
-    (way,) = re.findall(r"copy = (old\.\w+\(.*\))$", str(caught.value))
-    assert eval(way.replace("…", "0.6"), {"old": old}) == Printer(name="MK4", nozzle_mm=0.6, bed=Bed(width_mm=250.0))
-
-
 class Span(Record):
     """Two ends, in order."""
 

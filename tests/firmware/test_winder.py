@@ -11,6 +11,7 @@ import random
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from support.each import each
 
 from jumpcad.files import templates_folder
 
@@ -107,8 +108,8 @@ def jumped() -> World:
     return world
 
 
-@pytest.mark.parametrize("seed", range(20))
-@pytest.mark.parametrize(("speed", "jitter", "bounce"), [(180.0, 0, 0), (120.0, 8, 5), (280.0, 3, 4)])
+@each("seed", range(20))
+@each(("speed", "jitter", "bounce"), [(180.0, 0, 0), (120.0, 8, 5), (280.0, 3, 4)])
 def test_it_winds_to_the_sensor_waits_releases_and_stops(speed: float, jitter: int, bounce: int, seed: int) -> None:
     world = World(speed, jitter, bounce, seed)
     world.wait(0.2)
@@ -158,8 +159,8 @@ def test_a_gear_that_sticks_at_release_stops_the_motor_in_time() -> None:
     assert (world.power, world.winder.jumps) == (0.0, 0)
 
 
-@pytest.mark.parametrize("at_deg", [10.0, 60.0, 150.0, 250.0, 340.0])
-@pytest.mark.parametrize("after_a_jump", [False, True])
+@each("at_deg", [10.0, 60.0, 150.0, 250.0, 340.0])
+@each("after_a_jump", [False, True])
 def test_a_lead_that_breaks_while_winding_stops_the_motor_before_the_drop(at_deg: float, after_a_jump: bool) -> None:
     """Right after a release the sensor is not believed before 900 ms, in which the cam turns by 130°."""
     world = World()

@@ -8,26 +8,21 @@ import numpy as np
 import pytest
 from support.built import built, geared
 
-from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
+from jumpcad.dimensions import CLEAR_MM
 from jumpcad.drive import TorsionSpring
-from jumpcad.drive.socket import socket_half_mm
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout import drive_places
 from jumpcad.layout.drive_places import (
     NoPinRoomError,
     arm_line,
-    idler_obstacles,
     require_gear_room,
-    require_shaft,
-    spring_boss_mm,
     spring_obstacles,
     spring_pin_place,
     train_obstacles,
     train_places,
 )
-from jumpcad.layout.obstacles import cam_obstacles
-from jumpcad.layout.room import EVERYWHERE, Obstacle, disc
+from jumpcad.layout.room import EVERYWHERE, disc
 
 HUB, INSIDE = np.array([-40.0, 0.0]), (-20.0, 20.0)
 
@@ -46,31 +41,6 @@ def test_the_spring_pin_is_where_the_springs_want_it() -> None:
     place = spring_pin_place([], HUB, spring_with(14.0, 55.0), INSIDE)
     assert bearing_deg(place, HUB) == pytest.approx(55.0, abs=1e-4)
     assert math.dist(place, HUB) == pytest.approx(14.0, abs=1e-5)
-
-
-def test_where_something_stands_other_directions_are_named_the_nearest_first() -> None:
-    """Every 5° from 20° to 130°, to either side of 40°; a post takes what is nearer than its and the pin's radius."""
-    for radius, free in ((1.0, [25, 55, 20, *range(60, 131, 5)]), (6.0, [*range(75, 131, 5)])):
-        place = HUB + 14.0 * np.array([math.cos(math.radians(40)), math.sin(math.radians(40))])
-        cam = disc("cam", place, radius, EVERYWHERE)
-        with pytest.raises(NoPinRoomError, match=r"no room for the spring pin: .* beside the cam: lower st") as refused:
-            spring_pin_place([cam], HUB, spring_with(14.0), INSIDE)
-        assert np.degrees(refused.value.free_rad) == pytest.approx(free)
-        off = 28.0 * np.sin(np.radians(np.abs(np.arange(20, 131, 5) - 40)) / 2.0)
-        assert len(free) == (off >= radius + 1.5).sum()
-
-
-def test_a_gap_of_a_few_degrees_is_enough_for_the_spring_pin() -> None:
-    """Obstacles in all directions except 62.5°; places 5° apart would miss it."""
-    angles = np.radians([*range(0, 57, 2), *range(69, 150, 2)])
-    things = [disc("leg", HUB + 30.0 * np.array([math.cos(a), math.sin(a)]), 1.0, EVERYWHERE) for a in angles]
-    with pytest.raises(NoPinRoomError) as refused:
-        spring_pin_place(things, HUB, spring_with(30.0), INSIDE)
-    assert all(60.0 < math.degrees(angle) < 65.0 for angle in refused.value.free_rad)
-    assert refused.value.free_rad
-    with pytest.raises(NoPinRoomError, match=r"no room for the spring pin: .* beside the ring: lower stiff") as refused:
-        spring_pin_place([disc("ring", HUB, 40.0, EVERYWHERE)], HUB, spring_with(30.0), INSIDE)
-    assert refused.value.free_rad == ()
 
 
 def test_the_springs_arm_is_a_tangent_that_ends_a_little_beyond_its_pin() -> None:
@@ -176,85 +146,6 @@ def test_an_idler_stands_where_its_wheel_and_its_axle_are_free() -> None:
     assert len(drive_places._idler_places([gear], drive, lateral, axis)) in (0, 72)
 
 
-def test_room_is_kept_around_all_that_turns() -> None:
-    """Wheels by their tips, axles by their spacers, and the usual clearance; each where it lies across the robot."""
-    layout = geared().layout
-    drive, lateral, place = layout.drive, layout.lateral, np.array([7.0, 9.0])
-    first, last = drive.train.stages
-    kept = {one.name: one for one in (*idler_obstacles(place, drive, lateral), *cam_obstacles(place, drive, lateral))}
-    kept |= {one.name: one for one in train_obstacles(place, 0.3, None, drive, lateral, 6.4)}
-    half = np.array(socket_half_mm(drive.train.motor)) + np.array([0.0, 6.4 - 5.6])  # ears of 6.4 mm
-    along, across = np.array([math.cos(0.3), math.sin(0.3)]), np.array([-math.sin(0.3), math.cos(0.3)])
-    from_middle, point = kept["motor"].points_mm - place, kept["motor"].radius_mm
-    reach = np.abs([from_middle @ along, from_middle @ across]).max(axis=1) + point
-    assert reach == pytest.approx(half)
-    assert half[0] != half[1]
-    assert kept["motor"].y_mm == lateral.inside
-    between = (lateral.cam[1], lateral.gears[0][0])
-    sizes = {
-        "idler wheel": (first.wheel.tip_radius_mm, lateral.gears[1]),
-        "idler pinion": (last.pinion.tip_radius_mm, lateral.gears[0]),
-        "idler axle": (SPACER_RADIUS_MM, lateral.inside),
-        "cam": (drive.cam.outer_radius_mm, lateral.cam),
-        "cam's dog": (drive.dog.outer_mm / 2.0, between),
-        "cam gear": (last.wheel.tip_radius_mm, lateral.gears[0]),
-        "cam axle": (SPACER_RADIUS_MM, lateral.inside),
-        "pinion": (first.pinion.tip_radius_mm, lateral.gears[-1]),
-    }
-    for name, (radius, y) in sizes.items():
-        assert kept[name].points_mm.tolist() == [[7.0, 9.0]]
-        assert kept[name].radius_mm == pytest.approx(radius + CLEAR_MM), name
-        assert kept[name].y_mm == y, name
-
-
-def test_what_is_inside_the_coils_fits_a_narrow_spring_and_is_a_spacer_in_a_wide_one() -> None:
-    layout = built("kenan-2.0").layout
-    for mandrel, room in ((4.0, 4.0), (20.0, 2.0 * SPACER_RADIUS_MM)):
-        spring = replace(layout.drive.spring, mandrel_mm=mandrel)
-        assert replace(layout, drive=replace(layout.drive, spring=spring)).spring_bore_room_mm == room
-
-
-def test_the_pins_boss_is_4_mm_high_or_as_high_as_what_is_beside_it_lets_it() -> None:
-    """0.5 mm short of the spring, and up to what lies over it; less than 1.2 mm is none. The motor may touch it."""
-    layout, pin = built("kenan-2.0").layout, np.array([10.0, 20.0])
-    low = layout.lateral.inside[0]
-
-    def high(*obstacles: Obstacle, spring_mm: float = 9.0) -> float:
-        lateral = replace(layout.lateral, spring_right=(low + spring_mm, low + spring_mm + 5.0))
-        return spring_boss_mm(list(obstacles), pin, 3.0, lateral)
-
-    def beside(name: str, gap_mm: float, above_mm: float, direction: tuple[float, float] = (0.0, 1.0)) -> Obstacle:
-        place = pin + (1.5 + 2.0 + 1.0 + gap_mm) * np.array(direction)
-        return disc(name, place, 1.0, (low + above_mm, low + 20.0))
-
-    assert high() == 4.0
-    assert high(spring_mm=3.0) == pytest.approx(2.5)
-    assert (high(spring_mm=1.71), high(spring_mm=1.69)) == (pytest.approx(1.21), 0.0)
-    assert high(beside("post", -0.01, 2.0)) == pytest.approx(2.0)
-    assert high(beside("post", 0.01, 2.0)) == 4.0
-    assert high(beside("post", -0.01, 2.0, (1.0, 0.0))) == pytest.approx(2.0)
-    assert high(beside("post", 0.01, 2.0, (1.0, 0.0))) == 4.0
-    assert high(beside("post", -0.01, 2.0), beside("gear", -0.01, 3.0)) == pytest.approx(2.0)
-    assert high(beside("post", -0.01, 5.0)) == 4.0
-    assert high(beside("post", -0.01, 1.0)) == 0.0
-    for name in ("motor", "spring arm", "spring pin"):
-        assert high(beside(name, -1.0, 2.0)) == 4.0
-
-
-@pytest.mark.parametrize("pairs", [1, 2])
-def test_a_shaft_reaches_into_its_pinion_by_its_diameter(pairs: int) -> None:
-    """From the motor's front through the cap and the gap behind it: 3 mm more, and 0.01 mm less is refused."""
-    layout = (built("kenan-2.0") if pairs == 1 else geared()).layout
-    motor, lateral = layout.drive.train.motor, layout.lateral
-    needed = lateral.gears[-1][0] - lateral.motor[1] + 3.0
-    require_shaft(motor.model_copy(update={"shaft_length_mm": needed}), lateral)
-    with pytest.raises(
-        CannotBuildError, match=rf"it needs {needed:.1f} mm to pass its cap and reach 3 mm in"
-    ) as refused:
-        require_shaft(motor.model_copy(update={"shaft_length_mm": needed - 0.01}), lateral)
-    assert refused.value.margin == pytest.approx(-0.01)
-
-
 def test_what_leaves_pinion_or_motor_no_room_is_told_with_their_sizes() -> None:
     """In the gears' plane it is the pinion's tips that meet a wall, beside them the N20, 10 x 12 mm."""
     layout, smaller = built("kenan-2.0").layout, r"raise d_coef .*a smaller motor than n20-[\w-]+ \(10 x 12 mm\)$"
@@ -279,44 +170,6 @@ def test_the_motors_pinion_keeps_clear_of_what_stands_in_its_own_plane() -> None
     first = drive.train.stages[0]
     assert math.dist(motor, usual) >= first.pinion.tip_radius_mm + 2.0 - 1e-5
     assert math.dist(idler, usual) >= first.wheel.tip_radius_mm + 2.0 - 1e-5
-
-
-def test_the_motors_pinion_is_kept_clear_by_its_tips_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A post in the gears' plane beside a place on the ring takes it from 0.01 mm within the tips' circle on."""
-    layout, kept = built("kenan-2.0").layout, list[np.ndarray]()
-    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
-    monkeypatch.setattr(drive_places, "best_place", lambda _what, _obstacles, places, *_: kept.append(places) or 0)
-    (stage,) = drive.train.stages
-    turns = 2.0 * math.pi * np.arange(72) / 72.0
-    ring = axis + stage.centre_distance_mm * np.column_stack([np.cos(turns), np.sin(turns)])
-    for number, way in itertools.product((0, 18, 36, 54), ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))):
-        for room in (0.01, -0.01):
-            away = stage.pinion.tip_radius_mm + 1.0 + room
-            post = disc("post", ring[number] + away * np.array(way), 1.0, lateral.gears[-1])
-            train_places([post], drive, lateral, axis)
-            assert bool((np.hypot(*(kept[-1] - ring[number]).T) < 1e-5).any()) == (room > 0.0)
-
-
-@pytest.mark.parametrize("stages", [1, 2])
-def test_the_motor_stands_clear_over_its_whole_length(stages: int) -> None:
-    """From the right plate to the gap before the gears: a post at either end of it is in its way, on its own ring.
-
-    One beyond its ends, as thin as the gap of 0.5 mm, is not.
-    """
-    layout = (built("kenan-2.0") if stages == 1 else geared()).layout
-    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
-    _, usual, _ = train_places([], drive, lateral, axis)
-    right, left = lateral.inside[0], lateral.gears[-1][0] - 0.5
-    half = min(socket_half_mm(drive.train.motor))
-    beside = ((right - 1.0, right), (left, left + 0.5))
-    for interval, clear in (
-        ((right, right + 0.1), True),
-        ((left - 0.1, left), True),
-        *((one, False) for one in beside),
-    ):
-        post = disc("post", usual, 1.0, interval)
-        _, motor, _ = train_places([post], drive, lateral, axis)
-        assert (math.dist(motor, usual) >= half + 1.0 - 1e-5) == clear, interval
 
 
 @pytest.mark.parametrize(("gap_mm", "free"), [(0.02, True), (-0.02, False)])

@@ -70,29 +70,9 @@ def test_springs_and_lugs_are_the_same_on_both_sides(lateral: Lateral) -> None:
     assert lateral.leg[0] == -lateral.leg[1]
 
 
-@pytest.mark.parametrize("lateral", CASES)
-def test_the_motor_lies_between_the_plates_with_its_cap_beside_its_pinion(lateral: Lateral) -> None:
-    low, high = lateral.inside
-    assert low < lateral.motor[0] < lateral.motor[1] == lateral.motor_cap[0] < lateral.motor_cap[1] < high
-    assert apart(lateral.motor_cap, lateral.gears[-1]) == pytest.approx(GAP_MM)
-    assert lateral.motor[1] - lateral.motor[0] in (pytest.approx(24.0), pytest.approx(9.0))
-    assert lateral.outside == (lateral.right_plate[0], lateral.left_plate[1])
-
-
 def test_the_widest_of_motor_spring_and_tray_places_the_right_plate() -> None:
     by_motor, by_tray, by_spring = stack(), stack(tray=60.0), stack(spring=13.0, motor=9.0)
     assert by_motor.motor[0] - by_motor.inside[0] == pytest.approx(0.5)  # the terminals' room
     assert by_tray.inside[1] - by_tray.inside[0] == pytest.approx(60.0)
     assert by_tray.left_plate == by_motor.left_plate
     assert apart(by_spring.right_plate, by_spring.spring_right) == pytest.approx(GAP_MM)
-
-
-def test_the_right_plate_stays_clear_of_the_rollers_screw() -> None:
-    """Head on the roller at 8.5 mm: 20 mm of screw end at -11.5 mm; the leg moves by 0.3 mm to either side.
-
-    Two gears move a short motor to the left, and the plate would otherwise follow it into the screw's way.
-    """
-    by_screw = stack(gears=(5.0, 5.0), motor=20.0, screw=20.0)
-    assert by_screw.roller_screw == (pytest.approx(-11.5), pytest.approx(8.5))
-    assert by_screw.right_plate[1] == pytest.approx(-11.5 - 0.3 - GAP_MM)
-    assert by_screw.motor[0] - by_screw.right_plate[1] > 0.5  # nearer for the motor alone

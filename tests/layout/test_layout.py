@@ -3,7 +3,7 @@
 import itertools
 import math
 from contextlib import suppress
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -19,13 +19,12 @@ from jumpcad.dimensions import CLEAR_MM, GAP_MM, TRAY_MM
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
-from jumpcad.layout import drive_places
 from jumpcad.layout import layout as layout_module
 from jumpcad.layout.drive_places import require_gear_room
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout, moving_obstacles
 from jumpcad.layout.obstacles import LEVER_HEAD_MM
-from jumpcad.layout.room import EVERYWHERE, Obstacle, disc
+from jumpcad.layout.room import EVERYWHERE, disc
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
@@ -176,35 +175,6 @@ def test_the_cam_turns_freely_between_everything_in_its_plane() -> None:
         assert cam.distance(motor(layout)) >= CLEAR_MM, plan_name
 
 
-def test_leg_lugs_and_gears_are_as_thick_across_the_robot_as_their_parts() -> None:
-    for name, plan in plans().items():
-        across, sections = plan.lateral, plan.sections
-        assert np.ptp(across.leg) == pytest.approx(sections.thickness_mm), name
-        for lug in (across.lug_left, across.lug_right):
-            assert np.ptp(lug) == pytest.approx(sections.lug_thickness_mm), name
-        widths = [stage.face_width_mm for stage in reversed(plan.drive.train.stages)]
-        assert [float(np.ptp(gear)) for gear in across.gears] == pytest.approx(widths), name
-        for coil in (across.spring_left, across.spring_right):
-            assert np.ptp(coil) == pytest.approx(plan.drive.spring.body_length_mm), name
-
-
-def test_the_same_plan_twice() -> None:
-    for layout in plans().values():
-        again = plan_again(layout)
-        assert vars(layout.stop).keys() == vars(again.stop).keys()
-        assert all(np.array_equal(value, vars(again.stop)[name]) for name, value in vars(layout.stop).items())
-        for field in fields(Layout)[:-1]:  # all but the stop
-            one, other = getattr(layout, field.name), getattr(again, field.name)
-            assert _same(one, other), field.name
-
-
-def _same(one: Any, other: Any) -> bool:
-    """Tell whether two values are equal, arrays element by element, records field by field."""
-    if is_dataclass(one):
-        return all(_same(getattr(one, field.name), getattr(other, field.name)) for field in fields(one))
-    return np.array_equal(one, other)
-
-
 def larger(layout: Layout, what: str) -> dict[str, Any]:
     """Return inputs of a layout of which one thing is too large for it."""
     train, carried = layout.drive.train, layout.electronics
@@ -294,14 +264,6 @@ def test_the_ankles_faces_are_those_of_what_stands_farther_out_lug_or_toe() -> N
         assert replace(layout, sections=sections).ankle_face_mm == pytest.approx(3.0 + 0.5 + max(lug, toe))
 
 
-def test_what_is_around_the_legs_axle_passes_through_the_springs_coils() -> None:
-    """Spacers of 6.4 mm, or thinner ones where the spring is wound on a thinner mandrel."""
-    layout = plans()["kenan-2.0"]
-    for mandrel, room in ((9.0, 6.4), (5.0, 5.0)):
-        spring = replace(layout.drive.spring, mandrel_mm=mandrel)
-        assert replace(layout, drive=replace(layout.drive, spring=spring)).spring_bore_room_mm == pytest.approx(room)
-
-
 def test_what_moves_occupies_its_share_across_the_robot() -> None:
     """The lever from its screw's end, 16 or 20 mm behind the roller's face, to the screw's head beside the roller."""
     for name, screw_mm in (("kenan-2.0", 16.0), ("geared", 20.0)):
@@ -324,173 +286,3 @@ def test_what_moves_occupies_its_share_across_the_robot() -> None:
             assert found[one].points_mm.tolist() == [layout.idler_mm.tolist()]
         assert found["pinion"].radius_mm == layout.drive.train.stages[0].pinion.tip_radius_mm
         assert found["front link"].radius_mm == layout.sections.eye_radius_mm  # without a clearance
-
-
-def test_openings_keep_off_what_stands_in_the_body_and_off_the_standoffs_pads(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A standoff needs 9 mm of plate, from plate to plate; the boss of the springs' pin keeps off the same things."""
-    layout, found, given = plans()["geared"], {}, {}
-    for name in ("fittings_of", "spring_boss_mm"):
-        make = getattr(layout_module, name)
-
-        def kept(obstacles: list[Obstacle], *others: Any, name: str = name, make: Any = make) -> Any:
-            found[name] = list(obstacles)
-            given[name] = others
-            return make(obstacles, *others)
-
-        monkeypatch.setattr(layout_module, name, kept)
-    plan_again(layout)
-    *_, seats, seat_mm = given["fittings_of"]
-    assert seat_mm == pytest.approx(1.5 + 3.0)  # an axle's bore, and the plate's wall around it
-    held = [*layout.axles.values(), layout.spring_pin_mm, layout.stop.tab_mm]
-    assert sorted(place.tolist() for place in seats) == sorted(place.tolist() for place in held)
-    for obstacles in found.values():
-        pads = [one for one in obstacles if one.name == "standoff"]
-        assert [one.points_mm.tolist() for one in pads] == [[place.tolist()] for place in layout.standoffs_mm]
-        assert {(one.radius_mm, one.y_mm) for one in pads} == {(4.5, layout.lateral.inside)}
-        assert {"main leg", "lever", "cam", "cam gear", "front axle", "motor", "sensor"} < {
-            one.name for one in obstacles
-        }
-
-
-def test_each_thing_keeps_off_all_that_has_its_place_before_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Links, springs and cam first, whose places the mechanism gives; then one thing after the other.
-
-    The stop lies behind the leg; the springs' pin is where their arms end.
-    """
-    layout = plans()["geared"]
-    given: dict[str, set[str]] = {}
-    legs: list[Obstacle] = []
-    intervals: dict[str, list[Any]] = {}
-    names = ("stop_place", "spring_pin_place", "train_places", "sensor_place", "tray_place", "standoff_places",
-             "spring_boss_mm", "fittings_of")  # fmt: skip
-    for name in (*names, "pin_hole", "require_gear_room"):
-        make, place = getattr(layout_module, name), int(name == "pin_hole")
-
-        def kept(*asked: Any, name: str = name, make: Any = make, place: int = place) -> Any:
-            given[name] = {one.name for one in asked[place]}
-            intervals[name] = [one for one in asked if isinstance(one, tuple) and len(one) == 2]
-            legs.extend(one for one in asked[place] if one.name == "main leg")
-            return make(*asked)
-
-        monkeypatch.setattr(layout_module, name, kept)
-    plan_again(layout)
-    # the leg is kept free from its loaded pose to 3° beyond its stop
-    ends = np.array([[layout.design.l2_mm, 0.0]])
-    for wind in (layout.design.compression_rad, -layout.stop.angle_rad - math.radians(3.0)):
-        ankle = in_body(geared(), MAIN_LEG, wind, ends)
-        for leg in legs:
-            assert np.hypot(*(leg.points_mm - ankle).T).min() < 0.01
-    links, springs = {"main leg", "lever", "front link", "foot"}, {"left spring", "right spring", "leg axle"}
-    cam = {"cam", "cam's dog", "cam gear", "cam axle"}
-    first = links | springs | cam | {"front axle"}
-    assert given["stop_place"] == given["pin_hole"] == first - {"main leg"}
-    assert given["spring_pin_place"] == first - springs
-    assert given["require_gear_room"] == springs | {"front axle"}
-    # the stop's tabs are in both plates, and beside the left one are the gears; the others are between the plates
-    assert intervals["stop_place"] == [layout.lateral.inside, layout.lateral.left_plate]
-    assert all(intervals[name] == [layout.lateral.inside] for name in ("spring_pin_place", "tray_place"))
-    assert intervals["require_gear_room"] == [layout.lateral.gears[0]]
-    things = first | {"rest stop", "spring arm", "spring pin", "way of the leg's pin"}
-    train = {"motor", "pinion", "idler wheel", "idler pinion", "idler axle"}
-    for name, more in zip(names[2:], (set(), train, {"sensor"}, {"electronics"}, {"standoff"}, set()), strict=True):
-        things |= more
-        assert given[name] == things, name
-
-
-def test_beside_the_leg_half_a_millimetre_is_kept_and_elsewhere_the_usual_clearance(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Rest stop and pin's hole are close to what moves; the pin's way crosses from the leg's side through the plate."""
-    seen: dict[str, dict[str, Obstacle]] = {}
-    for name, place in (("stop_place", 0), ("pin_hole", 1), ("train_places", 0)):
-        make = getattr(layout_module, name)
-
-        def kept(*asked: Any, name: str = name, make: Any = make, place: int = place) -> Any:
-            seen[name] = {one.name: one for one in asked[place]}
-            return make(*asked)
-
-        monkeypatch.setattr(layout_module, name, kept)
-    gaps, angle = list[float](), layout_module.stop_angle_rad
-    monkeypatch.setattr(layout_module, "stop_angle_rad", lambda *asked: gaps.append(asked[3]) or angle(*asked))
-    layout = plan_again(plans()["kenan-2.0"], workshop=changed(safety={"room_reserve_mm": 0.25}))
-    assert gaps[-1] == 0.75  # of leg and front link, with the reserve
-    sections, lateral, coil = layout.sections, layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
-    bare = {"left spring": coil, "right spring": coil, "front link": sections.eye_radius_mm}
-    bare |= {"lever": sections.lever_root_mm / 2.0}
-    for name, gap in (("stop_place", 0.5), ("pin_hole", 0.5), ("train_places", 0.8)):
-        found = {one: seen[name][one].radius_mm for one in bare}
-        assert found == pytest.approx({one: radius + gap for one, radius in bare.items()}), name
-    way = seen["train_places"]["way of the leg's pin"]
-    assert way.y_mm == (lateral.leg[1], lateral.left_plate[1])
-    assert way.radius_mm == layout.pin_hole.pad_mm / 2.0
-
-
-def test_what_is_placed_knows_axles_pivots_and_motor_by_their_places(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The sensor keeps off the seats of axles and springs' pin and off the motor's shaft; trays reach from the leg's
-    axle on, standoffs from behind the cam's to ahead of the front one; the plates are as far apart as boards are wide.
-    """
-    seen: dict[str, tuple[Any, ...]] = {}
-    for name in ("sensor_place", "tray_place", "standoff_places", "pin_hole", "lateral_stack"):
-        make = getattr(layout_module, name)
-
-        def kept(*asked: Any, name: str = name, make: Any = make) -> Any:
-            seen[name] = asked
-            return make(*asked)
-
-        monkeypatch.setattr(layout_module, name, kept)
-    layout = plan_again(plans()["geared"], leg_pin_hole_mm=5.3)
-    _, drive, _, axis, seats, motor, axle_mm, _ = seen["sensor_place"]
-    assert drive is layout.drive
-    assert {name: place.tolist() for name, place in seats.items()} == {
-        name: place.tolist() for name, place in (layout.axles | {"spring": layout.spring_pin_mm}).items()
-    }
-    assert (axis.tolist(), motor.tolist(), axle_mm) == (layout.cam_axis_mm.tolist(), layout.motor_mm.tolist(), 3.0)
-    assert seen["tray_place"][2] == pytest.approx(layout.design.l1_mm)
-    _, axis, front, *_ = seen["standoff_places"]
-    assert (axis.tolist(), front.tolist()) == (layout.cam_axis_mm.tolist(), layout.front_mm.tolist())
-    assert seen["pin_hole"][-3:] == (layout.leg_pin_mm, 5.3, 3.0)
-    assert layout.pin_hole.diameter_mm == 5.3
-    assert seen["lateral_stack"][-2] == layout.electronics.width_mm
-
-
-def test_what_is_kept_free_of_the_leg_reaches_as_far_as_its_stops_pad_gives() -> None:
-    """From loaded springs to 3° beyond the stop's angle; on the stop springs that are wound at rest are less so."""
-    layout = plans()["best-bo"]
-    leg = next(one for one in moving_obstacles(layout) if one.name == "main leg")
-    for wind in (layout.design.compression_rad, -layout.stop.angle_rad - math.radians(3.0)):
-        ankle = in_body(built("best-bo"), MAIN_LEG, wind, np.array([[layout.design.l2_mm, 0.0]]))
-        assert np.hypot(*(leg.points_mm - ankle).T).min() < 0.01
-    spring = replace(layout.drive.spring, preload_rad=0.5)
-    wound = replace(layout, drive=replace(layout.drive, spring=spring))
-    assert wound.stop_preload_rad == pytest.approx(0.5 - layout.stop.angle_rad)
-
-
-def test_the_motors_room_has_the_ears_of_its_cap(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Ears of 7.5 mm beyond walls of 1.6 mm with 0.3 mm of play: while its place is found, and for what comes after."""
-    tried, taken = list[float](), list[Obstacle]()
-    find, trays = drive_places.best_place, layout_module.tray_place
-
-    def noted(what: str, obstacles: list[Obstacle], places: np.ndarray, half: tuple[float, float], *others: Any) -> int:
-        tried.extend([half[1]] if what == "motor" else [])
-        return find(what, obstacles, places, half, *others)
-
-    monkeypatch.setattr(drive_places, "best_place", noted)
-    monkeypatch.setattr(
-        layout_module, "tray_place", lambda things, *others: taken.extend(things) or trays(things, *others)
-    )
-    layout = plan_again(plans()["kenan-2.0"], workshop=changed(fits={"wall_min_mm": 1.75}))
-    reach = layout.drive.train.motor.height_mm / 2.0 + 1.6 + 0.3 + 7.5
-    (box,) = (one for one in taken if one.name == "motor")
-    along = np.array([-math.sin(layout.motor_angle_rad), math.cos(layout.motor_angle_rad)])
-    assert tried == pytest.approx([reach] * len(tried))
-    assert np.abs((box.points_mm - layout.motor_mm) @ along).max() + box.radius_mm == pytest.approx(reach)
-
-
-@pytest.mark.parametrize("axle_mm", [2.0, 3.0])
-def test_walls_around_pins_and_axles_are_those_of_the_plates(axle_mm: float) -> None:
-    """2 mm around the springs' pin in its boss, 1.2 mm more of plate around the leg's axle whose bores are blind."""
-    layout = replace(plans()["kenan-2.0"], axle_mm=axle_mm)
-    assert layout.spring_boss_outer_mm == axle_mm + 2.0 * 2.0
-    assert (layout.boss_mm, layout.floor_mm) == (1.2, 0.8)
-    clipped = replace(layout, retention="clips")
-    assert (clipped.boss_mm, clipped.floor_mm) == (0.0, 0.0)

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.built import body_in_plane, built, placed
+from support.built import body_in_plane, built
 
-from jumpcad.layout.obstacles import LEVER_HEAD_MM, axle_obstacle, cam_obstacles, hub_obstacles, swept_obstacles
+from jumpcad.layout.obstacles import LEVER_HEAD_MM, cam_obstacles, swept_obstacles
 from jumpcad.layout.room import Obstacle
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.robot import Robot
@@ -38,16 +38,6 @@ def test_the_lever_takes_its_screw_with_the_head_to_the_left(robot: Robot) -> No
     assert left - screw[1] == pytest.approx(LEVER_HEAD_MM)
 
 
-def test_links_sweep_their_room_with_the_gap_that_is_asked_for(robot: Robot) -> None:
-    """0.8 mm where none is: the front link's eyes, the lever's half width at its root."""
-    sections = robot.layout.sections
-    for given, gap in (((), APART_MM), ((0.0,), 0.0), ((2.5,), 2.5)):
-        found = swept(robot, *given)
-        assert found.keys() == {"main leg", "lever", "front link", "foot"}
-        assert found["front link"].radius_mm == pytest.approx(sections.eye_radius_mm + gap)
-        assert found["lever"].radius_mm == pytest.approx(sections.lever_root_mm / 2.0 + gap)
-
-
 @pytest.mark.parametrize("reach_rad", [0.0, 0.2])
 def test_links_sweep_from_the_loaded_springs_to_as_far_past_rest_as_is_asked_for(
     robot: Robot, reach_rad: float
@@ -66,29 +56,6 @@ def test_links_sweep_from_the_loaded_springs_to_as_far_past_rest_as_is_asked_for
     turns = np.arctan2(-ankles[:, 1], ankles[:, 0])
     rest = np.radians(robot.design.rest_angle_deg)
     assert (turns.min(), turns.max()) == pytest.approx((rest - robot.spring.wind_rad, rest + reach_rad))
-
-
-def test_springs_and_axles_keep_the_usual_clearance(robot: Robot) -> None:
-    """0.8 mm around coils, or the gap that is asked for, and around spacers of 3.2 mm from plate to plate."""
-    layout = robot.layout
-    lateral, coil = layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
-    for given, gap in (((), APART_MM), ((0.5,), 0.5)):
-        left, right, axle = hub_obstacles(layout.hub_mm, layout.drive, lateral, *given)
-        assert (left.radius_mm, right.radius_mm) == pytest.approx((coil + gap, coil + gap))
-        assert (left.y_mm, right.y_mm) == (lateral.spring_left, lateral.spring_right)
-        assert (axle.radius_mm, axle.y_mm) == (pytest.approx(3.2 + APART_MM), lateral.inside)
-        assert [one.name for one in (left, right, axle)] == ["left spring", "right spring", "leg axle"]
-        for one in (left, right, axle):
-            assert one.points_mm.tolist() == [layout.hub_mm.tolist()]
-
-
-def test_the_left_spring_is_to_the_left_of_the_leg_and_the_right_one_to_its_right(robot: Robot) -> None:
-    """y is to the left; neither reaches into the leg, nor into a plate."""
-    lateral = robot.layout.lateral
-    left, right, axle = hub_obstacles(robot.layout.hub_mm, robot.layout.drive, lateral)
-    assert lateral.leg[1] <= left.y_mm[0] < left.y_mm[1] <= lateral.left_plate[0]
-    assert lateral.right_plate[1] <= right.y_mm[0] < right.y_mm[1] <= lateral.leg[0]
-    assert axle.y_mm == (lateral.right_plate[1], lateral.left_plate[0])
 
 
 def test_cam_dog_and_gear_follow_each_other_on_their_axle(robot: Robot) -> None:
@@ -116,19 +83,3 @@ def test_cam_dog_and_gear_follow_each_other_on_their_axle(robot: Robot) -> None:
     )
     for one in found:
         assert one.points_mm.tolist() == [[7.0, 9.0]]
-
-
-def test_the_cams_obstacle_holds_its_outline_and_little_more(robot: Robot) -> None:
-    """The corners of its mesh, where it is in the body, about its axis."""
-    layout = robot.layout
-    cam, *_ = cam_obstacles(layout.cam_axis_mm, layout.drive, layout.lateral)
-    drawn = np.linalg.norm(placed(robot, "cam").vertices[:, ::2] - layout.cam_axis_mm, axis=1)
-    assert drawn.max() == pytest.approx(float(cam.radius_mm) - APART_MM, abs=0.1)
-
-
-def test_an_axle_stands_from_plate_to_plate_where_it_is_put(robot: Robot) -> None:
-    """As its longest spacer, or the bushings that keep the same clearance, 3.2 mm from its middle."""
-    lateral = robot.layout.lateral
-    axle = axle_obstacle("front axle", np.array([3.0, -4.0]), lateral)
-    assert (axle.name, axle.points_mm.tolist(), axle.y_mm) == ("front axle", [[3.0, -4.0]], lateral.inside)
-    assert axle.radius_mm == pytest.approx(4.0)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.built import built, in_body
 from support.decimals import decimals
+from support.each import each
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.pin_hole import PinHole, pin_hole
@@ -39,8 +40,8 @@ def test_the_pin_is_free_from_rest_to_the_stop(robot: Robot) -> None:
     assert (kept.radius_mm, kept.y_mm) == (found.pad_mm / 2.0, (1.0, 2.0))
 
 
-@pytest.mark.parametrize("end", ["rest_mm", "stop_mm"])
-@pytest.mark.parametrize(("plate", "reach_mm"), [(True, HOLE_MM / 2.0 + 2.0), (False, HOLE_MM / 2.0)])
+@each("end", ["rest_mm", "stop_mm"])
+@each(("plate", "reach_mm"), [(True, HOLE_MM / 2.0 + 2.0), (False, HOLE_MM / 2.0)])
 def test_what_stands_in_its_way_or_in_the_material_around_it_is_named(
     robot: Robot, end: str, plate: bool, reach_mm: float
 ) -> None:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.layout.room import EVERYWHERE, Cloud, bar, box_obstacle, clearance, disc, shortfall
+from jumpcad.layout.room import EVERYWHERE, box_obstacle, clearance, disc
 
 
 def test_distance_from_a_box_to_a_disc():
@@ -32,27 +32,6 @@ def test_what_is_beside_it_across_the_robot_is_not_in_the_way():
     assert clearance([wheel], np.zeros((1, 2)), (1.0, 1.0), 0.0, (3.9, 6.0)) < 0
 
 
-def test_what_is_farther_away_than_asked_may_be_left_out():
-    near, far = disc("near", (7.0, 0.0), 1.0, EVERYWHERE), disc("far", (70.0, 0.0), 1.0, EVERYWHERE)
-    places = np.array([[0.0, 0.0], [66.0, 0.0]])
-    assert clearance([near], places, (4.0, 2.0), 0.0, (0.0, 1.0), 2.1)[0] == pytest.approx(2.0)
-    assert clearance([far], places, (0.0, 0.0), 0.0, (0.0, 1.0), 3.1)[1] == pytest.approx(3.0)
-    assert clearance([far], places[:1], (0.0, 0.0), 0.0, (0.0, 1.0), 3.0) == [np.inf]
-
-
-def test_far_points_left_out_change_nothing_that_collides():
-    rng = np.random.default_rng(4)
-    cloud = Cloud(rng.uniform(-60.0, 60.0, (400, 2)), rng.uniform(0.5, 4.0, 400))
-    for _ in range(30):
-        centres, half = rng.uniform(-50.0, 50.0, 2) + rng.uniform(-8.0, 8.0, (12, 2)), tuple(rng.uniform(0.0, 9.0, 2))
-        angles = rng.uniform(0.0, math.pi, 12)
-        near, whole = cloud.near(centres, half), cloud.clearance(centres, half, angles)
-        found = near.clearance(centres, half, angles)
-        assert len(near.radii_mm) < len(cloud.radii_mm)
-        np.testing.assert_array_equal(found < 0, whole < 0)
-        np.testing.assert_allclose(found[whole < 0], whole[whole < 0])
-
-
 @pytest.mark.parametrize("half", [(6.0, 2.5), (1.3, 9.7)])
 def test_a_box_of_points_reaches_as_far_as_the_box_and_leaves_only_notches(half: tuple[float, float]) -> None:
     """Discs of 1 mm radius within the turned box, so close that 0.3 mm inside its sides nothing is free."""
@@ -67,23 +46,3 @@ def test_a_box_of_points_reaches_as_far_as_the_box_and_leaves_only_notches(half:
     places = centre + tried[:, :1] * along + tried[:, 1:] * across
     corner = (np.abs(tried) > np.array(half) - 1.0).all(axis=1)
     assert (clearance([box], places[~corner], (0.0, 0.0), 0.0, EVERYWHERE)[:] < 0.15).all()
-
-
-@pytest.mark.parametrize(("spacing", "count"), [(4.0, 8), (2.0, 15), (100.0, 2)])
-def test_points_of_a_bar_are_evenly_apart_from_end_to_end(spacing: float, count: int) -> None:
-    """28 mm in seven steps of 4 mm, in fourteen of 2 mm, or in one; of several bars the longest says how many."""
-    start, end = np.array([[0.0, 0.0], [5.0, 5.0]]), np.array([[0.0, 28.0], [5.0, 12.0]])
-    first, second = np.split(bar(start, end, spacing), 2)
-    np.testing.assert_allclose(first, np.column_stack([np.zeros(count), np.linspace(0.0, 28.0, count)]))
-    np.testing.assert_allclose(second, np.column_stack([np.full(count, 5.0), np.linspace(5.0, 12.0, count)]))
-    assert len(bar((0.0, 0.0), (0.0, 28.0))) == 8
-
-
-def test_thinned_is_one_disc_in_so_many() -> None:
-    cloud = Cloud(np.arange(20.0).reshape(10, 2), np.arange(10.0)).thinned(4)
-    assert cloud.radii_mm.tolist() == [0.0, 4.0, 8.0]
-    assert cloud.points_mm[:, 0].tolist() == [0.0, 8.0, 16.0]
-
-
-def test_a_tenth_more_than_is_missing_is_said_and_never_nothing() -> None:
-    assert [shortfall(room) for room in (-0.01, -0.1, -0.11, -2.0)] == ["0.1 mm", "0.1 mm", "0.2 mm", "2.0 mm"]

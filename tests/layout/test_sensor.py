@@ -9,7 +9,6 @@ from support.built import built, geared
 
 from jumpcad.dimensions import GAP_MM
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.room import Obstacle, disc
 from jumpcad.layout.sensor import SensorPlace, middle_mm, sensor_obstacle, sensor_place, track_mm
 from jumpcad.robot import Robot
 
@@ -44,18 +43,6 @@ def test_the_track_is_as_wide_as_plunger_and_errors_and_lies_between_dog_and_tee
     inner, outer = sensor.radius_mm - sensor.half_width_mm, sensor.radius_mm + sensor.half_width_mm
     assert inner - robot.layout.drive.dog.outer_mm / 2.0 >= wall - 1e-3
     assert robot.layout.drive.train.stages[-1].wheel.root_radius_mm - outer >= wall - 1e-3
-
-
-def test_the_switch_lies_along_its_track(robot: Robot) -> None:
-    """Its plunger on the track's circle, its long side a tangent."""
-    sensor, layout = robot.layout.sensor, robot.layout
-    away = sensor.place_mm - layout.cam_axis_mm
-    assert math.hypot(*away) == pytest.approx(sensor.radius_mm)
-    along = np.array([math.cos(sensor.turn_rad), math.sin(sensor.turn_rad)])
-    assert along @ away == pytest.approx(0.0, abs=1e-6)
-    assert math.remainder(math.atan2(away[1], away[0]) - sensor.direction_rad, 2.0 * math.pi) == pytest.approx(
-        0.0, abs=1e-6
-    )
 
 
 def test_angles_of_ready_and_open_have_their_scatter_and_reserve(robot: Robot) -> None:
@@ -97,19 +84,6 @@ def test_the_room_kept_free_holds_switch_mount_and_terminals(robot: Robot) -> No
         assert reach.min() - found.radius_mm == pytest.approx(-half - 0.8, abs=1e-6)
 
 
-def test_an_axle_just_beside_the_mount_leaves_the_switch_in_its_place_and_a_nearer_one_does_not(robot: Robot) -> None:
-    """A seat reaches 3 mm beyond its bore; measured across the mount, outwards from the cam's axis."""
-    layout, away = robot.layout, robot.layout.sensor.needs
-    given = (layout.drive, layout.lateral, layout.cam_axis_mm)
-    far = np.array([900.0, 900.0])
-    free = sensor_place([], *given, {}, far, layout.axle_mm, away)
-    outwards = (free.place_mm - layout.cam_axis_mm) / free.radius_mm
-    for more, stays in ((0.05, True), (-0.2, False)):
-        seat = free.place_mm + outwards * (free.half_mm[1] + layout.axle_mm / 2.0 + 3.0 + more)
-        found = sensor_place([], *given, {"leg": seat}, far, layout.axle_mm, away)
-        assert (found.place_mm == free.place_mm).all() == stays
-
-
 def placed_with(robot: Robot, **travel: float) -> SensorPlace:
     """Return the place of a switch with other positions of its plunger, with nothing in its way."""
     layout, needs = robot.layout, robot.layout.sensor.needs
@@ -147,74 +121,3 @@ def test_the_track_fits_between_dog_and_teeth_with_its_walls_or_is_refused(robot
     ) as refused:
         placed_with(robot, pin_mm=thickest + 0.5)
     assert (refused.value.limit, refused.value.margin) == ("sensor_track", pytest.approx(-0.5))
-
-
-def test_the_switch_is_12_mm_from_the_cams_axis_where_it_can_and_nearest_to_where_the_plate_is(robot: Robot) -> None:
-    """Of 72 directions the one nearest to the middle between the pivots, 14 mm up."""
-    layout, needs = robot.layout, robot.layout.sensor.needs
-    found = placed_with(robot)
-    half = needs.travel.pin_mm / 2.0 + needs.along_mm + 0.3
-    low = layout.drive.dog.outer_mm / 2.0 + 1.6 + half
-    high = layout.drive.train.stages[-1].wheel.root_radius_mm - 1.6 - half
-    assert found.radius_mm == pytest.approx(min(max(12.0, low), high), abs=1e-3)
-    turns = 2.0 * math.pi * np.arange(72) / 72.0
-    ring = layout.cam_axis_mm + found.radius_mm * np.column_stack([np.cos(turns), np.sin(turns)])
-    nearest = np.hypot(*(ring - [0.0, 14.0]).T).min()
-    assert math.dist(found.place_mm, (0.0, 14.0)) == pytest.approx(nearest, abs=1e-5)
-
-
-def test_where_no_direction_is_free_at_12_mm_the_track_is_as_near_to_that_as_it_can(robot: Robot) -> None:
-    """A fence around the mount, or a post inside, leaves it one of the track's other radii: least, middle or greatest.
-
-    At a radius r the mount's corners are farthest from the cam's axis; where the fence leaves none, the room that it
-    lacks is told of the wanted radius.
-    """
-    layout, needs = robot.layout, robot.layout.sensor.needs
-    free, (long, wide) = placed_with(robot), robot.layout.sensor.half_mm
-    half = needs.travel.pin_mm / 2.0 + needs.along_mm + 0.3
-    low = layout.drive.dog.outer_mm / 2.0 + 1.6 + half
-    high = layout.drive.train.stages[-1].wheel.root_radius_mm - 1.6 - half
-    turns = np.radians(np.arange(0.0, 360.0, 0.25))
-    around = np.column_stack([np.cos(turns), np.sin(turns)])
-
-    def placed(obstacles: list[Obstacle]) -> SensorPlace:
-        far, lateral, axis = np.array([900.0, 900.0]), layout.lateral, layout.cam_axis_mm
-        return sensor_place(obstacles, layout.drive, lateral, axis, {}, far, layout.axle_mm, needs)
-
-    def fenced(reach_mm: float) -> SensorPlace:
-        beside = (layout.lateral.gears[0][1], layout.lateral.left_plate[0])
-        return placed([Obstacle("fence", layout.cam_axis_mm + (reach_mm + 30.0) * around, 30.0, beside)])
-
-    tried = sorted({low, (low + high) / 2.0, high, free.radius_mm}, key=lambda radius: abs(radius - free.radius_mm))
-    for radius in tried:
-        corner = math.hypot(radius + wide, long)
-        smaller = [one for one in tried if math.hypot(one + wide, long) <= corner + 1e-6]
-        assert fenced(corner + 0.02).radius_mm == pytest.approx(smaller[0], abs=1e-3)
-        post = disc("post", layout.cam_axis_mm, radius - wide - 0.02, (layout.lateral.left_plate[0], 900.0))
-        larger = next(one for one in tried if one > radius - 1e-3)
-        assert placed([post]).radius_mm == pytest.approx(larger, abs=1e-3)
-    with pytest.raises(CannotBuildError, match="beside the fence") as refused:
-        fenced(math.hypot(low + wide, long) - 0.5)
-    lacking = math.hypot(free.radius_mm + wide, long) - math.hypot(low + wide, long) + 0.5
-    assert refused.value.margin == pytest.approx(-lacking, abs=0.02)
-
-
-@pytest.mark.parametrize("name", ["motor", "cam axle", "leg axle", "front axle", "idler axle", "idler wheel", "lever"])
-def test_of_axles_and_motor_the_switch_keeps_off_the_seats_and_the_shaft_alone(robot: Robot, name: str) -> None:
-    """The motor's socket ends before the gears, and spacers are inside the plate: what else is there is in the way."""
-    layout, free, far = robot.layout, placed_with(robot), np.array([900.0, 900.0])
-    given = (layout.drive, layout.lateral, layout.cam_axis_mm, {}, far, layout.axle_mm, layout.sensor.needs)
-    found = sensor_place([disc(name, free.place_mm, 1.0, layout.lateral.inside)], *given)
-    assert (found.place_mm == free.place_mm).all() == (name not in ("idler wheel", "lever"))
-
-
-def test_a_motors_shaft_in_the_plate_keeps_the_switch_off(robot: Robot) -> None:
-    """Half of the shaft's diameter and the usual 0.8 mm, across the mount."""
-    layout, needs = robot.layout, robot.layout.sensor.needs
-    given = (layout.drive, layout.lateral, layout.cam_axis_mm, {})
-    free = placed_with(robot)
-    outwards = (free.place_mm - layout.cam_axis_mm) / free.radius_mm
-    for more, stays in ((0.02, True), (-0.02, False)):
-        reach = free.half_mm[1] + layout.drive.train.motor.shaft_mm / 2.0 + 0.8 + more
-        found = sensor_place([], *given, free.place_mm + outwards * reach, layout.axle_mm, needs)
-        assert (found.place_mm == free.place_mm).all() == stays

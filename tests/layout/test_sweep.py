@@ -1,11 +1,10 @@
 """What the links sweep, against the law of cosines and shapely's distances."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import shapely
 from support.built import LONG_TOES, body_in_plane, built, in_body
+from support.each import each
 
 from jumpcad.layout.room import EVERYWHERE, Obstacle
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
@@ -41,8 +40,8 @@ def windings(robot: Robot) -> np.ndarray:
     return np.linspace(-PAST_RAD, robot.spring.wind_rad, POSITIONS)
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("link", ["main leg", "front link", "foot"])
+@each("name", NAMES)
+@each("link", ["main leg", "front link", "foot"])
 def test_a_link_stays_inside_its_sweep_all_the_way(name: str, link: str) -> None:
     robot = built(name)
     design, sections = robot.design, robot.layout.sections
@@ -84,39 +83,6 @@ def test_the_gap_is_added_all_around_and_intervals_are_kept() -> None:
     assert bare["foot"].y_mm == EVERYWHERE
 
 
-def test_a_sweep_is_no_wider_than_the_widest_place_of_what_sweeps_it() -> None:
-    """Round the hub the leg's root, at front link and ends of the foot their eyes; sizes that no two parts share."""
-    robot = built("kenan-2.0")
-    sizes = {"leg_root_mm": 9.0, "eye_radius_mm": 4.1, "lever_root_mm": 10.6, "front_mm": 7.0, "dog_mm": 12.4}
-    sections = replace(robot.layout.sections, **sizes)
-    layout = replace(robot.layout, sections=sections)
-    bare = swept(replace(robot, layout=layout))
-    assert {name: bare[name].radius_mm for name in ("main leg", "lever", "front link")} == pytest.approx(
-        {"main leg": 4.5, "lever": 5.3, "front link": 4.1}
-    )
-    thin = replace(layout, sections=replace(sections, leg_root_mm=8.0))
-    assert swept(replace(robot, layout=thin))["main leg"].radius_mm == pytest.approx(4.1)
-
-
-def test_upright_legs_are_nearest_where_the_foot_holds_them() -> None:
-    """Parallel legs of 6 mm that stand upright, with eyes of 7 mm radius at both ends: a foot less two eyes."""
-    robot = built("kenan-2.0")
-    design = robot.design.model_copy(update={"rest_angle_deg": 90.0, "compression_ratio": 0.02})
-    sizes = {"leg_root_mm": 6.0, "leg_tip_mm": 6.0, "front_mm": 6.0, "eye_radius_mm": 7.0}
-    apart = legs_apart_mm(Linkage(design), replace(robot.layout.sections, **sizes))
-    assert apart == pytest.approx(design.l4_mm - 14.0, abs=0.02)
-
-
-@pytest.mark.parametrize(("root_mm", "tip_mm"), [(30.0, 6.0), (8.0, 30.0)])
-def test_upright_legs_that_taper_are_nearest_where_the_thicker_end_is(root_mm: float, tip_mm: float) -> None:
-    """Parallel, a body's or a foot's length apart: half of the leg there, and the front link's eye."""
-    robot = built("kenan-2.0")
-    design = robot.design.model_copy(update={"rest_angle_deg": 90.0, "compression_ratio": 0.02})
-    sizes = {"leg_root_mm": root_mm, "leg_tip_mm": tip_mm, "front_mm": 6.0, "eye_radius_mm": 4.0}
-    apart = legs_apart_mm(Linkage(design), replace(robot.layout.sections, **sizes))
-    assert apart == pytest.approx(design.l1_mm - max(root_mm, tip_mm) / 2.0 - 4.0, abs=0.05)
-
-
 @pytest.mark.parametrize("name", [*NAMES, "kenan-1.0", "best-ga"])
 def test_the_gap_between_the_legs_is_shapelys(name: str) -> None:
     """Tapered leg and straight link with round eyes, at many more positions than the layout checks."""
@@ -139,17 +105,6 @@ def test_the_gap_between_the_legs_is_shapelys(name: str) -> None:
         link = shapely.union_all([link, shapely.Point(*front).buffer(eye), shapely.Point(*eyes).buffer(eye)])
         smallest = min(smallest, main_leg.distance(link))
     assert legs_apart_mm(Linkage(design), sections, PAST_RAD) == pytest.approx(smallest, abs=0.35)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_foots_lugs_are_in_its_sweep(name: str) -> None:
-    """Round both eyes, ankle and nose, the foot is as deep as below them."""
-    robot = built(name)
-    room = area(swept(robot)["foot"]).buffer(BETWEEN_MM["foot"])
-    eyes = np.array([[0.0, 0.0], [robot.design.l4_mm, 0.0]])
-    for wind in windings(robot):
-        for eye in in_body(robot, FOOT, wind, eyes):
-            assert room.contains(shapely.Point(*eye).buffer(robot.layout.sections.foot_depth_mm))
 
 
 @pytest.mark.parametrize("name", NAMES)

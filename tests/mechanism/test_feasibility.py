@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.documented import documented_bases
+from support.each import each
 from support.places import DATA
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, load_design
@@ -51,7 +52,7 @@ def closes_at_25_points(design: Design) -> bool:
     return True
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["name"])
+@each("row", ROWS)
 def test_verdicts_of_the_reference_flights(row: dict[str, str]) -> None:
     expected = {row["verdict"]}
     if row["verdict"] == "jump":

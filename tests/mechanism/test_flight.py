@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import built
+from support.each import each
 
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism import flight
@@ -76,8 +77,8 @@ def test_inertia_in_flight_is_what_is_left_without_momenta(name: str) -> None:
     assert blow.inertia_kg_m2 == pytest.approx(float(solved[1][0]), rel=2e-3)
 
 
-@pytest.mark.parametrize("rates", [(30.0, 0.0), (0.0, 12.0), (-25.0, 9.0)])
-@pytest.mark.parametrize(
+@each("rates", [(30.0, 0.0), (0.0, 12.0), (-25.0, 9.0)])
+@each(
     ("name", "end", "slim"), [("kenan-2.0", 0, 1.0), ("best-bo", 1, 1.0), ("best-ga", 1, 30.0), ("best-ga", 0, 1000.0)]
 )
 def test_push_off_obeys_the_principle_of_virtual_power(

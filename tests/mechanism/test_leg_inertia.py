@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.each import each
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
@@ -13,9 +14,9 @@ from jumpcad.mechanism.poses import body_poses
 STEP = 1e-5
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga", "best-printable"])
-@pytest.mark.parametrize("loaded", [0.0, 0.6])
-@pytest.mark.parametrize("aside_m", [0.0, 0.013])
+@each("name", ["kenan-2.0", "best-ga", "best-printable"])
+@each("loaded", [0.0, 0.6])
+@each("aside_m", [0.0, 0.013])
 def test_it_is_the_least_energy_of_a_robot_that_may_move_as_a_whole(name: str, loaded: float, aside_m: float) -> None:
     """½·I·q̇² is the kinetic energy of the links at momenta of zero: a least-squares problem over drift and spin."""
     robot = capsule_robot(load_design(name))

@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import pytest
 from support import needs
+from support.each import each
 from support.places import DATA
 
 from jumpcad import published
@@ -23,7 +24,7 @@ def design_of(name: str) -> Design:
     return Design.from_vector([float(ROWS[name][parameter]) for parameter in PARAMETERS])
 
 
-@pytest.mark.parametrize("name", [name for name in ROWS if name not in CHAOTIC])
+@each("name", [name for name in ROWS if name not in CHAOTIC])
 def test_reference_jumps_are_met_to_the_last_printed_digit(name: str) -> None:
     jump, row = published.simulate(design_of(name)), ROWS[name]
     found = (jump.distance_m, jump.base_height_m, jump.energy_j)
@@ -31,7 +32,7 @@ def test_reference_jumps_are_met_to_the_last_printed_digit(name: str) -> None:
     assert found == pytest.approx(printed, rel=0, abs=6e-7)
 
 
-@pytest.mark.parametrize("parameters", OTHERS, ids=range(len(OTHERS)))
+@each("parameters", OTHERS)
 def test_other_designs_jump_as_the_recipe_says(parameters: list[float]) -> None:
     """To the last bit of each expression: `math.degrees` moves six of them by more than this, `math.asin` one."""
     needs.package("pybullet")

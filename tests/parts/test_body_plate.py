@@ -12,17 +12,14 @@ from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, chamfered, mea
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.drive.socket import window_mm
-from jumpcad.parts import body_plate
-from jumpcad.parts.body_plate import _drawing, _openings, _spring_boss, plates
+from jumpcad.parts.body_plate import _drawing, _openings, plates
 from jumpcad.parts.engraving import TEXT_HEIGHTS_MM
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.part import Face
 from jumpcad.parts.plate_outline import pin_hole
-from jumpcad.parts.sensor import plate_pad
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import disc, rectangle
-from jumpcad.solids.text import engravable, text
+from jumpcad.solids.text import text
 from jumpcad.workshop import load_workshop
 
 
@@ -69,23 +66,6 @@ def test_the_legs_pin_goes_in_through_the_left_plate_alone(name: str) -> None:
     holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
     whole = pin_hole(layout, layout.pin_hole.diameter_mm)
     assert (_openings(layout, holes, "right") ^ whole).area() < 0.5 * whole.area()
-
-
-def test_a_thicker_shaft_has_a_wider_hole() -> None:
-    """Of 4 mm, where axles have 3 mm: loose in a hole of 4.6 mm."""
-    robot = built("kenan-2.0")
-    layout, train = robot.layout, robot.layout.drive.train
-    thick = replace(train, motor=train.motor.model_copy(update={"shaft_mm": 4.0}))
-    layout = replace(layout, drive=replace(layout.drive, train=thick))
-    left, _ = plates(layout, robot.workshop, "")
-    (section,) = left.shape.regions_at([1.2])
-    at = left.placements[0].T_body_part
-    found = []
-    for points in section.to_polygons():
-        x, _, z, _ = at @ [*points.mean(axis=0), 0.0, 1.0]
-        if math.dist((x, z), layout.motor_mm) < 0.01:
-            found += np.ptp(points, axis=0).tolist()
-    assert found == pytest.approx([4.6, 4.6], abs=0.02)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -149,21 +129,6 @@ def test_the_whole_label_is_cut_from_the_plate(name: str) -> None:
         assert min(abs(lost / area - 1.0) for area in areas) < 1e-6
 
 
-def test_a_label_that_finds_no_room_is_its_last_letter() -> None:
-    lost = engraved_mm2("kenan-2.0", "a name that is far too long for any plate of a robot as small as this one")
-    for part, letter in (("body_plate_left", "L"), ("body_plate_right", "R")):
-        assert lost[part] == pytest.approx(text(letter, TEXT_HEIGHTS_MM[0]).area(), rel=1e-6)
-
-
-@pytest.mark.parametrize(("name", "shown"), [("Käfer-机器人", "Käfer-"), ("机器人", "")])
-def test_letters_that_the_font_lacks_are_left_out(name: str, shown: str) -> None:
-    """The engraving's font has Latin letters, but no Chinese ones."""
-    assert engravable(name) == shown
-    for part, lost in engraved_mm2("kenan-2.0", name).items():
-        areas = [text(f"{shown} {part.split('_')[-1][0].upper()}".strip(), height).area() for height in TEXT_HEIGHTS_MM]
-        assert min(abs(lost / area - 1.0) for area in areas) < 1e-6
-
-
 @pytest.fixture(scope="module")
 def kenan() -> Robot:
     return built("kenan-2.0")
@@ -211,30 +176,6 @@ def test_the_springs_pin_stands_in_a_boss_of_the_right_plate(kenan: Robot) -> No
     assert ends[:, 1].max() == pytest.approx(plate[1] + 4.0, abs=1e-3)
 
 
-def test_the_springs_pins_boss_leaves_the_motors_socket_free(kenan: Robot) -> None:
-    """A ring of 2 mm around the pin but for what the socket beside it takes."""
-    layout, holes = kenan.layout, HoleSizes.of(kenan.workshop, kenan.layout.hub_bearing)
-    x, z = layout.spring_pin_mm
-    beside = rectangle((20.0, 20.0), (x + 10.0, z))
-    low, high, region = _spring_boss(layout, holes, 2.0, beside)
-    assert (low, high) == (2.0, 2.0 + layout.spring_boss_mm)
-    assert (region ^ beside).area() < 1e-6
-    assert region.area() == pytest.approx(math.pi / 8.0 * (7.0**2 - RUNNING**2), rel=0.01)
-
-
-def test_the_springs_pins_boss_closes_no_screws_hole_of_the_motors_cap(kenan: Robot) -> None:
-    """A pin beside an ear of the socket: the boss around it, 7 mm wide, would reach over the tapped hole."""
-    ear = ear_places(kenan.layout)[0]
-    layout = replace(kenan.layout, spring_pin_mm=ear + np.array([3.0, 0.0]), spring_boss_mm=4.0)
-    _, right = plates(layout, kenan.workshop, "")
-    thick = layout.lateral.right_plate[1] - layout.lateral.right_plate[0]
-    (section,) = right.shape.regions_at([thick + 2.0])
-    at = np.linalg.inv(right.placements[0].T_body_part)
-    x, z = (at @ [ear[0], 0.0, ear[1], 1.0])[:2]
-    assert (section ^ disc(kenan.workshop.fits.m2_tap_mm - 0.02, (x, z))).area() < 1e-6
-    assert (section ^ disc(4.0, (x, z))).area() > 1.0
-
-
 @pytest.mark.parametrize(("retention", "closed"), [("plates", True), ("nuts", False), ("clips", False)])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_bores_are_closed_outside_where_plates_keep_the_axles(
@@ -253,24 +194,6 @@ def test_bores_are_closed_outside_where_plates_keep_the_axles(
         assert (outside ^ pin).area() == pytest.approx(pin.area() if closed else 0.0, abs=1e-6)
     ring = disc(6.0, (at @ [layout.hub_mm[0], 0.0, layout.hub_mm[1], 1.0])[:2])
     assert ((seat ^ ring).area() > 1.0) == closed
-
-
-def test_a_spring_close_to_the_plate_leaves_no_boss() -> None:
-    assert built("best-bo").layout.spring_boss_mm == 0.0
-
-
-def test_letters_are_half_a_millimetre_deep_and_not_under_the_sensors_mount(
-    kenan: Robot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    layout, covered = kenan.layout, []
-    draw = body_plate._drawing
-    monkeypatch.setattr(body_plate, "_drawing", lambda *given: covered.append(given[6:]) or draw(*given))
-    for plate in plates(layout, kenan.workshop, "label"):
-        outside, inside = plate.shape.regions_at([0.48, 0.52])
-        assert (inside - outside).area() == pytest.approx(text(f"label {plate.name[11].upper()}", 4.5).area(), rel=1e-6)
-    (left, right), pad = covered, plate_pad(layout.sensor)
-    assert (left[0] ^ pad).area() == pytest.approx(pad.area())
-    assert right == ()
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

@@ -1,17 +1,15 @@
 """Every bore measured on the meshes: the largest circle in a section is the nominal diameter plus the fit."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
 import shapely.affinity
 import shapely.ops
-from support.built import LONG_TOES, built, cut, geared, hole_centres, inscribed_diameter, part, placed, region
+from support.built import LONG_TOES, built, cut, geared, inscribed_diameter, part, placed, region
 from support.fits import (
     EYE,
-    EYES,
     LOOSE,
     LYING,
     LYING_HOLE,
@@ -19,7 +17,6 @@ from support.fits import (
     N20_FLAT,
     N20_SHAFT,
     PRESS,
-    PRESSED,
     RIB,
     RUNNING,
     SLIDING,
@@ -28,11 +25,8 @@ from support.fits import (
     with_fits_apart,
 )
 
-from jumpcad.building.assembly import drawings
-from jumpcad.parts import body_plate, foot, links, small
+from jumpcad.parts import foot, links
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.motor_socket import ear_places
-from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import rectangle
@@ -43,29 +37,6 @@ from jumpcad.workshop import load_workshop
 @pytest.fixture(scope="module")
 def kenan() -> Robot:
     return built("kenan-2.0")
-
-
-def test_main_leg(kenan: Robot) -> None:
-    d, cam = kenan.design, kenan.layout.drive.cam
-    angle = cam.lever_start_rad + math.radians(d.rest_angle_deg)
-    lever = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
-    expected = {(0.0, 0.0): MR63_OUTER + 2 * PRESS, (d.l2_mm, 0.0): EYES, tuple(lever): 3.4}
-    for y in (2.5, -1.0):
-        for centre, diameter in expected.items():
-            assert measured(kenan, "main_leg", y, np.array(centre)) == pytest.approx(diameter, abs=TOLERANCE_MM)
-        assert measured(kenan, "main_leg", y, np.array([kenan.layout.leg_pin_mm, 0.0])) == pytest.approx(
-            PRESSED, abs=TOLERANCE_MM
-        )
-    holes = hole_centres(cut(placed(kenan, "main_leg"), 2.5))
-    assert len(holes) == 4
-
-
-def test_front_link(kenan: Robot) -> None:
-    holes = hole_centres(cut(placed(kenan, "front_link"), 0.5))
-    assert sorted(holes) == [pytest.approx((0.0, 0.0), abs=1e-3), pytest.approx((kenan.design.l3_mm, 0.0), abs=1e-3)]
-    for x in (0.0, kenan.design.l3_mm):
-        found = measured(kenan, "front_link", 0.5, np.array([x, 0.0]))
-        assert found == pytest.approx(EYES, abs=TOLERANCE_MM)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -144,65 +115,6 @@ def test_idler_turns_on_its_axle() -> None:
     assert measured(robot, "idler", y, robot.layout.idler_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
 
 
-def bore_mm(drawing: Drawing, y_mm: float, centre_mm: tuple[float, float]) -> float:
-    """Return the diameter of the bore about a place; of stacks, whose meshes take longer, from the outlines there."""
-    pose = drawing.placements[0].T_body_part
-    if not isinstance(drawing.shape, Stack):
-        return inscribed_diameter(cut(drawing.mesh.copy().apply_transform(pose), y_mm), np.array(centre_mm))
-    x, z, height, _ = np.linalg.inv(pose) @ [centre_mm[0], y_mm, centre_mm[1], 1.0]
-    outlines = drawing.shape.regions_at([height])[0].to_polygons()
-    return 2.0 * min(shapely.LinearRing(points).distance(shapely.Point(x, z)) for points in outlines)
-
-
-def test_bores_of_thinner_axles_are_as_much_narrower() -> None:
-    """For axles of 2 mm where the default is 3 mm: what turns has 0.2 mm around them, all else 0.1 mm."""
-    usual = geared()
-    layout, lateral = replace(usual.layout, axle_mm=2.0, spring_boss_mm=2.0), usual.layout.lateral
-    thin = usual.workshop.bought.model_copy(update={"axle_mm": 2.0})
-    shop = usual.workshop.model_copy(update={"bought": thin})
-    drawn = {drawing.name: drawing for drawing in drawings(layout, shop, "")}
-    (right, left), l2, pin = lateral.inside, layout.design.l2_mm, layout.spring_pin_mm
-    hub, front, cam, idler, tight, running = layout.hub_mm, *list(layout.axles.values())[1:], 2.2, 2.4
-    expected = {
-        ("main_leg", 0.01): {(layout.leg_pin_mm, 0.0): tight, (l2, 0.0): tight},
-        ("front_link", 0.5): {(0.0, 0.0): tight, (layout.design.l3_mm, 0.0): tight},
-        ("foot", lateral.lug_left[0] + 2.0): {(0.0, 0.0): tight, (layout.design.l4_mm, 0.0): tight},
-        ("body_plate_left", left + 0.6): dict.fromkeys(map(tuple, (hub, front, cam, idler, pin)), running),
-        ("body_plate_right", right - 0.6): dict.fromkeys(map(tuple, (hub, front, cam, idler, pin)), running),
-        ("body_plate_left", left - 0.5): {tuple(hub): running},
-        ("body_plate_right", right + 0.5): {tuple(hub): running, tuple(pin): running},
-        ("spring_bushing_left", sum(lateral.spring_left) / 2.0): {tuple(hub): running},
-        ("spring_bushing_right", sum(lateral.spring_right) / 2.0): {tuple(hub): running},
-        ("front_spacer_left", left - 2.0): {tuple(front): running},
-        ("cam", sum(lateral.cam) / 2.0): {tuple(cam): running},
-        ("cam", sum(lateral.gears[0]) / 2.0): {tuple(cam): 2.0 + 2.0 * (0.2 + 0.8 + 0.2)},  # jaws around the gear's hub
-        ("cam_gear", sum(lateral.gears[0]) / 2.0): {tuple(cam): running},
-        ("idler", sum(lateral.gears[-1]) / 2.0): {tuple(idler): running},
-    }  # fmt: skip
-    for (name, y), bores in expected.items():
-        for centre, diameter in bores.items():
-            assert bore_mm(drawn[name], y, centre) == pytest.approx(diameter, abs=TOLERANCE_MM), (name, centre)
-
-
-def test_screws_have_the_workshops_own_holes(kenan: Robot) -> None:
-    """M3 through the lever and the plates, M2 through the motor's cap and into its socket: wider than the defaults."""
-    layout, lateral = kenan.layout, kenan.layout.lateral
-    fits = kenan.workshop.fits.model_copy(update={"m3_clearance_mm": 3.8, "m2_clearance_mm": 2.7, "m2_tap_mm": 1.8})
-    shop = kenan.workshop.model_copy(update={"fits": fits})
-    (leg,), (left, right) = links.main_leg(layout, shop), body_plate.plates(layout, shop, "")
-    angle = layout.drive.cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
-    lever = layout.drive.cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
-    expected = [
-        (leg, 0.01, [lever], 3.8), (left, lateral.inside[1] + 0.5, layout.standoffs_mm, 3.8),
-        (right, lateral.inside[0] - 0.5, layout.standoffs_mm, 3.8),
-        (right, lateral.motor[1] - 2.0, ear_places(layout), 1.8),
-        (small.motor_cap(layout, shop), lateral.motor_cap[0] + 0.2, ear_places(layout), 2.7),
-    ]  # fmt: skip
-    for drawing, y, places, diameter in expected:
-        for place in places:
-            assert bore_mm(drawing, y, tuple(place)) == pytest.approx(diameter, abs=TOLERANCE_MM), (drawing.name, y)
-
-
 def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:
     robot = built(LONG_TOES)
     toe = part(robot, "toe_left")
@@ -214,12 +126,6 @@ def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:
     for x in (16.0, 30.0):
         assert inscribed_diameter(cut(toe.mesh, middle), np.array([x, height])) == pytest.approx(3.4, abs=TOLERANCE_MM)
         assert inscribed_diameter(cut(foot, 0.01), np.array([x, height])) == pytest.approx(2.5, abs=TOLERANCE_MM)
-
-
-def test_finer_fits_make_smaller_bores() -> None:
-    robot = built("kenan-2.0", "fine")
-    found = measured(robot, "cam", sum(robot.layout.lateral.cam) / 2.0, robot.layout.cam_axis_mm)
-    assert found == pytest.approx(3.0 + 2 * 0.14, abs=TOLERANCE_MM)
 
 
 def test_every_fit_is_added_on_both_sides_of_the_shaft() -> None:

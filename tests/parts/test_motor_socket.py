@@ -4,19 +4,11 @@ import math
 
 import numpy as np
 import pytest
-import shapely
 import trimesh
-from support.built import built, cut, hole_centres, inscribed_diameter, placed, region
+from support.built import built, cut, hole_centres, inscribed_diameter, placed
 from support.fits import SLIDING, TOLERANCE_MM
 
-from jumpcad.building import build
-from jumpcad.catalogue import load_catalogue
-from jumpcad.design import load_design
-from jumpcad.dimensions import CAP_EAR_MM, MOTOR_CAP_MM, MOTOR_CLAMP_MM
-from jumpcad.drive.socket import socket_half_mm
-from jumpcad.parts.motor_socket import ear_places, ear_reach_mm, socket_about_axis
 from jumpcad.robot import Robot
-from jumpcad.workshop import load_workshop
 
 
 @pytest.fixture(scope="module")
@@ -73,36 +65,3 @@ def rim_mm(robot: Robot) -> float:
         [[side[0], layout.lateral.right_plate[0] - 1.0, side[1]]], [[0.0, 1.0, 0.0]]
     )
     return float(ends[:, 1].max())
-
-
-def test_the_gap_under_the_cap_can_be_closed_without_breaking_it() -> None:
-    """A beam on the motor's edges, pulled down at both ears, strains by half of PLA's 2 % at yield."""
-    for motor in load_catalogue().motors.values():
-        half, thick = motor.height_mm / 2.0, MOTOR_CAP_MM
-        arm = ear_reach_mm(motor.height_mm, CAP_EAR_MM) - half
-        strain = thick * MOTOR_CLAMP_MM / 2.0 / (arm * half + arm**2 / 3.0)
-        across = socket_half_mm(motor)[0] * 2.0
-        assert strain * across / (across - motor.boss_mm) < 0.011
-
-
-@pytest.mark.parametrize(("width", "height", "ear"), [(12.0, 10.0, 5.6), (15.0, 24.0, 5.6), (12.0, 10.0, 6.4)])
-def test_ears_stand_beside_a_sockets_wall_of_1_6_mm(width: float, height: float, ear: float) -> None:
-    """Their screws are in the middle of the ears, which begin where the wall ends; 0.2 mm more are kept for the fit."""
-    assert ear_reach_mm(height, ear) == pytest.approx(height / 2.0 + 1.6 + ear / 2.0)
-    low_x, low_y, high_x, high_y = socket_about_axis(width, height, ear).bounds()
-    assert (-low_x, high_x) == pytest.approx([width / 2.0 + 1.8] * 2, abs=0.01)
-    assert (-low_y, high_y) == pytest.approx([height / 2.0 + 1.6 + ear] * 2, abs=0.01)
-
-
-def test_a_wide_nozzle_prints_the_walls_beside_the_heads_of_the_caps_screws() -> None:
-    """Two lines of a 0.6 mm nozzle, 1.2 mm, stand outside a counterbore of 4 mm, and the socket has the same ears."""
-    shop = load_workshop()
-    fits = shop.fits.model_copy(update={"wall_min_mm": 1.2, "wall_mm": 1.8})
-    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"fits": fits}))
-    cap = region(cut(placed(robot, "motor_cap"), robot.layout.lateral.motor_cap[1] - 0.4))
-    for ear in ear_places(robot.layout):
-        head = shapely.Point(*ear)
-        assert cap.exterior.distance(head) == pytest.approx(2.0 + 1.2, abs=0.02)
-        assert head.buffer(1.98).intersection(cap).area < 1e-3
-        socket = region(cut(placed(robot, "body_plate_right"), robot.layout.lateral.motor[1] - 2.0))
-        assert head.buffer(3.17).difference(shapely.union_all([shapely.Polygon(socket.exterior)])).area < 0.01

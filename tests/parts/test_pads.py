@@ -2,15 +2,13 @@
 
 import re
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import shapely
-from support.built import built, cut, placed, region
+from support.built import built
 
 from jumpcad.parts.foot import foot
-from jumpcad.parts.pads import is_printed, pads, printed_pads
+from jumpcad.parts.pads import pads
 from jumpcad.robot import Robot
 
 
@@ -81,22 +79,6 @@ def test_toe_pads_are_glued_under_the_tips_from_8_mm_behind_their_middle_to_1_5_
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_a_pad_lies_on_its_lug_and_not_in_it(name: str) -> None:
-    """Its section is what shapely finds within its thickness outside the foot, from 0.9 depths behind the eye and up to
-    0.7 depths below it; the strip is as long as that along its middle line."""
-    robot = built(name)
-    left = next(one for one in robot.hardware if one.name == "nose_pad_left")
-    pad = left.look.copy().apply_transform(left.T_body_part)
-    middle, thick = sum(robot.layout.lateral.lug_left) / 2.0, robot.workshop.foot_pad.thickness_mm
-    strip, foot = region(cut(pad, middle)), region(cut(placed(robot, "foot"), middle))
-    depth, eye = robot.layout.sections.foot_depth_mm, robot.design.l4_mm
-    around = shapely.box(eye - 0.9 * depth, -2.0 * depth, eye + 3.0 * depth, -0.7 * depth)
-    expected = foot.buffer(thick).difference(foot).intersection(around)
-    assert strip.symmetric_difference(expected).area < 0.02 * expected.area
-    assert cut_mm(robot, left.name)[1] == pytest.approx(expected.area / thick, rel=0.02)
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_under_the_bars_of_wide_toes_pads_lie_from_tip_to_end(name: str) -> None:
     """Bars reach straight to the side: pads 5 mm wide on their soles, from the tip's middle to 1.5 mm before the end.
 
@@ -124,51 +106,3 @@ def test_under_the_bars_of_wide_toes_pads_lie_from_tip_to_end(name: str) -> None
         assert (bar[:, 0].min(), bar[:, 0].max()) == pytest.approx((tip[0] - 2.5, tip[0] + 2.5), abs=0.02)
         assert (sign * bar[:, 1]).max() == pytest.approx(half_mm + 2.5, abs=0.02)
         assert bar[:, 2].max() == pytest.approx(layout.sections.toe_tip_height_mm, abs=1e-3)
-
-
-@pytest.mark.parametrize("more_mm", [0.5, 3.0])
-def test_a_bar_however_short_has_its_pad(more_mm: float) -> None:
-    """From the tip's middle to 1.5 mm before the bar's end; without a bar the pad lies along the toe."""
-    robot = built("kenan-2.0")
-    tip_y = robot.design.l5_mm * np.sin(np.radians(robot.design.ground_link_angle_deg))
-    layout = replace(robot.layout, toe_half_width_mm=tip_y + more_mm)
-    assert robot.workshop.foot_pad is not None
-    for pad in (item for item in pads(layout, robot.workshop.foot_pad) if item.name.startswith("toe")):
-        low, high = pad.look.copy().apply_transform(pad.T_body_part).bounds[:, 1]
-        assert sorted((abs(low), abs(high))) == pytest.approx([tip_y, tip_y + more_mm + 1.5], abs=1e-3)
-
-
-@pytest.mark.parametrize(("under", "stop"), [(True, False), (False, True), (None, True), (True, True), (None, False)])
-def test_a_pad_is_printed_where_its_kind_is(under: bool | None, stop: bool) -> None:
-    """Under nose and toes of one kind, or of none where the feet are bare; on the rest stop of another."""
-    robot = built("kenan-2.0")
-    assert robot.workshop.foot_pad is not None
-    foot_pad = None if under is None else robot.workshop.foot_pad.model_copy(update={"printed": under})
-    stop_pad = robot.workshop.stop_pad.model_copy(update={"printed": stop})
-    found = {item.name for item in robot.hardware if is_printed(item, foot_pad, stop_pad)}
-    under_the_foot = {"nose_pad_left", "nose_pad_right", "toe_left_pad", "toe_right_pad"}
-    assert found == (under_the_foot if under else set()) | ({"stop_pad"} if stop else set())
-
-
-def test_what_is_ordered_is_strip_to_cut_and_a_printed_pad_has_its_parts_name() -> None:
-    robot = built("kenan-2.0")
-    strip = robot.workshop.foot_pad
-    assert strip is not None
-    for printed in (False, True):
-        for item in pads(robot.layout, strip.model_copy(update={"printed": printed})):
-            if item.name != "stop_pad":
-                assert (item.article == item.name) == printed
-                assert item.article.startswith(f"{strip.description}, cut ") != printed
-
-
-def test_a_printed_pad_is_of_its_own_kind() -> None:
-    robot = built("kenan-2.0")
-    assert robot.workshop.foot_pad is not None
-    kinds = [robot.workshop.foot_pad, robot.workshop.stop_pad]
-    foot_pad, stop_pad = (
-        kind.model_copy(update={"printed": True, "name": name}) for kind, name in zip(kinds, "ab", strict=True)
-    )
-    workshop = SimpleNamespace(foot_pad=foot_pad, stop_pad=stop_pad)
-    found = {pad.name: (pad.pad.thickness_mm, pad.material) for pad in printed_pads(robot.hardware, workshop)}
-    assert found.pop("stop_pad") == (kinds[1].thickness_mm, "b")
-    assert set(found.values()) == {(kinds[0].thickness_mm, "a")}

@@ -8,7 +8,7 @@ import pytest
 from support.built import built
 
 from jumpcad.parts.purchased import bought
-from jumpcad.solids.outline import disc, ring
+from jumpcad.solids.outline import disc
 
 
 def rod(length=40.0, at=(0.0, 0.0, 0.0), turn=0.0, diameter=3.0):
@@ -21,36 +21,6 @@ def test_a_rod_across_the_robot_turns_like_a_cylinder():
     assert mass.com_m == pytest.approx([0.005, 0.0, 0.007], abs=1e-12)
     across = 2.2e-3 * (3.0 * 0.0015**2 + 0.040**2) / 12.0
     assert np.diag(mass.inertia_kg_m2) == pytest.approx([across, 2.2e-3 * 0.0015**2 / 2.0, across], rel=3e-3)
-
-
-def test_copies_are_one_shape_and_other_sizes_are_others():
-    one, copy = rod(), rod(at=(9.0, 9.0, 9.0), turn=1.0)
-    assert one.shape is copy.shape
-    assert one.look is copy.look
-    for other in (rod(length=41.0), rod(diameter=3.1)):
-        assert other.shape != one.shape
-        assert other.shape.volume_mm3 > one.shape.volume_mm3
-
-
-def test_a_bought_part_says_what_to_order():
-    assert repr(rod()) == "<BoughtPart 'pin': rod, 2.20 g>"
-
-
-def test_a_turn_is_counter_clockwise_in_x_z():
-    offset = bought("arm", "arm", "body", 1.0, [(0.0, 2.0, ring(4.0, 2.0, (10.0, 0.0)))], turn_rad=math.pi / 2)
-    assert offset.mass.com_m == pytest.approx([0.0, 0.001, 0.010], abs=1e-12)
-
-
-def test_a_part_moves_with_its_mass() -> None:
-    """By 10, 20 and 30 mm, turned by 90° about z: what lay along y lies along -x."""
-    pose = np.array([[0.0, -1.0, 0.0, 10.0], [1.0, 0.0, 0.0, 20.0], [0.0, 0.0, 1.0, 30.0], [0.0, 0.0, 0.0, 1.0]])
-    moved = rod(at=(5.0, 0.0, 7.0)).moved(pose)
-    assert moved.mass.com_m == pytest.approx([0.010 - 0.020, 0.020 + 0.005, 0.030 + 0.007], abs=1e-9)
-    assert moved.look.copy().apply_transform(moved.T_body_part).bounds.mean(axis=0) == pytest.approx(
-        [-10, 25, 37], abs=1e-3
-    )
-    across = 2.2e-3 * (3.0 * 0.0015**2 + 0.040**2) / 12.0
-    assert np.diag(moved.mass.inertia_kg_m2) == pytest.approx([2.2e-3 * 0.0015**2 / 2.0, across, across], rel=3e-3)
 
 
 def test_pins_weigh_what_their_steel_does() -> None:

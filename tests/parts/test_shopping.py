@@ -6,9 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import shapely
 import trimesh
-from manifold3d import Manifold, Mesh64
 from support.built import LONG_TOES, body_in_plane, built, cut, placed, region
 
 from jumpcad.building import build
@@ -16,11 +14,8 @@ from jumpcad.building.assembly import assembled
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
-from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.parts.shopping import _d_shaft, _motor_things, _standoffs
-from jumpcad.parts.toes import joint_height_mm, toes
+from jumpcad.parts.shopping import _d_shaft, _standoffs
 from jumpcad.robot import Robot
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import load_workshop
@@ -107,16 +102,6 @@ def test_the_motor_weighs_what_the_catalogue_says_with_its_shaft(assembled_robot
     )
 
 
-def test_a_motor_is_ordered_by_its_name_and_by_the_article_that_a_shop_knows_if_there_is_one() -> None:
-    layout, catalogue = built("kenan-2.0").layout, load_catalogue()
-    train = layout.drive.train
-    for article, ordered in (("4787", "gear motor mine (4787)"), (None, "gear motor mine")):
-        motor = train.motor.model_copy(update={"name": "mine", "article": article})
-        moved = replace(layout, drive=replace(layout.drive, train=replace(train, motor=motor)))
-        found = {one.name: one.article for one in _motor_things(moved, catalogue)}
-        assert found["motor"] == found["motor_shaft"] == ordered
-
-
 def test_two_springs_weigh_their_wire(assembled_robot: Robot) -> None:
     """Wire of steel, 7.85 g/cm³: the turns of each coil and its arms."""
     spring = assembled_robot.layout.drive.spring
@@ -144,20 +129,6 @@ def test_a_lock_nut_is_a_hexagon_of_din_985(assembled_robot: Robot) -> None:
     assert sorted(size) == pytest.approx([4.0, 5.5, 5.5 * 2.0 / math.sqrt(3.0)], abs=0.01)
 
 
-def test_standoff_screws_go_through_the_plate_into_the_standoff(assembled_robot: Robot) -> None:
-    """A screw's head sits on the outside of its plate, and 4 mm of thread at least, 6 at most, are inside."""
-    inside, outside = assembled_robot.layout.lateral.inside, assembled_robot.layout.lateral.outside
-    for side, sign in (("left", 1.0), ("right", -1.0)):
-        screws = [thing for thing in named(assembled_robot, "standoff_") if thing.name.endswith(f"_screw_{side}")]
-        assert len(screws) == len(assembled_robot.layout.standoffs_mm)
-        for screw in screws:
-            low, high = np.array(screw.solid.transform(screw.T_body_part[:3]).bounding_box())[[1, 4]]
-            tip, head = (low, high) if sign > 0 else (high, low)
-            inner, outer = (inside[1], outside[1]) if sign > 0 else (inside[0], outside[0])
-            assert 4.0 - 1e-6 <= sign * (inner - tip) <= 6.0 + 1e-6
-            assert 1.0 < sign * (head - outer) < 3.0
-
-
 def test_a_springs_arms_take_a_wires_room_beside_the_plate_and_beside_the_leg(assembled_robot: Robot) -> None:
     layout = assembled_robot.layout
     spring, lateral = layout.drive.spring, layout.lateral
@@ -176,32 +147,6 @@ def test_a_springs_arms_take_a_wires_room_beside_the_plate_and_beside_the_leg(as
             )
 
 
-def test_springs_are_seen_as_wire_within_the_room_that_is_kept_for_them(assembled_robot: Robot) -> None:
-    """The room's round outlines are polygons, within which the wire is up to what their chords cut off.
-
-    The leg's arm is seen with the coil's end that winding adds; that end stays within the coil's ring.
-    """
-    spring, lateral = assembled_robot.layout.drive.spring, assembled_robot.layout.lateral
-    for side, (low, high) in (("left", lateral.spring_left), ("right", lateral.spring_right)):
-        coil, arm = named(assembled_robot, f"spring_{side}")
-        for thing in (coil, arm):
-            assert thing.look.is_watertight
-            assert len(thing.look.faces) < 8000
-        whole = Manifold(Mesh64(np.asarray(coil.look.vertices), np.asarray(coil.look.faces).astype(np.uint64)))
-        assert (whole - coil.solid).volume() < 1e-3 * coil.look.volume
-        points = trimesh.transform_points(arm.look.vertices, arm.T_body_part)
-        assert low - 1e-6 <= points[:, 1].min()
-        assert points[:, 1].max() <= high + 1e-6
-        radius = np.hypot(points[:, 0], points[:, 2])
-        assert radius.min() >= spring.inside_diameter_mm / 2.0 - 1e-6
-        room = arm.shape.bounds_mm + np.array([[-1e-6], [1e-6]])
-        straight = arm.look.vertices[radius > spring.outer_diameter_mm / 2.0 + 1e-3]
-        assert len(straight) >= 8
-        assert ((straight >= room[0]) & (straight <= room[1])).all()
-        # an octagon has 0.90 of its circle's area
-        assert coil.look.volume == pytest.approx(0.9 * 1e6 * coil.mass_kg / 7.85, rel=0.02)
-
-
 @pytest.mark.parametrize("preload_deg", [0.0, 5.0])
 def test_coil_and_leg_arm_are_one_wire_at_rest(preload_deg: float) -> None:
     """The coil ends where the leg's arm leaves it, in place and direction, with springs that are loaded at rest too."""
@@ -217,73 +162,6 @@ def test_coil_and_leg_arm_are_one_wire_at_rest(preload_deg: float) -> None:
         along, chord = ends[1][:2] - ends[0][:2], (coil[-1] - coil[-2])[[0, 2]]
         cosine = along @ chord / np.linalg.norm(along) / np.linalg.norm(chord)
         assert cosine > math.cos(math.radians(9.0))  # a chord of 15° is turned by half of that
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_the_motor_stands_in_its_socket_as_it_is_turned(name: str) -> None:
-    """Its section, 12 x 10 mm, lies in the right plate's socket with a gap of less than half a millimetre."""
-    robot = built(name)
-    motor = next(item for item in robot.hardware if item.name == "motor")
-    mesh = motor.look.copy().apply_transform(motor.T_body_part)
-    case = shapely.MultiPoint(mesh.vertices[:, ::2]).convex_hull
-    assert sorted(np.ptp(motor.shape.bounds_mm, axis=0))[:2] == pytest.approx([10.0, 12.0], abs=0.01)
-    walls = placed(robot, "body_plate_right")
-    socket = region(cut(walls, max(mesh.bounds[0, 1] + 1.0, walls.bounds[1, 1] - 1.0)))
-    assert case.intersection(socket).area < 0.3
-    for corner in np.array(case.exterior.coords)[:-1]:
-        assert shapely.Point(corner).distance(socket) < 0.6
-    around = case.buffer(0.6, join_style="mitre")
-    assert socket.intersection(around).area > 0.2 * around.difference(case).area
-    everything = [1000.0 * item.mass_kg for item in robot.hardware if item.name in ("motor", "motor_shaft")]
-    assert sum(everything) == pytest.approx(robot.layout.drive.train.motor.mass_g)
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_the_sensors_case_lies_in_the_plate_where_the_layout_says(name: str) -> None:
-    """Its base as far outside the left plate as the mount holds it; as long, wide and high as its article."""
-    robot = built(name)
-    felt = robot.layout.sensor
-    item = next(one for one in robot.hardware if one.name == "sensor")
-    low, high = item.look.copy().apply_transform(item.T_body_part).bounds
-    assert ((low + high) / 2.0)[[0, 2]] == pytest.approx(felt.place_mm, abs=2e-3)
-    assert high[1] == pytest.approx(robot.layout.lateral.outside[1] + felt.base_mm, abs=1e-3)
-    screws = [one for one in robot.hardware if one.name.startswith("sensor_screw_")]
-    assert len(screws) == 2
-    for screw in screws:  # four threads of 0.4 mm in the plate at least, and not out of its inside
-        tip = screw.look.copy().apply_transform(screw.T_body_part).bounds[0, 1]
-        assert robot.layout.lateral.inside[1] < tip <= robot.layout.lateral.outside[1] - 1.6 + 1e-6
-    part = felt.needs.part
-    # its long side is a tangent of the track about the cam's axis
-    away = item.look.copy().apply_transform(item.T_body_part).vertices[:, ::2] - felt.place_mm
-    outwards = (felt.place_mm - robot.layout.cam_axis_mm) / felt.radius_mm
-    assert np.ptp(away @ outwards) == pytest.approx(part.width_mm, abs=2e-3)
-    assert np.ptp(away @ [-outwards[1], outwards[0]]) == pytest.approx(part.length_mm, abs=2e-3)
-    corners = item.look.vertices
-    sizes = np.ptp(corners, axis=0)
-    assert sorted(sizes)[1:] == pytest.approx(sorted([part.length_mm, felt.needs.travel.total_mm]), abs=2e-3)
-    assert item.mass_kg == pytest.approx(part.mass_g / 1000.0)
-
-
-def test_bearings_are_in_the_hub_and_on_the_lever(assembled_robot: Robot) -> None:
-    """The hub's two at the leg's faces about its axle; roller, washer, screw and nut about the hole of the lever."""
-    layout, cam = assembled_robot.layout, assembled_robot.layout.drive.cam
-    angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
-    lever = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
-    half, hub = layout.sections.thickness_mm / 2.0, layout.hub_bearing
-    places = {
-        "hub_bearing_1": ((0.0, 0.0), -half, hub.width_mm - half),
-        "hub_bearing_2": ((0.0, 0.0), half - hub.width_mm, half),
-        "roller_washer": (lever, half, half + 0.5), "roller_nut": (lever, -half - 4.0, -half),
-        "roller": (lever, *layout.lateral.cam), "roller_screw": (lever, None, layout.lateral.cam[1] + 1.65),
-    }  # fmt: skip
-    for name, (centre, low, high) in places.items():
-        (item,) = (thing for thing in assembled_robot.hardware if thing.name == name)
-        bounds = item.look.copy().apply_transform(item.T_body_part).bounds
-        assert bounds.mean(axis=0)[[0, 2]] == pytest.approx(centre, abs=0.02), name
-        assert bounds[1, 1] == pytest.approx(high, abs=1e-3), name
-        assert low is None or bounds[0, 1] == pytest.approx(low, abs=1e-3), name
-        if name == "roller_screw":
-            assert bounds[0, 1] <= -half - 4.0 + 1e-6, "not through the whole nut"
 
 
 @pytest.mark.parametrize("plate_mm", [1.6, 2.0, 2.4, 3.0, 3.5, 4.0, 4.5])
@@ -307,21 +185,6 @@ def test_a_standoffs_screw_has_4_to_6_mm_of_thread_under_any_plate(plate_mm: flo
             assert bounds == pytest.approx([low, high])
 
 
-def test_motor_and_cap_screws_stand_where_the_layout_says() -> None:
-    """The shaft from the motor's front to the left, turned with the pinion; screws of 8 mm end under sunk heads."""
-    robot = built("kenan-2.0")
-    things = {item.name: item.look.copy().apply_transform(item.T_body_part).bounds for item in robot.hardware}
-    motor, lateral = robot.layout.drive.train.motor, robot.layout.lateral
-    assert things["motor"][:, 1] == pytest.approx(lateral.motor)
-    assert things["motor_shaft"][:, 1] == pytest.approx([lateral.motor[1], lateral.motor[1] + motor.shaft_length_mm])
-    for number, ear in enumerate(ear_places(robot.layout), start=1):
-        low, high = things[f"cap_screw_{number}"]
-        assert ((low + high) / 2.0)[[0, 2]] == pytest.approx(ear, abs=2e-3)
-        assert high[1] == pytest.approx(lateral.motor_cap[1], abs=1e-3)
-        head = load_catalogue().screws["M2"].button_head_height_mm
-        assert low[1] == pytest.approx(high[1] - head - 8.0, abs=1e-3)
-
-
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_the_shafts_flat_lies_on_the_flat_of_the_pinions_bore(name: str) -> None:
     """All of its section is in the bore but for what five crush ribs take of it, each a tenth of a mm deep or less."""
@@ -342,38 +205,6 @@ def test_a_d_shaft_is_a_disc_without_a_segment(diameter: float, across: float) -
     assert _d_shaft(diameter, across).area() == pytest.approx(math.pi * r**2 - segment, rel=5e-3)
 
 
-def test_cross_screws_go_through_the_toe_into_the_stub() -> None:
-    """Under the head (1.65 mm, ISO 7380-1 M3) lies the toe; behind it 4 mm at least of thread, within the stub."""
-    robot = built(LONG_TOES)
-    for toe in toes(robot.layout):
-        inverse, side = np.linalg.inv(toe.pose_mm), toe.outside * np.array([0.0, 1.0, 0.0])
-        overlap = [
-            placed(robot, name).apply_transform(inverse).slice_plane([15.0, 0, 0], [1, 0, 0])
-            .slice_plane([31.0, 0, 0], [-1, 0, 0]).vertices @ side for name in (toe.name, "foot")
-        ]  # fmt: skip
-        outside, inside = overlap[0].max(), overlap[0].min()
-        screws = [item for item in robot.hardware if item.name.startswith(f"{toe.name}_screw")]
-        assert len(screws) == 2
-        for item in screws:
-            along = item.look.copy().apply_transform(inverse @ item.T_body_part).vertices @ side
-            assert along.max() - outside == pytest.approx(1.65, abs=1e-3)
-            up = item.look.copy().apply_transform(inverse @ item.T_body_part).vertices[:, 2]
-            middle = (up.max() + up.min()) / 2.0 + robot.layout.sections.foot_depth_mm  # above the sole
-            assert middle == pytest.approx(joint_height_mm(robot.layout, HoleSizes.of(robot.workshop, None)) / 2.0)
-            assert overlap[1].min() < along.min() <= inside - 4.0
-
-
-def test_what_there_is_several_of_is_counted_from_one(robot: Robot) -> None:
-    counted: dict[str, list[int]] = {}
-    for item in robot.hardware:
-        if found := re.fullmatch(r"(.*?)_(\d+)(_screw_left|_screw_right)?", item.name):
-            counted.setdefault(found[1] + (found[3] or ""), []).append(int(found[2]))
-    assert {"standoff", "standoff_screw_left", "sensor_screw", "cap_screw", "hub_bearing"} < counted.keys()
-    assert ("toe_left_screw" in counted) == robot.layout.toes_apart
-    for name, numbers in counted.items():
-        assert numbers == list(range(1, len(numbers) + 1)), name
-
-
 def test_small_steel_weighs_what_the_catalogue_says(assembled_robot: Robot) -> None:
     catalogue = load_catalogue()
     expected = {"roller_nut": catalogue.nuts["M3 nyloc"].mass_g, "roller_washer": catalogue.washers["M3"].mass_g}
@@ -383,23 +214,6 @@ def test_small_steel_weighs_what_the_catalogue_says(assembled_robot: Robot) -> N
         expected[name] = catalogue.bearings[bearing.article.removeprefix("ball bearing ")].mass_g
     found = {one.name: 1000.0 * one.mass_kg for one in assembled_robot.hardware if one.name in expected}
     assert found == pytest.approx(expected, rel=1e-9)
-
-
-def test_rings_have_their_bores(assembled_robot: Robot) -> None:
-    """A washer of ISO 7089 M3: 7 mm, 3.2 mm, 0.5 mm; ball bearings as their names say, filled between the rings."""
-    catalogue, seen = load_catalogue(), set()
-    for item in assembled_robot.hardware:
-        if item.name == "roller_washer":
-            assert item.article == "washer M3 ISO 7089"
-            outer, bore, width = 7.0, 3.2, 0.5
-        elif item.article.startswith("ball bearing "):
-            bearing = catalogue.bearings[item.article.removeprefix("ball bearing ")]
-            outer, bore, width = bearing.outer_mm, bearing.bore_mm, bearing.width_mm
-        else:
-            continue
-        seen.add(item.name)
-        assert item.shape.volume_mm3 == pytest.approx(math.pi / 4.0 * (outer**2 - bore**2) * width, rel=0.01), item.name
-    assert seen == {"roller_washer", "roller", "hub_bearing_1", "hub_bearing_2"}
 
 
 def test_screws_weigh_shank_and_head(assembled_robot: Robot) -> None:

@@ -4,14 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from support.built import built, cut, hole_centres, inscribed_diameter, part, placed
+from support.built import built, cut, hole_centres, inscribed_diameter, placed
 from support.fits import RUNNING, TOLERANCE_MM
 
-from jumpcad.errors import JumpcadError
-from jumpcad.parts.motor_socket import ear_places
-from jumpcad.parts.small import require_axle
 from jumpcad.robot import Robot
-from jumpcad.workshop import Workshop, load_workshop
 
 
 @pytest.fixture(scope="module")
@@ -34,31 +30,10 @@ def test_bushings_turn_on_the_axle_and_fill_the_wound_spring(kenan: Robot, side:
     assert outside == pytest.approx(inside_wound - 0.3, abs=0.01)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_beyond_the_spring_the_bushing_is_a_tube_with_a_wall_of_1_5_mm(name: str) -> None:
-    """Where the coil has room for it: 3 mm of axle, 0.2 mm around it, and the wall."""
-    layout = built(name).layout
-    y = (layout.lateral.spring_left[1] + layout.lateral.inside[1]) / 2.0
-    points = cut(placed(built(name), "spring_bushing_left"), y).reshape(-1, 2) - layout.hub_mm
-    widest = min(3.0 + 2.0 * (0.2 + 1.5), layout.drive.spring.mandrel_mm)
-    assert 2.0 * np.hypot(*points.T).max() == pytest.approx(widest, abs=0.01)
-
-
 def at_hub(robot: Robot, name: str) -> np.ndarray:
     """Return the y at which a printed part of the body has points within 5 mm of the leg's axle."""
     points = placed(robot, name).vertices
     return points[np.hypot(*(points[:, ::2] - robot.layout.hub_mm).T) < 5.0, 1]
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-@pytest.mark.parametrize("side", ["left", "right"])
-def test_a_bushing_reaches_from_the_leg_to_the_plates_seat(name: str, side: str) -> None:
-    """0.15 mm off either, also where the coil is as near to the plate as its seat around the leg's axle is high."""
-    robot = built(name)
-    sign = 1.0 if side == "left" else -1.0
-    bushing, plate = (sign * at_hub(robot, f"{one}_{side}") for one in ("spring_bushing", "body_plate"))
-    assert bushing.min() - placed(robot, "main_leg").bounds[1, 1] == pytest.approx(0.15, abs=1e-3)
-    assert plate.min() - bushing.max() == pytest.approx(0.15, abs=1e-3)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -75,13 +50,6 @@ def test_the_rollers_screw_clears_the_cam_gear_with_all_play_against_it(name: st
     screw = next(item for item in robot.hardware if item.name == "roller_screw")
     head = screw.look.copy().apply_transform(screw.T_body_part).bounds[1, 1]
     assert head + leg_play < gear[0] - gear_play - 0.1
-
-
-def test_spacers_turn_on_their_axles(kenan: Robot) -> None:
-    for name in ("front_spacer_left", "front_spacer_right", "cam_spacer_right"):
-        mesh = part(kenan, name).mesh
-        segments = cut(mesh.copy().apply_transform([[1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]), 1.03)
-        assert inscribed_diameter(segments, np.zeros(2)) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
 
 
 def test_front_link_and_cam_gear_have_half_a_millimetre_beside_what_is_pushed_away(kenan: Robot) -> None:
@@ -125,34 +93,3 @@ def test_the_motors_cap_has_its_boss_between_two_screws(kenan: Robot) -> None:
         widths.append(holes[centres[1]])
     assert sorted(widths) == pytest.approx([2.4, 4.0], abs=0.05)
     assert max(widths) > 3.8
-
-
-def test_spacers_hold_the_axles_around_which_they_keep_a_wall() -> None:
-    """Tubes of 6.4 mm, 0.2 mm of play and 0.8 mm of wall a side in the default workshop: 4.4 mm."""
-
-    def shop(axle_mm: float, **fits: float) -> Workshop:
-        usual = load_workshop()
-        bought = usual.bought.model_copy(update={"axle_mm": axle_mm})
-        return usual.model_copy(update={"bought": bought, "fits": usual.fits.model_copy(update=fits)})
-
-    require_axle(shop(4.399))
-    require_axle(shop(4.2, sliding_mm=0.29))
-    wrong_ones = ((shop(4.401), "4.4", "0.8"), (shop(4.4, sliding_mm=0.3), "4.2", "0.8"),
-                  (shop(4.4, wall_min_mm=1.0), "more than 4", "1"))  # fmt: skip
-    for wrong, most, least in wrong_ones:
-        with pytest.raises(
-            JumpcadError, match=rf"{most}, .* spacers of 6.4 mm keep a wall of .*wall_min_mm = {least}:"
-        ):
-            require_axle(wrong)
-
-
-def test_the_caps_screws_have_their_heads_in_its_outer_face(kenan: Robot) -> None:
-    """Counterbores of 4 mm, 1.6 mm deep, for M2 heads of 3.8 mm (ISO 14580); below them holes that the screws pass."""
-    y0, y1 = kenan.layout.lateral.motor_cap
-    cap, ears = placed(kenan, "motor_cap"), ear_places(kenan.layout)
-    assert len(ears) == 2
-    m2 = kenan.workshop.fits.m2_clearance_mm
-    for y, diameter in ((y1 - 0.3, 4.0), (y1 - 1.5, 4.0), (y1 - 1.7, m2), (y0 + 0.3, m2)):
-        segments = cut(cap, y)
-        for ear in ears:
-            assert inscribed_diameter(segments, ear) == pytest.approx(diameter, abs=TOLERANCE_MM), y

@@ -8,7 +8,7 @@ import pytest
 from support.built import built
 
 from jumpcad.drive import TorsionSpring
-from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
+from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire
 
 HUB, ENDS = np.array([-40.0, 3.0]), (16.0, 6.0)
 
@@ -40,13 +40,6 @@ def test_a_coil_has_the_springs_turns_from_the_outer_y_to_the_inner(spring: Tors
     assert len(coil) == 1 + math.ceil(24.0 * (spring.turns + spring.preload_rad / (2.0 * math.pi)))
 
 
-def test_the_bodys_arm_is_a_tangent_of_its_length_in_the_outer_plane(spring: TorsionSpring) -> None:
-    end, start = coil_with_arm(HUB, spring, ENDS).points_mm[:2]
-    assert end[1] == start[1] == ENDS[0]
-    assert math.dist(end, start) == pytest.approx(spring.arm_length_mm, abs=1e-4)
-    assert (end - start)[::2] @ (start[::2] - HUB) == pytest.approx(0.0, abs=1e-3)
-
-
 def test_the_legs_arm_has_the_end_of_the_coil_that_winding_adds(spring: TorsionSpring) -> None:
     """As steep as the coil, up to where the arm leaves it in the inner plane, as a tangent of its length."""
     points = leg_arm_wire(spring, ENDS).points_mm
@@ -62,19 +55,3 @@ def test_the_legs_arm_has_the_end_of_the_coil_that_winding_adds(spring: TorsionS
     assert coil[-1, 1] == end[1] == ENDS[1]
     assert math.dist(coil[-1], end) == pytest.approx(spring.arm_length_mm, abs=1e-4)
     assert (end - coil[-1])[::2] @ coil[-1][::2] == pytest.approx(0.0, abs=1e-3)
-
-
-def test_a_long_coil_has_400_chords_at_most(spring: TorsionSpring) -> None:
-    assert len(coil_with_arm(HUB, replace(spring, turns=40.0), ENDS).points_mm) == 2 + 400
-
-
-def test_springs_are_ordered_by_their_figures_or_their_name_from_stock(spring: TorsionSpring) -> None:
-    """Two of each hand, of which one is chosen."""
-    rate = spring.stiffness_nm_per_rad * 1000.0 * math.pi / 180.0
-    made = spring_article(spring, "left")
-    assert made == (
-        f"torsion spring, {rate:.2f} N·mm/°, wire {spring.wire_mm:g} mm, inside diameter "
-        f"{spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, left hand; order 2, choose one"
-    )
-    stock = spring_article(replace(spring, stock="T-123"), "right")
-    assert stock == f"torsion spring T-123, right hand, arms cut to {spring.arm_length_mm:.1f} mm; order 2, choose one"

@@ -11,16 +11,9 @@ from support.built import LONG_TOES, built, cut, hole_centres, part, placed
 
 from jumpcad.building import build
 from jumpcad.design import load_design
-from jumpcad.mechanism.linkage import toe_tip_mm
-from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.toes import (
-    SCREWS_MM,
-    _bar,
-    _behind_mm,
-    _finger,
-    _holes,
     joint_height_mm,
     lying_hole,
     on_the_foot,
@@ -40,29 +33,6 @@ def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
         np.testing.assert_allclose(tip[:2], reach, atol=1e-9)
         beside = layout.sections.thickness_mm / 2.0 + 0.5 + layout.sections.toe_width_mm / 2.0  # leg, gap, half a toe
         assert toe.root_mm.tolist() == pytest.approx([0.0, sign * beside])
-
-
-def test_a_toe_tapers_from_its_root_to_its_tip_all_round() -> None:
-    """7 mm wide at its root and 5 at its tip; as high as the sections say."""
-    layout = built("kenan-2.0").layout
-    sections = replace(layout.sections, toe_width_mm=7.5, toe_root_mm=4.1, toe_tip_height_mm=2.3, stop_mm=9.0)
-    start = np.array([3.0, 1.0])
-    finger = _finger(replace(layout, sections=sections), start, 60.0)
-    low, high = finger.bounds_mm
-    assert (low[2], high[2]) == pytest.approx((0.0, 4.1))
-    assert high[0] == pytest.approx(60.0 + 2.5, abs=0.01)
-    assert (low[1], high[1]) == pytest.approx((1.0 - 3.75, 1.0 + 3.75), abs=0.02)
-    reach = [finger.solid().slice(z).bounds()[2] for z in (3.2, 2.29)]  # half as high between both, and below the tip
-    assert reach == pytest.approx([31.5, 62.5], abs=4.0)
-
-
-def test_screws_holes_go_through_a_toe_wider_than_the_leg_and_not_far_beyond() -> None:
-    robot = built("kenan-2.0")
-    wide = replace(robot.layout, sections=replace(robot.layout.sections, toe_width_mm=13.0))
-    (x0, y0, _), (x1, y1, _) = _holes(wide, HoleSizes.of(robot.workshop, None), 3.2, 2.0).bounds_mm
-    assert -6.5 < y0 < -4.5  # from the middle, 2 mm to the left, half a toe to either side
-    assert 8.5 < y1 < 10.5
-    assert x1 - x0 == pytest.approx(3.2 + abs(SCREWS_MM[1] - SCREWS_MM[0]), abs=0.1)
 
 
 @pytest.mark.parametrize("angle_deg", [38.0, 55.0, 65.0, 80.0])
@@ -90,16 +60,6 @@ def test_toes_keep_their_height_beside_the_ankles_pin(angle_deg: float) -> None:
         assert least > 0.75 * sections.toe_width_mm * height**2 / 6.0, u
 
 
-def test_only_toes_that_the_pin_would_cut_deeply_begin_behind_the_ankle() -> None:
-    """7 mm wide: the front edge is 3.5·tan(a/2) - b before the ankle at the boss's face, 3.5 mm behind it 4 mm on."""
-    for degrees in (5.0, 36.0, 50.0, 70.0, 89.0, 95.0):
-        angle = math.radians(degrees)
-        needed = 3.5 * math.tan(angle / 2.0) + 3.5 - 4.0 / math.tan(angle)
-        assert _behind_mm(angle, 7.0) == pytest.approx(max(0.0, needed))
-    assert _behind_mm(math.radians(36.0), 7.0) == 0.0
-    assert _behind_mm(0.0, 7.0) == 0.0
-
-
 @pytest.mark.parametrize("diameter", [2.9, 3.4])
 def test_a_lying_hole_holds_its_shaft_under_a_roof_of_45_degrees(diameter: float) -> None:
     """Above the round no wall overhangs by more than 45°, up to a flat bridge of a quarter of the width."""
@@ -116,40 +76,6 @@ def test_a_lying_hole_holds_its_shaft_under_a_roof_of_45_degrees(diameter: float
     np.testing.assert_allclose(np.abs(above[:, 0]) + above[:, 1], math.sqrt(2.0) * radius, atol=0.02 * radius)
 
 
-def test_a_joint_of_toes_is_as_high_as_the_toe_or_as_its_screw_needs() -> None:
-    """The screw's hole with two walls above it and two below."""
-    robot = built(LONG_TOES)
-    layout, holes = robot.layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)
-    needed = holes.m3_clearance_mm + 4.0 * robot.workshop.fits.wall_mm
-    for root, height in ((needed - 1.0, needed), (needed + 1.0, needed + 1.0)):
-        sized = replace(layout, sections=replace(layout.sections, toe_root_mm=root))
-        assert joint_height_mm(sized, holes) == pytest.approx(height)
-
-
-def test_pads_lie_under_the_toes_tips_and_not_beyond() -> None:
-    """From 8 mm behind a tip's middle to 1.5 mm before it; behind the round tips only corners stand out a little."""
-    robot = built("best-bo")
-    foot = placed(robot, "foot")
-    pads = [item for item in robot.hardware if item.name in ("toe_left_pad", "toe_right_pad")]
-    tips = {contact.name: 1000.0 * contact.centre_m for contact in robot.bodies[FOOT].contacts}
-    assert len(pads) == 2
-    for pad in pads:
-        points = pad.shape.solid().to_mesh().vert_properties[:, :3] @ pad.T_body_part[:3, :3].T + pad.T_body_part[:3, 3]
-        tip = tips["left_toe" if pad.name == "toe_left_pad" else "right_toe"]
-        assert points[:, 0].min() > foot.bounds[0, 0] - 0.5
-        assert np.abs(points[:, 1]).max() < foot.bounds[1, 1] + 0.5
-        away = np.hypot(*(points - tip)[:, :2].T)
-        assert away.min() < 3.0
-        assert away.max() == pytest.approx(math.hypot(8.0, 2.5), abs=0.05)  # a tip of 5 mm
-
-
-def test_toes_are_apart_only_where_the_bed_asks_for_it() -> None:
-    assert [part.name for part in built("kenan-2.0").parts if "toe" in part.name] == []
-    assert [part.name for part in built(LONG_TOES).parts if "toe" in part.name] == ["toe_left", "toe_right"]
-    # 163 x 125 mm fits a bed of 180 mm
-    assert not built("kenan-2.0", "fine").layout.toes_apart
-
-
 def test_toes_apart_are_mirror_images() -> None:
     robot = built(LONG_TOES)
     left, right = (placed(robot, name) for name in ("toe_left", "toe_right"))
@@ -157,35 +83,6 @@ def test_toes_apart_are_mirror_images() -> None:
     np.testing.assert_allclose(left.center_mass * [1, -1, 1], right.center_mass, atol=2e-3)
     signs = np.array([[1, -1, 1], [-1, 1, -1], [1, -1, 1]])
     np.testing.assert_allclose(left.moment_inertia * signs, right.moment_inertia, rtol=1e-3, atol=100.0)
-
-
-def test_toe_and_stub_lie_face_to_face_along_the_joint() -> None:
-    """Between 16 and 30 mm from the root they overlap at full height, a sliding fit apart."""
-    robot = built(LONG_TOES)
-    toe = part(robot, "toe_left")
-    whole = placed(robot, "foot").apply_transform(np.linalg.inv(toe.placements[0].T_body_part))
-    stub = whole.slice_plane([0, -30, 0], [0, 1, 0])
-    for x in (16.0, 23.0, 30.0):
-        of_toe, of_stub = (
-            mesh.slice_plane([x - 0.1, 0, 0], [1, 0, 0]).slice_plane([x + 0.1, 0, 0], [-1, 0, 0]).bounds
-            for mesh in (toe.mesh, stub)
-        )
-        assert of_toe[1, 2] == pytest.approx(of_stub[1, 2], abs=1e-3)
-        assert of_stub[0, 1] - of_toe[1, 1] == pytest.approx(0.2, abs=5e-3)
-    assert toe.mesh.bounds[0, 0] == pytest.approx(12.0, abs=2e-3)
-    assert stub.bounds[1, 0] == pytest.approx(34.0, abs=2e-3)
-
-
-def test_cross_screws_are_16_and_30_mm_from_the_toes_root() -> None:
-    """Both in the overlap of toe and stub, from 12 to 34 mm, with more than their heads' radius to its ends."""
-    robot = built(LONG_TOES)
-    for toe in toes(robot.layout):
-        inverse = np.linalg.inv(toe.pose_mm)
-        places = []
-        for item in robot.hardware:
-            if item.name.startswith(f"{toe.name}_screw"):
-                places.append(item.look.copy().apply_transform(inverse @ item.T_body_part).bounds[:, 0].mean())
-        assert sorted(places) == pytest.approx([16.0, 30.0], abs=0.05)
 
 
 def test_screws_pass_a_toe_from_side_to_side() -> None:
@@ -218,23 +115,6 @@ def test_screws_of_toes_cut_their_thread_into_the_stubs() -> None:
         assert (x0, x1) == pytest.approx((16.0 - 1.35, 30.0 + 1.35), abs=0.01)
         assert y0 == -y1 < -robot.layout.sections.toe_width_mm / 2.0
         assert (stub.angle_rad, stub.place_mm) == (toe.angle_rad, pytest.approx(toe.root_mm))  # type: ignore[attr-defined]
-
-
-@pytest.mark.parametrize("more_mm", [0.5, 20.0])
-@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
-def test_bars_reach_straight_to_the_side(name: str, more_mm: float) -> None:
-    """From the design's tips to half the width asked for, with the round end of a tip of 5 mm beyond."""
-    robot = built(name)
-    tip = np.array([toe_tip_mm(robot.design)[0], 0.0, 0.0])
-    layout = replace(robot.layout, toe_half_width_mm=toe_tip_mm(robot.design)[1] + more_mm)
-    for toe in toes(layout):
-        (bar,) = _bar(layout, toe)
-        ends = [toe.pose_mm @ [*end, 0.0, 1.0] for end in (bar.root_mm, bar.tip_mm)]
-        for end, away in zip(ends, (0.0, more_mm), strict=True):
-            beside = toe.sign * np.array([0.0, toe_tip_mm(robot.design)[1] + away, 0.0])
-            np.testing.assert_allclose(end[:3], tip + beside, atol=1e-6)
-        assert bar.bounds_mm[:, 2] == pytest.approx([0.0, layout.sections.toe_tip_height_mm])
-    assert _bar(replace(layout, toe_half_width_mm=0.0), toes(layout)[0]) == []
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])

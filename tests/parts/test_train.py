@@ -11,19 +11,14 @@ import trimesh
 from scipy.optimize import brentq
 from shapely import affinity
 from support.built import built, cut, geared, hole_centres, in_body, placed, region
-from support.fits import chamfered, with_fits_apart
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
-from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.drive.gears import Gear
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import MAIN_LEG
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing
-from jumpcad.parts.train import _cam_gear, _track, _webbed, gear_turns, gears, ribbed_d_bore
+from jumpcad.parts.train import _track, gear_turns, gears
 from jumpcad.robot import Robot
-from jumpcad.solids import outline
 from jumpcad.workshop import load_workshop
 
 ALPHA = math.radians(20)
@@ -144,23 +139,6 @@ def test_size_over_pins_is_the_textbooks(wheel: Measured) -> None:
     angle = brentq(lambda a: involute(a) - value, 1e-3, 1.3)
     odd = math.cos(math.pi / (2 * z)) if z % 2 else 1.0
     assert wheel.over_pins_mm(pin) == pytest.approx(base / math.cos(angle) * odd + pin, abs=0.02)
-
-
-def test_number_of_teeth_is_that_of_the_ratio() -> None:
-    for robot in robots().values():
-        ratio = 1.0
-        names = (("motor_pinion", "cam_gear"),) if robot.layout.idler_mm is None else (
-            ("motor_pinion", "idler wheel"), ("idler pinion", "cam_gear"),
-        )  # fmt: skip
-        for pinion, gear in names:
-            counts = []
-            for name in (pinion, gear):
-                wheel = Measured(robot, name)
-                radii = np.hypot(*wheel.points.T)
-                level = (radii.max() + radii.min()) / 2
-                counts.append(np.count_nonzero((radii > level) & (np.roll(radii, 1) <= level)))
-            ratio *= counts[1] / counts[0]
-        assert ratio == pytest.approx(robot.layout.drive.train.ratio)
 
 
 @pytest.mark.parametrize(
@@ -287,20 +265,6 @@ def test_web_holes_can_be_printed_and_leave_the_sensors_track_a_wall(teeth: int)
         assert corners.min() > sensor.radius_mm + sensor.half_width_mm + 1.59
 
 
-def test_web_holes_inside_the_sensors_track_leave_it_a_wall_too() -> None:
-    """A wheel of 80 mm with a groove from 28 to 30 mm: holes on both sides of it, none nearer than 1.6 mm."""
-    robot = built("kenan-2.0")
-    holes, dog = HoleSizes.of(robot.workshop, None), robot.layout.drive.dog
-    gear = _cam_gear(Gear(80, 1.0, 0.0, 5.0), dog, 3.0, holes, 0.0, (28.0, 30.0))
-    outlines = map(shapely.Polygon, gear.regions_at([2.5])[0].to_polygons())
-    webs = [hole for hole in outlines if hole.distance(shapely.Point(0.0, 0.0)) > dog.outer_mm / 2.0 + 1.0]
-    reach = [np.hypot(*np.array(hole.exterior.coords).T) for hole in webs]
-    inside, outside = [one for one in reach if one.max() < 29.0], [one for one in reach if one.min() > 29.0]
-    assert len(inside) == len(outside) == 6
-    assert max(one.max() for one in inside) == pytest.approx(26.4, abs=0.01)
-    assert min(one.min() for one in outside) == pytest.approx(31.6, abs=0.01)
-
-
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo", "two pairs"])
 def test_the_sensors_land_rises_in_layers_from_the_bottom_of_its_groove_to_the_gears_face(name: str) -> None:
     layout = (geared() if name == "two pairs" else built(name)).layout
@@ -324,77 +288,6 @@ def test_the_sensors_land_rises_in_layers_from_the_bottom_of_its_groove_to_the_g
     begins, ends = zip(*(step[2:] for step in track.steps), strict=True)
     assert begins == pytest.approx([drop - sensor.ready_rad + high / sensor.radius_mm for high in above])
     assert ends == pytest.approx([drop + sensor.open_rad - high / sensor.radius_mm for high in above])
-
-
-def test_the_sensors_land_is_one_piece_with_a_gear_whose_web_has_holes() -> None:
-    _, gear = with_wheel(42)
-    solid = gear.shape.solid()
-    assert solid.genus() > 3  # bore, pockets, and holes in the web
-    assert len(solid.decompose()) == 1
-
-
-def test_a_motors_shaft_is_held_by_five_ribs() -> None:
-    """A bore of 3 mm with a press fit around it: two ribs on the flat, symmetric, and one each way on the round side.
-
-    Every rib leaves the shaft's own section narrower by its overlap; nothing else of the bore touches the shaft.
-    """
-    holes = HoleSizes.of(with_fits_apart(load_workshop()), None)
-    fits = holes.fits
-    bore = shapely.union_all([shapely.Polygon(one) for one in ribbed_d_bore(3.0, 2.5, holes).to_polygons()])
-    shaft = shapely.Point(0.0, 0.0).buffer(1.5, 128).intersection(shapely.box(-2.0, -2.0, 1.0, 2.0))
-    ribs = [one for one in shaft.difference(bore).geoms if one.area > 1e-4]
-    assert len(ribs) == 5
-    middles = sorted((round(one.centroid.x, 1), round(one.centroid.y, 2)) for one in ribs)
-    flat = [at for at in middles if at[0] > 0.7]
-    assert [y for _, y in flat] == pytest.approx([-0.75, 0.75], abs=0.02)
-    others = [at for at in middles if at not in flat]
-    for x, y in ((-1.5, 0.0), (0.0, 1.5), (0.0, -1.5)):
-        assert min(math.dist((x, y), at) for at in others) < fits.rib_mm
-    assert bore.difference(shaft.buffer(fits.press_mm + 2e-3)).area < 1e-2
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_the_cam_gear_has_a_groove_with_one_land_in_its_left_face(name: str) -> None:
-    """Above the groove's floor the track is free but for the land; below it there is material all around."""
-    layout = built(name).layout
-    sensor, (_, face) = layout.sensor, layout.lateral.gears[0]
-    assert sensor is not None
-    half = sensor.half_width_mm - 0.05
-    track = shapely.Point(*layout.cam_axis_mm).buffer(sensor.radius_mm, 128).exterior.buffer(half)
-    mesh = placed(built(name), "cam_gear")
-    floor, land = (region(cut(mesh, face - depth)).intersection(track) for depth in (sensor.depth_mm + 0.05, 0.05))
-    assert floor.area == pytest.approx(track.area, rel=1e-3)
-    assert land.geom_type == "Polygon"
-    begin, end = sensor.land_rad(sensor.depth_mm - 0.1, layout.drive.cam.law.lift_rad)
-    assert land.area == pytest.approx((end - begin) * sensor.radius_mm * 2.0 * half, rel=0.1)
-    away = np.array(land.centroid.coords[0]) - layout.cam_axis_mm
-    middle = math.atan2(away[1], away[0]) - (begin + end) / 2.0
-    assert math.remainder(middle, 2.0 * math.pi) == pytest.approx(0.0, abs=0.02)
-
-
-@pytest.mark.parametrize(("bore_mm", "hub_mm", "reach_mm"), [(6.0, 0.0, 3.0), (6.0, 8.0, 8.0), (20.0, 8.0, 10.0)])
-def test_six_web_holes_leave_3_mm_around_the_hub_inside_the_teeth_and_between_them(
-    bore_mm: float, hub_mm: float, reach_mm: float
-) -> None:
-    """Around the hub, or the bore where that is larger; spokes at every 60°; corners round, with a radius of 1 mm."""
-    gear = gear_pair(15, 60, 1.25, 5.0, 0.1).wheel
-    made = _webbed(gear, outline.hole(bore_mm), hub_mm)
-    contours = [shapely.Polygon(contour) for contour in made.to_polygons()]
-    axis = shapely.Point(0.0, 0.0)
-    webs = [one for one in contours if not one.contains(axis)]
-    webs.sort(key=lambda one: math.atan2(*one.centroid.coords[0]))
-    assert len(webs) == 6
-    for web, beside in zip(webs, [*webs[1:], webs[0]], strict=True):
-        assert web.distance(axis) == pytest.approx(reach_mm + 3.0, abs=0.02)
-        assert web.hausdorff_distance(axis) == pytest.approx(gear.root_radius_mm - 3.0, abs=0.02)
-        assert web.distance(beside) == pytest.approx(3.0, abs=0.02)
-        assert web.buffer(-0.99).buffer(1.0).symmetric_difference(web).area < 0.02 * web.area
-    solid = outline.ring(2.0 * 25.0, 2.0 * 20.0)
-    kept = _webbed(gear, outline.hole(bore_mm), hub_mm, solid)
-    assert (solid - kept).area() < 0.1
-    assert kept.area() > made.area()
-    small = gear_pair(15, 16, 1.25, 5.0, 0.1).wheel
-    assert len(_webbed(small, outline.hole(3.4), 0.0).to_polygons()) == 2
 
 
 @pytest.mark.parametrize("teeth", [(40, 17, 44, 16), (41, 16, 43, 19)])
@@ -439,26 +332,6 @@ def test_the_cams_jaws_reach_through_the_cam_gear() -> None:
         assert placed(robot, "cam").bounds[:, 1] == pytest.approx([lateral.cam[0], lateral.gears[0][1]], abs=1e-3)
 
 
-def test_an_idlers_small_teeth_stand_on_solid_material_3_mm_wider() -> None:
-    """In the wheel below them nothing is open but the bore."""
-    robot = geared()
-    layout, pinion = robot.layout, robot.layout.drive.train.stages[-1].pinion
-    wheel = region(cut(placed(robot, "idler"), sum(layout.lateral.gears[-1]) / 2.0))
-    axis = shapely.Point(*layout.idler_mm)
-    solid = axis.buffer(pinion.tip_radius_mm + 2.95, 64) - axis.buffer(layout.axle_mm / 2.0 + 0.25)
-    assert solid.difference(wheel).area < 1e-3
-
-
-def test_the_cam_gears_hub_reaches_to_a_tenth_of_a_millimetre_from_the_plate_or_is_flush_beside_a_spacer() -> None:
-    """Where two pairs need a spacer between gear and plate, nothing stands out of the gear there."""
-    for robot in robots().values():
-        lateral, mesh = robot.layout.lateral, placed(robot, "cam_gear")
-        out = 0.4 if robot.layout.idler_mm is None else 0.0
-        assert mesh.bounds[:, 1] == pytest.approx([lateral.gears[0][0], lateral.gears[0][1] + out], abs=1e-3)
-        if robot.layout.idler_mm is None:
-            assert lateral.left_plate[0] - mesh.bounds[1, 1] == pytest.approx(0.1, abs=1e-3)
-
-
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_the_jaws_slide_between_the_gears_hub_and_its_rim(name: str) -> None:
     """Inside and outside the play of what turns, measured on sections; the boss ends a quarter of a mm off the gear."""
@@ -475,20 +348,3 @@ def test_the_jaws_slide_between_the_gears_hub_and_its_rim(name: str) -> None:
     boss, begun = (region(cut(placed(robot, "cam"), low - gap)) for gap in (0.27, 0.23))
     assert boss.geom_type == "Polygon"
     assert len(begun.geoms) == 2
-
-
-def test_the_cam_gear_lies_as_it_is_drawn_with_the_springs_at_rest() -> None:
-    """With one pair of gears or two; the others are turned to mesh with it."""
-    for robot in (built("kenan-2.0"), geared()):
-        turns = gear_turns(robot.layout)
-        assert turns["cam_gear"] == 0.0
-        assert ("idler" in turns) == (robot.layout.idler_mm is not None)
-
-
-def test_gears_and_cam_stand_on_chamfered_edges() -> None:
-    """Teeth that spread on the bed would jam."""
-    for robot in robots().values():
-        gears_and_cam = [one.name for one in robot.parts if one.drawing.role == "gears"]
-        assert len(gears_and_cam) == (3 if robot.layout.idler_mm is None else 4)
-        for name in gears_and_cam:
-            assert chamfered(robot, name), name

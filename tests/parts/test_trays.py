@@ -9,10 +9,7 @@ import shapely
 import trimesh
 from support.built import built, geared, placed
 
-from jumpcad.building import build
-from jumpcad.design import load_design
-from jumpcad.dimensions import TIE_SLOT_MM
-from jumpcad.parts.trays import _window, trays
+from jumpcad.parts.trays import trays
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -122,31 +119,6 @@ def test_every_board_lies_under_its_tie_before_its_rim(robot: Robot) -> None:
             assert one.distance(board) == pytest.approx(0.2, abs=2e-3)
 
 
-def test_two_slots_hold_the_balance_lead_of_two_cells_between_them() -> None:
-    """10 mm apart, for three wires beside their plug, about the battery's middle line and ahead of its strap."""
-    layout, shop = built("kenan-2.0").layout, load_workshop()
-    battery = shop.catalogue.batteries["lipo-2s-180"]
-    electronics = replace(layout.electronics, battery=battery)
-    lower = next(one for one in trays(replace(layout, electronics=electronics), shop) if "lower" in one.name)
-    floor = lower.shape.regions_at(np.array([0.8]))[0]
-    boxes = [np.array([ring.min(axis=0), ring.max(axis=0)]) for ring in floor.to_polygons()]
-    slots = [box for box in boxes if np.ptp(box, axis=0) == pytest.approx(TIE_SLOT_MM[::-1], abs=0.01)]
-    low, high = sorted(slots, key=lambda box: float(box[0, 1]))
-    assert high[0, 1] - low[1, 1] == pytest.approx(10.0, abs=0.01)
-    seat, middle = electronics.seats(layout.lateral.inside)["battery"], sum(layout.lateral.inside) / 2.0
-    assert (high[0, 1] + low[1, 1]) / 2.0 == pytest.approx(seat.y_mm - middle, abs=0.01)
-    assert low[0, 0] - seat.x_mm > battery.length_mm / 2.0
-
-
-@pytest.mark.parametrize(("size", "open_"), [((10.0, 4.0), True), ((4.0, 10.0), True), ((10.0, 3.9), False)])
-def test_a_window_is_at_least_as_wide_as_its_round_ends(size: tuple[float, float], open_: bool) -> None:
-    """4 mm: corners have a radius of 2 mm, which cost (4 - pi)·4 mm² together."""
-    found = _window(*size)
-    assert len(found) == open_
-    for one in found:
-        assert one.area() == pytest.approx(40.0 - (4.0 - np.pi) * 4.0, rel=2e-3)
-
-
 @pytest.mark.parametrize("length_mm", [16.0, 24.0, 30.0])
 def test_the_window_under_a_short_battery_ends_a_millimetre_before_its_stops(length_mm: float) -> None:
     layout, shop = built("kenan-2.0").layout, load_workshop()
@@ -166,18 +138,6 @@ def test_the_window_under_a_short_battery_ends_a_millimetre_before_its_stops(len
     assert high.bounds[0] - window.bounds[2] == pytest.approx(1.0, abs=2e-3)
 
 
-@pytest.mark.parametrize(("width_mm", "stop_mm"), [(5.0, 4.0), (6.5, 4.0), (10.0, 6.0)])
-def test_the_stops_of_a_narrow_battery_are_4_mm_long(width_mm: float, stop_mm: float) -> None:
-    """Those of a wider one three fifths of its width."""
-    layout = built("kenan-2.0").layout
-    battery = layout.electronics.battery.model_copy(update={"width_mm": width_mm})
-    electronics = replace(layout.electronics, battery=battery)
-    lower = trays(replace(layout, electronics=electronics), load_workshop())[0]
-    (section,) = lower.shape.regions_at(np.array([2.6]))
-    sizes = [np.ptp(ring, axis=0)[1] for ring in section.to_polygons()]
-    assert sizes == pytest.approx([stop_mm, stop_mm], abs=1e-3)
-
-
 @pytest.mark.parametrize("battery", ["lipo-2s-180", "lipo-1s-300"])
 @pytest.mark.parametrize("length_mm", [60.0, 90.0])
 def test_the_window_under_a_long_battery_ends_5_mm_before_the_trays_end(battery: str, length_mm: float) -> None:
@@ -193,16 +153,3 @@ def test_the_window_under_a_long_battery_ends_5_mm_before_the_trays_end(battery:
     ahead, behind = openings[0].bounds[2] - middle, middle - openings[0].bounds[0]
     assert ahead == pytest.approx(behind, abs=2e-3)
     assert openings[0].bounds[0] - floor.bounds[0] == pytest.approx(5.0, abs=2e-3)
-
-
-def test_rims_and_stops_are_as_thick_as_the_thinnest_wall_that_prints() -> None:
-    """Three lines of a nozzle of 0.4 mm, 1.2 mm, or what a workshop asks for."""
-    shop = load_workshop()
-    thick = shop.model_copy(update={"fits": shop.fits.model_copy(update={"wall_min_mm": 1.3, "wall_mm": 1.4})})
-    for workshop, least in ((shop, 1.2), (thick, 1.3)):
-        robot = build(load_design("kenan-2.0"), workshop)
-        for name in ("electronics_tray_lower", "electronics_tray_upper"):
-            _, rims, _ = shapes(robot, name)
-            for rim in rims.geoms:
-                low_x, low_y, high_x, high_y = rim.bounds
-                assert min(high_x - low_x, high_y - low_y) == pytest.approx(least, abs=2e-3)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from support.each import each
 
 from jumpcad.printing.cores import cores, section_moments, shared
 from jumpcad.solids.outline import Region, rectangle
@@ -43,8 +44,8 @@ def test_a_pocket_has_perimeters_of_its_own() -> None:
     assert areas[second, 1] == pytest.approx(-100.0 * 3.0)
 
 
-@pytest.mark.parametrize("others", [[1], [2], [3], [1, 2], [2, 3], [1, 2, 3]])
-@pytest.mark.parametrize("number", [0, 1, 2, 3])
+@each("others", [[1], [2], [3], [1, 2], [2, 3], [1, 2, 3]])
+@each("number", [0, 1, 2, 3])
 def test_a_core_shares_with_other_layers_what_lies_in_all_of_them(number: int, others: list[int]) -> None:
     """A whole plate of 40 mm, with one pocket, with another one that overlaps it, and a smaller plate on top."""
     plate, small = rectangle((40.0, 40.0)), rectangle((20.0, 60.0), (6.0, 0.0)) ^ rectangle((40.0, 40.0))

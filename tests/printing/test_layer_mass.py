@@ -6,6 +6,7 @@ import weakref
 
 import numpy as np
 import pytest
+from support.each import each
 
 from jumpcad.printing import runs
 from jumpcad.printing.layer_mass import line_spacing_mm, mass_properties, sliced
@@ -225,10 +226,8 @@ def test_pockets_in_one_outline_weigh_what_outlines_of_their_own_do():
     assert kept.inertia_kg_m2 == pytest.approx(cut.inertia_kg_m2, rel=1e-7, abs=1e-15)
 
 
-@pytest.mark.parametrize("bottom", [0, 1, 2])
-@pytest.mark.parametrize(
-    ("nozzle", "height", "deep"), [(0.4, 0.2, 2), (0.5, 0.2, 2), (0.6, 0.2, 3), (0.4, 0.28, 1), (0.4, 0.32, 1)]
-)
+@each("bottom", [0, 1, 2])
+@each(("nozzle", "height", "deep"), [(0.4, 0.2, 2), (0.5, 0.2, 2), (0.6, 0.2, 3), (0.4, 0.28, 1), (0.4, 0.32, 1)])
 def test_threads_bridge_only_what_is_as_deep_as_they_are_thick(nozzle, height, deep, bottom):
     """A nozzle of 0.4 mm lays round threads over two sparse layers of 0.2 mm; over one it lays flat lines.
 

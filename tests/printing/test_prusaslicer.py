@@ -92,23 +92,6 @@ def test_a_part_lies_in_the_middle_of_the_bed_and_a_plate_as_it_is(stand_in, tmp
         assert settings.keys() == slicer_settings(printer, WORKSHOP.process, MATERIAL).keys()
 
 
-def test_gcode_without_remarks_is_another_programs(stand_in, tmp_path):
-    lines = GCODE.splitlines(keepends=True)
-    for without in (("filament_diameter",), ("printing time",), ("filament_diameter", "printing time")):
-        stand_in(writing("".join(line for line in lines if not any(word in line for word in without))))
-        with pytest.raises(JumpcadError, match=r"without its usual remarks for leg\.stl"):
-            sliced(tmp_path)
-
-
-def test_letters_of_another_encoding_are_no_fault(stand_in, tmp_path):
-    """In what the slicer says, such as a folder's name, and in what it writes."""
-    stand_in("printf '\\377 is empty\\n'; exit 1")
-    with pytest.raises(CannotBuildError, match=r"refused leg\.stl: . is empty"):
-        sliced(tmp_path)
-    stand_in(f"{writing(GCODE)}\nprintf '; \\377 = 1\\n' >> \"$2\"")
-    assert sliced(tmp_path).time_s == 3723.0
-
-
 def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):
     stand_in("echo 'slicing'; echo 'no layers were detected'; exit 1")
     with pytest.raises(CannotBuildError, match=r"refused leg\.stl: no layers were detected"):
@@ -150,15 +133,6 @@ def test_without_the_program_there_is_a_way_out(monkeypatch, tmp_path):
     assert slicer_program() is None
     with pytest.raises(JumpcadError, match="not installed: install PrusaSlicer, or leave the printed masses"):
         slicer_version()
-
-
-@pytest.mark.parametrize(
-    ("text", "seconds"),
-    [("4s", 4), ("3m 4s", 184), ("2h 3m 4s", 7384), ("1d 2h 3m 4s", 93784), ("1d 0h 0m 0s", 86400)],
-)
-def test_durations_have_days_hours_minutes_and_seconds(stand_in, tmp_path, text, seconds):
-    stand_in(writing(GCODE.replace("1h 2m 3s", text)))
-    assert sliced(tmp_path).time_s == seconds
 
 
 def test_each_setting_of_the_slicer_has_the_workshops_own_number() -> None:

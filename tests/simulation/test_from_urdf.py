@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.each import each
 from support.flights import make_lopsided
 from support.machines import let_go, one_sided, rubbing, stopped
 
@@ -53,7 +54,7 @@ def element(tag: str, **attributes: str) -> str:
     return re.sub(rf"<{tag} [^>]*>", text, URDF, count=1)
 
 
-@pytest.mark.parametrize(
+@each(
     ("urdf", "reason"),
     [
         (element("mass", value="0"), "body: mass: value = 0: must be 1e-06…1000"),
@@ -121,7 +122,7 @@ def changed(value: Any, *path: str | int) -> str:
     return json.dumps(data)
 
 
-@pytest.mark.parametrize(
+@each(
     ("loop", "reason"),
     [
         (changed(float("nan"), "foot_depth_m"), "NaN is no number"),

@@ -4,6 +4,7 @@ import json
 from typing import Any
 
 import pytest
+from support.each import each
 from support.machines import machine, rubbing
 
 from jumpcad.errors import JumpcadError
@@ -38,7 +39,7 @@ def test_what_no_robot_has_is_refused(kenan: Robot, change: dict[str, Any], mess
         LoopFile.of(json.loads(write_loop(kenan)) | change)
 
 
-@pytest.mark.parametrize(
+@each(
     ("section", "key", "holds", "refused"),
     [
         ("spring", "rest_rad", [0.0], [-0.1, 0.1]),  # the leg's angle is counted from there

@@ -1,13 +1,11 @@
 """The planar engine against the table of converged flights and both general engines."""
 
-import json
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from support import needs
-from support.commands import exit_code_of
 from support.documented import documented_bases
 from support.flights import Flight
 from support.machines import one_sided
@@ -233,13 +231,6 @@ def test_a_dead_point_in_flight_is_said(jumping: list[Flight]) -> None:
     with pytest.raises(JumpcadError, match=r"into line in flight.*pybullet") as caught:
         world.advance(200)
     assert "\n" not in str(caught.value)
-
-
-def test_the_command_line_knows_it(capsys: pytest.CaptureFixture[str]) -> None:
-    code = exit_code_of("simulate", "kenan-2.0", "--capsule", "--engine", "planar", "--json")
-    document = json.loads(capsys.readouterr().out)
-    assert code == 0
-    assert (document["engine"], document["verdict"]) == ("planar", "jump")
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ndtr
 from support.built import built
 
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
 from jumpcad.simulation import simulate, uncertain
@@ -237,10 +237,3 @@ def test_groups_vary_independently_of_each_other(robot: Robot, monkeypatch: pyte
     assert found.quantiles["com_rise_m"] == pytest.approx([0.1] * 3)
     draws = Draws(spring_efficiency=(0.9, 0.95), pin_friction=(0.1, 0.2))
     assert uncertain_jump(robot, Settings(draws=draws), "planar", samples=4).calibrated
-
-
-def test_settings_changed_to_what_they_cannot_be_are_refused() -> None:
-    """`model_copy` checks nothing; the scatter's jumps would be those of no floor."""
-    wrong = Settings().model_copy(update={"gravity_m_s2": -9.81})
-    with pytest.raises(JumpcadError, match="gravity_m_s2"):
-        uncertain_jump(built("kenan-2.0"), wrong, "planar", samples=8)

@@ -1,7 +1,5 @@
 """Sections of blocks in closed form against slices of their solids, which another program cuts."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import shapely
@@ -84,25 +82,6 @@ def test_what_is_added_at_one_height_and_removed_at_another_is_not_one_section()
 def test_a_turned_block_has_turned_sections():
     turned = Turned(FINGER, 0.7, np.array([5.0, -2.0]))
     require_same_sections(Blocks((turned,)), np.array([0.5, 4.5, 6.0, 8.9]), 1e-6)
-
-
-def test_blocks_of_the_same_numbers_are_equal_and_others_are_not():
-    def blocks(width=8.0, tip=4.0, angle=0.7, removed=2.0, place=(0.0, 0.0)):
-        finger = Finger(np.array([3.0, 8.0]), 8.0, 9.0, np.array([-60.0, 40.0]), 5.0, tip)
-        bar = Bar(rectangle((20.0, width)), ((1.0, 3.0),))
-        return Blocks((Turned(finger, angle, np.array(place)), bar), (Bar(disc(removed), ((0.0, 9.0),)),))
-
-    assert blocks() == blocks()
-    assert hash(blocks()) == hash(blocks())
-    assert len({blocks(), blocks(width=8.1), blocks(tip=4.1), blocks(angle=0.8), blocks(removed=2.1),
-                blocks(place=(0.1, 0.0)), blocks(place=(0.0, 0.1))}) == 7  # fmt: skip
-
-
-def test_what_differs_in_any_number_is_another_finger() -> None:
-    places = [{name: getattr(FINGER, name) + step} for name in ("root_mm", "tip_mm") for step in 0.1 * np.eye(2)]
-    sizes = ("root_diameter_mm", "root_height_mm", "tip_diameter_mm", "tip_height_mm")
-    others = [replace(FINGER, **change) for change in (*places, *({name: 4.7} for name in sizes))]
-    assert len({one.key for one in (FINGER, *others)}) == 1 + 8
 
 
 def test_moments_are_those_of_the_sections():

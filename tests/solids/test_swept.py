@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from manifold3d import Manifold, OpType
+from support.each import each
 
 from jumpcad.solids.outline import disc, rectangle, ring
 from jumpcad.solids.stack import Stack
@@ -47,8 +48,8 @@ def test_it_comes_from_before_its_place_and_does_not_go_beyond(path: tuple[float
     assert room.bounds_mm[1] == pytest.approx(np.maximum(high, high - path))
 
 
-@pytest.mark.parametrize("length_mm", [1e-3, 1.0, 1e3])
-@pytest.mark.parametrize(("off", "is_swept"), [(1e-7, True), (-1e-7, True), (1e-5, False), (-1e-5, False)])
+@each("length_mm", [1e-3, 1.0, 1e3])
+@each(("off", "is_swept"), [(1e-7, True), (-1e-7, True), (1e-5, False), (-1e-5, False)])
 def test_a_path_may_be_oblique_by_rounding_alone_however_long_it_is(
     off: float, is_swept: bool, length_mm: float
 ) -> None:

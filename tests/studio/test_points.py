@@ -9,63 +9,11 @@ from support.searches import refusal
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.study.table import write_table
 from jumpcad.studio.points import Points
 from jumpcad.workshop import load_workshop, varied
 
 needs.package("viser")
-
-
-def test_a_trials_number_is_its_line_in_the_exported_table(study: Path, tmp_path: Path) -> None:
-    points = Points(study)
-    write_table(points.trials, tmp_path / "all.csv")
-    heading, *lines = (tmp_path / "all.csv").read_text().splitlines()
-    column = heading.split(",").index("carrying_link_mm")
-    for number, line in enumerate(lines, start=1):
-        assert float(line.split(",")[column]) == points.trial(number).design.carrying_link_mm
-
-
-def test_best_and_front_are_listed(study: Path) -> None:
-    """Trial 1 has the best score; 4 has weaker springs, 1 and 3 the same: 3 is beaten with the same energy."""
-    listed = Points(study).listed
-    best, front = [[number for text, number in listed.items() if text.startswith(word)] for word in ("best", "front")]
-    assert best == [1, 3, 4]
-    assert front == [4, 1]
-    assert Points(study).best == 1
-    for text, number in listed.items():
-        design = Points(study).trial(number).design
-        assert text.startswith((f"front, {design.spring_energy_j:.4g} J: ", "best "))
-
-
-def test_ten_of_many_are_listed_as_best(tmp_path: Path) -> None:
-    """The best first, whatever their order in the study; what neighbours of a pick score is not among them."""
-    made = [replace(one, score=1.0 + (7 * place) % 12) for place, one in enumerate(trials(12))]
-    around = [replace(one, score=50.0) for one in trials(1, "robust", 1)]
-    with StudyStore.write(tmp_path / "many.db", IDENTITY) as store:
-        store.append([*made, *around])
-    points = Points(tmp_path / "many.db")
-    best = {text: number for text, number in points.listed.items() if text.startswith("best")}
-    assert [points.trial(number).score for number in best.values()] == [float(12 - place) for place in range(10)]
-    assert [text.partition(":")[0] for text in best] == [f"best {place}" for place in range(1, 11)]
-    assert points.best == 1 + [one.score for one in made].index(12.0)
-    front = [points.trial(number) for text, number in points.listed.items() if text.startswith("front")]
-    assert front
-    assert {one.phase for one in front} == {made[0].phase}
-
-
-def test_a_front_that_seeks_more_of_both_is_listed_by_the_figures_themselves(tmp_path: Path) -> None:
-    """Three trials that rise less the better their score is."""
-    file = tmp_path / "rise.db"
-    made = [
-        replace(one, evaluation=Evaluation("jump", {"fitness": score, "com_rise_m": 0.5 / score}), score=score)
-        for one, score in zip(trials(3), (1.0, 2.0, 4.0), strict=True)
-    ]
-    with StudyStore.write(file, IDENTITY | {"method": "nsga2", "against": "rise"}) as store:
-        store.append(made)
-    front = [text.partition(":")[0] for text in Points(file).listed if text.startswith("front")]
-    assert front == ["front, 0.5 m", "front, 0.25 m", "front, 0.125 m"]
 
 
 def test_the_workshop_is_that_of_the_study_with_the_trials_values(tmp_path: Path) -> None:
@@ -100,20 +48,6 @@ def test_a_study_without_a_trial_has_no_points(tmp_path: Path) -> None:
         pass
     with pytest.raises(JumpcadError, match="no trial yet"):
         Points(tmp_path / "empty.db")
-
-
-def test_a_point_is_told_with_its_place_and_score_or_why_it_has_none(study: Path) -> None:
-    points = Points(study)
-    assert points.to_text(3) == "trial 3 of 4 (ga 0.2): 1.5 body lengths"
-    assert points.to_text(2) == "trial 2 of 4 (ga 0.1): rejected: cannot_build"
-    assert list(points.listed.items())[:2] == [
-        ("best 1: 2 body lengths (trial 1)", 1), ("best 2: 1.5 body lengths (trial 3)", 3)
-    ]  # fmt: skip
-    assert points.listed_as(4, "") == "best 3: 1 body lengths (trial 4)"
-    assert points.listed_as(2, "by its number") == "by its number"
-    for number in (0, 5):
-        with pytest.raises(JumpcadError, match=f"has no trial {number}: its trials are 1 to 4"):
-            points.trial(number)
 
 
 def test_a_trials_robot_is_built_in_its_workshop_with_the_name_of_its_study(

@@ -1,9 +1,9 @@
 """Reading workshops: what a file may leave out, what it builds on, and what it may not name."""
 
 import re
-import unicodedata
 
 import pytest
+from support.each import each
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.errors import JumpcadError
@@ -77,7 +77,7 @@ def test_names_of_materials_are_of_any_script(name, written):
     assert load_workshop(written(text)).material_name("links") == name
 
 
-@pytest.mark.parametrize("section", Workshop.model_fields)
+@each("section", Workshop.model_fields)
 def test_a_section_that_is_no_table_is_told_in_words(section, written):
     if section == "printer":  # alone it names a printer
         return
@@ -95,19 +95,6 @@ def test_a_chain_of_workshops_has_an_end(written):
     assert load_workshop(written("", "1499.toml").with_name("1490.toml")) == load_workshop("default")
 
 
-@pytest.mark.parametrize(("files", "refused"), [(20, False), (21, True)])
-def test_twenty_workshops_build_on_each_other_and_on_the_default_one(files, refused, written):
-    for number in range(files - 1):
-        written(f'base = "{number + 1}.toml"\n', f"{number}.toml")
-    lowest = written("[fits]\nloose_mm = 0.41\n", f"{files - 1}.toml")
-    first = lowest.with_name("0.toml")
-    if refused:
-        with pytest.raises(JumpcadError, match=r"0\.toml: more than 20 workshops build on each other; join some of"):
-            load_workshop(first)
-    else:
-        assert load_workshop(first).fits.loose_mm == 0.41
-
-
 @pytest.mark.parametrize("files", [1, 2, 3, 4])
 def test_files_that_build_on_each_other_in_a_circle_are_told(files, written):
     for number in range(files):
@@ -116,13 +103,6 @@ def test_files_that_build_on_each_other_in_a_circle_are_told(files, written):
         JumpcadError, match=rf"{files - 1}\.toml: base = '0\.toml': leads back to a file that builds on"
     ):
         load_workshop(path.with_name("0.toml"))
-
-
-def test_links_that_lead_round_in_a_circle(written):
-    path = written('base = "loop.toml"\n')
-    path.with_name("loop.toml").symlink_to("loop.toml")
-    with pytest.raises(JumpcadError, match="loop"):
-        load_workshop(path)
 
 
 def test_an_unknown_workshop_is_refused_with_the_known_ones():
@@ -139,7 +119,7 @@ def test_a_part_of_ones_own_is_whole_or_like_a_shipped_one(written):
     assert found["whole"].model_dump(exclude={"name"}) == found["like"].model_dump(exclude={"name"}) == whole
 
 
-@pytest.mark.parametrize(
+@each(
     ("kind", "like", "key", "figures", "said"),
     [
         ("motors", "n20-298-hpcb12", "article", {"ratio": 150.0}, ""),
@@ -166,20 +146,7 @@ def test_a_kit_brings_its_parts_and_the_file_may_choose_others(written):
     assert (other.battery, other.regulator) == (kit.battery, "")
 
 
-def test_another_printer_and_one_material_for_all(written):
-    path = written("[materials.PETG]\ndensity_g_cm3 = 1.23\n")
-    shop = load_workshop(path, printer="mini", material="petg")
-    assert shop.printer.bed_mm == (180.0, 180.0, 180.0)
-    assert list(shop.materials) == ["PETG"]
-    assert {shop.material_name(role) for role in ("links", "body", "gears")} == {"PETG"}
-    assert shop.material("body").density_g_cm3 == 1.23
-    assert load_workshop(path, material="pla").material("links").density_g_cm3 == 1.24
-    for name, way in (("mini", "--printer mini"), ("PETG", "--material PETG")):
-        with pytest.raises(JumpcadError, match=f"not a workshop: say {way}"):
-            load_workshop(name)
-
-
-@pytest.mark.parametrize(
+@each(
     ("text", "message"),
     [
         (
@@ -205,17 +172,6 @@ def test_another_printer_and_one_material_for_all(written):
 )
 def test_a_base_printer_or_material_that_is_not_there_is_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
-
-
-def test_an_umlaut_in_one_or_in_two_characters_is_the_same_name(written):
-    """Unicode writes it both ways (NFC, NFD), and editors differ."""
-    one, two = (unicodedata.normalize(form, "Ähnlich") for form in ("NFC", "NFD"))
-    assert one != two
-    figures = to_toml(load_workshop("default").material("links").model_dump(exclude_none=True))
-    for role, table in ((one, two), (two, one)):
-        shop = load_workshop(written(f'[roles]\nlinks = "{role}"\n[materials."{table}"]\n{figures}'))
-        assert shop.material_name("links") == one
-        assert one in shop.materials
 
 
 def test_a_material_of_ones_own_is_chosen_as_it_is_written(written):

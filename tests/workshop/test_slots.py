@@ -1,6 +1,7 @@
 """Keys of a workshop that name parts: what fits there, and what is said of what does not."""
 
 import pytest
+from support.each import each
 
 from jumpcad.catalogue import Board, load_catalogue
 from jumpcad.errors import JumpcadError
@@ -11,8 +12,8 @@ OF_A_KIT = [key for key in SLOTS if SLOTS[key].table in ("batteries", "boards", 
 SMALL = [key for key in SLOTS if SLOTS[key].table == "components"]
 
 
-@pytest.mark.parametrize("kit", load_catalogue().kits)
-@pytest.mark.parametrize("key", OF_A_KIT)
+@each("kit", load_catalogue().kits)
+@each("key", OF_A_KIT)
 def test_parts_of_a_kit_fit_their_keys(kit: str, key: str) -> None:
     catalogue = load_catalogue()
     assert SLOTS[key].misfit(catalogue, getattr(catalogue.kits[kit], key.split(".")[1])) == ""
@@ -48,18 +49,6 @@ def test_a_part_of_another_kind_is_refused_with_its_line(tmp_path, key, name, sa
         load_workshop(file)
 
 
-def test_each_motor_of_the_list_is_looked_up(tmp_path):
-    """An empty list allows every motor, and one of the user's own counts; the name that is unknown is said."""
-    file = tmp_path / "w.toml"
-    own = '[motors.own]\nlike = "n20-298"\narticle = "a motor"\nsource = "measured"\n'
-    file.write_text('[bought]\nmotors = ["n20-298", "own", "n20-299"]\n' + own)
-    with pytest.raises(JumpcadError, match=r"w.toml:2: bought.motors = 'n20-299': is no motor .*mean n20-298\?\)$"):
-        load_workshop(file)
-    for named in ('["n20-298", "own"]', "[]"):
-        file.write_text(f"[bought]\nmotors = {named}\n{own}")
-        assert all(name in load_workshop(file).catalogue.motors for name in load_workshop(file).bought.motors)
-
-
 def test_a_board_of_one_s_own_is_what_its_pins_make_it():
     """A board whose pins are not given may be anything; one that controls and drives may be named for both."""
     drv8833 = load_catalogue().boards["drv8833"]
@@ -74,7 +63,7 @@ def test_a_board_of_one_s_own_is_what_its_pins_make_it():
     assert uses({"VOUT": ("out",), "A": ("motor+",), "B": ("motor-",)}) == ("driver",)  # that feeds something else too
 
 
-@pytest.mark.parametrize("key", SLOTS)
+@each("key", SLOTS)
 def test_an_empty_name_leaves_out_what_a_robot_can_be_without(key: str) -> None:
     """It winds with a motor, a roller on its cam, a battery and two boards, and turns on axles; all else may lack.
 
@@ -88,14 +77,3 @@ def test_an_empty_name_leaves_out_what_a_robot_can_be_without(key: str) -> None:
     assert ('"" for ' in said) is not is_needed
     words = said.partition(": choose ")[2].replace(" or ", ", ").split(", ")
     assert set(words) >= set(SLOTS[key].fitting(catalogue)) | ({"any"} if name == "leg_bearing" else set())
-
-
-def test_of_a_board_that_is_several_things_all_are_said() -> None:
-    """One board may control and drive; it is neither of what regulates."""
-    boards = load_catalogue().boards
-    pins = boards["xiao-esp32c3"].pins | boards["drv8833"].pins
-    both = boards["drv8833"].model_copy(update={"name": "both", "pins": pins})
-    catalogue = load_catalogue().with_own({}, {}, {}, {"both": both}, {}, {})
-    assert SLOTS["bought.regulator"].misfit(catalogue, "both").startswith("is a controller or driver, no regulator: ")
-    for key in ("bought.controller", "bought.driver"):
-        assert SLOTS[key].misfit(catalogue, "both") == ""

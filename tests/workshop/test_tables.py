@@ -1,17 +1,17 @@
 """Limits of every value of a workshop, of its names and of its free text."""
 
 import json
-import math
 import re
 
 import pytest
 from support.documented import documented_ranges, wrongly_taken
+from support.each import each
 
 from jumpcad.errors import JumpcadError
 from jumpcad.workshop import load_workshop
 
 
-@pytest.mark.parametrize(
+@each(
     "name",
     ["x/../../../report", "x\\y", ".hidden", "=HYPERLINK(1)", "+1", "-1", "@x", "a\u0001", "[/x]", "a\nb", "", " a",
      "a|b", "a<b", "P" * 51, "\u202ex"],
@@ -44,7 +44,7 @@ def test_fits_that_no_printer_needs_are_refused(written):
     assert all(f"fits.{key} = -0.5: must be at least" in str(caught.value) for key in fits)
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "message"),
     [
         ("[printer]\nnozzle_mm = 0", r"my.toml:2: printer.nozzle_mm = 0: must be at least 0.1"),
@@ -63,7 +63,7 @@ def test_values_beyond_their_limits_are_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
 
 
-@pytest.mark.parametrize(
+@each(
     ("table", "ranges"),
     [("printer", 2), ("process", 9), ("fits", 20), ("bought", 1), ("body", 3), ("seats", 6), ("ground", 2),
      ("pins", 1), ("spring", 1), ("release", 9), ("safety", 19)],
@@ -83,13 +83,6 @@ def test_a_link_is_as_far_off_as_the_play_of_both_its_ends():
     """Sliding fits of 0.2 mm a diameter."""
     assert load_workshop().fits.sliding_mm == 0.2
     assert load_workshop().fits.link_tolerance_mm == pytest.approx(0.4)
-
-
-@pytest.mark.parametrize(("play_deg", "play_rad"), [("auto", None), (0.0, 0.0), (30.0, math.pi / 6.0)])
-def test_a_dogs_play_is_given_in_degrees_or_follows_from_the_cam(play_deg, play_rad):
-    assert load_workshop().release.model_copy(update={"play_deg": play_deg}).play_rad == (
-        None if play_rad is None else pytest.approx(play_rad)
-    )
 
 
 def test_a_motors_share_has_its_reserve_and_the_stiffest_springs():

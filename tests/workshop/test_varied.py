@@ -1,6 +1,7 @@
 """Workshops with some values changed."""
 
 import pytest
+from support.each import each
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.errors import JumpcadError
@@ -48,7 +49,7 @@ def test_a_material_of_the_workshop_keeps_its_own_figures():
     assert DEFAULT.materials["PLA"].density_g_cm3 != 1.3
 
 
-@pytest.mark.parametrize(
+@each(
     ("values", "message"),
     [
         ({"body.plate": 2.0}, r"did you mean body.plate_mm\?"),

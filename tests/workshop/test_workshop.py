@@ -4,6 +4,7 @@ import re
 
 import pytest
 from pydantic import ValidationError
+from support.each import each
 
 import jumpcad
 from jumpcad.catalogue import load_catalogue
@@ -72,7 +73,7 @@ def test_own_parts_are_checked_in_python_too() -> None:
         Workshop(**data | {"motors": {"mine": n20}})
 
 
-@pytest.mark.parametrize(
+@each(
     ("table", "values", "key"),
     [
         ("process", {"line_width_mm": 0.32, "first_layer_mm": 0.32}, "process.line_width_mm"),
@@ -121,28 +122,6 @@ def test_a_dogs_play_that_ends_on_the_corner_is_refused(play_deg: float, taken: 
     assert (("release", "play_deg") in found) == (not taken)
 
 
-def test_what_does_not_go_together_is_told_from_just_beyond():
-    """Layers of at most 0.8 nozzles, lines of 0.8 to 2, walls of two lines, which a chamfer does not eat up."""
-    shop = load_workshop()
-    nozzle, line = shop.printer.nozzle_mm, shop.process.line_width_mm
-    assert (nozzle, line, shop.fits.wall_mm) == (0.4, 0.45, 1.2)
-    for table, key, inside, beyond in (
-        ("process", "layer_height_mm", 0.32, 0.321), ("process", "first_layer_mm", 0.32, 0.321),
-        ("process", "line_width_mm", 0.32, 0.319), ("process", "line_width_mm", 0.6, 0.81),
-        ("process", "line_width_mm", 0.6, 0.2), ("fits", "wall_mm", 0.9, 0.89),
-        ("fits", "wall_min_mm", 1.2, 1.21), ("fits", "first_layer_chamfer_mm", 0.59, 0.6),
-        ("fits", "sliding_mm", 0.1, 0.09), ("fits", "loose_mm", 0.2, 0.19), ("fits", "m2_clearance_mm", 1.6, 1.59),
-        ("fits", "m3_clearance_mm", 2.5, 2.49), ("release", "backlash_deg", (2.0, 2.0), (2.1, 2.0)),
-        ("body", "stop_pad", "rubber-2", ""), ("roles", "links", "PLA", "wood"),
-    ):  # fmt: skip
-        for value, refused in ((inside, False), (beyond, True)):
-            part = getattr(shop, table).model_copy(update={key: value})
-            told = {place: said for place, said, _ in shop.model_copy(update={table: part}).contradictions()}
-            assert ((table, key) in told) == refused, (table, key, value)
-            if refused:
-                assert told[table, key] == (value[0] if isinstance(value, tuple) else value)
-
-
 def test_a_material_is_weakest_between_its_layers_and_its_modulus_is_in_megapascals():
     """Data sheets give moduli in GPa: 2.5 of PLA, which is 2500 MPa."""
     shop = load_workshop()
@@ -153,58 +132,6 @@ def test_a_material_is_weakest_between_its_layers_and_its_modulus_is_in_megapasc
             own = shop.materials["PLA"].model_copy(update={"strength_in_plane_mpa": 54.0, key: value})
             found = shop.model_copy(update={"materials": {**shop.materials, "PLA": own}}).contradictions()
             assert [place for place, *_ in found] == places
-
-
-def test_the_pads_that_a_stop_may_have_are_named():
-    """Those of at least 1.5 mm, as the template says."""
-    shop = load_workshop()
-    bare = shop.model_copy(update={"body": shop.body.model_copy(update={"stop_pad": ""})})
-    (reason,) = (reason for place, _, reason in bare.contradictions() if place == ("body", "stop_pad"))
-    thick = [pad.name for pad in load_catalogue().pads.values() if pad.thickness_mm >= 1.5]
-    assert reason == f"the rest stop needs a pad of at least 1.5 mm: name one of {', '.join(thick)}"
-
-
-def test_parts_of_ones_own_have_names_of_their_own():
-    shop = load_workshop()
-    motor = load_catalogue().motors["n20-30"]
-    for name, key, places in (
-        ("mine", "mine", []), ("n20-30", "n20-30", [("motors", "n20-30")]),
-        ("mine", "yours", [("motors", "yours", "name")]),
-    ):  # fmt: skip
-        own = {key: motor.model_copy(update={"name": name})}
-        assert [place for place, *_ in shop.model_copy(update={"motors": own}).contradictions()] == places
-    weak = motor.model_copy(update={"name": "mine", "mass_g": 0.1})
-    told = [place for place, *_ in shop.model_copy(update={"motors": {"mine": weak}}).contradictions()]
-    assert told == [("motors", "mine", "mass_g")]
-
-
-def test_each_motor_that_may_be_chosen_is_one_of_the_catalogue():
-    """The last one of a list as well as the first; an empty list allows all."""
-    shop = load_workshop()
-    for motors, wrong in ((("n20-30", "n20-298"), []), (("n20-30", "n20-299"), ["n20-299"]), ((), [])):
-        bought = shop.bought.model_copy(update={"motors": motors})
-        found = [
-            value
-            for place, value, _ in shop.model_copy(update={"bought": bought}).contradictions()
-            if place == ("bought", "motors")
-        ]
-        assert found == wrong
-
-
-def test_each_name_of_a_bought_part_is_that_of_its_own_part():
-    """Foot, stop, springs and legs; an empty name is none."""
-    shop, catalogue = load_workshop(), load_catalogue()
-    pads, bars, springs = list(catalogue.pads), list(catalogue.bars), list(catalogue.springs)
-    for foot, stop, bar, spring in ((pads[0], pads[1], bars[-1], springs[-1]), ("", pads[0], "", "")):
-        own = shop.model_copy(
-            update={
-                "ground": shop.ground.model_copy(update={"pad": foot}),
-                "body": shop.body.model_copy(update={"stop_pad": stop}),
-                "bought": shop.bought.model_copy(update={"leg": bar, "spring": spring}),
-            }
-        )
-        found = own.foot_pad, own.stop_pad, own.leg_bar, own.stock_spring
-        assert tuple(part and part.name for part in found) == tuple(name or None for name in (foot, stop, bar, spring))
 
 
 def test_materials_whose_plates_would_be_one_file_are_refused(refusal):
