@@ -1,171 +1,127 @@
-"""A hash of a user's function: equal in every run for the same code and values, different for all others.
+"""Hashes of own objectives: a study goes on only with the one that it was made with."""
 
-The user's code is followed: functions with the names that they use, classes, and objects by their parts as for
-`pickle`. Objects of installed libraries count by their names, objects without parts (a lock, an open file) by their
-types.
-"""
-
-import copyreg
-import functools
+import ast
 import hashlib
-import site
-import sys
 import sysconfig
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from types import CodeType, FunctionType, MethodType, ModuleType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-from jumpcad.errors import JumpcadError
+import numpy as np
 
-MOST = 200_000
-"""Largest number of values that a function may use; an array counts as one."""
-PLAIN = (type(None), bool, int, float, complex, str, bytes, type(Ellipsis), type(NotImplemented))
-UNSAID = {
-    "__annotations__", "__builtins__", "__dict__", "__doc__", "__firstlineno__", "__module__", "__qualname__",
-    "__static_attributes__", "__weakref__", "_abc_impl",
-}  # fmt: skip
-"""Attributes of a class that do not change what it does."""
+PLAIN = (type(None), bool, int, float, complex, str, bytes)
 
 
-def code_hash(function: FunctionType) -> str:
-    """Return a SHA-256 (hexadecimal) of a function's code, and of the values and functions that it uses.
-
-    Comments, names of files and line numbers do not count.
-
-    Raises
-    ------
-    JumpcadError
-        If it uses more than `MOST` values, or one of them cannot be read.
-    """
-    try:
-        return _Walk([0]).digest(function)
-    except JumpcadError:
-        raise
-    except Exception as error:  # raised by a method of a user's class
-        raise JumpcadError(
-            f"a value that the own objective uses cannot be looked at ({type(error).__name__}); make it in the function"
-        ) from None
-
-
-class _Walk:
-    """Visits a value and all its parts, each once; `count` is shared by all walks of one function."""
-
-    def __init__(self, count: list[int]) -> None:
-        self._count = count
-        self._seen: dict[int, int] = {}
-        self._kept: list[Any] = []  # so that no later object gets the `id` of one that was deleted
-
-    def digest(self, value: Any) -> str:
-        found, waiting = hashlib.sha256(), [value]
-        while waiting:
-            self._count[0] += 1
-            if self._count[0] > MOST:
-                raise JumpcadError(
-                    f"the own objective uses more than {MOST} values; keep long lists in an array of numpy's"
-                )
-            one = waiting.pop()
-            inner: list[Any] = []
-            if type(one) in PLAIN:
-                part = f"{type(one).__name__} {hex(one) if type(one) is int else one!r}"
-            elif type(one) is tuple:  # equal ones may be one object or several, as Python likes
-                part, inner = "tuple", list(one)
-            elif (before := self._seen.get(id(one))) is not None:
-                part = f"again {before}"
-            else:
-                self._seen[id(one)] = len(self._seen)
-                self._kept.append(one)
-                part, inner = self._taken_apart(one)
-            found.update(f"{len(part)} {len(inner)} {part}".encode("utf-8", "backslashreplace"))
-            waiting += reversed(inner)
-        return found.hexdigest()
-
-    def _taken_apart(self, value: Any) -> tuple[str, list[Any]]:
-        """Return a value's kind as text, and its parts."""
-        if isinstance(value, set | frozenset):
-            return f"set {sorted(_Walk(self._count).digest(one) for one in value)}", []
-        if type(value) is list:
-            return "list", value
-        if isinstance(value, Mapping) and (type(value) is dict or type(value).__module__ == "builtins"):
-            return "dict", [part for pair in value.items() for part in pair]
-        if isinstance(value, ModuleType):
-            return f"module {value.__name__}", []
-        if named := _library_name(value):
-            return f"of {named}", []
-        if isinstance(value, FunctionType):
-            return "function", [value.__code__, _used(value), value.__defaults__, value.__kwdefaults__]
-        if isinstance(value, CodeType):
-            names = (value.co_names, value.co_freevars, value.co_cellvars, value.co_varnames)
-            return f"code {value.co_code.hex()}", [*names, value.co_argcount, value.co_flags, value.co_consts]
-        if isinstance(value, type):
-            said = {key: one for key, one in vars(value).items() if key not in UNSAID}
-            return "class", [type(value), value.__bases__, said]
-        if isinstance(value, MethodType):
-            return "method", [value.__func__, value.__self__]
-        if isinstance(value, property):
-            return "property", [value.fget, value.fset]
-        wrapped = getattr(value, "__wrapped__", None)
-        if isinstance(wrapped, FunctionType):  # staticmethod, classmethod, functools.cache
-            return type(value).__name__, [wrapped]
-        return type(value).__qualname__, _reduced(value)
-
-
-def _used(function: FunctionType) -> list[Any]:
-    """Return names and values that a function uses: globals, also those of the user's modules, and its closure's."""
-    names = sorted(set(_names(function.__code__)))
-    used = [(name, function.__globals__[name]) for name in names if name in function.__globals__]
-    modules = [module for _, module in used if isinstance(module, ModuleType) and not _is_library(module.__name__)]
-    used += [(name, vars(module)[name]) for module in modules for name in names if name in vars(module)]
-    return [*used, *(_content(cell) for cell in function.__closure__ or ())]
-
-
-def _names(code: CodeType) -> Iterator[str]:
-    """Yield the names that a code object and those within it use."""
-    waiting = [code]
+def file_hash(file: Path, name: str) -> str:
+    """Return a SHA-256 of a function's name, of its file, and of the modules beside it that this imports."""
+    file = file.resolve()
+    beside, waiting, texts = file.parent, [file], {}
     while waiting:
         one = waiting.pop()
-        yield from one.co_names
-        waiting += [constant for constant in one.co_consts if isinstance(constant, CodeType)]
+        if one not in texts:
+            texts[one] = one.read_bytes()
+            waiting += _imported(one, texts[one], beside)
+    return _sha256([name, *(f"{path.relative_to(beside)} {texts[path].hex()}" for path in sorted(texts))])
 
 
-def _content(cell: Any) -> Any:
+def function_hash(function: FunctionType) -> str:
+    """Return a SHA-256 of a function's code, of the plain values that it uses, and of own functions and modules.
+
+    Comments and line numbers do not count, nor do values in objects of classes.
+    """
+    parts, waiting, seen = [], [function], set()
+    while waiting:
+        one = waiting.pop()
+        if id(one) in seen:
+            continue
+        seen.add(id(one))
+        used = [*_used(one), *_contents(one), one.__defaults__, one.__kwdefaults__]
+        parts += [_code(one.__code__), *map(_value, used)]
+        waiting += [value for value in used if isinstance(value, FunctionType) and _is_own(value.__code__.co_filename)]
+    return _sha256(parts)
+
+
+def _sha256(parts: Iterable[str]) -> str:
+    found = hashlib.sha256()
+    for part in parts:
+        found.update(f"{len(part)} {part}".encode("utf-8", "backslashreplace"))
+    return found.hexdigest()
+
+
+def _imported(file: Path, text: bytes, beside: Path) -> Iterator[Path]:
+    """Yield the files of the modules in a folder, or in one below it, that a file's statements import."""
     try:
-        return cell.cell_contents
-    except ValueError:  # a name that has no value yet
-        return ()
+        nodes = list(ast.walk(ast.parse(text)))
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return
+    for node in nodes:
+        names: list[str] = []
+        folder = beside
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            names = [f"{node.module or ''}.{alias.name}".strip(".") for alias in node.names]
+            folder = [beside, *file.parents][min(node.level, len(file.parents))]
+        for name in names:
+            steps = name.split(".")
+            for count in range(1, len(steps) + 1):
+                module = folder.joinpath(*steps[:count])
+                files = module.with_suffix(".py"), module / "__init__.py"
+                yield from (path for path in files if path.is_file() and path.is_relative_to(beside))
 
 
-def _reduced(value: Any) -> list[Any]:
-    """Return the parts from which a copy of an object would be made: class or function, arguments and state."""
-    try:
-        registered = copyreg.dispatch_table.get(type(value))
-        parts = registered(value) if registered else value.__reduce_ex__(4)
-    except Exception:  # what cannot be copied
-        return [type(value)]
-    if not isinstance(parts, tuple):  # the name of something in its module
-        return [type(value), parts]
-    return [type(value), *(list(one) if isinstance(one, Iterator) else one for one in parts)]
+def _code(code: CodeType) -> str:
+    """Return what a code object does, with those within it."""
+    constants = [_code(one) if isinstance(one, CodeType) else _value(one) for one in code.co_consts]
+    return f"{code.co_code.hex()} {code.co_names} {code.co_varnames} {code.co_freevars} {constants}"
 
 
-def _library_name(value: Any) -> str:
-    """Return the full name of a function or class of an installed library; empty for others."""
-    module, name = getattr(value, "__module__", None), getattr(value, "__qualname__", None)
-    named = isinstance(module, str) and isinstance(name, str)
-    return f"{module}.{name}" if named and _is_library(str(module)) else ""
+def _used(function: FunctionType) -> Iterator[Any]:
+    """Yield the values of the global names that a function uses, with those of functions within it."""
+    names: set[str] = set()
+    waiting = [function.__code__]
+    while waiting:
+        code = waiting.pop()
+        names.update(code.co_names)
+        waiting += [constant for constant in code.co_consts if isinstance(constant, CodeType)]
+    yield from (function.__globals__[name] for name in sorted(names) if name in function.__globals__)
 
 
-@functools.cache
-def _is_library(module: str) -> bool:
-    """Tell whether a module is part of Python, of an installed package, or of jumpcad."""
-    if module.partition(".")[0] in (*sys.builtin_module_names, "jumpcad"):
-        return True
-    loaded = sys.modules.get(module)
-    if loaded is None or module == "__main__":
-        return False
-    file = getattr(loaded, "__file__", None)
-    return file is None or any(Path(file).is_relative_to(folder) for folder in _library_folders())
+def _contents(function: FunctionType) -> Iterator[Any]:
+    """Yield the values of a function's closure that are set."""
+    for cell in function.__closure__ or ():
+        try:
+            yield cell.cell_contents
+        except ValueError:  # a name that has no value yet
+            yield None
 
 
-def _library_folders() -> set[str]:
-    paths = sysconfig.get_paths()
-    return {paths[kind] for kind in ("stdlib", "platstdlib", "purelib", "platlib")} | {site.getusersitepackages()}
+def _value(value: Any, depth: int = 0) -> str:
+    """Return a plain value, or a list or table of such, as text that is equal in every run; others by their type."""
+    kind = type(value).__qualname__
+    if type(value) is int:
+        return f"{kind} {hex(value)}"  # of any length
+    if type(value) in PLAIN:
+        return f"{kind} {value!r}"
+    if depth < 20 and type(value) in (list, tuple):
+        return f"{kind} {[_value(one, depth + 1) for one in value]}"
+    if depth < 20 and type(value) in (set, frozenset):
+        return f"{kind} {sorted(_value(one, depth + 1) for one in value)}"
+    if depth < 20 and type(value) is dict:
+        return f"{kind} {[(_value(key, depth + 1), _value(one, depth + 1)) for key, one in value.items()]}"
+    if type(value) is np.ndarray and value.dtype != object:
+        return f"{kind} {value.dtype} {value.shape} {value.tobytes().hex()}"
+    if type(value) is ModuleType:
+        file = getattr(value, "__file__", None)
+        return f"{kind} {file_hash(Path(file), '') if file and _is_own(file) else value.__name__}"
+    if isinstance(value, type):
+        return f"{kind} {value.__module__}.{value.__qualname__}"
+    return kind
+
+
+def _is_own(file: str) -> bool:
+    """Tell whether a file is the user's: no part of Python, of an installed package, or of jumpcad."""
+    libraries = [str(Path(__file__).parents[2])]
+    libraries += [str(sysconfig.get_path(kind)) for kind in ("stdlib", "platstdlib", "purelib", "platlib")]
+    return not any(Path(file).is_relative_to(library) for library in libraries)

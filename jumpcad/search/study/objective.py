@@ -10,7 +10,7 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, bare, errors
-from jumpcad.search.study.code_hash import code_hash
+from jumpcad.search.study.code_hash import function_hash
 from jumpcad.search.study.own_objective import SUFFIX, checked, load_function, name_of, require_function
 
 SCREENED, GUESSED = "screened", "guessed_score"
@@ -193,9 +193,12 @@ def find_objective(objective: str | Callable[..., Any]) -> Objective:
                 f"{objective!r} is not one of the objectives {', '.join(OBJECTIVES)}"
                 f"{did_you_mean(objective, OBJECTIVES) or f'; an own one is FILE{SUFFIX}:FUNCTION'}"
             )
-        objective = load_function(objective)
+        objective, code = load_function(objective)
+    else:
+        code = ""
     function = require_function(objective)
-    return Objective(name_of(function), "own objective", "own units", checked(function), code_hash(function))
+    code = code or function_hash(function)
+    return Objective(name_of(function), "own objective", "own units", checked(function), code)
 
 
 def described_objective(identity: Mapping[str, Any]) -> Objective:

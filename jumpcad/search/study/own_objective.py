@@ -1,7 +1,7 @@
 """Objectives that users write: a function that takes the figures of a jump and returns a score.
 
 Scores are computed by the process that runs the search, so the function needs not be sent to workers. A study keeps a
-hash of the function's code and of the values that it uses; another function is another study.
+hash of the function; another function is another study.
 """
 
 import inspect
@@ -23,6 +23,7 @@ from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
 from jumpcad.files.names import NAME
 from jumpcad.files.outputs import require_path
+from jumpcad.search.study.code_hash import file_hash
 
 SUFFIX = ".py"
 LARGEST = 1e12
@@ -30,8 +31,10 @@ LARGEST = 1e12
 REMEDY = "mend it; what a study file holds is kept, and `--from-study` takes it over into a new study"
 
 
-def load_function(place: str) -> Callable[..., Any]:
-    """Return the function that `FILE.py:FUNCTION` names; the file is run, and finds the modules beside it.
+def load_function(place: str) -> tuple[Callable[..., Any], str]:
+    """Return the function that `FILE.py:FUNCTION` names, and the hash of its source.
+
+    The file is run, and finds the modules beside it.
 
     Raises
     ------
@@ -56,12 +59,11 @@ def load_function(place: str) -> Callable[..., Any]:
         raise JumpcadError(f"{shown(file)}: does not run: {_told(error)}") from None
     if name not in defined:
         raise JumpcadError(f"{shown(file)}: defines no {name}{did_you_mean(name, defined)}")
-    function: Callable[..., Any] = defined[name]
-    return function
+    return defined[name], file_hash(Path(file), name)
 
 
 def require_function(function: Any) -> FunctionType:
-    """Return a function made by `def` or `lambda`, whose code can be hashed.
+    """Return a function made by `def` or `lambda`.
 
     Raises
     ------

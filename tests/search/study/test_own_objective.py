@@ -4,7 +4,6 @@ import importlib.util
 import json
 import os
 import random
-import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +14,6 @@ from support.hills import SMALL, Hill
 from support.searches import NARROW, QUICK, data, refusal
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.study.code_hash import code_hash
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request
@@ -59,30 +57,6 @@ def test_a_file_finds_the_modules_beside_it_from_any_folder(tmp_path, monkeypatc
     assert found is not None
     assert found.origin is not None
     assert not found.origin.startswith(str(tmp_path))
-
-
-def test_the_hash_follows_the_code_and_the_values_that_it_uses(tmp_path):
-    def of(text):
-        (tmp_path / "aims.py").write_text(text)
-        return find_objective(f"{tmp_path}/aims.py:light").code
-
-    moved = FILE.replace("def", "# said\n\n\ndef")
-    assert of(FILE) == of(moved)
-    inner = "NAMES = {'a', 'b', 'c'}\ndef part(m):\n    return sum(m[n] for n in NAMES)\n"
-    inner += "def light(m):\n    return part(m)\n"
-    others = [
-        FILE.replace("2.0", "3.0"), FILE.replace(" - ", " + "), inner, inner.replace("'c'", "'d'"),
-        inner.replace("sum", "max"),
-    ]  # fmt: skip
-    assert len({of(text) for text in (FILE, *others)}) == 6
-    assert code_hash(weighted(1.0)) == code_hash(weighted(1.0)) != code_hash(weighted(1.5))
-    (tmp_path / "aims.py").write_text(inner)  # sets have another order in another process
-    ask = f"from jumpcad.search import find_objective as f; print(f({str(tmp_path / 'aims.py:light')!r}).code)"
-    codes = set()
-    for seed in "123":
-        environment = {"PYTHONHASHSEED": seed, "PYTHONPATH": os.pathsep.join(sys.path)}
-        codes.add(subprocess.check_output([sys.executable, "-c", ask], env=environment))
-    assert len(codes) == 1
 
 
 def test_a_study_of_another_function_is_another_study(tmp_path):

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from support import needs
 from support.hills import SMALL, Hill, Trap
+from support.places import TESTS
 
 from jumpcad import interrupts
 from jumpcad.errors import JumpcadError
@@ -127,7 +128,7 @@ def test_an_error_of_the_request_ends_the_run():
 def test_workers_end_with_a_killed_parent(tmp_path):
     code = textwrap.dedent(f"""
         import os, signal, sys
-        sys.path[:0] = [{os.path.dirname(__file__)!r}, {os.path.dirname(os.path.dirname(__file__))!r}]
+        sys.path[:0] = [{os.path.dirname(__file__)!r}, {str(TESTS)!r}]
         from test_pool import DESIGNS, Hill, local_pool
         pool = local_pool(2)
         list(pool.evaluate(Hill(), DESIGNS))

@@ -19,7 +19,7 @@ def package(tmp_path, monkeypatch):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(f"# {name}\n")
     (tmp_path / "templates" / "hardware").mkdir(parents=True)
-    monkeypatch.setattr(versions, "__file__", str(root / "search" / "versions.py"))
+    monkeypatch.setattr(versions, "__file__", str(root / "search" / "study" / "versions.py"))
     monkeypatch.setattr(versions, "templates_folder", lambda: tmp_path / "templates")
     return root
 
