@@ -17,7 +17,7 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.estimate.estimated_robot import figures_of, laid_out
 from jumpcad.search.estimate.refusal import refusal_findings, room_findings
-from jumpcad.search.pick.tolerances import PREFIX, Making, as_made
+from jumpcad.search.pick.tolerances import PREFIX, Tolerances, perturbed
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
 from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.search.study.versions import code_digest, versions
@@ -50,7 +50,7 @@ class RobotModel:
         How `printed` and `capsule` are simulated; the default settings if None.
     stand_in
         Whether the evaluation of a printed robot has the figures of which stand-ins of others are made.
-    made
+    perturbation
         What of a printed robot is made otherwise than designed, by the keys of `tolerances`.
     """
 
@@ -59,7 +59,7 @@ class RobotModel:
     settings: Settings | None = None
     engine: str = "pybullet"
     stand_in: bool = False
-    made: Mapping[str, Value] = field(default_factory=dict)
+    perturbation: Mapping[str, Value] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<RobotModel {self.name}, {self.describe()['engine']}>"
@@ -82,7 +82,7 @@ class RobotModel:
         rejecting = errors(findings)
         if rejecting:
             return Evaluation(rejecting[0].name, findings=findings)
-        others_learn = self.stand_in or self.made  # from every robot that is built
+        others_learn = self.stand_in or self.perturbation  # from every robot that is built
         refused = None if self.name != "printed" or others_learn else self.refused_first(design)
         if refused:
             return refused
@@ -103,7 +103,7 @@ class RobotModel:
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
         """Return the model of the robot in the workshop with other values, or made otherwise than designed."""
         others = {key: value for key, value in values.items() if not key.startswith(PREFIX)}
-        model = replace(self, made={key: value for key, value in values.items() if key not in others})
+        model = replace(self, perturbation={key: value for key, value in values.items() if key not in others})
         return replace(model, workshop=varied(self.workshop or load_workshop(), others)) if others else model
 
     @property
@@ -115,12 +115,12 @@ class RobotModel:
         return 0.2 if self.workshop is None else self.workshop.fits.link_tolerance_mm
 
     @property
-    def making(self) -> Making:
+    def making(self) -> Tolerances:
         """How far what is made of a design differs from it: for a robot that is made in no workshop, lengths alone."""
         if self.workshop is None or self.name != "printed":
-            return Making(self.tolerance_mm)
+            return Tolerances(self.tolerance_mm)
         rate = self.workshop.safety.spring_rate_scatter / 2.0
-        return Making(self.tolerance_mm, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
+        return Tolerances(self.tolerance_mm, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
 
     @property
     def default_objective(self) -> str:
@@ -233,10 +233,12 @@ class RobotModel:
     def _printed(self, design: Design) -> Evaluation:
         from jumpcad.evaluation import evaluate_made
 
-        result = evaluate_made(design, self.workshop, self.settings, self.engine, partial(as_made, values=self.made))
+        result = evaluate_made(
+            design, self.workshop, self.settings, self.engine, partial(perturbed, values=self.perturbation)
+        )
         robot = result.robot
         findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
-        if self.made:  # what the design keeps stands in its own row
+        if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
         figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.stand_in else {})
         return Evaluation(result.verdict, figures, findings)

@@ -14,7 +14,7 @@ from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.estimate.refusal import room_findings
 from jumpcad.search.models import RobotModel, _figures, robot_model
-from jumpcad.search.pick.tolerances import Making
+from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.variant import Variant
 from jumpcad.settings import load_settings
@@ -28,7 +28,7 @@ def test_only_a_printed_robot_has_a_workshop_a_size_and_a_quick_score():
     assert [one.default_objective for one in (printed, capsule, published)] == ["body_lengths", "fitness", "fitness"]
     assert [one.tolerance_mm for one in (printed, capsule, published)] == pytest.approx([0.4, 0.2, 0.2])
     assert (printed.making.length_mm, printed.making.rate, printed.making.printed) == pytest.approx((0.4, 0.05, True))
-    assert capsule.making == published.making == Making(0.2)
+    assert capsule.making == published.making == Tolerances(0.2)
     design, score = load_design("kenan-2.0"), find_objective("fitness")
     assert 0.0 < printed.quick_score(design, score) < 10.0
     assert [one.quick_score(design, score) for one in (capsule, published)] == [-math.inf] * 2
@@ -290,7 +290,7 @@ def test_a_model_is_made_of_what_it_says(field):
 
 
 def test_a_printed_robot_without_a_workshop_is_made_as_exactly_as_a_capsule() -> None:
-    assert RobotModel("printed").making == Making(0.2)
+    assert RobotModel("printed").making == Tolerances(0.2)
 
 
 def test_every_objective_is_for_printed_robots_and_for_others_what_they_have() -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from jumpcad.design import PARAMETERS
 from jumpcad.search.parameter import active_sides
 from jumpcad.search.pick.margin import propose_robust
-from jumpcad.search.pick.tolerances import PERCENT, SAMPLES, Making, tenth
+from jumpcad.search.pick.tolerances import PERCENT, SAMPLES, Tolerances, tenth
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.trial import Trial, feasible_trials
@@ -127,7 +127,7 @@ def rank_candidates(
     evaluator: Evaluator,
     trials: Sequence[Trial],
     seed: int,
-    making: Making,
+    making: Tolerances,
     evaluations: int,
     among: Sequence[Trial] | None = None,
     run: int = 0,
@@ -209,7 +209,7 @@ class _Examined:
         """The lower percentile; the own score as long as no neighbour is known."""
         return min(map(self._tenth, self.scores))
 
-    def neighbours(self, new: int, seed: int, making: Making) -> list[tuple[str, Variant]]:
+    def neighbours(self, new: int, seed: int, making: Tolerances) -> list[tuple[str, Variant]]:
         """Return the next neighbours, half of each kind."""
         generator = np.random.default_rng([seed, 4, self.index])
         kinds = {
@@ -230,7 +230,7 @@ class _Examined:
 
 
 def _examine(
-    evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tuple[int, int], seed: int, making: Making
+    evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tuple[int, int], seed: int, making: Tolerances
 ) -> None:
     """Evaluate `new` more neighbours of each, in a run and step of the pick.
 

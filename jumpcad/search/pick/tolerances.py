@@ -41,7 +41,7 @@ LENGTHS, SHARES = 4, 3
 
 
 @dataclass(frozen=True)
-class Making:
+class Tolerances:
     """How far what is made differs from its design.
 
     Parameters
@@ -71,7 +71,7 @@ class Making:
         return f"lengths ±{self.length_mm:g} mm{more}"
 
     @classmethod
-    def of(cls, identity: Mapping[str, Any]) -> "Making":
+    def of(cls, identity: Mapping[str, Any]) -> "Tolerances":
         """Return the tolerances of a study by what it remembers; the first ones had one of lengths alone."""
         return cls(**identity.get("making") or {"length_mm": identity.get("tolerance_mm", 0.0)})
 
@@ -99,7 +99,7 @@ class Making:
         return [_made(one, design) if self.printed else replace(one, design=design) for design in designs]
 
 
-LENGTHS_ALONE = Making(0.2)
+LENGTHS_ALONE = Tolerances(0.2)
 """Of robots that are made in no workshop; judgement."""
 
 
@@ -109,7 +109,7 @@ def varied_parameters(design: Design, generator: np.random.Generator) -> list[De
     return [design_within_limits(np.array(design.to_vector()) * factor) for factor in factors]
 
 
-def as_made(robot: Robot, settings: Settings, values: Mapping[str, Value]) -> tuple[Robot, Settings]:
+def perturbed(robot: Robot, settings: Settings, values: Mapping[str, Value]) -> tuple[Robot, Settings]:
     """Return a robot, and the settings of its jump, changed by the values of a variant as made.
 
     Mass, inertia and the angle of the stop stay as designed.

@@ -16,7 +16,7 @@ from jumpcad.plural import counted
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
 from jumpcad.search.phases import FRONTS
 from jumpcad.search.pick.robust import best_apart
-from jumpcad.search.pick.tolerances import Making
+from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report.chart import chart
 from jumpcad.search.report.drawings import history, parallel, slices
 from jumpcad.search.report.figures import MEANINGS, svg_text
@@ -191,7 +191,7 @@ def _best(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) -> Ite
     yield '</button> <button type="button" id="after">Next</button></p>'
     yield from shown_designs(shown, numbers, objective, str(store.path or UNSAVED))
     yield "</div></div>"
-    yield from _designs(found, shown, numbers, Making.of(store.identity))
+    yield from _designs(found, shown, numbers, Tolerances.of(store.identity))
 
 
 def _shown(found: StudySummary, of_front: Cost | None) -> list[Trial]:
@@ -228,7 +228,7 @@ def _reach(shown: Sequence[Trial], objective: Objective, cost: Cost) -> str:
     return f"{said}; half of the highest score comes with {spent(half)}."
 
 
-def _designs(found: StudySummary, shown: Sequence[Trial], numbers: Sequence[int], making: Making) -> Iterator[str]:
+def _designs(found: StudySummary, shown: Sequence[Trial], numbers: Sequence[int], making: Tolerances) -> Iterator[str]:
     """Yield the table of the shown designs, with the scores of their neighbours if they were examined."""
     if _are_candidates(found, shown):
         neighbours = [

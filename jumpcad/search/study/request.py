@@ -16,7 +16,7 @@ from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_c
 from jumpcad.search.models import RobotModel
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 from jumpcad.search.pick.robust import pick_share
-from jumpcad.search.pick.tolerances import LENGTHS_ALONE, Making
+from jumpcad.search.pick.tolerances import LENGTHS_ALONE, Tolerances
 from jumpcad.search.propose.bayesian import default_initial
 from jumpcad.search.propose.genetic import find_preset
 from jumpcad.search.space import Space
@@ -78,7 +78,7 @@ class Request:
     preset: str = "recommended"
     batch: int = 1
     prior: Path | None = None
-    making: Making = LENGTHS_ALONE
+    making: Tolerances = LENGTHS_ALONE
     own: Objective | None = None
     until_percent: float = UNTIL_PERCENT
     hours: float = 0.0

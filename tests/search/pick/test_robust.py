@@ -25,7 +25,7 @@ from jumpcad.search.pick.robust import (
     plan_rounds,
     rank_candidates,
 )
-from jumpcad.search.pick.tolerances import LENGTHS_ALONE, MADE, Making, as_made, varied_parameters
+from jumpcad.search.pick.tolerances import LENGTHS_ALONE, MADE, Tolerances, perturbed, varied_parameters
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
@@ -237,7 +237,7 @@ def test_variation_stays_within_its_limits():
     assert np.abs(changes).max() <= 0.01 + 1e-12
     assert (changes.max(axis=0) > 0.008).all()
     assert (changes.min(axis=0) < -0.008).all()
-    for varied in (one.design for one in Making(0.3).neighbours(Variant(design), np.random.default_rng(0))):
+    for varied in (one.design for one in Tolerances(0.3).neighbours(Variant(design), np.random.default_rng(0))):
         for name in ("l2_mm", "l3_mm", "l4_mm", "l5_mm"):
             assert abs(getattr(varied, name) - getattr(design, name)) <= 0.3 + 1e-9
         assert varied.to_vector()[4:] == design.to_vector()[4:]
@@ -300,7 +300,7 @@ def test_a_design_within_a_thousandth_of_the_range_lies_on_its_bound(evaluator, 
 def test_making_varies_rate_mass_and_floor_as_a_single_jump_does():
     """Their deviations are those that were asked for; rate over mass is one factor of the springs."""
     design = load_design("kenan-2.0")
-    making = Making(0.2, rate=0.05, mass=0.04, floor=0.15, printed=True)
+    making = Tolerances(0.2, rate=0.05, mass=0.04, floor=0.15, printed=True)
     made = [one for seed in range(40) for one in making.neighbours(Variant(design), np.random.default_rng(seed))]
     assert {one.design for one in made} == {design}
     assert {key for one in made for key in one.workshop} <= set(MADE) - {"made.stiffness_nmm_per_deg"}
@@ -330,7 +330,7 @@ def test_lengths_as_made_are_those_of_the_built_robot():
     assert making.length_mm == 2.0 * robot.workshop.fits.sliding_mm
     lengths = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm])
     for one in making.neighbours(Variant(design), generator)[:4]:
-        made, settings = as_made(robot, Settings(), one.workshop)
+        made, settings = perturbed(robot, Settings(), one.workshop)
         bodies = made.bodies.values()
         assert [body.mass_kg for body in bodies] == [body.mass_kg for body in robot.bodies.values()]
         links = made.design
@@ -341,7 +341,7 @@ def test_lengths_as_made_are_those_of_the_built_robot():
         friction = coefficients(made, settings).ground / coefficients(robot, Settings()).ground
         assert friction == pytest.approx(one.workshop["made.friction_factor"])
     stiffer = design.stiffness_nmm_per_deg * 1.01
-    made, _ = as_made(robot, Settings(), {"made.stiffness_nmm_per_deg": stiffer})
+    made, _ = perturbed(robot, Settings(), {"made.stiffness_nmm_per_deg": stiffer})
     assert made.spring.energy_j == pytest.approx(1.01 * robot.spring.energy_j)
 
 

@@ -17,8 +17,8 @@ from jumpcad.search.pick.tolerances import (
     PARTS,
     PREFIX,
     SPRINGS,
-    Making,
-    as_made,
+    Tolerances,
+    perturbed,
     require_made,
     tenth,
 )
@@ -26,7 +26,7 @@ from jumpcad.search.study.variant import Variant
 from jumpcad.settings import Settings, coefficients
 
 DESIGN = load_design("kenan-2.0")
-PRINTED = Making(0.2, rate=0.05, mass=0.03, floor=0.15, printed=True)
+PRINTED = Tolerances(0.2, rate=0.05, mass=0.03, floor=0.15, printed=True)
 
 
 def as_printed(one: Variant) -> Design:
@@ -61,7 +61,7 @@ def test_printed_robots_have_springs_a_mass_and_a_floor_that_scatter() -> None:
     heavy = replace(PRINTED, rate=0.0).neighbours(Variant.of(DESIGN), np.random.default_rng(2))
     masses = [1.0 / float(one.workshop[SPRINGS]) for one in heavy]
     assert abs(np.corrcoef(masses, np.log(floors))[0, 1]) < 0.4  # a floor does not know who stands on it
-    exact = Making(0.2, rate=0.05, printed=True).neighbours(Variant.of(DESIGN), np.random.default_rng(2))
+    exact = Tolerances(0.2, rate=0.05, printed=True).neighbours(Variant.of(DESIGN), np.random.default_rng(2))
     assert np.std([float(one.workshop[SPRINGS]) for one in exact]) == pytest.approx(0.05, rel=0.15)
     assert {float(one.workshop[FLOOR]) for one in exact} == {1.0}
     named = {key for one in made for key in one.workshop}
@@ -70,7 +70,7 @@ def test_printed_robots_have_springs_a_mass_and_a_floor_that_scatter() -> None:
 
 def test_a_heavier_robot_jumps_as_one_with_weaker_springs() -> None:
     """Masses scatter evenly about 1: so do the reciprocals of the factors, and not the factors."""
-    made = Making(0.2, mass=0.2, printed=True).neighbours(Variant.of(DESIGN), np.random.default_rng(2))
+    made = Tolerances(0.2, mass=0.2, printed=True).neighbours(Variant.of(DESIGN), np.random.default_rng(2))
     springs = np.array([one.workshop[SPRINGS] for one in made], dtype=float)
     assert (1.0 / springs).mean() == pytest.approx(1.0, abs=0.01)
     assert springs.mean() > 1.02
@@ -80,10 +80,10 @@ def test_what_is_made_changes_springs_links_and_floor() -> None:
     """Energy goes with the rate, the springs' of the design as made times their factor."""
     robot = capsule_robot(DESIGN)
     values = {PREFIX + "stiffness_nmm_per_deg": 1.1 * DESIGN.stiffness_nmm_per_deg, SPRINGS: 0.9, FLOOR: 1.5}
-    made, settings = as_made(robot, Settings(), values)
+    made, settings = perturbed(robot, Settings(), values)
     assert made.spring.stiffness_nm_per_rad == pytest.approx(0.99 * robot.spring.stiffness_nm_per_rad)
     assert settings.ground_friction == pytest.approx(1.5 * coefficients(robot, Settings()).ground)
-    links, _ = as_made(robot, Settings(), {PREFIX + "carrying_link_mm": 1.01 * DESIGN.carrying_link_mm})
+    links, _ = perturbed(robot, Settings(), {PREFIX + "carrying_link_mm": 1.01 * DESIGN.carrying_link_mm})
     assert links.spring.stiffness_nm_per_rad == pytest.approx(robot.spring.stiffness_nm_per_rad)
     assert np.linalg.norm(links.joint("ankle").origin_m) == pytest.approx(1.01e-3 * DESIGN.carrying_link_mm)
 

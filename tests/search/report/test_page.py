@@ -17,7 +17,7 @@ from jumpcad.design import load_design
 from jumpcad.search.explore import Importance
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound, Candidate
-from jumpcad.search.pick.tolerances import Making
+from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report import lessons
 from jumpcad.search.report import page as study_page
 from jumpcad.search.report.lessons import active
@@ -415,7 +415,7 @@ def test_candidates_stand_in_a_row_with_their_neighbours():
     candidates = [Candidate(TRIALS[3], 1.25, 1.75, {"tips": 2, "loop": 1}, 16), Candidate(TRIALS[1], 0.5, 0.25, {}, 8)]
     store, found = made_up(candidates=candidates)
     shown = [TRIALS[3], TRIALS[1]]
-    making = Making(0.4, rate=0.05, mass=0.04, floor=0.15, printed=True)
+    making = Tolerances(0.4, rate=0.05, mass=0.04, floor=0.15, printed=True)
     lines = list(study_page._designs(found, shown, [4, 2], making))
     assert "(lengths ±0.4 mm, springs ±10 %, mass ±8 %, friction ±30 %)" in " ".join(lines)
     rows = [[words([cell]) for cell in re.findall(r"<td[^>]*>(.*?)</td>", line)] for line in lines]

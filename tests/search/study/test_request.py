@@ -15,7 +15,7 @@ import jumpcad
 from jumpcad.cli import optimize
 from jumpcad.errors import JumpcadError
 from jumpcad.search.models import robot_model
-from jumpcad.search.pick.tolerances import Making
+from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.space import Space
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request, plan_stages
@@ -169,7 +169,7 @@ def test_a_study_s_identity_is_all_that_decides_its_trials():
         replace(plain, **change)
         for change in (
             {"space": Space.default()}, {"objective": "range"}, {"method": "ga+bo"}, {"seed": 4}, {"batch": 3},
-            {"making": Making(0.3)}, {"prior": Path("p.db")},
+            {"making": Tolerances(0.3)}, {"prior": Path("p.db")},
         )
     ]  # fmt: skip
     assert len({plain.default_name(), *(one.default_name() for one in others)}) == 1 + len(others)
