@@ -5,7 +5,6 @@ import importlib.util
 import json
 import os
 import resource
-import shutil
 import sys
 import tempfile
 from collections import Counter, defaultdict
@@ -144,13 +143,13 @@ def findings(built_once: None, checked_once: None, monkeypatch: pytest.MonkeyPat
 @pytest.fixture
 def bundle(sandbox: Sandbox, originals: Originals) -> Path:
     """Return the folder of a bundle of few parts in the sandbox, `robot`."""
-    return Path(shutil.copytree(originals.bundle, sandbox.work / "robot"))
+    return sandbox.put(originals.bundle, "robot")
 
 
 @pytest.fixture
 def study(sandbox: Sandbox, originals: Originals) -> Path:
     """Return a study in the sandbox, `study.db`."""
-    return Path(shutil.copy(originals.study, sandbox.work / "study.db"))
+    return sandbox.put(originals.study, "study.db")
 
 
 @pytest.fixture(scope="package")

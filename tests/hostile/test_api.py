@@ -4,9 +4,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
+from support.each import each
 from support.sandbox import LONGEST, Sandbox
 
 import jumpcad
@@ -93,13 +93,13 @@ def ask(sandbox: Sandbox, call: Callable[[Any], Any], odd: object) -> None:
             assert "\n" not in own
 
 
-@pytest.mark.parametrize("odd", ODD)
-@pytest.mark.parametrize("function", TAKES_ONE)
+@each("odd", ODD)
+@each("function", TAKES_ONE)
 def test_an_odd_argument_is_named(sandbox: Sandbox, function: str, odd: str) -> None:
     ask(sandbox, TAKES_ONE[function], ODD[odd])
 
 
-@pytest.mark.parametrize(
+@each(
     ("function", "odd"),
     [(function, odd) for function in TAKES_MORE for odd in ODD if function not in HEAVY or odd in TELLING],
 )

@@ -9,6 +9,7 @@ import warnings
 from typing import Any
 
 import pytest
+from support.each import each
 from support.figures import Place, figures
 from support.sandbox import Sandbox
 
@@ -119,7 +120,7 @@ def name_of(place: Place) -> str:
     return ".".join(map(str, place))
 
 
-@pytest.mark.parametrize("place", WORKSHOP, ids=name_of)
+@each("place", WORKSHOP)
 def test_a_figure_at_its_limits_is_borne_or_refused(own: dict[str, Any], sandbox: Sandbox, place: Place) -> None:
     ends = WORKSHOP[place].ends()
     for end, value in enumerate(ends):
@@ -140,7 +141,7 @@ def outcome(data: dict[str, Any], built: bool) -> str:
         return str(error)
 
 
-@pytest.mark.parametrize(("place", "model"), [(place, model) for model in MODELS for place, _ in figures(model)])
+@each(("place", "model"), [(place, model) for model in MODELS for place, _ in figures(model)])
 def test_a_figure_has_two_ends_and_none_near_nothing(place: Place, model: type[Record]) -> None:
     found = dict(figures(model))[place]
     assert not found.open
@@ -149,7 +150,7 @@ def test_a_figure_has_two_ends_and_none_near_nothing(place: Place, model: type[R
     assert found.high <= LARGEST
 
 
-@pytest.mark.parametrize("field", SETTINGS, ids=name_of)
+@each("field", SETTINGS)
 def test_a_setting_at_its_limits_is_borne(sandbox: Sandbox, field: Place) -> None:
     for value in SETTINGS[field].ends():
         if not (field == ("dt_s",) and value < 1e-4):  # takes minutes

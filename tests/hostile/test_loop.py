@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable
 
 import numpy as np
-import pytest
+from support.each import each
 from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value, without
 from support.sandbox import ANY, Sandbox
 
@@ -37,7 +37,7 @@ def check(
             still_works(engine)
 
 
-@pytest.mark.parametrize("number", range(SAMPLE))
+@each("number", range(SAMPLE))
 def test_a_strange_value_is_borne_or_refused(
     sandbox: Sandbox, originals: Originals, still_works: Callable[[str], None], number: int
 ) -> None:
@@ -50,7 +50,7 @@ def test_a_strange_value_is_borne_or_refused(
     check(sandbox, originals, still_works, text.encode(), exits(place, value))
 
 
-@pytest.mark.parametrize("key", ["design", "loop", "spring", "travel_rad", "foot_depth_m", "surfaces", "release"])
+@each("key", ["design", "loop", "spring", "travel_rad", "foot_depth_m", "surfaces", "release"])
 def test_a_missing_section_is_refused(
     sandbox: Sandbox, originals: Originals, still_works: Callable[[str], None], key: str
 ) -> None:
@@ -58,14 +58,13 @@ def test_a_missing_section_is_refused(
     check(sandbox, originals, still_works, text.encode(), ANY if key in UNREAD else (2,))
 
 
-@pytest.mark.parametrize(
+@each(
     "place",
     [
         ("loop", "body_a"), ("loop", "point_b_m"), ("loop", "point_a_m", 1), ("spring", "joint"),
         ("spring", "stiffness_nm_per_rad"), ("travel_rad", "leg"), ("travel_rad", "front", 0), ("surfaces", "back"),
         ("design", "d_coef"),
     ],
-    ids=str,
 )  # fmt: skip
 def test_a_missing_value_is_refused(
     sandbox: Sandbox, originals: Originals, still_works: Callable[[str], None], place: tuple[str | int, ...]
@@ -93,7 +92,7 @@ CONTRADICTIONS = {
 }
 
 
-@pytest.mark.parametrize("case", CONTRADICTIONS)
+@each("case", CONTRADICTIONS)
 def test_a_loop_that_cannot_be_is_borne_or_refused(
     sandbox: Sandbox, originals: Originals, still_works: Callable[[str], None], case: str
 ) -> None:
@@ -101,7 +100,7 @@ def test_a_loop_that_cannot_be_is_borne_or_refused(
     check(sandbox, originals, still_works, with_value(originals.loop, place, value).encode(), ANY)
 
 
-@pytest.mark.parametrize("case", [*DOCUMENTS, *accidents(12, 6), *(f"is-{name}" for name in WHOLE)])
+@each("case", [*DOCUMENTS, *accidents(12, 6), *(f"is-{name}" for name in WHOLE)])
 def test_what_is_no_loop_is_refused(
     sandbox: Sandbox, originals: Originals, still_works: Callable[[str], None], case: str
 ) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import pytest
+from support.each import each
 from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
 from support.sandbox import ANY, Sandbox
 
@@ -31,7 +31,7 @@ def with_file(originals: Originals, path: str, digest: str) -> str:
     return json.dumps(manifest)
 
 
-@pytest.mark.parametrize("number", range(40))
+@each("number", range(40))
 def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, bundle: Path, originals: Originals, number: int) -> None:
     generator = np.random.default_rng(number)
     manifest = originals.manifest
@@ -71,7 +71,7 @@ OUTSIDE = ("above", "above later", "absolute", "through a link", "up from a link
 """Paths at which a user's file lies, listed here with its very sha256."""
 
 
-@pytest.mark.parametrize(
+@each(
     ("case", "command"),
     [(case, command) for case in ESCAPES for command in COMMANDS if case in OUTSIDE or command != "build"],
 )
@@ -98,8 +98,8 @@ LINKS = {
 }
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize("case", LINKS)
+@each("command", COMMANDS)
+@each("case", LINKS)
 def test_a_link_in_a_bundle_is_not_followed_out_of_it(
     sandbox: Sandbox, bundle: Path, originals: Originals, case: str, command: str
 ) -> None:
@@ -131,7 +131,7 @@ NAMES = {
 }
 
 
-@pytest.mark.parametrize(
+@each(
     ("case", "command"),
     [(case, command) for case in NAMES for command in ("simulate", "slice")] + [("path", "build"), ("nul", "build")],
 )
@@ -143,8 +143,8 @@ def test_a_robots_name_is_no_path(
     ask(sandbox, command, ANY)
 
 
-@pytest.mark.parametrize("name", ["../../report", "/etc/passwd", "a\nb", "\x1b[31m", "[/x]", "=1+1", ""])
-@pytest.mark.parametrize("key", ["name", "material"])
+@each("name", ["../../report", "/etc/passwd", "a\nb", "\x1b[31m", "[/x]", "=1+1", ""])
+@each("key", ["name", "material"])
 def test_a_parts_name_is_no_path(sandbox: Sandbox, bundle: Path, originals: Originals, key: str, name: str) -> None:
     manifest = originals.manifest
     manifest["masses"][0][key] = name
@@ -152,7 +152,7 @@ def test_a_parts_name_is_no_path(sandbox: Sandbox, bundle: Path, originals: Orig
     ask(sandbox, "slice", (2,))
 
 
-@pytest.mark.parametrize("case", [*DOCUMENTS, *accidents(20, 6)])
+@each("case", [*DOCUMENTS, *accidents(20, 6)])
 def test_what_is_no_manifest_is_refused(sandbox: Sandbox, bundle: Path, case: str) -> None:
     spoils: dict[str, Spoil] = DOCUMENTS | accidents(20, 6)
     (bundle / "manifest.json").write_bytes(spoils[case]((bundle / "manifest.json").read_bytes()))
@@ -160,7 +160,7 @@ def test_what_is_no_manifest_is_refused(sandbox: Sandbox, bundle: Path, case: st
         ask(sandbox, command, ANY)
 
 
-@pytest.mark.parametrize("kind", ["manifest-pipe", "manifest-folder", "manifest-device", "file-pipe", "file-folder"])
+@each("kind", ["manifest-pipe", "manifest-folder", "manifest-device", "file-pipe", "file-folder"])
 def test_what_is_no_file_is_not_read(sandbox: Sandbox, bundle: Path, kind: str) -> None:
     what, _, how = kind.partition("-")
     path = bundle / ("manifest.json" if what == "manifest" else "bom.csv")
@@ -198,8 +198,8 @@ CONTENTS: dict[str, Callable[[str], str]] = {
 }
 
 
-@pytest.mark.parametrize("command", ["build", "render", "check"])
-@pytest.mark.parametrize("case", CONTENTS)
+@each("command", ["build", "render", "check"])
+@each("case", CONTENTS)
 def test_inputs_in_a_bundle_are_as_strange_as_any(sandbox: Sandbox, bundle: Path, case: str, command: str) -> None:
     change_design(bundle, CONTENTS[case]((bundle / "design.toml").read_text()))
     sandbox.run(command, "robot", "--json", exits=(2,))

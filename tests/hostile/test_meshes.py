@@ -5,13 +5,13 @@ import json
 from pathlib import Path
 
 import numpy as np
-import pytest
+from support.each import each
 from support.sandbox import Sandbox
 
 VALUES = {"far": 1e30, "infinity": np.inf, "nothing": np.nan, "beyond": 3000.0}
 
 
-@pytest.mark.parametrize("case", VALUES)
+@each("case", VALUES)
 def test_a_mesh_that_is_no_part_is_refused(sandbox: Sandbox, bundle: Path, case: str) -> None:
     path = bundle / "stl" / "main_leg.stl"
     content = bytearray(path.read_bytes())

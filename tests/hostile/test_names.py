@@ -4,7 +4,7 @@ import os
 import socket
 from pathlib import Path
 
-import pytest
+from support.each import each
 from support.sandbox import ANY, Sandbox
 
 from jumpcad.design import load_design
@@ -48,7 +48,7 @@ NAMES = {
 }
 
 
-@pytest.mark.parametrize("case", NAMES)
+@each("case", NAMES)
 def test_a_design_may_have_any_name(sandbox: Sandbox, case: str) -> None:
     """What the file system takes is simulated and copied; what it does not take is refused."""
     name = NAMES[case] + ".toml"
@@ -67,7 +67,7 @@ BUILT = ("chinese", "emoji", "combining", "right to left", "tab", "line", "colou
 """Names that go into files of every kind, each of which may stumble over another sign."""
 
 
-@pytest.mark.parametrize("case", BUILT)
+@each("case", BUILT)
 def test_a_robot_of_any_name_is_built_or_refused(sandbox: Sandbox, case: str) -> None:
     """Its name goes into file names, XML, tables, and onto its plates."""
     if case != "too long":
@@ -75,9 +75,7 @@ def test_a_robot_of_any_name_is_built_or_refused(sandbox: Sandbox, case: str) ->
     sandbox.run("build", "--no-pictures", "-o", "robot", "--", NAMES[case] + ".toml", writes=["robot"])
 
 
-@pytest.mark.parametrize(
-    "case", ["chinese", "emoji", "markup closed", "not utf-8", "colour", "line", "too long", "dash"]
-)
+@each("case", ["chinese", "emoji", "markup closed", "not utf-8", "colour", "line", "too long", "dash"])
 def test_a_folder_may_have_any_name(sandbox: Sandbox, case: str) -> None:
     name = NAMES[case]
     option = f"--output={name}"
@@ -136,8 +134,8 @@ def lay_paths(sandbox: Sandbox) -> None:
         listener.bind("socket.toml")
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize("case", PATHS)
+@each("command", COMMANDS)
+@each("case", PATHS)
 def test_an_odd_path_to_read_is_refused(sandbox: Sandbox, case: str, command: str) -> None:
     lay_paths(sandbox)
     words = [word.replace("PATH", PATHS[case]) for word in COMMANDS[command]]
@@ -172,10 +170,8 @@ WRITERS = {
 }
 
 
-@pytest.mark.parametrize("command", WRITERS)
-@pytest.mark.parametrize(
-    "case", [case for case in PATHS if case not in ("missing folder", "dangling", "deep", "markup")]
-)
+@each("command", WRITERS)
+@each("case", [case for case in PATHS if case not in ("missing folder", "dangling", "deep", "markup")])
 def test_an_odd_path_to_write_is_refused(sandbox: Sandbox, study: Path, case: str, command: str) -> None:
     lay_paths(sandbox)
     sandbox.write("readings.toml", "[gauge.PETG]\naxle_press_mm = 0.1\n")

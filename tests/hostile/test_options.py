@@ -4,6 +4,7 @@ import shutil
 
 import loky
 import pytest
+from support.each import each
 from support.sandbox import Sandbox
 
 from hostile.conftest import Originals
@@ -67,7 +68,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("case", REFUSED)
+@each("case", REFUSED)
 def test_what_cannot_be_asked_is_refused(sandbox: Sandbox, originals: Originals, case: str) -> None:
     if "robot" in REFUSED[case]:
         shutil.copytree(originals.bundle, sandbox.work / "robot")
@@ -86,7 +87,7 @@ BORNE = {
 }
 
 
-@pytest.mark.parametrize("case", BORNE)
+@each("case", BORNE)
 def test_little_or_much_is_borne_or_refused(sandbox: Sandbox, originals: Originals, case: str) -> None:
     shutil.copy(originals.study, sandbox.work / "study.db")
     shutil.copytree(originals.bundle, sandbox.work / "robot")

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import pytest
+from support.each import each
 from support.sandbox import ANY, Sandbox
 
 from hostile.conftest import Originals
@@ -192,15 +192,15 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", CASES)
+@each("case", CASES)
 def test_what_a_user_has_is_kept(sandbox: Sandbox, originals: Originals, case: str) -> None:
     one = CASES[case]
     one.lay(sandbox, originals)
     sandbox.run(*one.command, exits=one.exits, writes=one.writes, keeps=one.keeps)
 
 
-@pytest.mark.parametrize("number", range(len(FOREIGN)))
-@pytest.mark.parametrize("command", [BUILD, COUPON], ids=lambda words: words[0])
+@each("number", range(len(FOREIGN)))
+@each("command", [BUILD, COUPON])
 def test_a_manifest_of_another_kind_makes_no_bundle(sandbox: Sandbox, command: tuple[str, ...], number: int) -> None:
     sandbox.write("site/manifest.json", json.dumps(FOREIGN[number]))
     sandbox.write("site/src/thesis.md", "x")
@@ -212,7 +212,7 @@ def test_who_edits_a_bundle_is_told_which_file(sandbox: Sandbox, originals: Orig
     assert "assembly.md" in sandbox.run(*BUILD, "there", exits=(2,)).err
 
 
-@pytest.mark.parametrize("umask", [0o022, 0o077, 0o002])
+@each("umask", [0o022, 0o077, 0o002])
 def test_new_files_are_as_open_as_the_user_wants(sandbox: Sandbox, umask: int) -> None:
     before = os.umask(umask)
     try:

@@ -4,7 +4,7 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-import pytest
+from support.each import each
 from support.sandbox import Sandbox
 
 from jumpcad.design import load_design
@@ -64,8 +64,8 @@ def linked(work: Path, link: Callable[[Path, Path], None]) -> str:
     return "other" if list(work.glob("other.*")) else "q"
 
 
-@pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("pair", PAIRS)
+@each("way", WAYS)
+@each("pair", PAIRS)
 def test_one_path_is_not_used_twice(sandbox: Sandbox, study: Path, pair: str, way: str) -> None:
     """Not with `--force` either, which allows to replace a file, not to read and write it."""
     content = READ.get(pair.split()[-1])

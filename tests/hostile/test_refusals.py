@@ -6,6 +6,7 @@ import unicodedata
 from pathlib import Path
 
 import pytest
+from support.each import each
 from support.sandbox import Sandbox
 
 from jumpcad.design import load_design
@@ -25,7 +26,7 @@ REFUSED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", REFUSED)
+@each("case", REFUSED)
 def test_nothing_is_said_or_written_of_a_wrong_request(sandbox: Sandbox, case: str) -> None:
     assert sandbox.run(*REFUSED[case], exits=(2,)).out == ""
 
@@ -41,7 +42,7 @@ FOREIGN = {
 }
 
 
-@pytest.mark.parametrize("case", FOREIGN)
+@each("case", FOREIGN)
 def test_nothing_is_said_of_a_study_that_is_refused(sandbox: Sandbox, study: Path, case: str) -> None:
     connection = sqlite3.connect(study)
     connection.execute(FOREIGN[case])

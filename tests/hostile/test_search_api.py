@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from support.each import each
 from support.sandbox import LONGEST, Sandbox
 
 import jumpcad
@@ -38,7 +39,7 @@ def refused(call: Callable[[], Any]) -> str:
     return said
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@each("name", FUNCTIONS)
 def test_nonsense_is_refused_by_name(sandbox: Sandbox, name: str) -> None:
     needed = [one for one in inspect.signature(FUNCTIONS[name]).parameters.values() if one.default is one.empty]
     for odd in (ODD["object"], ODD["class"], ODD["bytes"], ODD["nan"]):
@@ -47,7 +48,7 @@ def test_nonsense_is_refused_by_name(sandbox: Sandbox, name: str) -> None:
         assert "takes" in said or "robot" in said
 
 
-@pytest.mark.parametrize("name", TAKES_MORE)
+@each("name", TAKES_MORE)
 def test_an_odd_option_of_a_search_is_refused_or_borne(sandbox: Sandbox, name: str) -> None:
     """Where it is borne, one design is evaluated."""
     for odd in ODD.values():
@@ -55,14 +56,14 @@ def test_an_odd_option_of_a_search_is_refused_or_borne(sandbox: Sandbox, name: s
             jumpcad.optimize(**{"method": "nsga2", "evaluations": 1, "model": "capsule", "workers": 0, name: odd})
 
 
-@pytest.mark.parametrize(("option", "path"), [(option, path) for option, some in WRONG_PATHS.items() for path in some])
+@each(("option", "path"), [(option, path) for option, some in WRONG_PATHS.items() for path in some])
 def test_what_cannot_be_a_path_is_refused(sandbox: Sandbox, option: str, path: str) -> None:
     with sandbox.untouched():
         said = refused(lambda: jumpcad.optimize(**{"evaluations": 1, "workers": 0, option: path}))
     assert "cannot be" in said
 
 
-@pytest.mark.parametrize("odd", [True, 1.5, None, "1"])
+@each("odd", [True, 1.5, None, "1"])
 def test_a_seed_is_a_whole_number(odd: object) -> None:
     assert "takes a whole number as seed" in refused(lambda: jumpcad.optimize(seed=odd))
 
@@ -81,8 +82,8 @@ UNUSED = {
 }
 
 
-@pytest.mark.parametrize("case", UNUSED)
-@pytest.mark.parametrize("command", [("optimize",), ("explore", "sweep")], ids=lambda words: words[0])
+@each("case", UNUSED)
+@each("command", [("optimize",), ("explore", "sweep")])
 def test_an_option_that_the_model_does_not_use_is_refused(
     sandbox: Sandbox, command: tuple[str, ...], case: str
 ) -> None:

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from support.each import each
 from support.sandbox import Sandbox
 
 TEXT = (
@@ -55,7 +56,7 @@ def test_odd_texts_stay_texts_in_every_file(built: Path) -> None:
     assert "{WIND_S}" in (built / "firmware" / "README.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("function", ["gpio²", "gpio٣", "gpio" + "9" * 40, "gpio64", "gpio-1", "gpio"])
+@each("function", ["gpio²", "gpio٣", "gpio" + "9" * 40, "gpio64", "gpio-1", "gpio"])
 def test_a_pin_has_a_number_or_is_refused(sandbox: Sandbox, function: str) -> None:
     pins = "".join(f'D{pin} = ["gpio{pin}", "pwm", "adc"]\n' for pin in range(1, 5))
     sandbox.write(

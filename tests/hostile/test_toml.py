@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
+from support.each import each
 from support.mutations import DIGITS, DOCUMENTS, NESTED, Spoil, accidents
 from support.sandbox import ANY, Sandbox
 
@@ -61,7 +62,7 @@ def ask(sandbox: Sandbox, kind: str, exits: tuple[int, ...] = ANY) -> None:
     sandbox.run(*commands[kind], "--json", exits=exits, writes=["w.toml"])
 
 
-@pytest.mark.parametrize("number", range(48))
+@each("number", range(48))
 def test_a_strange_number_in_a_design_is_refused(sandbox: Sandbox, number: int) -> None:
     key, value = PARAMETERS[number % 8], list(VALUES)[(number // 8 + number) % len(VALUES)]
     sandbox.case = f"{key} = {value}"
@@ -70,8 +71,8 @@ def test_a_strange_number_in_a_design_is_refused(sandbox: Sandbox, number: int) 
     ask(sandbox, "design", (2,))
 
 
-@pytest.mark.parametrize("value", VALUES)
-@pytest.mark.parametrize(("kind", "key"), [(kind, key) for kind, keys in KEYS.items() for key in keys])
+@each("value", VALUES)
+@each(("kind", "key"), [(kind, key) for kind, keys in KEYS.items() for key in keys])
 def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, kind: str, key: str, value: str) -> None:
     sandbox.write("x.toml", f"{key} = {VALUES[value]}\n")
     ask(sandbox, kind, (2,) if value in NEVER else ANY)
@@ -101,21 +102,21 @@ TEXTS: dict[str, str] = {
 }
 
 
-@pytest.mark.parametrize("kind", ["design", "workshop", "settings", "readings"])
-@pytest.mark.parametrize("case", TEXTS)
+@each("kind", ["design", "workshop", "settings", "readings"])
+@each("case", TEXTS)
 def test_a_strange_text_is_refused(sandbox: Sandbox, kind: str, case: str) -> None:
     sandbox.write("x.toml", TEXTS[case])
     ask(sandbox, kind, (2,))
 
 
-@pytest.mark.parametrize("case", [*DOCUMENTS, *accidents(12, 4)])
+@each("case", [*DOCUMENTS, *accidents(12, 4)])
 def test_a_spoilt_design_is_borne_or_refused(sandbox: Sandbox, case: str) -> None:
     spoils: dict[str, Spoil] = DOCUMENTS | accidents(12, 4)
     sandbox.write("x.toml", spoils[case](DESIGN.encode()))
     ask(sandbox, "design")
 
 
-@pytest.mark.parametrize("seed", range(12))
+@each("seed", range(12))
 def test_a_spoilt_workshop_is_borne_or_refused(sandbox: Sandbox, seed: int) -> None:
     text = load_workshop("default").to_toml().encode()
     sandbox.write("x.toml", accidents(12, 0)[f"flip-{seed}"](text))
@@ -140,8 +141,8 @@ BASES: dict[str, Callable[[Path], str]] = {
 }
 
 
-@pytest.mark.parametrize("key", ["base", "printer"])
-@pytest.mark.parametrize("case", BASES)
+@each("key", ["base", "printer"])
+@each("case", BASES)
 def test_a_workshop_stands_on_no_strange_ground(sandbox: Sandbox, case: str, key: str) -> None:
     sandbox.write("readings.toml", READINGS)
     sandbox.write("x.toml", f'{key} = "{BASES[case](sandbox.work)}"\n')
@@ -157,8 +158,8 @@ def test_a_chain_of_workshops_ends(sandbox: Sandbox, count: int) -> None:
     ask(sandbox, "workshop", (0, 2) if count == 100 else (2,))
 
 
-@pytest.mark.parametrize("kind", ["pipe", "device", "memory", "folder", "loop"])
-@pytest.mark.parametrize("argument", ["design", "workshop", "settings", "readings"])
+@each("kind", ["pipe", "device", "memory", "folder", "loop"])
+@each("argument", ["design", "workshop", "settings", "readings"])
 def test_what_is_no_file_is_refused(sandbox: Sandbox, argument: str, kind: str) -> None:
     path = sandbox.work / "x.toml"
     if kind == "pipe":
@@ -191,7 +192,7 @@ MATERIALS = {
 }
 
 
-@pytest.mark.parametrize("case", MATERIALS)
+@each("case", MATERIALS)
 def test_a_materials_name_stays_a_name(sandbox: Sandbox, case: str) -> None:
     """What is not refused is written as files, tables and XML that others read."""
     name = MATERIALS[case]
@@ -223,7 +224,7 @@ REFUSED = ("a part that no robot has", "a negative weight", "fits that cut into 
            "a motor of markup", "a roller of a path")  # fmt: skip
 
 
-@pytest.mark.parametrize("case", NONSENSE)
+@each("case", NONSENSE)
 def test_nonsense_in_a_workshop_is_named(sandbox: Sandbox, case: str) -> None:
     sandbox.write("x.toml", NONSENSE[case])
     done = sandbox.run(
@@ -243,7 +244,7 @@ def write_design(sandbox: Sandbox, vector: list[float]) -> None:
     sandbox.write("x.toml", to_toml(dict(zip(PARAMETERS, vector, strict=True))))
 
 
-@pytest.mark.parametrize("corner", CORNERS, ids=lambda corner: "".join(str(int(side)) for side in corner))
+@each("corner", CORNERS)
 def test_a_design_in_a_corner_ends_in_a_verdict(sandbox: Sandbox, corner: tuple[float, ...]) -> None:
     write_design(sandbox, [low + side * (high - low) for side, (low, high) in zip(corner, LIMITS, strict=True)])
     ask(sandbox, "design", (0, 1))
@@ -252,7 +253,7 @@ def test_a_design_in_a_corner_ends_in_a_verdict(sandbox: Sandbox, corner: tuple[
 HOLDS_BADLY = [47.2223, 0.3388, 0.5689, 0.263, 0.3217, 53.5764, 200, 28.8995]
 
 
-@pytest.mark.parametrize("seed", range(6))
+@each("seed", range(6))
 def test_a_valid_design_is_built_or_cannot_be(sandbox: Sandbox, seed: int) -> None:
     """About a known troublemaker, and anywhere near the searched box."""
     generator = np.random.default_rng(seed)

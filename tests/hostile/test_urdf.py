@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
-import pytest
+from support.each import each
 from support.mutations import DOCUMENTS, NESTED, NO_NUMBERS, NUMBERS, Spoil, accidents
 from support.sandbox import ANY, Sandbox
 
@@ -168,7 +168,7 @@ CASES = (
 )
 
 
-@pytest.mark.parametrize("case", CASES)
+@each("case", CASES)
 def test_a_strangers_urdf_is_a_robot_or_is_refused(
     sandbox: Sandbox, originals: Originals, still_works: Callable[[str], None], case: str
 ) -> None:
@@ -192,7 +192,7 @@ def test_an_entity_does_not_read_a_file(sandbox: Sandbox, originals: Originals) 
     assert "s3cr3t" not in done.out + done.err
 
 
-@pytest.mark.parametrize("kind", ["folder", "pipe", "loop", "dangling", "device", "no-loop-file", "loop-file-pipe"])
+@each("kind", ["folder", "pipe", "loop", "dangling", "device", "no-loop-file", "loop-file-pipe"])
 def test_what_is_no_file_is_refused(sandbox: Sandbox, originals: Originals, kind: str) -> None:
     sandbox.write("robot.urdf", originals.urdf)
     sandbox.write("robot.loop.json", (originals.whole / "urdf" / "kenan-2.0.loop.json").read_bytes())

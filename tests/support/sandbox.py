@@ -10,6 +10,7 @@ import io
 import logging
 import os
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -77,14 +78,30 @@ class Sandbox:
         self.home, self.outside, self.tmp = root / "home", root / "outside", root / "tmp"
         self.tries, self.case = 0, ""
         self._capture = capture
-        for name, text in DECOYS.items():
-            self.write(root / name, text)
+        self._originals: dict[str, Path] = {}
+        self.furnish()
         patch.setenv("HOME", str(self.home))
         patch.setenv("TMPDIR", str(self.tmp))
         patch.setattr(tempfile, "tempdir", None)
         patch.setattr(sys, "dont_write_bytecode", True)  # on a full disk Python leaves half a file, and reads it later
         patch.setattr(logging.root, "handlers", [])  # as in a program: warnings go to standard error
         patch.chdir(self.work)
+
+    def furnish(self) -> None:
+        """Put the folders as they were at first, with copies of what was `put` there."""
+        for folder in self.root.iterdir() if self.root.exists() else ():
+            for old in folder.iterdir() if folder == self.work else [folder]:  # the current folder stays
+                shutil.rmtree(old) if old.is_dir() and not old.is_symlink() else old.unlink()
+        for name, text in DECOYS.items():
+            self.write(self.root / name, text)
+        for name, original in self._originals.items():
+            self.put(original, name)
+
+    def put(self, original: Path, name: str) -> Path:
+        """Copy a file or folder into `work`."""
+        self._originals[name] = original
+        copy = shutil.copytree if original.is_dir() else shutil.copy
+        return Path(copy(original, self.work / name))
 
     def write(self, name: str | Path, content: str | bytes) -> Path:
         """Write a file of the user, with its folders; relative names are in `work`."""
