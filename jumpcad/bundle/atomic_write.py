@@ -138,6 +138,9 @@ def _put(new: Bundle, old: Bundle | None, contents: Mapping[str, str | bytes], g
     stays = {path: digest for path, digest in old.manifest["files"].items() if path not in gone} if old else {}
     digests = stays | {path: sha256(data) for path, data in files.items()}
     manifest = {**new.manifest, "files": dict(sorted(digests.items()))}
+    if old and old.manifest["files"] == manifest["files"]:  # the libraries that first gave these bytes stay named
+        first = {library: version for library, version in old.manifest["versions"].items() if library in LIBRARIES}
+        manifest["versions"] = manifest["versions"] | first
     files[MANIFEST] = (json.dumps(manifest, indent=2, allow_nan=False) + "\n").encode()
     with _plain_errors(new.folder):
         _replace(new.folder, files, _replaceable(old, files, gone, force) if old else {})

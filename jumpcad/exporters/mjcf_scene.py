@@ -42,7 +42,8 @@ scene.attach(robot, prefix="jumper-", frame=scene.worldbody.add_frame(pos=[0, 0,
 model = scene.compile()
 ```
 
-Tested with MuJoCo {mujoco}. Attached, the robot keeps its contacts, joints and springs, but the scene's options hold:
+Needs MuJoCo {least} or later, tested up to {newest}.
+Attached, the robot keeps its contacts, joints and springs, but the scene's options hold:
 set `timestep` to 0.00025, `integrator` to `implicitfast`, `cone` to `elliptic` and `impratio` to 100 for the figures of
 the bundle. With longer steps robots jump shorter: the five templates, held for 0.1 s before, by up to 4 % at 1 ms and
 6 % at 2 ms, but released at once from the key `wound` by up to 12 % and 21 %. With MuJoCo's own options feet creep: 3
@@ -59,8 +60,8 @@ loop is the equality `loop`. The motor, its gears and the cam's turn are not mod
 """
 HOLD = 1.25
 """Torque of the motor that holds the leg against its limit, over that of the loaded springs; judgement."""
-MUJOCO = "3.3.7 and 4.0.0"
-"""Versions that the notes' code runs with."""
+LEAST_MUJOCO, NEWEST_MUJOCO = "3.3.1", "4.0.0"
+"""Versions that the notes' code runs with: 3.2.4 aborts while it loads the scene, 3.2.7 has no `attach`."""
 
 
 def write_scene(robot: Robot) -> str:
@@ -92,7 +93,8 @@ def readme(robot: Robot) -> str:
         name=robot.name,
         released=released,
         hold=-HOLD * robot.spring.peak_torque_nm,
-        mujoco=MUJOCO,
+        least=LEAST_MUJOCO,
+        newest=NEWEST_MUJOCO,
         foot=rubs.contact("foot"),
         body=rubs.contact("body"),
     )

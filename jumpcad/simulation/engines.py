@@ -90,10 +90,7 @@ def default_engine() -> str:
     for name in GENERAL:
         if ENGINES[name].is_installed:
             return name
-    raise JumpcadError(
-        'no physics engine is installed: pip install "jumpcad[mujoco]" (everywhere) or "pybullet==3.2.7" '
-        "(Python 3.11 on Linux x86_64)"
-    )
+    raise JumpcadError("no physics engine is installed: pip install mujoco")
 
 
 def engine_help() -> str:
@@ -115,7 +112,7 @@ def import_pybullet(without_it: str = "--engine mujoco works without it") -> Mod
             return importlib.import_module("pybullet")
     except ImportError:
         raise JumpcadError(
-            'PyBullet is not installed: pip install "pybullet==3.2.7" (wheels exist for Python 3.11 on Linux x86_64); '
+            "PyBullet is not installed: pip install pybullet-arm64 (where it has no wheel, pip compiles it); "
             f"{without_it}"
         ) from None
 
@@ -125,9 +122,7 @@ def import_mujoco() -> ModuleType:
     try:
         return importlib.import_module("mujoco")
     except ImportError:
-        raise JumpcadError(
-            'MuJoCo is not installed: pip install "jumpcad[mujoco]"; --engine pybullet works without it'
-        ) from None
+        raise JumpcadError("MuJoCo is not installed: pip install mujoco; --engine pybullet works without it") from None
 
 
 @contextmanager

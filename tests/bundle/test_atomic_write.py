@@ -47,6 +47,20 @@ def target(tmp_path: Path) -> Path:
     return folder
 
 
+def test_other_versions_that_give_the_same_bytes_leave_the_manifest_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """So Git has nothing to tell where a committed bundle is built on another Python."""
+    target = tmp_path / "robot"
+    write_folder(target, "robot", {}, [("a.md", "fine")])
+    first = (target / "manifest.json").read_bytes()
+    monkeypatch.setattr("importlib.metadata.version", lambda _: "99.0")
+    write_folder(target, "robot", {}, [("a.md", "fine")])
+    assert (target / "manifest.json").read_bytes() == first
+    write_folder(target, "robot", {}, [("a.md", "finer")])
+    assert json.loads((target / "manifest.json").read_text())["versions"]["numpy"] == "99.0"
+
+
 def test_a_build_killed_at_any_step_leaves_a_whole_bundle(target: Path) -> None:
     for step, left in {"write": "old", "link": "old", "exchange": "new", "clean": "new", "rename": "new"}.items():
         old(target)  # what a killed build left beside it is in nobody's way

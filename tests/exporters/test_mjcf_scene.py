@@ -4,6 +4,7 @@ import ast
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from importlib.metadata import requires
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from support import needs
 from support.built import built
 
 from jumpcad.exporters.mjcf_robot import write_robot
-from jumpcad.exporters.mjcf_scene import HOLD, readme, write_scene
+from jumpcad.exporters.mjcf_scene import HOLD, LEAST_MUJOCO, NEWEST_MUJOCO, readme, write_scene
 from jumpcad.mechanism.model import BODY, FOOT, Friction
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings, coefficients
@@ -92,6 +93,12 @@ def test_the_notes_programs_run_and_the_robot_jumps_when_the_motor_lets_go(
     )
     assert found["model"].joint("jumper-leg").id >= 0
     assert found["model"].ngeom == mujoco.MjModel.from_xml_string(alone).ngeom + 1
+
+
+def test_the_notes_ask_for_the_version_that_the_package_asks_for(robot: Robot) -> None:
+    assert f"mujoco>={LEAST_MUJOCO}" in (requires("jumpcad") or [])
+    assert int(mujoco.__version__.split(".")[0]) <= int(NEWEST_MUJOCO.split(".")[0])
+    assert f"Needs MuJoCo {LEAST_MUJOCO} or later, tested up to {NEWEST_MUJOCO}." in readme(robot)
 
 
 def at_key(model: Any, key: str) -> Any:

