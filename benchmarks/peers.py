@@ -24,6 +24,8 @@ proposal, and what was refused while the start was chosen.
 Rows are appended to `--log` as searches end; what it holds is not run again, unless with `--again`, and of equals the
 last one counts. `--table FILE` prints it as Markdown. Not among the extras are torch and BoTorch:
 `pip install botorch`. GPSampler needs torch too.
+The table of docs/searching.md has seeds 0, 1, … and torch 2.15.0. The peers ran on another machine than `bo`, on robots
+whose plates and sections grew otherwise, which changes about a third of the designs a little.
 Run `python benchmarks/peers.py --log FILE [--methods a,b] [--problems a,b] [--seeds N]`; one search takes 10 to 120 s.
 """
 
