@@ -2,11 +2,15 @@
 
 import os
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn, Self
+from typing import TYPE_CHECKING, NoReturn, Self, TypeVar
 
 from jumpcad.drive.release import Release
+from jumpcad.electronics.chosen import Chosen, chosen_parts
+from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.layout.layout import Layout
@@ -16,6 +20,7 @@ from jumpcad.parts.purchased import BoughtPart
 from jumpcad.strength.stop import StopBlow
 from jumpcad.workshop import Workshop
 
+T = TypeVar("T")
 NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
 DEVICE = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³])(\.|$)", re.IGNORECASE)
 """Names that Windows keeps for devices, with any ending (Microsoft, Naming Files, Paths, and Namespaces)."""
@@ -39,6 +44,16 @@ class Robot(Mechanism):
     release: Release = field(compare=False)
     stop_blow: StopBlow
 
+    @cached_property
+    def electrical_parts(self) -> Chosen:
+        """Battery, boards and small electrical parts of its workshop."""
+        return chosen_parts(self.workshop)
+
+    @cached_property
+    def wiring(self) -> Wiring:
+        """The net list of its electrical parts."""
+        return wiring_of(self.electrical_parts, self.workshop.bought.pins)
+
     def __copy__(self) -> Self:
         """Return the robot itself: it does not change."""
         return self
@@ -58,6 +73,19 @@ class Robot(Mechanism):
 
         def show(self) -> Path | None:
             """Show the robot's page; `jumpcad.notebook` gives this method to the class."""
+
+
+def carried(decide: Callable[[Robot], T]) -> Callable[[Robot], T]:
+    """Let what a function decides about a robot be decided once: the robot, which does not change, carries it."""
+
+    @wraps(decide)
+    def known(robot: Robot) -> T:
+        decided: dict[object, T] = vars(robot).setdefault("_carried", {})
+        if decide not in decided:
+            decided[decide] = decide(robot)
+        return decided[decide]
+
+    return known
 
 
 def require_name(name: str) -> None:

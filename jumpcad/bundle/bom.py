@@ -12,7 +12,7 @@ from jumpcad.files.csv_text import to_csv
 from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.spring_wire import CHOOSE, ORDERED
 from jumpcad.plural import counted
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, carried
 from jumpcad.workshop import Workshop
 
 COLUMNS = (
@@ -106,6 +106,7 @@ class Bill:
         return Bill(tuple(items), tuple(plates))
 
 
+@carried
 def bill_of_materials(robot: Robot) -> Bill:
     """Return a robot's printed parts, then the bought ones by article, with the prices of its workshop."""
     printed = [

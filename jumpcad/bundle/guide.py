@@ -30,7 +30,7 @@ NO_PICTURES = "Written with `--no-pictures`: where it speaks of a picture, build
 
 def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
     """Return the guide in Markdown; `pictures` are the names of those in `pictures/`."""
-    steps = assembly_steps(robot)
+    steps = list(assembly_steps(robot))
     lines = [
         f"# {robot.name}",
         "",

@@ -5,8 +5,7 @@ from collections.abc import Iterator
 
 from jumpcad.checks import wiring
 from jumpcad.electronics.chain import Link, chain
-from jumpcad.electronics.chosen import Chosen, chosen_parts
-from jumpcad.electronics.nets import wiring_of
+from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.supply import Supply, supply_of
 from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.robot import Robot
@@ -41,19 +40,19 @@ BASIS = {
 
 def electronics_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `supply_voltage_*`, `motor_current_*`, `gearbox_torque`, `charging_current` and `wiring_*`."""
-    chosen = chosen_parts(robot.workshop)
+    chosen = robot.electrical_parts
     supply = supply_of(chosen)
     for link in links(robot):
         yield _voltage(link)
     yield from _currents(robot, chosen, supply)
     yield _gearbox(robot, supply)
     yield from _charging(chosen)
-    yield from wiring.wiring_findings(chosen, wiring_of(chosen, robot.workshop.bought.pins))
+    yield from wiring.wiring_findings(chosen, robot.wiring)
 
 
 def links(robot: Robot) -> list[Link]:
     """Return the chain of a robot, from the regulator to the winding."""
-    chosen, train = chosen_parts(robot.workshop), robot.layout.drive.train
+    chosen, train = robot.electrical_parts, robot.layout.drive.train
     torque_max = robot.workshop.safety.motor_torque_max_nm
     return list(chain(chosen, train.motor, supply_of(chosen), train.peak_current_a, torque_max))
 

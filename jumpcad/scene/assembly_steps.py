@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.parts.pads import printed_pads
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, carried
 from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_order.plan import ROBOT, Move, Plan, Words
 from jumpcad.scene.visuals import Visual, visuals
@@ -61,7 +61,8 @@ class Step:
         )
 
 
-def assembly_steps(robot: Robot) -> list[Step]:
+@carried
+def assembly_steps(robot: Robot) -> tuple[Step, ...]:
     """Return the steps that a robot needs; everything on it is put on in exactly one of them."""
     left = list(visuals(robot))
     layout = robot.layout
@@ -84,7 +85,7 @@ def assembly_steps(robot: Robot) -> list[Step]:
     if left:
         rest = MovedParts(Move(".*", way="laid"), tuple(left))
         steps.append(Step("rest", REST, ROBOT, (rest,), ("Fasten what remains where the picture shows it.",), (), ()))
-    return steps
+    return tuple(steps)
 
 
 def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Array:

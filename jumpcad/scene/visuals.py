@@ -11,7 +11,7 @@ import numpy as np
 
 from jumpcad.parts.part import Part, Shape
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, carried
 from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array, in_metres
 
@@ -79,6 +79,7 @@ class Visual:
         return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
 
 
+@carried
 def visuals(robot: Robot) -> tuple[Visual, ...]:
     """Return every copy of every printed part, then every bought part."""
     return (*_printed(robot), *(_bought(item) for item in robot.hardware))
