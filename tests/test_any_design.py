@@ -57,6 +57,7 @@ def workshops(tmp_path_factory: pytest.TempPathFactory) -> list[Workshop]:
     ]
 
 
+@pytest.mark.thorough
 @pytest.mark.filterwarnings("error")  # a value that is not finite shows first as a warning of numpy
 @pytest.mark.parametrize("seed", [1, 2])
 def test_any_design_has_an_answer(workshops: list[Workshop], seed: int) -> None:

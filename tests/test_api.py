@@ -14,6 +14,7 @@ from jumpcad.robot import Robot
 from jumpcad.search.models import robot_model
 
 
+@pytest.mark.thorough
 def test_a_bundle_has_pictures_and_no_step_files_unless_it_is_told_otherwise(
     small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

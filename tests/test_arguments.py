@@ -166,6 +166,7 @@ def test_all_else_is_refused_in_words_that_say_what_is_taken() -> None:
         assert "\n" not in str(caught.value)
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("built_once")
 def test_a_design_is_built_where_a_robot_is_wanted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))  # without solids

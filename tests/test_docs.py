@@ -49,6 +49,7 @@ def test_reference_is_what_the_program_gives(reference: ModuleType, page: str) -
     assert (DOCS / name).read_text(encoding="utf-8") == reference.PAGES[name]()
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("built_once", "checked_once")
 @pytest.mark.parametrize("page", ["checks.md", "files.md"])
 def test_reference_is_what_the_program_gives_figures_aside(
@@ -109,6 +110,7 @@ def vars_of(constraint: object) -> list[float]:
     return [getattr(constraint, type(constraint).__name__.lower())]
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("built_once", "checked_once")
 @pytest.mark.parametrize("chapter", BLOCKS)
 def test_examples_run(
@@ -178,6 +180,7 @@ def require_known(arguments: list[str]) -> None:
     assert {word for word in arguments if word.startswith("-")} <= options
 
 
+@pytest.mark.thorough
 def test_the_site_is_built_without_a_warning_and_loads_nothing_from_elsewhere(tmp_path: Path) -> None:
     for package in ("sphinx", "furo", "myst_parser", "sphinx_copybutton"):
         needs.package(package)

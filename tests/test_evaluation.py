@@ -144,6 +144,7 @@ def test_every_cheap_check_is_among_its_findings() -> None:
     assert len(names) == len(set(names))
 
 
+@pytest.mark.thorough
 def test_the_same_document_in_another_process() -> None:
     code = "import json, jumpcad; print(json.dumps(jumpcad.evaluate(jumpcad.load_design('best-bo')).to_dict()))"
     there = subprocess.run(

@@ -81,6 +81,7 @@ def test_names_are_escaped():
     assert "<b>" not in replace(jumpcad.capsule_robot(DESIGN), name="<b>&")._repr_html_()
 
 
+@pytest.mark.thorough
 def test_outside_of_a_notebook_a_robot_is_shown_in_the_browser(result, monkeypatch, tmp_path):
     opened = []
     monkeypatch.setattr("webbrowser.open", opened.append)

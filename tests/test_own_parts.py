@@ -189,6 +189,7 @@ def faults(write: Write, *cases: str) -> list[str]:
         return [str(error)]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("robot", ROBOTS)
 def test_what_fits_passes_every_check(robot: str, written: Write) -> None:
     """Where it does not, each own part alone shows which one."""
@@ -222,6 +223,7 @@ def test_a_heavy_motor_is_not_taken_where_a_light_one_turns_the_cam(written: Wri
     assert build(KENAN, load_workshop(written(heavy))).layout.drive.train.motor.name != "own"
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("built_once", "checked_once")
 def test_the_example_of_the_documentation_passes_every_check_and_its_parts_are_listed(written: Write) -> None:
     """With a spring that is not used: it is the robot of the bundle below."""
@@ -246,6 +248,7 @@ def test_own_parts_join_the_shipped_ones_and_no_other_workshop(written: Write) -
     assert "693" in [found.name for found in hub_bearings(anyone) if found]
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("built_once", "checked_once")
 def test_a_bundle_with_own_parts_builds_again_from_itself(written: Write, tmp_path: Path) -> None:
     """What it read back otherwise would be another workshop, whose robot is built and checked anew."""

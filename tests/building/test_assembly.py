@@ -86,6 +86,7 @@ def test_everything_bought_is_between_or_beside_the_plates(name: str) -> None:
             assert y.max() < high + (8.0 if item.name == "sensor" else 4.0), item.name
 
 
+@pytest.mark.thorough
 def test_the_same_inputs_give_the_same_files_on_another_machine() -> None:
     code = (
         "import hashlib, jumpcad; from jumpcad.solids.stl import write_stl;"

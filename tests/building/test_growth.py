@@ -61,6 +61,7 @@ def test_what_was_sized_to_hold_does_not_grow(name: str, monkeypatch: pytest.Mon
     assert steps == set()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("shop", "grown", "findings"),
     [
@@ -153,6 +154,7 @@ def test_what_a_round_takes_from_the_one_before_is_what_it_would_make(leg: str, 
     assert taken == (others if growth == Growth(lever=1.1) else set())
 
 
+@pytest.mark.thorough
 def test_what_lacks_much_takes_few_rounds(rounds: list[Robot]) -> None:
     """A leg that needs twice its height under the stop's blow: by tenths it took nine rounds and was not there yet."""
     found = {one.name: one for one in constraint_findings(build(Design.from_vector(HARD_STOP)))}

@@ -53,6 +53,7 @@ def test_the_bill_counts_every_piece(robot: Robot) -> None:
     assert quantity["split pin 0.8 x 10 ISO 1234"] == 3  # ankle, front eye, springs' pin in the leg
 
 
+@pytest.mark.thorough
 def test_nothing_costs_anything_unless_the_workshop_says_so(robot: Robot) -> None:
     lines = table(write_bom(bill_of_materials(robot)))
     assert {line["eur_each"] + line["eur"] + line["print_time_s"] for line in lines} == {""}

@@ -280,6 +280,7 @@ def test_small_parts_lie_beside_the_controller_and_apart(robot: Robot) -> None:
     assert ("tie_balance_lead" in names) == bool(robot.workshop.bought.regulator)
 
 
+@pytest.mark.thorough
 def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> None:
     """Lifted over the stops of 2 mm: nothing but its strap and its lead's tie is in the way of its box."""
     poses, shown = body_poses(robot), {thing.name: thing for thing in visuals(robot)}

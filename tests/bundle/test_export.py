@@ -127,6 +127,7 @@ def test_only_of_a_jump_it_is_said_how_sure_it_is(
     assert [(one.flight, one.trajectory) for one in asked] == [("simulated", True), ("simulated", False)]
 
 
+@pytest.mark.thorough
 def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With few pictures of jump and steps, and few jumps for its uncertainty."""
     with_few_pictures(monkeypatch)

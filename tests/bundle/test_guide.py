@@ -136,6 +136,7 @@ def test_under_pwm_the_battery_gives_the_motors_current_for_a_share_of_the_time(
     assert float(words["peak_ma"]) == pytest.approx(1000.0 * 6.0 / 8.4 * train.peak_current_a + boards, abs=0.51)
 
 
+@pytest.mark.thorough
 def test_tubes_of_two_pairs_of_gears_are_told_apart_by_their_lengths() -> None:
     """As long as their meshes."""
     robot, guide = geared(), write_guide(geared())
@@ -146,6 +147,7 @@ def test_tubes_of_two_pairs_of_gears_are_told_apart_by_their_lengths() -> None:
     assert "Idler axle" not in write_guide(built("kenan-2.0"))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
 def test_the_guide_of_a_board_without_a_button_names_none_and_reads_no_current_of_usb(kit: str, tmp_path: Path) -> None:
     """Commands come over USB, which feeds the controller; on one cell its charger feeds the driver as well.
@@ -270,6 +272,7 @@ def test_the_springs_ordered_are_those_of_the_design(robot: Robot) -> None:
     assert "the right-hand one goes on the robot's left" in guide
 
 
+@pytest.mark.thorough
 def test_a_preload_and_stock_springs_are_in_the_order() -> None:
     shop = load_workshop()
     changed = {
@@ -360,6 +363,7 @@ NEAR_SCREW = [100.0, 0.96812, 0.5, 1.07992, 0.8, 70.0, 30.0, 15.404]
 """A design with a standoff's screw beside the motor's window: a block of 20 mm would stand on its head."""
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable", ""])
 def test_the_block_under_the_motor_meets_the_plate_alone(name: str) -> None:
     """No screw's head, tie or bent end outside of the right plate stands where the guide puts the wooden block."""

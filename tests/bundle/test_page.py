@@ -104,6 +104,7 @@ def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:
     assert "How sure" not in write_report(robot, {}, jump)
 
 
+@pytest.mark.thorough
 def test_how_sure_agrees_with_other_jumps(robot: Robot) -> None:
     few, many = uncertainty_of(robot), uncertain_jump(robot, Settings(), "planar", seed=1, samples=128)
     assert few is not None

@@ -19,6 +19,7 @@ from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
 
+@pytest.mark.thorough
 def test_each_printed_pad_has_a_closed_file_of_its_mass() -> None:
     shop = load_workshop()
     printed = {"ground": {"pad": "tpu-2"}, "body": {"stop_pad": "tpu-2"}}
@@ -90,6 +91,7 @@ def test_the_guide_prints_and_glues_pads_and_does_not_order_them() -> None:
     assert bill_of_facts(mass_facts(bill), robot.workshop) == bill
 
 
+@pytest.mark.thorough
 def test_a_stop_is_printed_though_the_feet_are_cut() -> None:
     shop = load_workshop()
     body = shop.body.model_copy(update={"stop_pad": "tpu-2"})

@@ -82,6 +82,7 @@ def test_the_jump_is_an_endless_gif_of_few_colours(small_robot: Robot) -> None:
     assert centres[1] > centres[0] + 20, "x points to the right, and the robot jumps along x"
 
 
+@pytest.mark.thorough
 def test_the_floors_stripes_are_a_scale_for_the_jump(small_robot: Robot) -> None:
     """Measured in stripes of 100 mm, the blue body goes as far across the picture as it was simulated to."""
     jump = simulate(small_robot, Settings(flight="simulated", trajectory=True))

@@ -53,6 +53,7 @@ def rod(start: np.ndarray, end: np.ndarray, diameter_mm: float) -> trimesh.Trime
     return trimesh.creation.cylinder(diameter_mm / 2.0, segment=np.stack([start, end]), sections=24)
 
 
+@pytest.mark.thorough
 def test_an_iron_reaches_the_end_of_the_motors_shaft_through_the_left_plate(robot: Robot) -> None:
     things, (x, z) = loaded(robot), robot.layout.motor_mm
     shaft = things["motor_shaft"].bounds[1][1]

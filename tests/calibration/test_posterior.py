@@ -42,6 +42,7 @@ def posterior(subject: Subject) -> CalibrationPosterior:
     return sampled(CalibrationModel([measured(subject, jumps=jumps, mass={"robot_g": 103.0})]), 1, STEPS)
 
 
+@pytest.mark.thorough
 def test_the_drive_has_the_answer_of_normal_logarithms(posterior: CalibrationPosterior, subject: Subject) -> None:
     """Prior ln d ~ N(ln 0.7, 0.4), datum ln d = ln(model/1.6) ± 0.1 (and the springs' rate ± 0.05): weights 1/σ²."""
     logs = np.log(posterior.values["drive_efficiency"])
@@ -109,6 +110,7 @@ def test_a_weighed_robot_tells_more_of_its_springs(subject: Subject, posterior: 
     assert weighed < 0.2 * unweighed
 
 
+@pytest.mark.thorough
 def test_hidden_parameters_lie_in_their_intervals(subject: Subject) -> None:
     """Twelve robots drawn from the priors: 80 % intervals hold 9.6 of 12 on average, 7 to 12 with 98 % probability.
 

@@ -57,6 +57,7 @@ def _bought(name: str, kit: str = "light-1s", **chosen: Any) -> Robot:
     return build(load_design(name), shop.model_copy(update={"bought": shop.bought.model_copy(update=parts)}), name)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", FOUND)
 def test_everything_reaches_its_place_and_every_tool_its_fastener(name: str) -> None:
     names = ["assembly_paths", "tool_access"]
@@ -185,6 +186,7 @@ def test_a_tool_stands_on_the_middle_of_its_fasteners_face(side: tuple[float, fl
     assert shaft.shape.volume_mm3 == pytest.approx(50.0 * np.pi * 4.0, rel=0.01)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("angle_deg", [66.0, 76.0, 88.0])
 def test_toes_that_point_sideways_leave_the_ankles_pin_its_way(angle_deg: float) -> None:
     """They begin behind it, so that pin, split pin and pliers pass them."""

@@ -43,6 +43,7 @@ def test_a_check_of_the_registry_is_run_by_all_that_is_cheap(kenan: Robot, monke
     assert checks.check(capsule_robot(kenan.design)) == []
 
 
+@pytest.mark.thorough
 def test_margins_are_the_distance_from_value_to_limit() -> None:
     findings = [finding for name in ("kenan-2.0", "best-bo") for finding in checked(name)]
     compared = [finding for finding in findings if finding.value is not None and finding.limit is not None]

@@ -110,6 +110,7 @@ def test_verify_finds_what_was_changed(run: Run, bundle: Path, tmp_path: Path) -
     assert json.loads(out) == {"bundle": str(tmp_path / "b"), "differences": [], "added": ["notes.txt"]}
 
 
+@pytest.mark.thorough
 def test_render_draws_stills_and_the_jump_of_a_bundle(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -130,6 +131,7 @@ def test_a_folder_in_the_way_is_refused_in_one_line(run: Run, tmp_path: Path) ->
     assert [path.name for path in (tmp_path / "b").iterdir()] == ["notes.txt"]
 
 
+@pytest.mark.thorough
 def test_pictures_belong_to_the_bundle_that_they_are_drawn_into(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -192,6 +194,7 @@ def test_the_bodies_of_the_manifest_are_the_robots(bundle: Path) -> None:
         assert moments[2] <= moments[0] + moments[1], "no rigid body breaks the triangle rule"
 
 
+@pytest.mark.thorough
 def test_a_robot_that_tips_is_refused_and_written_anyway(run: Run, tmp_path: Path) -> None:
     """Toes a third as long, turned outwards: the centre of mass with loaded springs is behind them."""
     short = load_design("kenan-2.0").model_copy(update={"e_coef": 0.3, "ground_link_angle_deg": 80.0, "d_coef": 0.5})
@@ -246,6 +249,7 @@ def test_a_ros2_package_is_part_of_the_bundle_where_it_is_asked_for(run: Run, bu
     assert not package.exists()
 
 
+@pytest.mark.thorough
 def test_a_bundle_is_not_printed_elsewhere(run: Run, bundle: Path, tmp_path: Path) -> None:
     for option in (("--printer", "mk4"), ("--material", "PLA")):
         code, _, err = run("build", bundle, *option, "-o", tmp_path / "b")

@@ -20,6 +20,7 @@ def _short(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(uncertain.uncertain_jump, "__defaults__", (0, 32))
 
 
+@pytest.mark.thorough
 def test_calibrated_settings_are_what_uncertain_takes(run: Run, tmp_path: Path) -> None:
     code, out, err = run(
         "calibrate", "kenan-2.0", "--predict", "kenan-1.0", "-o", "mine.toml", "--plots", "pictures", "--json"

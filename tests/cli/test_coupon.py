@@ -14,6 +14,7 @@ from jumpcad.design import load_design
 from jumpcad.workshop import load_workshop
 
 
+@pytest.mark.thorough
 def test_a_coupon_is_printed_tried_and_built_with(run: Run, tmp_path: Path) -> None:
     code, out, err = run("coupon", "--json")
     assert (code, err) == (0, "")

@@ -10,6 +10,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 
 
+@pytest.mark.thorough
 def test_views_of_the_space(folder):
     views = {
         "sweep": [*NARROW, "--points", 3],

@@ -15,6 +15,7 @@ from support.commands import interruptible
 from support.searches import NARROW, QUICK, data, refusal, run
 from typer.testing import CliRunner
 
+import jumpcad.search.optimization  # noqa: F401  # before its pool is replaced
 from jumpcad.cli import optimize
 from jumpcad.cli.commands import app
 from jumpcad.cli.search_result import print_result
@@ -29,6 +30,7 @@ from jumpcad.search.study.objective import find_objective
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
 
 
+@pytest.mark.thorough
 def test_optimize_finds_a_jumper_and_writes_it(folder):
     found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 48, "-o", "best.toml")
     assert found["searched"] == 36
@@ -98,6 +100,7 @@ def test_what_optimize_finds_jumps_like_that(folder):
     assert json.dumps(found["winner"]["score"]) in json.dumps(jump)
 
 
+@pytest.mark.thorough
 def test_pareto_reports_its_front(folder):
     found = data("optimize", "pareto", *QUICK, *NARROW, "--evaluations", 16, "--study", "p.db", "--plots", "pics")
     energies = [trial["metrics"]["spring_energy_j"] for trial in found["front"]]
@@ -123,6 +126,7 @@ def test_says_that_all_designs_of_a_small_space_were_tried(folder):
     assert "these are all designs of the space" in said
 
 
+@pytest.mark.thorough
 def test_says_that_it_ended_early_and_how_it_goes_on(folder):
     asked = ("optimize", *QUICK, *NARROW, "--evaluations", 60, "--study", "s.db", "-o", "best.toml")
     said = run(*asked, "--until", 20)
@@ -132,6 +136,7 @@ def test_says_that_it_ended_early_and_how_it_goes_on(folder):
     assert "ended before" not in longer
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_ctrl_c_or_sigterm_keeps_what_is_finished_and_the_same_command_goes_on(folder, number):
     command = [*JUMPCAD, "optimize", "ga", "--model", "capsule", "--evaluations", "400", "--study", "s.db", "--json",

@@ -14,6 +14,7 @@ import pytest
 from support.commands import Run
 
 import jumpcad
+import jumpcad.search.optimization  # before its pool is replaced
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.models import robot_model

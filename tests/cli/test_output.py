@@ -54,6 +54,7 @@ def test_a_reader_that_has_gone_is_no_error(tmp_path: Path, arguments: list[str]
     assert (done.returncode, done.stderr) == (141, b"")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("shell", "arguments"), [(">&-", ["list"]), ("2>&-", ["list"]), ("<&- >&- 2>&-", LIGHT)], ids=["1", "2", "all"]
 )
@@ -62,6 +63,7 @@ def test_closed_streams_are_no_error(tmp_path: Path, shell: str, arguments: list
     assert (code, err) == (0, "")
 
 
+@pytest.mark.thorough
 def test_what_an_encoding_lacks_is_shown_escaped(tmp_path: Path) -> None:
     (tmp_path / "机.toml").write_text(load_design("kenan-2.0").to_toml())
     code, out, err = called("simulate", "机.toml", "--capsule", folder=tmp_path, PYTHONIOENCODING="ascii")

@@ -17,6 +17,7 @@ def called(entry: str, *arguments: str, before: str = "") -> subprocess.Complete
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("code", "arguments"),
     [(0, ("--version",)), (0, ("simulate", "--help")), (2, ("simulate", "no-such-design")), (2, ("fly",))],

@@ -10,6 +10,7 @@ from support.searches import QUICK
 from jumpcad.errors import JumpcadError
 
 
+@pytest.mark.thorough
 def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, bundle: Path, tmp_path: Path) -> None:
     copy = shutil.copytree(bundle, tmp_path / "kenan-2.0")
     code, out, _ = run("report", copy)

@@ -90,6 +90,7 @@ def test_wrong_requests_are_one_line_and_leave_no_study(folder, arguments, messa
     assert sorted(folder.rglob("*")) == before
 
 
+@pytest.mark.thorough
 def test_a_winner_that_somebody_edited_is_kept(folder):
     plots = ["--plots", "pics"]
     search = ["optimize", "ga", *QUICK, *NARROW, "--evaluations", 10, "--study", "s.db", "-o", "best.toml"]

@@ -40,6 +40,7 @@ def pretend(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], 
     return lambda program: pretend_slicer(program, tmp_path, monkeypatch)
 
 
+@pytest.mark.thorough
 @needs_slicer
 def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -27,6 +27,7 @@ def coupon(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return export_coupon(load_workshop("fine"), tmp_path_factory.mktemp("coupon") / "c").folder
 
 
+@pytest.mark.thorough
 def test_the_same_workshop_gives_the_same_bytes(coupon: Path, tmp_path: Path) -> None:
     assert contents(export_coupon(load_workshop("fine"), tmp_path / "b").folder) == contents(coupon)
 

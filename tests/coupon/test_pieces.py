@@ -111,6 +111,7 @@ def test_pegs_can_be_measured() -> None:
     assert PIECES["gauge_PETG"].mesh.bounds[1, 2] >= 3.0 + 8.0
 
 
+@pytest.mark.thorough
 def test_every_piece_is_one_closed_part_that_hangs_over_nothing() -> None:
     for piece in PIECES.values():
         assert faults(write_stl(piece.mesh)) == []

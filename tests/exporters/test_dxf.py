@@ -41,6 +41,7 @@ def test_a_plate_with_a_hole_is_cut_and_engraved_in_millimetres() -> None:
     assert enclosed_mm2(document, "ENGRAVE") == pytest.approx(np.pi, rel=0.005)
 
 
+@pytest.mark.thorough
 def test_a_sheet_is_the_same_text_whatever_the_hashes_of_strings() -> None:
     """Sets of strings are listed in an order that differs from process to process."""
     program = (

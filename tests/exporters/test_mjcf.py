@@ -35,6 +35,7 @@ def without_meshes(document: str) -> str:
     return ET.tostring(root, encoding="unicode")
 
 
+@pytest.mark.thorough
 def test_a_simulation_loads_no_format_but_its_own() -> None:
     others = {"ezdxf", "jumpcad.robot", "jumpcad.scene.visuals"}
     code = f"import sys, jumpcad.exporters.mjcf; print({others} & set(sys.modules))"

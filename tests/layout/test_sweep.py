@@ -40,6 +40,7 @@ def windings(robot: Robot) -> np.ndarray:
     return np.linspace(-PAST_RAD, robot.spring.wind_rad, POSITIONS)
 
 
+@pytest.mark.thorough
 @each("name", NAMES)
 @each("link", ["main leg", "front link", "foot"])
 def test_a_link_stays_inside_its_sweep_all_the_way(name: str, link: str) -> None:

@@ -35,6 +35,7 @@ def robot(request: pytest.FixtureRequest) -> Robot:
     return build(load_design("kenan-2.0"), workshop(**CHOICES[request.param]))
 
 
+@pytest.mark.thorough
 def test_nothing_meets(robot: Robot) -> None:
     assert [found.message for found in interference_findings(robot) if found.severity == "error"] == []
 
@@ -114,6 +115,7 @@ def test_what_cannot_be_kept_is_refused(bought: dict[str, object], message: str)
         build(load_design("kenan-2.0"), workshop(**bought))
 
 
+@pytest.mark.thorough
 def test_axles_of_two_millimetres_have_pins_with_clips() -> None:
     """Clevis pins begin at 3 mm (ISO 2341); a clip for 2 mm has a groove of 1.5 mm (DIN 6799)."""
     robot = build(load_design("kenan-2.0"), workshop(axle_mm=2.0))

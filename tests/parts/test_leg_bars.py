@@ -72,6 +72,7 @@ def test_the_whole_heel_is_printed() -> None:
     assert place.mouth_mm == pytest.approx(40.0 + 8.0 / 2.0 + 0.5)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("leg", ["carbon-tube-4x2", "carbon-strip-3x6"])
 def test_such_legs_pass_every_check_and_nothing_meets(leg: str) -> None:
     found = check(robot(leg))

@@ -32,6 +32,7 @@ def test_files_are_closed_parts_on_the_bed(name: str) -> None:
         assert volume == pytest.approx(part.drawing.solid.volume(), rel=1e-5), part.name
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("name", "of"), [("kenan-2.0", ""), (LONG_TOES, "foot toe_left"), ("geared", "idler cam_gear")], ids=str
 )

@@ -45,6 +45,7 @@ def test_assemblies_on_the_bench_lie_apart(views: dict[str, list[StepView]]) -> 
         assert max(gaps[0], gaps[2]) >= 0.012 - 1e-6
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_labels_of_springs_point_at_their_wire(name: str) -> None:
     """Nearer to the wire's middle line than its radius, in every picture that names them; each at its own.

@@ -60,6 +60,7 @@ def test_samples_and_what_is_permuted_follow_from_the_seed(evaluator):
     assert falls[0] == falls[1] != falls[2]
 
 
+@pytest.mark.thorough
 def test_importance_knows_which_parameters_decide(evaluator):
     one = evaluator(space=Space.default())
     found = importance(one, sample(one, 300, 0), 0)

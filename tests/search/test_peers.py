@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from support.places import ROOT
 
 
@@ -21,6 +22,7 @@ def row(seed: int, at_40: float, at_60: float, cpu_s: float = 10.0) -> str:
     return json.dumps(one) + "\n"
 
 
+@pytest.mark.thorough
 def test_the_table_has_medians_and_of_equal_rows_the_last(tmp_path: Path) -> None:
     log = tmp_path / "log.jsonl"
     rows = (row(0, 9.0, 9.0), row(0, 1.0, 4.0), row(1, 2.0, 5.0, 40.0), row(2, 3.0, 9.0))
@@ -30,6 +32,7 @@ def test_the_table_has_medians_and_of_equal_rows_the_last(tmp_path: Path) -> Non
     assert lines[-1].endswith("| 3 | 2.00 [1.00, 3.00] | 5.00 [4.00, 9.00] | 25 % | 10 |")
 
 
+@pytest.mark.thorough
 def test_a_search_that_the_log_holds_is_not_run_again(tmp_path: Path) -> None:
     log = tmp_path / "log.jsonl"
     log.write_text(row(0, 1.0, 4.0), encoding="utf-8")

@@ -117,6 +117,7 @@ def test_the_slope_along_numbers_is_the_difference_and_along_names_nothing():
     assert slope[0, 2] == 0.0
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("method", "evaluations", "at_least"), [("ga", 400, 9.0), ("ga+bo", 80, 9.5)])
 def test_methods_find_the_best_values_of_the_workshop(method, evaluations, at_least):
     with local_pool(0) as pool:
@@ -134,6 +135,7 @@ def test_the_genetic_algorithm_keeps_trying_other_names(evaluator):
     assert set(late) == set(HEIGHTS)
 
 
+@pytest.mark.thorough
 def test_a_search_goes_on_where_it_ended(tmp_path):
     def rows(path, *lengths):
         for evaluations in lengths:
@@ -147,6 +149,7 @@ def test_a_search_goes_on_where_it_ended(tmp_path):
     assert len(parts) > 15 + 2  # the spread ones, and proposals before and after
 
 
+@pytest.mark.thorough
 def test_study_pictures_and_tables_know_the_workshop(tmp_path):
     path = tmp_path / "s.db"
     space = Space.parse(
@@ -184,6 +187,7 @@ def test_values_that_do_not_go_together_are_a_verdict():
     assert "nozzle" in found.detail
 
 
+@pytest.mark.thorough
 def test_the_winner_s_files_make_the_robot_that_was_searched(tmp_path, monkeypatch):
     monkeypatch.setattr("jumpcad.search.propose.initial_designs.SCREENED", 8)
     design = load_design("best-printable")

@@ -39,6 +39,7 @@ def fresh() -> dict[str, str]:
     return dict(zip(ENGINES, said, strict=True))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 def test_repeats_other_robots_and_a_fresh_process(
     kenan: Robot, jumping: list[Flight], fresh: dict[str, str], engine: str

@@ -120,6 +120,7 @@ def test_what_a_pocket_divides_stays_one_outline():
         assert shape.sections_at([1.0, 3.0, 5.0]).which.tolist() == [0, 1, 0]
 
 
+@pytest.mark.thorough
 def test_files_of_random_parts_are_closed_and_in_one_piece():
     rng = np.random.default_rng(20)
     for _ in range(40):

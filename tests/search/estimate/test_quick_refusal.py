@@ -67,6 +67,7 @@ def wrongly_refused(robots):
     return [design for design, refused in found if {one.name for one in refused} & {"tips", "too_weak"}]
 
 
+@pytest.mark.thorough
 def test_a_robot_that_stands_is_not_refused(standing):
     assert sum(known(*one) for one in standing) >= 12
     assert wrongly_refused(standing) == []

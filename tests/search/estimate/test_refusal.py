@@ -16,6 +16,7 @@ from jumpcad.search.study.objective import Evaluation
 from jumpcad.simulation import Settings, simulate
 
 
+@pytest.mark.thorough
 def test_the_margin_is_the_message_s_millimetres_and_changes_its_sign_where_a_robot_is_built():
     """Compressed further, the legs come nearer to each other, until they touch."""
     model, margins = robot_model(), []

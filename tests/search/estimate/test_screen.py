@@ -77,6 +77,7 @@ def test_a_robot_stands_in_for_itself():
     assert attrgetter(*same)(other) == pytest.approx(attrgetter(*same)(LIKE), rel=1e-4)
 
 
+@pytest.mark.thorough
 def test_a_guess_is_as_good_as_its_error_says_and_what_is_left_out_is_worse_than_the_best(model, trials):
     objective = find_objective("body_lengths")
     screen = Screen(SPACE, model, objective)
@@ -110,6 +111,7 @@ def test_beside_a_robot_the_error_is_smaller(model, trials):
     assert 1.5 * math.log(beside.most / beside.least) < math.log(other.most / other.least)
 
 
+@pytest.mark.thorough
 def test_what_guesses_miss_is_learned_with_every_robot(model, trials):
     """Of robots that were built after the last fit, by so much that they have become the best."""
     built = [one for one in trials if one.evaluation.verdict != SCREENED]
@@ -149,6 +151,7 @@ def test_nothing_is_left_out_before_enough_is_known_and_no_guess_is_a_score(tria
     assert best_trial(trials).evaluation.verdict == "jump"
 
 
+@pytest.mark.thorough
 def test_a_search_that_ended_early_and_a_worker_give_the_same_rows(model, trials, tmp_path):
     path = tmp_path / "again.db"
     search(model, path, evaluations=84)

@@ -49,6 +49,7 @@ def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
     assert all(one.robust_score < 5.0 for one in edge if one.neighbours >= 8)
 
 
+@pytest.mark.thorough
 def test_proposals_off_an_edge_follow_from_the_seed(evaluator):
     points = SMALL.spread(16, np.random.default_rng(1))
     runs = []

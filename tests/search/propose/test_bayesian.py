@@ -40,6 +40,7 @@ def taught(kept_evaluator):
     return one.trials
 
 
+@pytest.mark.thorough
 def test_the_top_is_found_in_few_evaluations(taught, evaluator):
     others = [evaluator() for _ in range(2)]
     for seed, one in enumerate(others, start=1):
@@ -49,6 +50,7 @@ def test_the_top_is_found_in_few_evaluations(taught, evaluator):
         assert best(trials) > 9.99
 
 
+@pytest.mark.thorough
 def test_batches_find_it_too_and_do_not_repeat_themselves(evaluator):
     one = evaluator()
     run_bayesian(one, Task(41, 0, initial=9, batch=4))
@@ -57,6 +59,7 @@ def test_batches_find_it_too_and_do_not_repeat_themselves(evaluator):
     assert [sum(trial.step == step for trial in one.trials) for step in range(9)] == [9, *[4] * 8]
 
 
+@pytest.mark.thorough
 def test_few_of_the_proposals_are_refused(evaluator):
     # 14 % of the box are beyond the hill's limit on the ratio, right beside its top.
     one = evaluator()
@@ -110,6 +113,7 @@ def test_after_four_steps_without_a_gain_neighbours_are_looked_at_whatever_is_pr
     assert asked == [9, 10, 11]
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("quick_proposals_once")
 def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
     whole = evaluator()

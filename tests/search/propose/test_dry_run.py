@@ -72,6 +72,7 @@ def trials(tmp_path_factory):
     return search(tmp_path_factory.mktemp("rehearsal") / "whole.db")
 
 
+@pytest.mark.thorough
 def test_a_search_that_ended_early_and_a_worker_give_the_same_rows(trials, tmp_path):
     path = tmp_path / "again.db"
     search(path, replace(TASK, evaluations=12))
@@ -273,6 +274,7 @@ def test_what_was_refused_for_any_trial_is_not_proposed_again_also_after_a_resta
     assert restarted.is_refused(hard)
 
 
+@pytest.mark.thorough
 def test_a_search_with_guesses_ends_after_so_many_steps_in_a_row_without_a_gain(tmp_path, monkeypatch):
     """After four of them it looks beside the best."""
     idle, beside, task = [], Learner.beside, replace(TASK, evaluations=60, least_gain=0.2)

@@ -83,6 +83,7 @@ def test_published_preset_replaces_five_genes(evaluator):
     assert len(one.trials) == 60
 
 
+@pytest.mark.thorough
 def test_a_space_of_choices_runs_dry(evaluator):
     fixed = [f"{parameter.name}={TOP[parameter.name]}" for parameter in SMALL.free[:1]]
     rest = [f"{p.name}={p.lower}" for p in SMALL.parameters if not p.free]

@@ -31,6 +31,7 @@ def searched(quick_proposals, kept_evaluator):
     return one
 
 
+@pytest.mark.thorough
 def test_each_stage_moves_what_it_should(searched):
     space, trials = Space.default(), searched.trials
     assert len(trials) <= 140
@@ -91,6 +92,7 @@ def test_it_takes_the_largest_seed(evaluator):
     assert {trial.run for trial in one.trials if trial.phase == "ga"} == set(range(RUNS))
 
 
+@pytest.mark.thorough
 def test_it_resumes_and_its_study_is_read(tmp_path, monkeypatch):
     with_plain_figures(monkeypatch)
 
@@ -117,6 +119,7 @@ def test_its_stages_share_the_evaluations_so_a_longer_search_is_another_one(tmp_
     assert longer.default_name() != short.default_name()
 
 
+@pytest.mark.thorough
 def test_the_gain_at_which_other_searches_end_does_not_apply_to_it():
     with local_pool(0) as pool:
         default, none = (

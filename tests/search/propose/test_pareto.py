@@ -48,6 +48,7 @@ def dominated_share(evaluator):
     return hypervolume(evaluator.trials) / hypervolume(true)
 
 
+@pytest.mark.thorough
 def test_constrained_improvement_finds_the_front(evaluator):
     one = evaluator()
     run_pareto(one, Task(41, 0, initial=9))
@@ -81,6 +82,7 @@ def test_every_cap_asks_for_more_than_the_best_below_it(evaluator, monkeypatch):
         assert all(SMALL.to_design(point).spring_energy_j <= cap for point in given["elite"])
 
 
+@pytest.mark.thorough
 def test_nsga2_finds_most_of_it(evaluator):
     one = evaluator()
     run_nsga2(one, Task(300, 0))
@@ -143,6 +145,7 @@ class Weighed(Hill):
         return Evaluation(found.verdict, {**found.metrics, **more}, found.findings) if found.metrics else found
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("against", ["mass", "rise"])
 def test_a_cost_that_is_not_known_before_is_learned(evaluator, against):
     """Two planes; much less of the true front's area is missed than by random designs."""

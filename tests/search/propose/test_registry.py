@@ -58,6 +58,7 @@ def test_generations_follow_from_the_seed(evaluator, monkeypatch, name):
     assert runs[0][1] != runs[2][1]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", [name for name, method in METHODS.items() if method.learns])
 def test_proposals_follow_from_the_seed(evaluator, name):
     """From the same first designs, which another search has evaluated."""

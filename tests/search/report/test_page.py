@@ -86,6 +86,7 @@ def page_of(path, name="study"):
         return write_study_page(store, name)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("method", ["bo", "nsga2", "ga"])
 def test_is_xml_that_asks_for_nothing_else(studies, method):
     page = known_page_of(studies / f"{method}.db")

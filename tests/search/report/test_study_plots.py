@@ -22,6 +22,7 @@ def pictures(store, folder, names):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+@pytest.mark.thorough
 def test_a_study_has_its_pictures(tmp_path):
     """Of the method that has all kinds."""
     names = {"history", "slices", "parallel", "pareto", "acquisition-first", "acquisition"}
@@ -29,6 +30,7 @@ def test_a_study_has_its_pictures(tmp_path):
         pictures(store, tmp_path / "a", names)
 
 
+@pytest.mark.thorough
 def test_one_free_parameter_has_no_parallel_lines_and_no_front_without_one_and_they_repeat(tmp_path):
     with studied(tmp_path / "s.db", Space.parse(fix=[*REST, "rest_angle_deg=50"])) as store:
         names = {"history", "slices", "acquisition-first", "acquisition"}

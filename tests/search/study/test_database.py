@@ -18,6 +18,7 @@ from jumpcad.search.study.database import is_written, lock, plain_errors, requir
 from jumpcad.search.study.store import StudyStore
 
 
+@pytest.mark.thorough
 def test_one_writer_at_a_time(tmp_path):
     with StudyStore.write(tmp_path / "s.db", IDENTITY):
         code = textwrap.dedent(f"""

@@ -132,6 +132,7 @@ def test_what_was_evaluated_before_the_failure_is_kept_and_learned_from(tmp_path
     assert len(mended.trials) == 12
 
 
+@pytest.mark.thorough
 def test_an_own_objective_on_the_command_line(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     folder = tmp_path

@@ -37,6 +37,7 @@ def evaluate(pool, model, designs=DESIGNS):
     return [outcomes[index] for index in range(len(designs))], notes
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("workers", [0, 2])
 def test_results_do_not_depend_on_who_computes_them(workers):
     found, notes = evaluate(local_pool(workers), Hill())
@@ -52,6 +53,7 @@ def test_an_outcome_says_how_long_it_took(workers):
     assert all(0.02 <= duration < 0.5 for duration in durations)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("way", "limit_s", "reason"),
     [
@@ -74,6 +76,7 @@ def test_designs_that_fail_twice_are_quarantined_and_named(way, limit_s, reason)
     assert sum("quarantined" in note for note in notes) == len(bad) == 2
 
 
+@pytest.mark.thorough
 def test_a_hang_is_ended_at_its_limit():
     designs = GOOD[:8]
     designs.insert(3, DESIGNS[min(TRAPPED)])
@@ -83,6 +86,7 @@ def test_a_hang_is_ended_at_its_limit():
     assert all(evaluation.verdict != QUARANTINED for index, evaluation in enumerate(found) if index != 3)
 
 
+@pytest.mark.thorough
 def test_what_fails_once_is_repeated(tmp_path):
     found, notes = evaluate(local_pool(2), Trap(way="kill", once=tmp_path / "died"))
     assert found == [Hill()(design) for design in DESIGNS]
@@ -124,6 +128,7 @@ def test_an_error_of_the_request_ends_the_run():
         evaluate(local_pool(1), Missing())
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(not hasattr(os, "pidfd_open"), reason="processes of others are waited for as Linux has it")
 def test_workers_end_with_a_killed_parent(tmp_path):
     code = textwrap.dedent(f"""

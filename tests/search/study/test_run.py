@@ -183,6 +183,7 @@ def test_same_rows_for_any_number_of_workers(tmp_path, two_workers, method, batc
     assert contents(tmp_path / "0.db") == contents(tmp_path / "2.db")
 
 
+@pytest.mark.thorough
 def test_killed_at_random_moments_it_ends_with_the_rows_of_an_uninterrupted_run(tmp_path):
     """By both methods: the first half is the genetic algorithm's."""
     method, evaluations, workers = "ga+bo", 28, 1
@@ -216,6 +217,7 @@ def test_a_finished_study_is_not_computed_again(tmp_path):
     assert again.candidates == first.candidates
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("method", ["ga", "bo", "ga+bo", "pareto"])
 def test_a_larger_budget_lengthens_a_study(tmp_path, method):
     request = replace(REQUEST, method=method, evaluations=16)
@@ -259,6 +261,7 @@ def test_a_study_of_another_version_is_refused(tmp_path):
         run(replace(request, model=Newer()), tmp_path / "s.db")
 
 
+@pytest.mark.thorough
 def test_genetic_then_bayesian_ends_on_the_top():
     result = run(replace(REQUEST, method="ga+bo", evaluations=60))
     assert [trial.phase for trial in result.trials] == ["ga"] * 15 + ["bo"] * 30
@@ -269,6 +272,7 @@ def test_genetic_then_bayesian_ends_on_the_top():
     assert result.bounds == []
 
 
+@pytest.mark.thorough
 def test_it_ends_where_proposals_promise_too_little_and_goes_on_where_less_is_asked(tmp_path):
     request = replace(REQUEST, method="bo", evaluations=60)
     first = run(replace(request, until_percent=1.0), tmp_path / "s.db")
@@ -351,6 +355,7 @@ def test_a_timed_pick_looks_at_the_clock_after_four_evaluations_for_each_worker(
     assert max(parts[0.0][1:]) > max(parts[1.0][1:]) == 4  # the first are the search's
 
 
+@pytest.mark.thorough
 def test_it_ends_when_its_time_is_over_and_the_same_request_goes_on(tmp_path):
     for method, evaluations, least in (("ga", 40, 20), ("bo", 16, 8), ("ga+bo", 24, 6)):
         request = replace(REQUEST, method=method, evaluations=evaluations)
@@ -366,6 +371,7 @@ def test_it_ends_when_its_time_is_over_and_the_same_request_goes_on(tmp_path):
         assert [trial.key for trial in whole.trials] == [trial.key for trial in run(request).trials]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("method", ["ga", "ga+bo", "pareto"])
 def test_a_finished_study_is_read_whole_however_short_the_time(tmp_path, method):
     request = replace(REQUEST, method=method, evaluations=40)
@@ -553,6 +559,7 @@ def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
     assert asked[3:] == [("ga", Task(20, 7, screen=True))]
 
 
+@pytest.mark.thorough
 def test_a_prior_study_is_scored_by_the_objective_of_the_request(tmp_path):
     """Whatever it was made for: a rejected design has no score by any."""
     run(replace(REQUEST, method="ga", evaluations=12), tmp_path / "prior.db")

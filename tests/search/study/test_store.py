@@ -60,6 +60,7 @@ def test_another_study_is_not_overwritten(tmp_path):
     assert (tmp_path / "s.db").read_bytes() == before
 
 
+@pytest.mark.thorough
 def test_killed_writer_leaves_whole_batches(tmp_path):
     code = textwrap.dedent(f"""
         import os, signal, sys
@@ -79,6 +80,7 @@ def test_killed_writer_leaves_whole_batches(tmp_path):
         assert store.trials() == trials(7)
 
 
+@pytest.mark.thorough
 def test_full_disk_is_one_line_and_keeps_what_was_there(tmp_path):
     code = textwrap.dedent(f"""
         import resource, signal, sys

@@ -50,6 +50,7 @@ def test_the_digest_is_part_of_what_a_study_is_about():
     assert RobotModel("capsule").versions()["code"] == code_digest()
 
 
+@pytest.mark.thorough
 def test_no_evaluation_imports_what_the_digest_leaves_out():
     code = f"""
 import sys
