@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from support.hills import FIXED, SMALL
 
-from jumpcad.files import templates_folder
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.report.drawings import AGES, _best, _end, _gain, _line, _spread, history, parallel, slices
+from jumpcad.search.report.drawings import _best, _end, _gain, _line, _spread, history, parallel, slices
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
@@ -93,15 +92,6 @@ def known(*scores: float | None) -> StudySummary:
     return StudySummary(SMALL, find_objective("fitness"), trials, None, [], [], {})
 
 
-def test_a_history_has_each_design_above_its_number() -> None:
-    """Jumps as dots, what was rejected as ticks: numbers begin at 1."""
-    page = "\n".join(history(known(1.0, None, 2.0, 1.5, None)))
-    ticks = re.findall(r'<text x="([\d.]+)" y="[\d.]+" text-anchor="middle">(\d)<', page)
-    numbers = {label: float(x) for x, label in ticks}
-    assert at("dots phase0", page) == [numbers[label] for label in "134"]
-    assert at("rejected", page) == [numbers[label] for label in "25"]
-
-
 def test_dots_of_a_slice_are_as_old_as_the_jumps_before_them() -> None:
     """A fifth of the designs that jump in each colour, whatever was rejected meanwhile."""
     page = "\n".join(slices(known(*[1.0, 2.0, 3.0, 4.0, 5.0], *[None] * 20), ()))
@@ -131,15 +121,6 @@ def test_the_best_run_together_or_spread_by_their_reach_in_each_range() -> None:
     )
     none = [trial(*[0.5 + 0.07 * n] * 3) for n in range(5)]
     assert _spread(SMALL, none).endswith("neither run together nor spread widely in any parameter.")
-
-
-@pytest.mark.parametrize(
-    ("reach", "said"),
-    [(0.098, "run together"), (0.102, "neither"), (0.498, "neither"), (0.502, "spread over more")],
-)
-def test_a_tenth_of_the_range_is_together_and_more_than_half_apart(reach: float, said: str) -> None:
-    best = [trial(0.2 + 0.25 * reach * n, 0.2 + 0.3 * n / 4.0, 0.2 + 0.3 * n / 4.0) for n in range(5)]
-    assert said in _spread(SMALL, best)
 
 
 def box(page: str) -> tuple[float, float]:
@@ -252,8 +233,3 @@ def test_names_are_numbered_from_one_on_an_axis_of_whole_numbers() -> None:
     assert "1 is lipo-2s-180, 2 is lipo-1s-300. Best: lipo-1s-300." in page
     assert re.findall(r'text-anchor="middle">([\d.]+)<', page) == ["1", "2"]
     assert dots("top", page) == [pytest.approx((2.0, 2.0), abs=0.02)]
-
-
-def test_dots_of_every_age_have_a_colour() -> None:
-    style = (templates_folder() / "report" / "study.css").read_text(encoding="ascii")
-    assert sorted(set(re.findall(r"\bage(\d)\b", style))) == [str(age) for age in range(AGES)]

@@ -14,7 +14,7 @@ from jumpcad.findings import Finding
 from jumpcad.search.explore import Importance
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.report import lessons
-from jumpcad.search.report.lessons import _bar, _cost, _gains, _is_clear, _matters, active, rejections
+from jumpcad.search.report.lessons import _cost, _gains, _is_clear, _matters, active, rejections
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial
@@ -93,11 +93,6 @@ def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_impor
     monkeypatch.setattr(lessons, "importance_in", refused)
     page = text(lessons.importances(store, two))  # type: ignore[arg-type]
     assert page == "Importance 2 designs that jumped: too few to say what is important."
-
-
-@pytest.mark.parametrize(("share", "width"), [(0.0, 0), (0.25, 25), (1.0, 100), (-0.5, 0), (1.5, 100)])
-def test_a_bar_is_as_long_as_its_share(share: float, width: int) -> None:
-    assert f'style="width: {width}%"' in _bar(share)
 
 
 @pytest.mark.parametrize(

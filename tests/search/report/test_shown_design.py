@@ -64,18 +64,3 @@ def test_every_number_stands_with_its_unit_and_the_energy_is_that_of_the_evaluat
     assert "energy in the springs 125 mJ" in text
     assert "more figures" not in text
     assert f"energy in the springs {1000.0 * DESIGN.spring_energy_j:.4g} mJ" in told()
-
-
-def test_designs_are_numbered_in_their_order_and_each_has_its_own_trial() -> None:
-    """A study in a folder with a blank, and names of the workshop, are told as they are."""
-    trials = [
-        Trial("bo", 1, n, DESIGN, Evaluation("jump", {}), 2.5 - n, "m", 0.0, {}, {"bought.spring": f"s{n}"})
-        for n in range(3)
-    ]
-    page = "\n".join(shown_designs(trials, [7, 3, 9], find_objective("range"), "s.db"))
-    assert re.findall(r"<h3>(.*?)</h3>", page) == [
-        "Design 1 (trial 7): 2.5 m", "Design 2 (trial 3): 1.5 m", "Design 3 (trial 9): 0.5 m"
-    ]  # fmt: skip
-    assert re.findall(r"--trial (\d)", page) == ["7", "3", "9"]
-    assert re.findall(r'id="design-(\d)"', page) == ["1", "2", "3"]
-    assert re.findall(r">(s\d)<", page) == ["s0", "s1", "s2"]
