@@ -22,13 +22,15 @@ from jumpcad.files.markdown import plain
 from jumpcad.parts.pads import PrintedPad, printed_pads
 from jumpcad.printing.plates import PlacedCopy, Printable, PrintPlate, packed
 from jumpcad.printing.project import PADS_HOW, pad_settings, project_settings, settings_in_words, temperatures_in_words
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, carried
 from jumpcad.workshop import Workshop
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
+PADS = "pads"
+"""Kind of the plates of pads."""
 
 CONTENT_TYPES = (
     f'{XML}<Types xmlns="{PACKAGE}/content-types">'
@@ -48,32 +50,46 @@ RELATIONSHIPS = (
 )
 
 
+@carried
+def print_plates(robot: Robot) -> tuple[PrintPlate, ...]:
+    """Return a robot's print plates, packed on its workshop's bed, those of pads last."""
+    pads = printed_pads(robot.hardware, robot.workshop)
+    return (*_packed(robot.parts, robot.workshop), *(pad_plates(pads, robot.workshop) if pads else ()))
+
+
 def threemf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of every print plate, packed on the workshop's bed, and of `print/README.md`."""
-    yield from plate_files(robot.parts, robot.workshop, printed_pads(robot.hardware, robot.workshop))
+    """Yield path and content of every print plate of a robot, and of `print/README.md`."""
+    kinds = {one.material: one.pad for one in printed_pads(robot.hardware, robot.workshop)}
+    yield from _files(print_plates(robot), robot.workshop, kinds)
 
 
-def plate_files(
-    parts: Iterable[Printable], workshop: Workshop, pads: Sequence[PrintedPad] = ()
-) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of the print plates of parts and of pads, and of `print/README.md`."""
-    printer, process = workshop.printer, workshop.process
-    plates = packed(parts, printer.bed_mm, process.part_spacing_mm)
-    for plate in plates:
-        settings = project_settings(printer, process, workshop.materials[plate.material], plate.material)
-        yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
-    soles = pad_plates(pads, workshop)
-    kinds = {one.material: one.pad for one in pads}
-    for plate in soles:
-        settings = pad_settings(printer, process, kinds[plate.material])
-        yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
-    yield "print/README.md", _in_words(plates, workshop) + _pads_in_words(soles, kinds)
+def plate_files(parts: Iterable[Printable], workshop: Workshop) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of the print plates of parts, and of `print/README.md`."""
+    yield from _files(_packed(parts, workshop), workshop, {})
 
 
 def pad_plates(pads: Iterable[PrintedPad], workshop: Workshop) -> list[PrintPlate]:
     """Return the plates of pads, each of one kind of pad."""
-    found = packed(pads, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
-    return [replace(plate, kind="pads") for plate in found]
+    return [replace(plate, kind=PADS) for plate in _packed(pads, workshop)]
+
+
+def _packed(parts: Iterable[Printable], workshop: Workshop) -> list[PrintPlate]:
+    return packed(parts, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
+
+
+def _files(
+    plates: Sequence[PrintPlate], workshop: Workshop, kinds: Mapping[str, Pad]
+) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of print plates, and of `print/README.md`; `kinds` are those of pads, by material."""
+    printer, process = workshop.printer, workshop.process
+    for plate in plates:
+        if plate.kind == PADS:
+            settings = pad_settings(printer, process, kinds[plate.material])
+        else:
+            settings = project_settings(printer, process, workshop.materials[plate.material], plate.material)
+        yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
+    of_parts, of_pads = ([plate for plate in plates if (plate.kind == PADS) == pads] for pads in (False, True))
+    yield "print/README.md", _in_words(of_parts, workshop) + _pads_in_words(of_pads, kinds)
 
 
 def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes) -> bytes:
