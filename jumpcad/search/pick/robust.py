@@ -238,7 +238,8 @@ def _examine(
     """
     run, step = at
     asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, making)]
-    found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step, run=run)
+    limit = 0 if evaluator.expired() else None
+    found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step, limit, run=run)
     scores = [trial.score for trial in evaluator.trials if trial.score is not None]
     rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0
     for (one, kind, _), trial in zip(asked, found, strict=True):
@@ -280,6 +281,7 @@ def active_bounds(
     At most `evaluations` are examined, the others only named; `run` is the number of this pick in the study.
     """
     found = named_bounds(evaluator.space, trial)
+    evaluations = 0 if evaluator.expired() else evaluations
     variants = [trial.variant.changed({bound.name: bound.beyond}) for bound in found]
     trials = evaluator.evaluate(variants, "bounds", 0, limit=evaluations, run=run)
     return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True)]

@@ -1,6 +1,5 @@
 """`Evaluator`: the evaluations of one search, each read from the study file if it is there, computed if not."""
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -42,9 +41,7 @@ class Evaluator:
     watch
         Called with every trial.
     expired
-        Whether the time of the search is over; methods ask before every step.
-    room
-        How many more designs may be evaluated before it is asked again; 0 if none.
+        Whether evaluations or time of the search are spent; who proposes designs asks before every step.
     """
 
     @check_arguments
@@ -58,14 +55,12 @@ class Evaluator:
         prior: Sequence[Trial] = (),
         watch: Watch = ignore,
         expired: Callable[[], bool] = lambda: False,
-        room: Callable[[], float] = lambda: math.inf,
     ) -> None:
         self.space = space
         self.objective = objective
         self.store = store
         self.model = model
         self.expired = expired
-        self._room = room
         self._pool = pool
         self._watch = watch
         held = store.trials()
@@ -80,11 +75,6 @@ class Evaluator:
     def trials(self) -> list[Trial]:
         """All trials of this search so far, in order."""
         return list(self._seen.values())
-
-    @property
-    def spent(self) -> int:
-        """How many trials there are."""
-        return len(self._seen)
 
     def admits(self, one: Design | Variant) -> bool:
         """Whether a design or variant is new, also to the prior, and the model admits it without an evaluation."""
@@ -136,11 +126,8 @@ class Evaluator:
             raise JumpcadError(
                 f"{self.store.path}: this search proposes other designs than the study holds; start a new study"
             )
-        waiting = list(fresh)
-        while waiting and (count := max(0, int(min(len(waiting), self._room())))):
-            part, waiting = waiting[:count], waiting[count:]
-            notes = {key: {} if proposals is None else proposals[fresh[key]] for key in part}
-            self._evaluate({key: variants[fresh[key]] for key in part}, places, notes, left_out or {})
+        notes = {key: {} if proposals is None else proposals[index] for key, index in fresh.items()}
+        self._evaluate({key: variants[index] for key, index in fresh.items()}, places, notes, left_out or {})
         return [self._seen.get(variant.key) for variant in variants]
 
     def _evaluate(

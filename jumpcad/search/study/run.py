@@ -15,7 +15,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
 from jumpcad.search.fronts import front
 from jumpcad.search.phases import METHODS, SEARCH_PHASES
-from jumpcad.search.pick.robust import active_bounds, rank_candidates
+from jumpcad.search.pick.robust import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.propose.task import Task, run_method
 from jumpcad.search.study.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.study.picks import keep_pick, pick_run
@@ -31,8 +31,6 @@ FIRST = 50
 
 PICK_SHARE = 0.25
 """Share of a limited time that is kept for the robust pick, at most: that of its evaluations."""
-PICKED_AT_ONCE = 4
-"""Evaluations of a pick for each worker between two looks at the clock; judgement: seconds, and few waits."""
 
 
 class Hopeless:
@@ -97,8 +95,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         stages = _stages(request, store, len(prior))
         if store.recall(ENDED) is not None:
             store.remember(ENDED, None)  # until this run ends
-        hopeless, clock, allowance = Hopeless(), Clock(request.hours), 0
-        picking = cut = False
+        hopeless, clock, allowance, picking, cut = Hopeless(), Clock(request.hours), 0, False, False
 
         def watched(trial: Trial, computed: bool) -> None:
             clock.see(computed)
@@ -106,66 +103,57 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 store.note_once(warning)
             watch(trial, computed)
 
-        def room() -> float:
-            """Return how many designs of a timed pick are evaluated before the next look at the clock."""
+        def expired() -> bool:
             nonlocal cut
-            if picking and clock.is_over():
-                cut = True
-                return 0
-            if picking and request.hours:
-                return PICKED_AT_ONCE * max(pool.workers, 1)
-            return math.inf
+            if picking:
+                cut = cut or clock.is_over()
+                return cut
+            return clock.is_over(request.pick) or len(evaluator.trials) >= allowance
 
-        evaluator = Evaluator(
-            request.space,
-            request.aim,
-            request.model,
-            store,
-            pool,
-            prior,
-            watched,
-            lambda: clock.is_over(request.pick) or evaluator.spent >= allowance,
-            room,
-        )
+        evaluator = Evaluator(request.space, request.aim, request.model, store, pool, prior, watched, expired)
+        converged = False
         for number, stage in enumerate(stages):
-            converged = False
             allowance += stage.evaluations
-            if not evaluator.expired():
-                # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
-                may_end = number == len(stages) - 1 and METHODS[stage.method].ends
-                least_gain = request.until_percent / 100.0 if may_end else 0.0
-                task = Task(
-                    stage.evaluations, request.seed, stage.initial, request.batch,
-                    request.preset, least_gain, 0, request.screen, request.against,
-                )  # fmt: skip
-                converged = run_method(stage.method, evaluator, task)
+            if expired():
+                continue
+            # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
+            may_end = number == len(stages) - 1 and METHODS[stage.method].ends
+            least_gain = request.until_percent / 100.0 if may_end else 0.0
+            task = Task(
+                stage.evaluations, request.seed, stage.initial, request.batch,
+                request.preset, least_gain, 0, request.screen, request.against,
+            )  # fmt: skip
+            converged = run_method(stage.method, evaluator, task)
         trials = evaluator.trials
-        timed = []
-        if clock.is_over(request.pick) and not converged and evaluator.spent < request.searched:
-            searched = counted(request.searched, "design")
-            timed = [f"ended after {request.hours:g} h, before {searched}: the same command goes on"]
-        picking = True
-        best = best_trial(trials)
-        candidates, bounds = [], []
-        if request.pick and best is not None:
-            run, among, share = pick_run(store, len(trials), request.pick), None, request.pick
-            if request.is_front:
-                among = front(trials, request.cost)
-            else:
-                share -= min(request.space.dimension, request.pick // 4)
-            candidates = rank_candidates(evaluator, trials, request.seed, request.making, share, among, run)
-            if candidates and not request.is_front:
-                left = request.pick - (len(evaluator.trials) - len(trials))
-                bounds = active_bounds(evaluator, candidates[0].trial, left, run)
-            keep_pick(store, run, candidates, bounds)
-        if cut and not timed:
-            timed = [f"ended after {request.hours:g} h, during the robust pick: the same command goes on"]
-        store.remember(ENDED, _end(request, evaluator.spent, len(trials), converged, bool(timed)))
-        notes = [*store.notes(), *timed]
-        return Result(request, trials, best, candidates, bounds, notes, evaluator.spent, converged)
+        timed = clock.is_over(request.pick) and not converged and len(trials) < request.searched
+        picking, best = True, best_trial(trials)
+        candidates, bounds = _picked(request, evaluator) if request.pick and best is not None else ([], [])
+        notes = store.notes()
+        if timed or cut:
+            where = f"before {counted(request.searched, 'design')}" if timed else "during the robust pick"
+            notes.append(f"ended after {request.hours:g} h, {where}: the same command goes on")
+        store.remember(ENDED, _end(request, len(trials), converged, timed or cut))
+        return Result(request, trials, best, candidates, bounds, notes, len(evaluator.trials), converged)
 
 
-def _end(request: Request, spent: int, designs: int, converged: bool, timed: bool) -> dict[str, Any]:
+def _picked(request: Request, evaluator: Evaluator) -> tuple[list[Candidate], list[ActiveBound]]:
+    """Evaluate neighbours of the best designs, then what lies beyond the winner's bounds; keep and return both."""
+    trials, store, among, share = evaluator.trials, evaluator.store, None, request.pick
+    bounds: list[ActiveBound] = []
+    if request.is_front:
+        among = front(trials, request.cost)
+    else:
+        share -= min(request.space.dimension, request.pick // 4)
+    run = pick_run(store, len(trials), request.pick)
+    candidates = rank_candidates(evaluator, trials, request.seed, request.making, share, among, run)
+    if candidates and not request.is_front:
+        left = request.pick - (len(evaluator.trials) - len(trials))
+        bounds = active_bounds(evaluator, candidates[0].trial, left, run)
+    keep_pick(store, run, candidates, bounds)
+    return candidates, bounds
+
+
+def _end(request: Request, designs: int, converged: bool, timed: bool) -> dict[str, Any]:
     """Return what ended a search, as a study remembers it."""
     if timed:
         return {"by": "hours", "hours": request.hours}
@@ -173,7 +161,7 @@ def _end(request: Request, spent: int, designs: int, converged: bool, timed: boo
         return {"by": "until", "until_percent": request.until_percent}
     if designs >= request.space.size:
         return {"by": "space"}
-    return {"by": "evaluations" if spent >= request.searched else "proposals"}
+    return {"by": "evaluations" if designs >= request.searched else "proposals"}
 
 
 def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:

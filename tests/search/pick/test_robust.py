@@ -218,7 +218,9 @@ def test_a_rejected_neighbour_is_as_far_below_the_worst_as_the_best_is_above_it(
     design = SMALL.to_design([0.5, 0.5, 0.5])
     trials = [Trial("bo", 0, 0, design, Evaluation("jump"), score, "m", 0.0) for score in scores]
     refused = Trial("robust", 0, 0, design, Evaluation("loop"), None, "m", 0.0)
-    known = SimpleNamespace(trials=trials, evaluate=lambda variants, *_, **__: [refused] * len(variants))
+    known = SimpleNamespace(
+        trials=trials, expired=lambda: False, evaluate=lambda variants, *_, **__: [refused] * len(variants)
+    )
     one = _Examined(0, trials[0])
     _examine(known, [one], 2, (0, 0), 0, LENGTHS_ALONE)
     assert (one.scores, one.rejected_score) == ({"parameters": [rejected], "print": [rejected]}, rejected)

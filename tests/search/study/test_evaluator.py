@@ -128,15 +128,8 @@ def test_a_design_that_was_seen_before_does_not_count(evaluator):
     one._watch = lambda trial, computed: seen.append((trial.place, computed))
     one.evaluate(designs(3), "ga", 0)
     one.evaluate(designs(3), "ga", 1)
-    assert one.spent == 3
+    assert len(one.trials) == 3
     assert seen == [(0, True), (1, True), (2, True)]
-
-
-def test_no_more_are_evaluated_than_there_is_room_for(evaluator):
-    """Asked again after so many: two at first, then one, then none."""
-    one, rooms = evaluator(), iter([2.0, 1.0, 0.0])
-    one._room = lambda: next(rooms)
-    assert [trial is None for trial in one.evaluate(designs(5), "ga", 0)] == [False] * 3 + [True] * 2
 
 
 def test_a_step_is_read_whole_or_not_at_all(evaluator, tmp_path):
@@ -166,7 +159,7 @@ def test_what_is_read_from_the_study_file_is_told_apart_from_what_is_computed(ev
     again.evaluate(designs(3), "ga", 0)
     again.evaluate(designs(5), "ga", 1)
     assert seen == [(0, 0, False), (0, 1, False), (0, 2, False), (1, 0, True), (1, 1, True)]
-    assert again.spent == 5
+    assert len(again.trials) == 5
     again.store.close()
     whole, seen = evaluator(tmp_path / "s.db"), []
     whole._watch = lambda trial, computed: seen.append((trial.step, trial.place, computed))

@@ -319,40 +319,16 @@ def test_a_study_remembers_what_ended_it_and_forgets_it_while_it_goes_on(tmp_pat
     assert held()["by"] == ended["by"]
 
 
-@pytest.mark.parametrize(
-    ("changes", "spent", "designs", "converged", "timed", "ended"),
-    [
-        ({}, 30, 30, False, False, {"by": "evaluations"}), ({}, 29, 29, False, False, {"by": "proposals"}),
-        ({"space": FEW}, 2, 2, False, False, {"by": "space"}),
-        ({"space": FEW}, 1, 1, False, False, {"by": "proposals"}),
-        ({"hours": 2.0}, 29, 29, True, True, {"by": "hours", "hours": 2.0}),
-        ({"until_percent": 0.05}, 30, 30, True, False, {"by": "until", "until_percent": 0.05}),
-    ],
-)  # fmt: skip
-def test_what_ended_a_search_is_told_by_what_was_left(changes, spent, designs, converged, timed, ended):
+def test_what_ended_a_search_is_told_by_what_was_left():
     """Of 40 evaluations 30 are the search's."""
-    request = replace(Request(SMALL, Hill(), method="ga", evaluations=40), **changes)
-    assert study._end(request, spent, designs, converged, timed) == ended
-
-
-def test_a_timed_pick_looks_at_the_clock_after_four_evaluations_for_each_worker(monkeypatch):
-    """One whose time has no end evaluates all neighbours of a round together."""
-    low = Space.parse(fix=FIXED, bound=["compression_ratio=0.1:0.6"])  # where all jump
-
-    def search(evaluator, task):
-        evaluator.evaluate([low.to_design([0.5, 0.5, place]) for place in (0.1, 0.5, 0.9)], "bo", 0)
-
-    monkeypatch.setattr(study, "run_method", lambda _, *given: search(*given))
-    parts = {0.0: [], 1.0: []}
-    for hours, seen in parts.items():
-        with local_pool(0) as pool:
-            look = pool.evaluate
-            monkeypatch.setattr(
-                pool, "evaluate", lambda model, part, seen=seen, look=look: seen.append(len(part)) or look(model, part)
-            )
-            run_study(replace(REQUEST, space=low, method="bo", evaluations=120, hours=hours), None, pool)
-    assert sum(parts[0.0]) == sum(parts[1.0])
-    assert max(parts[0.0][1:]) > max(parts[1.0][1:]) == 4  # the first are the search's
+    plain = Request(SMALL, Hill(), method="ga", evaluations=40)
+    for changes, designs, converged, timed, ended in (
+        ({}, 30, False, False, {"by": "evaluations"}), ({}, 29, False, False, {"by": "proposals"}),
+        ({"space": FEW}, 2, False, False, {"by": "space"}), ({"space": FEW}, 1, False, False, {"by": "proposals"}),
+        ({"hours": 2.0}, 29, True, True, {"by": "hours", "hours": 2.0}),
+        ({"until_percent": 0.05}, 30, True, False, {"by": "until", "until_percent": 0.05}),
+    ):  # fmt: skip
+        assert study._end(replace(plain, **changes), designs, converged, timed) == ended
 
 
 @pytest.mark.thorough
