@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NoReturn, Self, TypeVar
 from jumpcad.drive.release import Release
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
+from jumpcad.electronics.supply import Supply, supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.layout.layout import Layout
@@ -48,6 +49,11 @@ class Robot(Mechanism):
     def electrical_parts(self) -> Chosen:
         """Battery, boards and small electrical parts of its workshop."""
         return chosen_parts(self.workshop)
+
+    @cached_property
+    def supply(self) -> Supply:
+        """Voltages and currents of its battery and boards."""
+        return supply_of(self.electrical_parts)
 
     @cached_property
     def wiring(self) -> Wiring:

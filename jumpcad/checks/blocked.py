@@ -6,7 +6,6 @@ Warnings: it takes a fault to block the motor, and neither part grows for it.
 from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase
-from jumpcad.electronics.supply import supply_of
 from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.robot import Robot
 
@@ -30,7 +29,7 @@ BASIS = {
 def blocked_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `gear_blocked` and `cam_dog_blocked`."""
     case, train = LoadCase(robot), robot.layout.drive.train
-    supply, allowed = supply_of(robot.electrical_parts), robot.workshop.safety.motor_torque_max_nm
+    supply, allowed = robot.supply, robot.workshop.safety.motor_torque_max_nm
     torque = supply.driven(train.motor, supply.full_v, allowed).stall_torque_nm
     gears, worst = robot.workshop.material("gears"), 0.0
     for pair in train.stages:

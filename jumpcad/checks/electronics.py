@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from jumpcad.checks import wiring
 from jumpcad.electronics.chain import Link, chain
 from jumpcad.electronics.chosen import Chosen
-from jumpcad.electronics.supply import Supply, supply_of
+from jumpcad.electronics.supply import Supply
 from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.robot import Robot
 
@@ -41,7 +41,7 @@ BASIS = {
 def electronics_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `supply_voltage_*`, `motor_current_*`, `gearbox_torque`, `charging_current` and `wiring_*`."""
     chosen = robot.electrical_parts
-    supply = supply_of(chosen)
+    supply = robot.supply
     for link in links(robot):
         yield _voltage(link)
     yield from _currents(robot, chosen, supply)
@@ -54,7 +54,7 @@ def links(robot: Robot) -> list[Link]:
     """Return the chain of a robot, from the regulator to the winding."""
     chosen, train = robot.electrical_parts, robot.layout.drive.train
     torque_max = robot.workshop.safety.motor_torque_max_nm
-    return list(chain(chosen, train.motor, supply_of(chosen), train.peak_current_a, torque_max))
+    return list(chain(chosen, train.motor, robot.supply, train.peak_current_a, torque_max))
 
 
 def _voltage(link: Link) -> Finding:
