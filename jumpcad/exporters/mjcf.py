@@ -18,13 +18,12 @@ import math
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Sequence
 
-from jumpcad.exporters.limits import limits_rad
-from jumpcad.exporters.xml import Value, add, document, written, wxyz
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
+from jumpcad.exporters.xml import Value, add, document, limits_rad, written, wxyz
 from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism, Spring
 from jumpcad.mechanism.poses import ReleasePose, body_poses, release_pose, standing
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.settings import Coefficients, Settings, coefficients
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import rotation_about_y
 
 Dress = Callable[[ET.Element, Body], None]

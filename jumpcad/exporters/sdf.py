@@ -10,15 +10,14 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 
 from jumpcad.dimensions import MESHES_FROM_BESIDE
-from jumpcad.exporters.limits import limits_rad
-from jumpcad.exporters.xml import add, document, rpy
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
+from jumpcad.exporters.xml import add, document, limits_rad, rpy
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Coefficients, Settings, coefficients
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array
 
 SDF = "1.9"

@@ -14,15 +14,19 @@ from html import escape  # xml.sax.saxutils imports all of HTTP and TLS
 
 import numpy as np
 import numpy.typing as npt
+import trimesh
 
 from jumpcad.catalogue import Pad
-from jumpcad.exporters.thumbnail import thumbnail
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.markdown import plain
 from jumpcad.parts.pads import PrintedPad, printed_pads
 from jumpcad.printing.plates import PlacedCopy, Printable, PrintPlate, packed
 from jumpcad.printing.project import PADS_HOW, pad_settings, project_settings, settings_in_words, temperatures_in_words
 from jumpcad.robot import Robot, carried
+from jumpcad.scene.camera import View
+from jumpcad.scene.renderer import Renderer
+from jumpcad.scene.visuals import PRINTED_COLOURS, Colour
+from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
@@ -31,6 +35,9 @@ XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 PADS = "pads"
 """Kind of the plates of pads."""
+PICTURE, VIEW = (256, 256), View(yaw_deg=-70.0, pitch_deg=48.0)
+BED_MM = 1.0
+BED: Colour = (0.80, 0.81, 0.83)
 
 CONTENT_TYPES = (
     f'{XML}<Types xmlns="{PACKAGE}/content-types">'
@@ -194,3 +201,15 @@ def _item(number: int, placed: PlacedCopy) -> str:
     """Return a copy to build; 3MF multiplies row vectors, so the pose is written transposed."""
     rows = placed.T_bed_part[:3].T.ravel().tolist()
     return f'<item objectid="{number}" transform="{" ".join(f"{value:.9g}" for value in rows)}"/>\n'
+
+
+def thumbnail(plate: PrintPlate, bed_mm: Sequence[float]) -> bytes:
+    """Return the PNG file of a plate on a bed (mm); the same plate gives the same bytes."""
+    width, depth = bed_mm[:2]
+    bed = trimesh.creation.box((width, depth, BED_MM))
+    bed.apply_translation((width / 2.0, depth / 2.0, -BED_MM / 2.0))
+    things = [(bed, BED), *((placed.part.look, PRINTED_COLOURS["links"]) for placed in plate.items)]
+    poses = [np.eye(4), *(in_metres(placed.T_bed_part) for placed in plate.items)]
+    stream = io.BytesIO()
+    Renderer(things).picture(poses, PICTURE, VIEW, bed.vertices / 1000.0).save(stream, "PNG")
+    return stream.getvalue()

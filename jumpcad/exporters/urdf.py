@@ -14,13 +14,12 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESH_FOLDER
-from jumpcad.exporters.limits import limits_rad
-from jumpcad.exporters.xml import add, document, rpy
+from jumpcad.exporters.xml import add, document, limits_rad, rpy
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings, coefficients
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 
 if TYPE_CHECKING:
     from jumpcad.robot import Robot

@@ -1,5 +1,6 @@
 """Elements and documents of the XML formats; numbers are written so that they read back as the same doubles."""
 
+import math
 import re
 import warnings
 import xml.etree.ElementTree as ET
@@ -10,6 +11,7 @@ import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
 from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.model import Joint, Mechanism
 from jumpcad.transforms import Array
 
 Value: TypeAlias = str | float | npt.ArrayLike
@@ -23,6 +25,8 @@ NAMES = {"actuator", "body", "body1", "body2", "childclass", "class", "file", "f
          "material", "mesh", "meshdir", "model", "name", "objname", "reference", "site", "site1", "site2",
          "type", "version"}  # fmt: skip
 """Attributes that are names, also where they look like numbers."""
+SWING_RAD = math.pi / 2
+"""Added to the travel on either side: simulators treat limits as stops, and legs swing past rest."""
 
 
 def add(parent: ET.Element, tag: str, text: Value | None = None, **attributes: Value) -> ET.Element:
@@ -88,3 +92,10 @@ def wxyz(rotation: Array) -> Array:
     """Return the quaternion (4,), scalar first, of a rotation (3, 3), as in MJCF."""
     quaternion: Array = Rotation.from_matrix(rotation).as_quat(scalar_first=True)
     return quaternion
+
+
+def limits_rad(joint: Joint, mechanism: Mechanism) -> tuple[float, float]:
+    """Return lower and upper limit of a joint (rad from rest): its travel and `SWING_RAD`; above, its stop if any."""
+    stop = mechanism.stop
+    upper = stop.angle_rad if stop and stop.joint == joint.name else joint.upper_rad + SWING_RAD
+    return joint.lower_rad - SWING_RAD, upper

@@ -16,9 +16,8 @@ from jumpcad.mechanism.model import Mechanism
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.bullet_robot import FOOT_LINK, JOINTS, LEG, BulletRobot
 from jumpcad.simulation.engines import import_pybullet
-from jumpcad.simulation.mechanics import State
+from jumpcad.simulation.mechanics import State, StopPad
 from jumpcad.simulation.run import Run
-from jumpcad.simulation.stop_pad import StopPad
 
 RESET_EVERY = 500
 BODY_ORDER = [0, 1, 3, 2]

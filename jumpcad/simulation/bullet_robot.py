@@ -9,7 +9,7 @@ from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import ReleasePose, release_pose
 from jumpcad.settings import Coefficients, Settings, coefficients
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import quaternion_about_y, rotation_about_y
 
 UNCLAMPED_RAD_S = 1e6

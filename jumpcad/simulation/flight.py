@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.mechanism.leg_inertia import flying_inertias
 from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, Mechanism
 from jumpcad.mechanism.planar import about_common_centre, frames, points, seen_from_body
+from jumpcad.mechanism.reflected import flying_inertias
 from jumpcad.simulation.mechanics import Mechanics, State
 from jumpcad.transforms import Array
 

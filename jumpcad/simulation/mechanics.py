@@ -1,4 +1,4 @@
-"""The mechanics of a simulated robot, the same for all engines: pose at release, energies, ballistics."""
+"""What all engines have in common: a robot at its release, its energies, the ballistic flight, the pad of its stop."""
 
 import math
 from dataclasses import dataclass
@@ -7,6 +7,7 @@ import numpy as np
 
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.transforms import Array
 
 
@@ -150,3 +151,25 @@ def ballistics(start_m: Array, takeoff_m: Array, velocity_m_s: Array, gravity_m_
         speed_m_s=float(np.linalg.norm(velocity_m_s)),
         angle_deg=math.degrees(math.atan2(up, forward)),
     )
+
+
+class StopPad:
+    """The torque of a mechanism's stop on its leg joint, step by step; of one without a stop, none.
+
+    A limit with critical damping, which MuJoCo has, throws the leg back at an eighth of its speed: more momentum on the
+    foot, which decides whether a robot that tips over its nose leaves the ground.
+    """
+
+    def __init__(self, mechanism: Mechanism, dt_s: float) -> None:
+        stop = mechanism.stop
+        self._from_rad = stop.angle_rad if stop else math.inf
+        self._nm_per_rad = stop.stiffness_nm_per_rad if stop else 0.0
+        self._halting_nms = leg_inertia_kg_m2(mechanism, stop.angle_rad) / dt_s if stop else 0.0
+        self._spring = mechanism.spring
+
+    def torque_nm(self, leg_rad: float, leg_rad_s: float) -> float:
+        """Return the torque against the leg's opening: no more than brings it to a standstill within a step."""
+        if leg_rad <= self._from_rad:
+            return 0.0
+        halting = self._halting_nms * leg_rad_s + self._spring.torque_nm(leg_rad)
+        return max(min(self._nm_per_rad * (leg_rad - self._from_rad), halting), 0.0)

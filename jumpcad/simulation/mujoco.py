@@ -12,10 +12,9 @@ from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.mechanism.poses import ReleasePose, release_pose
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.engines import import_mujoco
-from jumpcad.simulation.mechanics import State
+from jumpcad.simulation.mechanics import State, StopPad
 from jumpcad.simulation.run import Run
-from jumpcad.simulation.stop_pad import StopPad
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import quaternion_about_y
 
 CARRIED_SHARE = 0.02

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.settings import Settings, coefficients
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 
 SAME_M = 1e-9
 """Contact spheres that differ by less than this in the plane are one: left and right toe."""

@@ -12,12 +12,12 @@ from support.built import built
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.urdf import write_urdf
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.model import Body, Joint, Mechanism
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 
 SETTINGS = Settings(joint_friction_nm=0.0123, joint_damping_nms_per_rad=0.00045)
 

@@ -17,9 +17,9 @@ from jumpcad.design import load_design
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings

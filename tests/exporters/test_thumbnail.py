@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image
 
 from jumpcad.coupon.pieces import Piece
-from jumpcad.exporters.thumbnail import thumbnail
+from jumpcad.exporters.threemf import thumbnail
 from jumpcad.printing.plates import packed
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack

@@ -21,7 +21,7 @@ from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
 

@@ -8,8 +8,8 @@ from support.each import each
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 
 STEP = 1e-5
 

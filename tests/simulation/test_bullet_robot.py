@@ -21,7 +21,7 @@ from jumpcad.simulation import Settings
 from jumpcad.simulation.bullet_robot import LINKS, BulletRobot, _joints, _xyzw_about_y
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 
 bullet = needs.package("pybullet")
 

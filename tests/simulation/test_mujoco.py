@@ -13,7 +13,7 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mujoco import MujocoWorld
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 
 
 @pytest.mark.parametrize("key", ["restitution", "drag_per_s"])

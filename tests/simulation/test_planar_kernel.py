@@ -12,9 +12,9 @@ from support.machines import PAD_NM_PER_RAD, STOP_RAD, let_go, one_sided, rubbin
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation import planar_kernel as kernel

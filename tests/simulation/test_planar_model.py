@@ -11,7 +11,7 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, ContactSphere, Stop
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.planar_model import planar_model
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import pin_torque_nm
 
 
 def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:

@@ -9,9 +9,9 @@ import pytest
 from scipy import stats
 from support.built import built
 
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
+from jumpcad.simulation.mechanics import StopPad
 from jumpcad.simulation.prior import PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, Prior
-from jumpcad.simulation.stop_pad import StopPad
 
 SHARES = (0.1, 0.5, 0.9)
 

@@ -7,11 +7,11 @@ from support import needs
 from support.built import built
 
 from jumpcad.exporters.mjcf import SUBSTEPS
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
+from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation.engines import engine_named
-from jumpcad.simulation.stop_pad import StopPad
+from jumpcad.simulation.mechanics import StopPad
 
 BEYOND_RAD = 0.5
 """Past the stop: so far that a pad would push much more than is needed to halt the leg."""

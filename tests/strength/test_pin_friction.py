@@ -11,8 +11,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation.planar import PlanarWorld
-from jumpcad.strength.loads import MovingMass, push_off
-from jumpcad.strength.pin_friction import TILTING, pin_torque_nm
+from jumpcad.strength.loads import TILTING, MovingMass, pin_torque_nm, push_off
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
