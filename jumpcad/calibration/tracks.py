@@ -23,7 +23,10 @@ LEAST_POINTS = 6
 """Least number of points from which gravity can be fitted."""
 HEAD_LINES, HEAD_CHARACTERS = 50, 1000
 """Where the head is looked for: in the first lines, and how long it may be."""
-TIMES = ("t", "time", "zeit", "temps", "tiempo", "tempo")
+NAMES = dict.fromkeys(("time", "zeit", "temps", "tiempo", "tempo"), "t") | dict.fromkeys(("height", "höhe"), "z")
+"""Other names of a column."""
+SILENT = ("in", "position", "coordinate")
+"""Words of a name that say no more: x position (m), t in ms."""
 SECONDS = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "sekunden": 1.0, "ms": 1e-3, "milliseconds": 1e-3, "min": 60.0}
 METRES = {"m": 1.0, "metres": 1.0, "meters": 1.0, "dm": 0.1, "cm": 0.01, "mm": 1e-3, "in": 0.0254, "ft": 0.3048}
 
@@ -116,9 +119,11 @@ def _columns(cells: Sequence[str], path: Path) -> list[Column]:
         text, *units = re.split(r"[(\[/]", cell.lower(), maxsplit=1)
         words = re.findall(r"[^\W\d_]+", text)
         unit = units[0].strip(")] ") if units else ""
-        if not unit and len(words) > 1 and words[-1] in SECONDS | METRES:  # x_mm, t in ms
-            *words, unit = [word for word in words if word != "in" or word == words[-1]]
-        name = "t" if words and words[-1] in TIMES else "".join(words[-1:])
+        if not unit and len(words) > 1 and words[-1] in SECONDS | METRES:  # x_mm
+            *words, unit = words
+        words = [word for word in words if word not in SILENT]
+        last = words[-1] if words else ""
+        name = NAMES.get(last, last)
         if len(words) == 1 or unit in _known(name):  # else a speed: v_x (m/s)
             (worded if len(words) > 1 else alone).setdefault(name, []).append((place, unit))
     found = worded | alone
