@@ -9,23 +9,19 @@ from typing import Any
 
 from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
-from jumpcad.bundle.electronics import electronics_facts
+from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
+from jumpcad.bundle.drawings.spring_sheet import spring_sheets
+from jumpcad.bundle.drawings.wiring import drawings_of
+from jumpcad.bundle.facts import electronics_facts, joint_facts, release_facts, spring_facts, stop_facts
 from jumpcad.bundle.firmware import firmware_files
-from jumpcad.bundle.guide import write_guide
-from jumpcad.bundle.guide_page import write_page
+from jumpcad.bundle.guide.markdown import write_guide
+from jumpcad.bundle.guide.page import write_page
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
-from jumpcad.bundle.joints import joint_facts
-from jumpcad.bundle.jump_motion import jump_motion
 from jumpcad.bundle.manifest import Bundle
+from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
-from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
-from jumpcad.bundle.spring_dxf import spring_dxfs
-from jumpcad.bundle.spring_sheet import spring_sheets
-from jumpcad.bundle.springs import spring_facts
-from jumpcad.bundle.stop import stop_facts
 from jumpcad.bundle.uncertainty import uncertainty_of
-from jumpcad.bundle.wiring import drawings_of
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.animation import animated

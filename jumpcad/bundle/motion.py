@@ -12,9 +12,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.drive.motor import lift_s
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters.animation import BodyMotion
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.transforms import Array, pose_at
 
@@ -24,6 +27,8 @@ SHOWN_S = {"winding": 3.0, "drop": 0.6, "push-off": 1.6, "flight": 2.4}
 """Duration of each phase in the viewer; judgement: long enough to be seen."""
 FLIGHT_EVERY = 4
 """Every fourth recorded moment of the flight is kept: it is smooth."""
+ENGINE = "planar"
+"""Available on every platform, so that a bundle has the same bytes on each."""
 POSITION_DIGITS, TURN_DIGITS = 5, 5
 """Decimals of positions (m) and quaternions: coarser than the differences between processors."""
 
@@ -128,3 +133,16 @@ def _seven(pose: Array) -> list[float]:
     turn = Rotation.from_matrix(pose[:3, :3]).as_quat(canonical=True)
     seven = [*np.round(pose[:3, 3], POSITION_DIGITS), *np.round(turn, TURN_DIGITS)]
     return [float(value) + 0.0 for value in seven]
+
+
+def jump_motion(robot: Robot) -> BodyMotion | None:
+    """Return the motion from release to touchdown; None if the engine finds no jump or cannot simulate the robot."""
+    try:
+        path = simulate(robot, Settings(flight="simulated", trajectory=True), ENGINE).trajectory
+    except JumpcadError:
+        return None
+    if path is None:
+        return None
+    places = {name: path.position_m[:, index] for index, name in enumerate(path.body_names)}
+    turns = {name: path.quaternion_xyzw[:, index] for index, name in enumerate(path.body_names)}
+    return BodyMotion(path.time_s, places, turns)

@@ -80,7 +80,7 @@ def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) 
 
 
 def _print_sliced(found: "SlicedBundle") -> None:
-    from jumpcad.bundle.guide import duration
+    from jumpcad.bundle.guide.markdown import duration
 
     _print_table(
         ("part", "quantity", "material", "g each", "model g", "model", "time each"),

@@ -1,7 +1,6 @@
-"""The assembly steps of one robot: which parts are put on, from which side, with which tool, and the texts.
+"""The assembly steps of one robot: which parts are put on, from which side, with which tool.
 
-The order is data (`assembly_order`). Here it is applied to a robot: its parts are found by their names, and texts about
-parts that it does not have are left out.
+The order is data (`assembly_order`). Here it is applied to a robot: its parts are found by their names.
 """
 
 import re
@@ -10,10 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.parts.pads import printed_pads
 from jumpcad.robot import Robot, carried
 from jumpcad.scene.assembly_order import ORDER
-from jumpcad.scene.assembly_order.plan import ROBOT, Move, Plan, Words
+from jumpcad.scene.assembly_order.plan import ROBOT, Move, Plan
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.transforms import Array, chained
 
@@ -40,18 +38,12 @@ class MovedParts:
 
 @dataclass(frozen=True)
 class Step:
-    """One step: what is put on, onto which assembly, and the words about it.
-
-    `text`, `warnings` and `checks` may hold names in braces, which a guide replaces by this robot's numbers.
-    """
+    """One step: what is put on, and onto which assembly."""
 
     key: str
     title: str
     onto: str
     placed: tuple[MovedParts, ...]
-    text: tuple[str, ...]
-    warnings: tuple[str, ...]
-    checks: tuple[str, ...]
 
     @property
     def added(self) -> tuple[Visual, ...]:
@@ -65,26 +57,17 @@ class Step:
 def assembly_steps(robot: Robot) -> tuple[Step, ...]:
     """Return the steps that a robot needs; everything on it is put on in exactly one of them."""
     left = list(visuals(robot))
-    layout = robot.layout
-    names = [thing.name for thing in left] + ["preload"] * (layout.stop_preload_rad > 0.0)
-    names += ["spring_boss"] * (layout.spring_boss_mm > 0.0)
-    button = bool(layout.electronics.controller.button)
-    names += ["board_button"] * button
-    # without a button USB stays in: where it feeds the driver too, nothing is to be read at the switch
-    readable = button or layout.electronics.regulator is not None
-    names += ["read_current"] * (readable and "switch" in names)
-    names += [f"printed_{one.name}" for one in printed_pads(robot.hardware, robot.workshop)]
+    names = [thing.name for thing in left]
     built: dict[str, list[Visual]] = {}
     steps = []
     for plan in ORDER:
         placed = tuple(_placed(plan, robot, names, left, built))
         if not placed and plan.moves:
             continue
-        texts = (_texts(words, names) for words in (plan.text, plan.warnings, plan.checks))
-        steps.append(Step(plan.key, plan.title, plan.onto, placed, *texts))
+        steps.append(Step(plan.key, plan.title, plan.onto, placed))
     if left:
         rest = MovedParts(Move(".*", way="laid"), tuple(left))
-        steps.append(Step("rest", REST, ROBOT, (rest,), ("Fasten what remains where the picture shows it.",), (), ()))
+        steps.append(Step("rest", REST, ROBOT, (rest,)))
     return tuple(steps)
 
 
@@ -142,15 +125,6 @@ def _placed(
         if things:
             there += [] if move.trial else things
             yield MovedParts(move, tuple(things))
-
-
-def _texts(words: Iterable[Words], names: list[str]) -> tuple[str, ...]:
-    """Return the texts that apply to a robot with parts of these names."""
-    return tuple(
-        one.text
-        for one in words
-        if (not one.needs or _has(names, one.needs)) and not (one.lacks and _has(names, one.lacks))
-    )
 
 
 def _has(names: Iterable[str], pattern: str) -> bool:

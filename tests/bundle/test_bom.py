@@ -11,7 +11,7 @@ from support.built import built
 
 from jumpcad.building import build
 from jumpcad.bundle.bom import BilledPlate, bill_of_facts, bill_of_materials, mass_facts, write_bom
-from jumpcad.bundle.guide import write_guide
+from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.design import load_design
 from jumpcad.files.csv_text import BOM
 from jumpcad.robot import Robot

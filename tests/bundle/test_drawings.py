@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from support.built import built, geared, placed
 
-from jumpcad.bundle.arrival import arrival_lines
-from jumpcad.bundle.lead_lines import leads_of
-from jumpcad.bundle.spring_sheet import requirements, scale_in_words, spring_sheets
+from jumpcad.bundle.drawings.lead_lines import leads_of
+from jumpcad.bundle.drawings.spring_sheet import requirements, scale_in_words, spring_sheets
+from jumpcad.bundle.drawings.wiring import drawings_of
+from jumpcad.bundle.guide.incoming_inspection import arrival_lines
 from jumpcad.bundle.springs import arms_off_deg, torque_shares
-from jumpcad.bundle.wiring import drawings_of
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
 from jumpcad.parts.lead_ways import plate_of
@@ -287,7 +287,7 @@ def test_a_net_s_name_stands_on_its_lane(robot: Robot, drawings: dict[str, ET.El
 
 def test_leads_leave_the_view_from_above_at_its_ends_alone(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     """However little is shown beside the plates: outside them leads rise towards the sensor's terminals."""
-    monkeypatch.setattr("jumpcad.bundle.lead_drawing.BESIDE_TRAYS_MM", (30.0, 0.1))
+    monkeypatch.setattr("jumpcad.bundle.drawings.lead_drawing.BESIDE_TRAYS_MM", (30.0, 0.1))
     root = ET.fromstring(drawings_of(robot)["leads.svg"])
     (frame,) = (np.array(points_of(one)) for clip in root.iter(f"{SPACE}clipPath") for one in clip)
     (group,) = (one for one in root.iter(f"{SPACE}g") if one.get("clip-path"))

@@ -11,11 +11,11 @@ import pytest
 from support.built import built, of_kit, placed
 
 from jumpcad.building import build
-from jumpcad.bundle.electronics import electronics_facts, jumps_per_charge
+from jumpcad.bundle.drawings.lead_lines import leads_of
+from jumpcad.bundle.drawings.wiring import drawings_of, wiring_lines
 from jumpcad.bundle.export import export
+from jumpcad.bundle.facts import electronics_facts, jumps_per_charge
 from jumpcad.bundle.firmware import numbers
-from jumpcad.bundle.lead_lines import leads_of
-from jumpcad.bundle.wiring import drawings_of, wiring_lines
 from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts

@@ -5,11 +5,6 @@ import re
 from dataclasses import replace
 
 import pytest
-from support.built import built
-from support.decimals import decimals
-
-from jumpcad.building import build
-from jumpcad.bundle.firmware import WORDS, _filled, firmware_files, numbers, release_share, start_v
 from jumpcad.bundle.operation import (
     bootloader,
     by_button,
@@ -19,6 +14,11 @@ from jumpcad.bundle.operation import (
     stops_the_motor,
     to_stop,
 )
+from support.built import built
+from support.decimals import decimals
+
+from jumpcad.building import build
+from jumpcad.bundle.firmware import WORDS, _filled, firmware_files, numbers, release_share, start_v
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.design import load_design

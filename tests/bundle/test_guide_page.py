@@ -7,8 +7,8 @@ from xml.etree import ElementTree as ET
 
 from support.built import built
 
-from jumpcad.bundle.guide import write_guide
-from jumpcad.bundle.guide_page import write_page
+from jumpcad.bundle.guide.markdown import write_guide
+from jumpcad.bundle.guide.page import write_page
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -75,7 +75,7 @@ def test_every_number_in_the_texts_is_filled_in() -> None:
 
 
 def test_each_hand_has_its_drawing_with_the_rate() -> None:
-    from jumpcad.bundle.spring_sheet import spring_sheets
+    from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 
     sheets = dict(spring_sheets(built("kenan-2.0")))
     assert list(sheets) == ["order/spring-right-hand.svg", "order/spring-left-hand.svg"]

@@ -5,7 +5,7 @@ import math
 import pytest
 from support.built import built
 
-from jumpcad.bundle.joints import joint_facts
+from jumpcad.bundle.facts import joint_facts
 from jumpcad.checks.sideways import play_rad, rolls
 from jumpcad.parts.holes import HoleSizes
 

@@ -7,11 +7,11 @@ from functools import cache
 
 import pytest
 import trimesh
+from jumpcad.bundle.printed_pads import pads_order
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.bundle.bom import bill_of_facts, bill_of_materials, mass_facts
-from jumpcad.bundle.guide import write_guide
-from jumpcad.bundle.printed_pads import pads_order
+from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.exporters.stl import stl_files
 from jumpcad.exporters.threemf import plate_files, threemf_files
 from jumpcad.parts.pads import printed_pads

@@ -7,8 +7,7 @@ import pytest
 from support.built import built
 from support.decimals import decimals
 
-from jumpcad.bundle.release import release_facts
-from jumpcad.bundle.stop import stop_facts
+from jumpcad.bundle.facts import release_facts, stop_facts
 
 DEGREES = 180.0 / math.pi
 

@@ -8,15 +8,15 @@ from types import SimpleNamespace
 
 import pytest
 import shapely
+from jumpcad.bundle.operation import charging
 from support.built import built, of_kit
 
 from jumpcad.building import build
 from jumpcad.bundle import wiring as module
-from jumpcad.bundle.electronics import jumps_per_charge
-from jumpcad.bundle.lead_drawing import leads_svg
-from jumpcad.bundle.operation import charging
-from jumpcad.bundle.soldering import soldering_svg
-from jumpcad.bundle.wiring import _boxes, _net_lines, _notes, drawings_of, wires, wiring_lines, wiring_svg
+from jumpcad.bundle.drawings.lead_drawing import leads_svg
+from jumpcad.bundle.drawings.soldering import soldering_svg
+from jumpcad.bundle.drawings.wiring import _boxes, _net_lines, _notes, drawings_of, wires, wiring_lines, wiring_svg
+from jumpcad.bundle.facts import jumps_per_charge
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.nets import Net, Terminal, Wiring, wiring_of

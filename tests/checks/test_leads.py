@@ -8,7 +8,7 @@ import shapely
 from support.built import built
 from support.documented import documented_bases
 
-from jumpcad.bundle.wiring import wires
+from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.checks import leads
 from jumpcad.checks.leads import BASIS, lead_findings
 from jumpcad.layout.room import disc

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.built import built
 
-from jumpcad.bundle.jump_motion import jump_motion
+from jumpcad.bundle.motion import jump_motion
 from jumpcad.exporters.animation import animated
 from jumpcad.exporters.glb import write_glb
 

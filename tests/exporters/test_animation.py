@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 from support import needs
 from support.built import built
 
-from jumpcad.bundle.jump_motion import jump_motion
+from jumpcad.bundle.motion import jump_motion
 from jumpcad.exporters.animation import _continuous, animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.mechanism.model import BODY_NAMES
@@ -88,7 +88,7 @@ def test_without_its_motion_the_robot_stands_at_rest(glb: bytes) -> None:
 
 
 def test_a_robot_that_does_not_jump_has_no_motion(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("jumpcad.bundle.jump_motion.ENGINE", "no engine")
+    monkeypatch.setattr("jumpcad.bundle.motion.ENGINE", "no engine")
     assert jump_motion(built("kenan-2.0")) is None
 
 

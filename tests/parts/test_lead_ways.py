@@ -7,7 +7,7 @@ import pytest
 from support.built import built, placed
 
 from jumpcad.building import build
-from jumpcad.bundle.lead_lines import leads_of
+from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
 from jumpcad.parts.lead_ways import battery_way, lead_way

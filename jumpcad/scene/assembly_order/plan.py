@@ -1,6 +1,6 @@
-"""What a step of assembly says: its moves of parts, each with direction and tool, and its texts.
+"""What a step of assembly does: its moves of parts, each with direction and tool.
 
-Parts are named by regular expressions. Parts that a robot lacks are left out, and so are the texts that need them.
+Parts are named by regular expressions. Parts that a robot lacks are left out.
 Lengths and diameters of tools are those of a usual screwdriver, key or pair of pliers.
 """
 
@@ -80,25 +80,13 @@ class Move:
 
 
 @dataclass(frozen=True)
-class Words:
-    """A sentence or two, said where the robot has a thing of the pattern `needs`, and none of the pattern `lacks`."""
-
-    text: str
-    needs: str = ""
-    lacks: str = ""
-
-
-@dataclass(frozen=True)
 class Plan:
-    """A step for any robot: its moves onto an assembly, and its texts: instructions, warnings, checks afterwards."""
+    """A step for any robot: its moves onto an assembly. Its words are in `templates/guides/steps/KEY.md.j2`."""
 
     key: str
     title: str
     onto: str = ROBOT
     moves: tuple[Move, ...] = ()
-    text: tuple[Words, ...] = ()
-    warnings: tuple[Words, ...] = ()
-    checks: tuple[Words, ...] = ()
 
 
 def pin_moves(name: str, reach: str, clips: tuple[str, str] = ("from the right", "from the left")) -> tuple[Move, ...]:

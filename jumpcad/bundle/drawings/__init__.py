@@ -1,0 +1,1 @@
+"""Drawings of the bundle: wiring, leads, soldering, springs."""

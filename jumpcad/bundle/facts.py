@@ -1,0 +1,163 @@
+"""The manifest's entries about a robot: springs, release, stop, electronics, joints."""
+
+import math
+from typing import Any
+
+from jumpcad.checks.electronics import links
+from jumpcad.checks.sideways import play_rad, rolls
+from jumpcad.drive.release import Release
+from jumpcad.drive.rolling import ReleaseParts
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot import Robot
+
+DIGITS, ROLL_DIGITS = 6, 3
+USABLE = 0.8
+"""Share of a battery's energy that is used before the firmware stops winding; practice with lithium polymer packs."""
+
+
+def spring_facts(robot: Robot) -> list[dict[str, Any]]:
+    """Return the manifest's entries of the left and the right spring.
+
+    Pins are (x, z) from the hub in the rest pose (mm); `turns` are those of the relaxed body; `arm_length_mm` is from
+    the tangent point to the arm's end.
+    """
+    spring = robot.layout.drive.spring
+    plate, leg = (
+        [round(spring.pin_radius_mm * math.cos(angle), DIGITS), round(spring.pin_radius_mm * math.sin(angle), DIGITS)]
+        for angle in (spring.plate_pin_rad, spring.leg_pin_rad)
+    )
+    return [
+        {
+            "side": side,
+            "hand": hand,
+            "wire_mm": spring.wire_mm,
+            "inside_diameter_mm": round(spring.inside_diameter_mm, DIGITS),
+            "turns": round(spring.turns, DIGITS),
+            "arm_length_mm": round(spring.arm_length_mm, DIGITS),
+            "rate_nmm_per_deg": round(spring.rate_nmm_per_deg, DIGITS),
+            "preload_deg": round(math.degrees(spring.preload_rad), DIGITS),
+            "plate_pin_mm": plate,
+            "leg_pin_mm": leg,
+            "pin_diameter_mm": spring.arms.pin_mm,
+        }
+        for side, hand in zip(("left", "right"), spring.hands, strict=True)
+    ]
+
+
+def release_facts(release: Release) -> dict[str, Any]:
+    """Return plain data: angles in degrees, torques at the gear motor's output or, if named so, at the cam.
+
+    `energy_ratio` and `energy_ratio_rounded` (with the workshop's corner radius) neglect the bending of the lever;
+    simulated jumps start with `energy_ratio_with_bending`. Torques are the largest of both corners and of the two
+    motors in `assumed`, which are at the ends of the workshop's ranges; the second one is computed at low speed too.
+    """
+    return {
+        "energy_ratio": round(release.energy_ratio, 6),
+        "energy_ratio_rounded": round(release.rounded_ratio, 6),
+        "energy_ratio_with_bending": round(release.off.energy_ratio, 6),
+        "bending_ratio": round(release.bending_ratio, 6),
+        "leg_deg": round(math.degrees(release.off.leg_rad), 6),
+        "leg_rad_s": round(release.off.leg_rad_s, 6),
+        "kick_nm": round(release.kick_nm, 6),
+        "kick_limit_nm": round(release.kick_limit_nm, 6),
+        "blow_at_cam_nm": round(release.blow_nm, 6),
+        "gear_ratio": round(release.gear_ratio, 9),
+        "push_off_s": round(release.push_off_s, 6),
+        "free_play_deg": round(math.degrees(release.free_play_rad), 6),
+        "roll_over_deg": round(math.degrees(release.roll_over_rad), 6),
+        "window_deg": [round(math.degrees(angle), 6) for angle in release.window_rad],
+        "assumed": [_assumed(parts) for parts in release.parts],
+    }
+
+
+def _assumed(parts: ReleaseParts) -> dict[str, float]:
+    """Return inertias, stiffnesses and clearances of a release, referred to the cam, with nine significant digits."""
+    values = {
+        "cam_kg_m2": parts.cam_kg_m2,
+        "gear_kg_m2": parts.gear_kg_m2,
+        "rotor_kg_m2": parts.rotor_kg_m2,
+        "backlash_deg": math.degrees(parts.backlash_rad),
+        "cam_rad_s": parts.cam_rad_s,
+        "rebound": parts.rebound,
+        "friction_mm": parts.friction_mm,
+        "train_nm_per_rad": parts.train_nm_per_rad,
+        "lever_nm_per_rad": parts.lever_nm_per_rad,
+        "contact_nm_per_rad": parts.contact_nm_per_rad,
+        "roller_kg_m2": parts.roller_kg_m2,
+    }
+    return {name: float(f"{value:.9g}") for name, value in values.items()}
+
+
+def stop_facts(robot: Robot) -> dict[str, Any]:
+    """Return the stop's angle past rest, energy and torque of the leg's impact, and the pad with its compression."""
+    stop, blow = robot.layout.stop, robot.stop_blow
+    return {
+        "angle_deg": round(math.degrees(stop.angle_rad), DIGITS),
+        "blow_j": blow.energy_j,
+        "torque_nm": blow.torque_nm,
+        "pad": stop.pad.name,
+        "give_mm": blow.give_mm,
+        "give_deg": round(math.degrees(blow.give_rad), DIGITS),
+        "radius_mm": stop.radius_mm,
+    }
+
+
+def electronics_facts(robot: Robot) -> dict[str, Any]:
+    """Return the battery's voltages (empty, full), and for each part the supplied and the permitted voltages."""
+    chosen, train = chosen_parts(robot.workshop), robot.layout.drive.train
+    supply = supply_of(chosen)
+    empty, full = chosen.battery.range_v
+    chained = [
+        {
+            "role": link.role,
+            "name": link.name,
+            "pin": link.pin,
+            "gets_v": _rounded(link.gets_v),
+            "bears_v": None if link.bears_v is None else _rounded(link.bears_v),
+        }
+        for link in links(robot)
+    ]
+    return {
+        "kit": robot.workshop.bought.kit,
+        "battery": chosen.battery.name,
+        "battery_v": [empty, full],
+        "boards": [item for item in chained if item["role"] in chosen.boards],
+        "motor": next(item for item in chained if item["role"] == "motor"),
+        "pwm_cap": round(supply.pwm(train.motor, robot.workshop.safety.motor_torque_max_nm), DIGITS),
+        "energy_j": {"motor": round(train.motor_j, DIGITS), "boards": round(train.boards_j, DIGITS)},
+        "jumps_per_charge": jumps_per_charge(robot),
+    }
+
+
+def jumps_per_charge(robot: Robot) -> int:
+    """Return how often a full battery winds the springs, without what the boards take while the robot waits."""
+    usable = USABLE * supply_of(chosen_parts(robot.workshop)).usable_j
+    return int(usable / robot.layout.drive.train.electrical_j)
+
+
+def _rounded(volts: tuple[float, float]) -> list[float]:
+    return [round(value, DIGITS) for value in volts]
+
+
+def joint_facts(robot: Robot) -> dict[str, Any]:
+    """Return the retention of axles and pins, the pinion's fit, and the roll in every state (mm, °).
+
+    `play_deg` is the roll of the body on its foot to either side, as drawn. `pinion_rib_mm` is the overlap of the ribs
+    in the pinion's bore with the motor's shaft (a press fit without play).
+    """
+    layout, workshop = robot.layout, robot.workshop
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
+    return {
+        "retention": layout.retention,
+        "axle": workshop.bought.axle,
+        "axle_mm": layout.axle_mm,
+        "pinion_rib_mm": workshop.fits.rib_mm,
+        "play_deg": round(math.degrees(play_rad(layout, holes)), ROLL_DIGITS),
+        "toe_half_width_mm": round(layout.toe_half_width_mm, ROLL_DIGITS),
+        "roll_deg": {
+            roll.state: {"stance": round(roll.stance_deg, ROLL_DIGITS), "play": round(roll.play_deg, ROLL_DIGITS)}
+            for roll in rolls(robot)
+        },
+    }

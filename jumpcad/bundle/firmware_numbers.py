@@ -1,0 +1,83 @@
+"""Numbers of one robot for its controller: times of gear train, cam and battery, thresholds of the battery."""
+
+import math
+
+from jumpcad.catalogue import Battery
+from jumpcad.checks.sensor import RUN_ON_S
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import gpio, wiring_of
+from jumpcad.electronics.supply import supply_of
+from jumpcad.robot import Robot
+
+BUTTON_DELAY_MS = 3000
+"""Time to step back after the button was pressed; judgement."""
+SLOWEST = 1.5
+"""Time allowed for winding over that on an empty battery; judgement: cold grease and scatter of the motor."""
+TOO_EARLY = 0.5
+"""Share of the shortest time for a turn before which the sensor is not believed after a release; judgement."""
+SETTLE_MS = 10
+"""How long a switch must keep its state; usual of small switches: they bounce for 1 to 5 ms."""
+AFTER_RELEASE_MS = round(1000.0 * RUN_ON_S)
+"""Motor runs on after the sensor has opened: twice the leg's fall, and past the switch's bounce; judgement."""
+LANDING_MS = 1500
+"""How long after a jump commands and sensor are ignored: the flight, and the landing's 300 m/s² and more; judgement."""
+RAMP_MS = 100
+"""In which the motor gets its power; judgement."""
+LOW_MS = 200
+"""How long the loaded battery must be low; judgement: longer than the motor's start."""
+PWM_HZ = 20_000
+RESERVE_V = 0.2
+"""Per cell, over the empty voltage at rest, with which winding begins: what is begun is not to be refused half-way.
+Judgement: a winding lowers the voltage by less, also with an old battery of three times the resistance."""
+
+
+def numbers(robot: Robot) -> dict[str, float | int | None]:
+    """Return this robot's numbers, by the names that the firmware uses."""
+    workshop, train = robot.workshop, robot.layout.drive.train
+    chosen = chosen_parts(workshop)
+    supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
+    torque_max = workshop.safety.motor_torque_max_nm
+    slow = supply.driven(train.motor, supply.empty_v, torque_max)
+    fast = supply.driven(train.motor, supply.full_v, torque_max)
+    fastest_s = 2.0 * math.pi * train.ratio / (fast.no_load_rpm * math.pi / 30.0)
+    share = min(train.motor_torque_nm / slow.stall_torque_nm, 0.9)
+    slowest_s = 2.0 * math.pi * train.ratio / (slow.no_load_rpm * math.pi / 30.0) / (1.0 - share)
+    controller, sensor = chosen.controller, robot.layout.sensor
+    pins = {signal: gpio(controller, pin) for signal, pin in wiring.pins.items()}
+    return {
+        "PIN_MOTOR": pins.get("motor"),
+        "PIN_SLEEP": pins.get("sleep"),
+        "PIN_READY": pins.get("ready"),
+        "READY_LEVEL": wiring.ready_level,
+        "PIN_BATTERY": pins.get("battery"),
+        "PIN_BUTTON": gpio(controller, controller.button) if controller.button else None,
+        "PWM_HZ": PWM_HZ,
+        "PWM_CAP": math.floor(1000.0 * supply.pwm(train.motor, torque_max)) / 1000.0,
+        "BATTERY_DIVIDER": round(wiring.divider, 4),
+        "BATTERY_MIN_V": start_v(chosen.battery),
+        "BATTERY_EMPTY_V": supply.empty_v,
+        "BATTERY_SAG_V": round(train.peak_current_a * chosen.battery.ohm, 3),
+        "LOW_MS": LOW_MS,
+        "WIND_MIN_MS": math.floor(TOO_EARLY * fastest_s * 10.0) * 100,
+        "WIND_MAX_MS": math.ceil(SLOWEST * slowest_s * 10.0) * 100,
+        "RELEASE_MAX_MS": math.ceil(SLOWEST * slowest_s * release_share(robot) * 10.0) * 100,
+        "READY_DEG": None if sensor is None else round(math.degrees(sensor.ready_rad), 1),
+        "AFTER_RELEASE_MS": AFTER_RELEASE_MS,
+        "SETTLE_MS": SETTLE_MS,
+        "LANDING_MS": LANDING_MS,
+        "BUTTON_DELAY_MS": BUTTON_DELAY_MS,
+        "RAMP_MS": RAMP_MS,
+    }
+
+
+def start_v(battery: Battery) -> float:
+    """Return the voltage at rest from which the robot winds (V): the reserve over empty, at most the nominal one."""
+    return round(min(battery.range_v[0] + RESERVE_V * battery.cells, battery.voltage_v), 3)
+
+
+def release_share(robot: Robot) -> float:
+    """Return the share of a turn from the earliest ready position until the sensor opens at the latest."""
+    sensor = robot.layout.sensor
+    if sensor is None:
+        return 0.25
+    return (sensor.ready_rad + sensor.open_rad + 2.0 * sensor.scatter_rad) / (2.0 * math.pi)

@@ -1,0 +1,81 @@
+"""assembly.md: what to print and how, what to buy and check, how to wire, assemble, start and weigh the robot."""
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+
+from jumpcad.bundle.bom import Bill, bill_of_materials, euros
+from jumpcad.bundle.guide.guide_values import guide_values
+from jumpcad.files.rendering import render
+from jumpcad.parts.part import Part
+from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import Step, assembly_steps
+from jumpcad.scene.step_views import label_of
+from jumpcad.scene.visuals import Visual
+
+GUIDE, BILL = "guides/assembly.md.j2", "guides/bill.md.j2"
+
+
+def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
+    """Return the guide in Markdown; `pictures` are the names of those in `pictures/`."""
+    steps, bill = assembly_steps(robot), bill_of_materials(robot)
+    shown = [
+        (
+            step,
+            [name for name in pictures if re.fullmatch(rf"step-{number}(-.*)?", name)],
+            put_on(step),
+        )
+        for number, step in enumerate(steps, start=1)
+    ]
+    values = {
+        **guide_values(robot, steps, bill),
+        "bill": bill_text(bill),
+        "steps": shown,
+        "pictures": pictures,
+    }
+    return render(GUIDE, values)
+
+
+def bill_text(bill: Bill) -> str:
+    """Return the guide's sections `Print` and `Buy`; times and prices have columns where any is known."""
+    printed = [item for item in bill.items if item.kind != "bought"]
+    bought = [item for item in bill.items if item.kind == "bought"]
+    return render(BILL, {"bill": bill, "printed": printed, "bought": bought, "duration": duration, "euros": euros})
+
+
+def with_bill(guide: str, bill: Bill) -> str:
+    """Return a written guide with another bill in place of its own."""
+    tables = re.compile(r"(?<=\n)## Print\n.*\n## Buy\n.*?(?=\n\n## |\Z)", re.DOTALL)
+    return tables.sub(lambda _: bill_text(bill).rstrip("\n"), guide, count=1)
+
+
+def duration(seconds: float) -> str:
+    """Return a time in hours and minutes, rounded to whole minutes: `2:31 h`."""
+    hours, minutes = divmod(round(seconds / 60.0), 60)
+    return f"{hours}:{minutes:02d} h"
+
+
+def put_on(step: Step) -> Counter[str]:
+    """Return how many of which things a step puts on: printed ones as pictures name them, bought ones as the bill."""
+    counts: Counter[str] = Counter()
+    for placed in step.placed:
+        if placed.move.brings or placed.move.trial:
+            if not placed.move.trial:
+                counts[f"the {placed.move.brings}"] = 1
+            continue
+        # a piece of what is listed elsewhere has no units
+        counts.update(
+            _name(thing) for thing in placed.things if isinstance(thing.source, Part) or thing.source.units > 0
+        )
+    return counts
+
+
+def _name(thing: Visual) -> str:
+    """Return what a thing is called, without what matters to its shop alone."""
+    source = thing.source
+    if isinstance(source, Part):
+        return label_of(thing)
+    short, kind = re.split(r",| \(| ISO| DIN", source.article)[0], re.search(r", cut .*|, \w+ hand", source.article)
+    if not re.search("screw|pin|standoff", short):
+        short = re.sub(r" [\d.]+ (x|mm|V|W|uF)\b.*", "", short)
+    return short + (kind[0] if kind else "")

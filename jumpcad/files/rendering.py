@@ -1,0 +1,70 @@
+"""Texts from templates (Jinja2): what a template names and nobody gives is an error."""
+
+import re
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from jumpcad.files.markdown import plain
+from jumpcad.files.templates import templates_folder
+
+
+@cache
+def environment() -> Environment:
+    """Return the environment of all templates of texts.
+
+    Its filters: `n(digits)` rounds to so many decimals, `g` writes a number as short as possible, `plain` escapes text
+    for Markdown, `capital` and `small` change a sentence's first letter alone.
+    """
+    found = Environment(
+        loader=FileSystemLoader(templates_folder()),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # Markdown; names of users are escaped by `plain`
+    )
+    found.filters |= {"n": _rounded, "g": _shortest, "plain": plain, "capital": _capital, "small": _small}
+    return found
+
+
+def render(template: str, values: Mapping[str, Any]) -> str:
+    """Return a template of `templates/` with values in it, lists numbered, without runs of empty lines.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        If it names a value that is not given.
+    """
+    text = environment().get_template(template).render(values)
+    return _numbered(re.sub(r"\n{3,}", "\n\n", text).strip()) + "\n"
+
+
+def _rounded(value: float, digits: int = 0) -> str:
+    return f"{value:.{digits}f}"
+
+
+def _shortest(value: float) -> str:
+    return f"{value:g}"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _small(text: str) -> str:
+    return text[:1].lower() + text[1:]
+
+
+def _numbered(text: str) -> str:
+    """Return text whose lists have their numbers; in templates all items begin with `1. `."""
+    lines, count = [], 0
+    for line in text.splitlines():
+        if line.startswith("1. "):
+            count += 1
+        elif line and not line.startswith(" "):
+            count = 0
+        lines.append(f"{count}. {line[3:]}" if line.startswith("1. ") else line)
+    return "\n".join(lines)
