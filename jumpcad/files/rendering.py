@@ -43,11 +43,11 @@ def render(template: str, values: Mapping[str, Any]) -> str:
 
 
 def _rounded(value: float, digits: int = 0) -> str:
-    return f"{value:.{digits}f}"
+    return f"{float(value):.{digits}f}"
 
 
 def _shortest(value: float) -> str:
-    return f"{value:g}"
+    return f"{float(value):g}"
 
 
 def _capital(text: str) -> str:

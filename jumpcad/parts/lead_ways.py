@@ -1,14 +1,13 @@
-"""The way of a lead through the body: as a line, from which its length is reckoned, and in words (mm, body frame)."""
+"""The way of a lead through the body as a line, from which its length is reckoned (mm, body frame)."""
 
 import itertools
 import math
 
 import numpy as np
 
-from jumpcad.electronics.nets import AT
 from jumpcad.layout.layout import Layout
 from jumpcad.parts.fittings import wire_hole_mm
-from jumpcad.parts.leads import has_own_legs, way_in
+from jumpcad.parts.leads import way_in
 from jumpcad.transforms import Array
 
 BELOW_SCREW_MM = 5.0
@@ -17,8 +16,6 @@ OPENING_EDGE_MM = 2.0
 """From the opening for the USB plug to a lead; judgement."""
 AHEAD_MM = 3.0
 """From the trays' front end to the battery's own leads; judgement."""
-SHORT_MM = 2.0
-"""Shorter pieces of a way are left out of its words."""
 
 
 def plate_of(layout: Layout, part: str) -> str:
@@ -79,49 +76,17 @@ def corners(layout: Layout, one: str, other: str, start: Array, end: Array) -> l
 def gap_mm(layout: Layout, start_mm: float, end_mm: float) -> float:
     """Return where a lead crosses between two places along the robot: in the first gap between boards, or half way."""
     low, high = sorted((start_mm, end_mm))
-    gaps = [x for x, _ in _gaps(layout) if low < x < high]
+    gaps = [x for x in _gaps(layout) if low < x < high]
     return min(gaps, key=lambda x: abs(x - start_mm), default=(low + high) / 2.0)
 
 
-def way_words(layout: Layout, one: str, other: str) -> str:
-    """Return the way in words; from a board to a part at a plate, whichever comes first."""
-    if {one, other} == {"battery", "plug"}:
-        return "the battery's own lead: forwards over its stop, up ahead of the upper tray, into the plug"
-    if has_own_legs(one, other):
-        return "own legs"
-    if plate_of(layout, other):
-        return _to_plate(layout, one, other)
-    if plate_of(layout, one):
-        return _to_plate(layout, other, one)
-    start, end = (float(way_in(layout, part)[-1][0]) for part in (one, other))
-    crossed = next((names for x, names in _gaps(layout) if x == gap_mm(layout, start, end)), "")
-    return f"on the upper tray, across between {crossed}" if crossed else "on the upper tray, straight"
-
-
-def _to_plate(layout: Layout, board: str, part: str) -> str:
-    """Return the way from a board to a part at a plate."""
-    way, seat = outer_way(layout, part), way_in(layout, board)[-1]
-    dx, _, dz = way[-1] - seat
-    moves = (("up", dz), ("down", -dz), ("forwards", dx), ("backwards", -dx))
-    inside = " and ".join(word for word, far in moves if far > SHORT_MM)
-    words = f"from the {AT.get(board, board)} across the upper tray to the {plate_of(layout, part)} plate"
-    words += f", {inside} inside it" if inside else ""
-    if len(way) == 1:
-        return f"{words} to the {part}"
-    screws = {float(x) for x, _ in layout.standoffs_mm}
-    below = " below the standoff's screw" if screws & {float(x) for x, *_ in way[1:-2]} else ""
-    along = "forwards" if way[0][0] > way[-1][0] else "backwards"
-    return f"{words}, out through its wire hole, outside it {along}{below} to the {part}"
-
-
-def _gaps(layout: Layout) -> list[tuple[float, str]]:
-    """Return where the gaps between boards are along the robot, and between which."""
+def _gaps(layout: Layout) -> list[float]:
+    """Return where the gaps between boards are along the robot."""
     seats = layout.electronics.seats(layout.lateral.inside)
-    roles = list(layout.electronics.boards)
     found = []
-    for behind, ahead in itertools.pairwise(roles):
+    for behind, ahead in itertools.pairwise(layout.electronics.boards):
         edges = (seats[behind].x_mm + seats[behind].size_mm[0] / 2.0, seats[ahead].x_mm - seats[ahead].size_mm[0] / 2.0)
-        found.append((float(layout.tray_mm[0]) + sum(edges) / 2.0, f"{behind} and {ahead}"))
+        found.append(float(layout.tray_mm[0]) + sum(edges) / 2.0)
     return found
 
 

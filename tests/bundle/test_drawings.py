@@ -13,7 +13,6 @@ from support.built import built, geared, placed
 from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.drawings.spring_sheet import requirements, scale_in_words, spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
-from jumpcad.bundle.guide.incoming_inspection import arrival_lines
 from jumpcad.bundle.springs import arms_off_deg, torque_shares
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
@@ -416,7 +415,7 @@ def test_springs_with_long_arms_are_drawn_smaller(
         assert (a[0] >= b[1]).any() or (b[0] >= a[1]).any()
     assert len(said) == 1
     assert scale in ("", *said)
-    assert f"(drawing in order/, {said.pop()}, ordered" in "\n".join(arrival_lines(own))
+    assert scale_in_words(own.layout.drive.spring) == said.pop()
 
 
 @pytest.mark.parametrize(("lever", "scale"), [(160.0, "1:2"), (300.0, "1:5"), (900.0, "1:10"), (5000.0, "1:10")])

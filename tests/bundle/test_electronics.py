@@ -12,10 +12,10 @@ from support.built import built, of_kit, placed
 
 from jumpcad.building import build
 from jumpcad.bundle.drawings.lead_lines import leads_of
-from jumpcad.bundle.drawings.wiring import drawings_of, wiring_lines
+from jumpcad.bundle.drawings.wiring import drawings_of, wires
 from jumpcad.bundle.export import export
 from jumpcad.bundle.facts import electronics_facts, jumps_per_charge
-from jumpcad.bundle.firmware import numbers
+from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts
@@ -24,6 +24,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.lead_ways import plate_of
+from jumpcad.parts.leads import has_own_legs
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import chained
@@ -77,9 +78,10 @@ def test_the_firmware_has_time_to_wind_on_an_empty_battery_and_pins_of_the_chip(
 def test_the_leads_drawing_has_every_number_of_the_table_in_its_colour(robot: Robot) -> None:
     """A circle of the lead's colour, with its number of the table in it; own legs are on soldering.svg."""
     strokes = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}
-    table = [line.split(" | ") for line in wiring_lines(robot) if line.startswith("| ") and "no." not in line]
-    assert [int(row[0].strip("| ")) for row in table] == list(range(1, len(table) + 1))
-    drawn = {row[0].strip("| "): strokes[row[3]] for row in table if row[5] != "own legs |"}
+    rows = enumerate(wires(robot), start=1)
+    drawn = {
+        str(row): strokes[colour] for row, (_, start, end, colour, _) in rows if not has_own_legs(start.part, end.part)
+    }
     drawing = drawings_of(robot)["leads.svg"]
     space, elements = "{http://www.w3.org/2000/svg}", list(ET.fromstring(drawing).iter())
     circles = {(e.get("cx"), e.get("stroke")) for e in elements if e.tag == f"{space}circle"}

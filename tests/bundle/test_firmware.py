@@ -5,25 +5,19 @@ import re
 from dataclasses import replace
 
 import pytest
-from jumpcad.bundle.operation import (
-    bootloader,
-    by_button,
-    cable,
-    charging,
-    charging_loaded,
-    stops_the_motor,
-    to_stop,
-)
 from support.built import built
 from support.decimals import decimals
 
 from jumpcad.building import build
-from jumpcad.bundle.firmware import WORDS, _filled, firmware_files, numbers, release_share, start_v
+from jumpcad.bundle.firmware import WORDS, firmware_files
+from jumpcad.bundle.firmware_numbers import numbers, release_share, start_v
+from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
+from jumpcad.files.rendering import render
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -121,10 +115,9 @@ def test_the_module_is_python_with_every_number_and_what_it_means(robot: Robot) 
         assert any(line.startswith(f"{key} = ") and line.endswith(f"  # {words}")
                    for line in files["firmware/robot.py"].splitlines())  # fmt: skip
     readme = files["firmware/README.md"]
-    assert re.search(r"\{[A-Z_]+\}", readme) is None
     measured = numbers(robot)["PIN_BATTERY"] is not None
     assert ("multiply `BATTERY_DIVIDER` in `robot.py`" in readme) == measured
-    assert ("battery's voltage is not measured" in readme) == (not measured)
+    assert ("voltage is not measured" in readme) == (not measured)
 
 
 def test_a_motor_that_hardly_turns_is_given_ten_times_as_long_as_without_a_load(robot: Robot) -> None:
@@ -136,61 +129,50 @@ def test_a_motor_that_hardly_turns_is_given_ten_times_as_long_as_without_a_load(
     assert numbers(weak)["WIND_MAX_MS"] == pytest.approx(1.5 * 10.0 * idle_ms, rel=0.01)
 
 
-@pytest.mark.parametrize(("level", "does"), [(1, "opens"), (0, "closes")])
-def test_the_notes_say_what_the_sensors_contact_does(level: int, does: str) -> None:
+def test_the_notes_say_what_the_sensors_contact_does(robot: Robot) -> None:
     """It joins its pin to ground, and a resistor pulls the pin up: an open contact reads 1."""
-    robot = built("kenan-2.0")
-    values = numbers(robot) | {"READY_LEVEL": level}
-    steps = re.findall(r"^ +(\d+)\. ", _filled("{STUCK}", robot, values), re.M)
-    assert steps == [str(number) for number in range(1, 1 + len(steps))]
-    assert len(steps) > 2
-    assert f"The sensor's contact {does} when it is pressed" in _filled("- {SENSOR}", robot, values)
-    (own,) = (text for path, text in firmware_files(robot) if path.endswith("README.md"))
-    does = "opens" if numbers(robot)["READY_LEVEL"] else "closes"
-    assert f"The sensor's contact {does} when it is pressed" in own
+    assert numbers(robot)["READY_LEVEL"] == 1
+    for opens in (True, False):
+        text = render("firmware/README.md.j2", operation_values(robot) | {"opens": opens})
+        assert f"Its contact {'opens' if opens else 'closes'} when it is pressed" in text
+    assert operation_values(robot)["opens"]
 
 
-@pytest.mark.parametrize("button", [True, False])
-def test_the_notes_are_for_the_controller(robot: Robot, button: bool) -> None:
-    """Its name, its image among MicroPython's downloads, its button or commands in its place, and its charger."""
+def test_the_notes_are_for_the_controller(robot: Robot) -> None:
+    """Its name, its image among MicroPython's downloads, its button or commands in its place."""
     shop, name = robot.workshop, robot.workshop.bought.controller
-    if not button:
-        bare = {"button": "", "micropython": "", "description": "A board of mine"}
-        board = shop.catalogue.boards[name].model_copy(update=bare)
-        shop = shop.model_copy(update={"boards": shop.boards | {name: board}})
-    robot = replace(robot, workshop=shop)
-    chosen = chosen_parts(robot.workshop)
-    assert bool(chosen.controller.button) == button
-    (text,) = (text for path, text in firmware_files(robot) if path.endswith("README.md"))
-    words = " ".join(text.split())
-    said = "XIAO" if button else "A board of mine"
-    assert re.search(rf"For the .*{said}.*, in MicroPython\.", words.partition("1. On")[0])
-    image = chosen.controller.micropython if button else "look for the board's name or its chip"
-    assert image
-    assert f"micropython.org/download ({image});" in words
-    for told in (
-        bootloader(chosen.controller), cable(chosen.controller), by_button("wind", chosen.controller),
-        by_button("jump", chosen.controller), to_stop(chosen), stops_the_motor(chosen), charging(chosen),
-        charging_loaded(chosen),
-    ):  # fmt: skip
-        assert told in words
+    bare = {"button": "", "micropython": "", "description": "A board of mine"}
+    board = shop.catalogue.boards[name].model_copy(update=bare)
+    own = replace(robot, workshop=shop.model_copy(update={"boards": shop.boards | {name: board}}))
+    for one, said, image, button in (
+        (robot, "XIAO", chosen_parts(shop).controller.micropython, True),
+        (own, "A board of mine", "look for the board's name or its chip", False),
+    ):
+        text = dict(firmware_files(one))["firmware/README.md"]
+        assert re.search(rf"For the .*{said}.*, in MicroPython\.", text)
+        assert f"micropython.org/download ({image});" in text
+        for words in ("Put the board into its bootloader: hold the button", "press the same button once more"):
+            assert (words in text) == button, words
+        assert ("Put the board into its bootloader as its maker says" in text) != button
+        assert ("Type `wind`. Type `jump`." in text) != button
 
 
 def test_the_notes_have_the_numbers_of_the_program(robot: Robot) -> None:
     """Times in seconds, voltages as they are, the cap of PWM in percent."""
     values = numbers(robot)
-    names = ("WIND_S", "WIND_MAX_S", "MIN_V", "EMPTY_V", "CAP", "LANDING_S")
-    text = _filled(" ".join(f"{{{name}}}" for name in names), robot, values)
-    found = dict(zip(names, map(float, text.split()), strict=True))
-    assert found["WIND_S"] == pytest.approx(robot.layout.drive.train.winding_s, abs=0.051)
-    for name, key, factor in (
-        ("WIND_MAX_S", "WIND_MAX_MS", 1000.0), ("MIN_V", "BATTERY_MIN_V", 1.0), ("EMPTY_V", "BATTERY_EMPTY_V", 1.0),
-        ("CAP", "PWM_CAP", 0.01), ("LANDING_S", "LANDING_MS", 1000.0),
+    text = dict(firmware_files(robot))["firmware/README.md"]
+    for pattern, key, factor in (
+        (r"after ([\d.]+) s without the sensor", "WIND_MAX_MS", 1000.0),
+        (r"at most ([\d.]+) % of PWM", "PWM_CAP", 0.01),
+        (r"from ([\d.]+) V at rest it finishes", "BATTERY_EMPTY_V", 1.0),
+        (r"For ([\d.]+) s after a jump", "LANDING_MS", 1000.0),
+        (r"[Bb]elow ([\d.]+) V at rest", "BATTERY_MIN_V", 1.0),
+        (r"releases after ([\d.]+) s", "BUTTON_DELAY_MS", 1000.0),
     ):  # fmt: skip
-        assert factor * found[name] == pytest.approx(values[key]), name
-    assert found["EMPTY_V"] < found["MIN_V"]
-    assert _filled("{LOW}", robot, values).startswith(f"Below {values['BATTERY_MIN_V']:g} V at rest it does not begin")
-    assert _filled("{LOW}", robot, values | {"PIN_BATTERY": 0}) == _filled("{LOW}", robot, values)  # GPIO 0 is a pin
-    unmeasured = _filled("{LOW}", robot, values | {"PIN_BATTERY": None})
-    assert unmeasured.startswith("Nothing stops it on an empty battery")
-    assert unmeasured.endswith(f"below {values['BATTERY_MIN_V']:g} V at rest.")
+        found = re.search(pattern, text)
+        assert found is not None, pattern
+        assert factor * float(found[1]) == pytest.approx(values[key]), pattern
+    unmeasured = operation_values(robot) | {"program": values | {"PIN_BATTERY": None}}
+    assert "nothing stops the robot on an empty battery" in render("firmware/README.md.j2", unmeasured)
+    on_pin_0 = operation_values(robot) | {"program": values | {"PIN_BATTERY": 0}}
+    assert render("firmware/README.md.j2", on_pin_0) == text  # GPIO 0 is a pin

@@ -1,7 +1,6 @@
 """assembly.html: one well-formed page that holds its pictures and asks for nothing else."""
 
 import base64
-import math
 import re
 from xml.etree import ElementTree as ET
 
@@ -46,34 +45,6 @@ def test_a_name_is_text_in_the_page_whatever_it_holds() -> None:
     assert root.findtext("head/title") == f"{name}: assembly"
 
 
-def test_every_number_in_the_texts_is_filled_in() -> None:
-    """No name in braces is left, and the kitchen scale reads what raises it: energy of the spring over its rise.
-
-    The arm leaves the coil at its underside; without friction the scale's work is the spring's energy. Turned by an
-    angle, the arm's line is tangent to the coil and meets the edge, which is at a fixed distance to the side.
-    """
-    robot = built("kenan-2.0")
-    guide = write_guide(robot)
-    assert not re.search(r"\{\w+\}", guide)
-    row = re.search(r"\| 20° \| (\d+) g \|", guide)
-    lever = re.search(r"narrower than the coil is long, ([\d.]+) mm to the side", guide)
-    assert row is not None
-    assert lever is not None
-    spring, side = robot.layout.drive.spring, float(lever[1])
-    radius = (spring.inside_diameter_mm + spring.wire_mm) / 2.0
-
-    def edge_mm(angle: float) -> float:
-        tangent = radius * math.sin(angle), -radius * math.cos(angle)
-        return tangent[1] + (side - tangent[0]) * math.tan(angle)
-
-    low, high = math.radians(19.99), math.radians(20.01)
-    rate = math.degrees(robot.design.stiffness_nmm_per_deg / 2.0)
-    work = rate * (high**2 - low**2) / 2.0
-    grams = work / (edge_mm(high) - edge_mm(low)) / 9.81 * 1000.0
-    assert abs(float(row[1]) - grams) < 0.01 * grams
-    assert "| 30° |" not in guide  # friction at the edge would count
-
-
 def test_each_hand_has_its_drawing_with_the_rate() -> None:
     from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 
@@ -86,6 +57,19 @@ def test_each_hand_has_its_drawing_with_the_rate() -> None:
         assert "agree within 5 %" in sheet
         assert re.search(r"° \+4° / -10°; 180° is opposite directions", sheet)
         assert f"rises to the {hand}" in sheet
+
+
+def test_lines_to_tick_have_a_box_and_a_step_has_its_pictures_beside_its_words() -> None:
+    step = "## 1. Leg\n\n![step-1](pictures/step-1.png)\n\nDo it.\n\n- ☐ It *turns*.\n- free\n"
+    guide = f"# A\n\n{step}\n## Tools\n\n- ☐ all\n"
+    root = ET.fromstring(write_page(guide, "A", {"pictures/step-1.png": PNG}).replace("<!DOCTYPE html>", "", 1))
+    items = ["".join(item.itertext()) for item in root.iter("li") if item.find("input") is not None]
+    assert items == ["It turns.", "all"]
+    step, tools = root.iter("section")
+    shown, told = step.findall("div")
+    assert [len(list(one.iter("img"))) for one in (shown, told, tools)] == [1, 0, 0]
+    assert "".join(told.itertext()).split() == ["Do", "it.", "It", "turns.", "free"]
+    assert (step.findtext("h2"), tools.find("div")) == ("1. Leg", None)
 
 
 def test_the_contents_lead_to_the_sections() -> None:

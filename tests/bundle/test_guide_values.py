@@ -1,285 +1,242 @@
-"""What the guide says of motor, springs, sizes and jump, computed by hand from data sheets and the design."""
+"""Figures of motor, battery, springs, sizes and jump, computed by hand from data sheets and the design."""
 
+import itertools
 import math
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
-from jumpcad.bundle.expected import _measured, _near_stop, _prong_mm, expected, filled
-from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded, switching_off, to_stop, usb_out
-from support.built import built, geared, part, placed
+from support.built import built, geared, of_kit, part, placed
 
 from jumpcad.building import build
-from jumpcad.bundle import expected as module
+from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.drawings.wiring import wires
-from jumpcad.bundle.firmware import numbers
+from jumpcad.bundle.facts import jumps_per_charge
+from jumpcad.bundle.firmware_numbers import numbers
+from jumpcad.bundle.guide import guide_values as module
+from jumpcad.bundle.guide.guide_values import _jump, _prong_mm, guide_values
+from jumpcad.bundle.guide.incoming_inspection import loaded_grams, scale_range_kg
+from jumpcad.bundle.guide.operation_values import operation_values, pin_share, state_off_v
 from jumpcad.design import load_design
 from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring
 from jumpcad.errors import CannotBuildError
+from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
 
-def figure(words: dict[str, str], name: str) -> float:
-    return float(words[name])
+def values(robot: Robot) -> dict[str, Any]:
+    return dict(guide_values(robot, [], bill_of_materials(robot)))
+
+
+def preloaded(preload_deg: float, name: str = "kenan-2.0") -> Robot:
+    shop = load_workshop()
+    spring = shop.spring.model_copy(update={"preload_deg": preload_deg})
+    return build(load_design(name), shop.model_copy(update={"spring": spring}))
 
 
 def test_the_motor_is_a_line_from_no_load_to_stall_in_series_with_battery_and_driver() -> None:
     """Pololu 2371: 6 V, 73 rpm with 70 mA, 0.67 A stalled; one cell of 3.7 to 4.2 V has no need of PWM."""
     robot = built("kenan-2.0")
-    words, train, chosen = expected(robot, []), robot.layout.drive.train, chosen_parts(robot.workshop)
+    found, train, chosen = operation_values(robot), robot.layout.drive.train, chosen_parts(robot.workshop)
     series = chosen.battery.ohm + chosen.driver.resistance_ohm
     winding = 6.0 / 0.67
     rpm = 73.0 * (3.7 - 0.07 * (winding + series)) / (6.0 - 0.07 * winding)
-    assert figure(words, "free_rpm") == pytest.approx(rpm, abs=0.51)
+    assert found["free_rpm"] == pytest.approx(rpm, abs=0.05)
     (stage,) = train.stages
-    turn_s = 60.0 / rpm * stage.wheel.teeth / stage.pinion.teeth
-    assert figure(words, "dry_s") == pytest.approx(turn_s, abs=0.051)
-    boards_ma = 24.0 + 1.7  # of the controller and of the driver
-    assert figure(words, "boards_ma") == pytest.approx(boards_ma, abs=0.51)
-    assert figure(words, "free_ma") == pytest.approx(70.0 + boards_ma, abs=0.51)
-    assert figure(words, "peak_ma") == pytest.approx(1000.0 * train.peak_current_a + boards_ma, abs=0.51)
-    for name in ("boards", "free"):
-        assert figure(words, f"{name}_a") == pytest.approx(figure(words, f"{name}_ma") / 1000.0, abs=0.0056)
-    assert (words["battery_v"], words["nominal_v"]) == ("3.7 to 4.2", "3.7")
-    volt_amperes = 3.7 * figure(words, "wind_ma") / 1000.0
-    assert volt_amperes * train.winding_s == pytest.approx(train.electrical_j, rel=0.01)
-    assert figure(words, "wind_j") == pytest.approx(train.electrical_j, abs=0.0051)
-    assert figure(words, "wind_s") == pytest.approx(train.winding_s, abs=0.051)
+    assert found["dry_s"] == pytest.approx(60.0 / rpm * stage.wheel.teeth / stage.pinion.teeth, abs=0.005)
+    boards_a = 0.024 + 0.0017  # of the controller and of the driver
+    assert found["boards_a"] == pytest.approx(boards_a, abs=5e-4)
+    assert found["free_a"] == pytest.approx(0.070 + boards_a, abs=5e-4)
+    assert (found["nominal_v"], found["full_v"]) == (3.7, 4.2)
+    assert (found["wind_j"], found["wind_s"]) == (train.electrical_j, train.winding_s)
+    assert values(robot)["jumps"] == pytest.approx(jumps_per_charge(robot), rel=0.05)
 
 
-@pytest.mark.parametrize(("button", "read"), [("BOOT", "the boards included"), (None, "the controller left to the")])
-def test_a_bench_supply_feeds_the_controller_only_if_its_own_button_starts_it(
-    monkeypatch: pytest.MonkeyPatch, button: str | None, read: str
-) -> None:
-    robot = built("kenan-2.0")
-    chosen = chosen_parts(robot.workshop)
-    controller = chosen.controller.model_copy(update={"button": button})
-    monkeypatch.setattr(module, "chosen_parts", lambda _: replace(chosen, controller=controller))
-    words = expected(robot, [])
-    assert (words["cable"], words["wind_by"], words["jump_by"]) == (
-        cable(controller), by_button("wind", controller), by_button("jump", controller)
-    )  # fmt: skip
-    assert words["jump_by"].startswith("Press" if button else "Type")
-    chosen = replace(chosen, controller=controller)
-    assert (words["usb_out"], words["stop_by"], words["off"]) == (
-        usb_out(chosen),
-        to_stop(chosen),
-        switching_off(chosen),
-    )
-    assert (words["charge_how"], words["charge_loaded"]) == (charging(chosen), charging_loaded(chosen))
-    assert words["boards_read"].startswith(read)
-    assert (figure(words, "boards_ma") > 20.0) == (button is not None)
+def test_under_pwm_the_battery_gives_the_motors_current_for_a_share_of_the_time() -> None:
+    """A motor of 6 V on two cells, 6/8.4 of the time, and beside it the boards, always."""
+    shop = load_workshop()
+    kit = shop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s", "motors": ("n20-298",)}
+    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": shop.bought.model_copy(update=kit)}))
+    found, motor = operation_values(robot), robot.layout.drive.train.motor
+    boards = (0.024 * 5.0 / 0.9 + 7.4 * (0.0017 + 0.001)) / 7.4
+    assert motor.name == "n20-298"
+    assert found["boards_a"] == pytest.approx(boards, abs=5e-4)
+    assert found["free_a"] == pytest.approx(6.0 / 8.4 * motor.no_load_current_a + boards, abs=5e-4)
 
 
-def test_times_and_limits_are_those_of_the_program() -> None:
-    robot = built("kenan-2.0")
-    words, values = expected(robot, []), numbers(robot)
-    for name, value, factor in (
-        ("wind_max", "WIND_MAX_MS", 1000.0), ("release_ms", "RELEASE_MAX_MS", 1.0), ("min_v", "BATTERY_MIN_V", 1.0),
-        ("after_ms", "AFTER_RELEASE_MS", 1.0), ("landing_s", "LANDING_MS", 1000.0),
-    ):  # fmt: skip
-        assert factor * figure(words, name) == values[value], name
-    assert figure(words, "ready_deg") == pytest.approx(values["READY_DEG"] or math.nan, abs=0.51)
-    assert words["divider_pin"] == "D1"
-    for volts, share in zip(words["divider_v"].split(" to "), words["divider_share"].split(" to "), strict=True):
-        assert float(volts) == pytest.approx(3.7 * float(share), abs=0.0071)
+def test_batteries_are_charged_and_stored_by_their_cells() -> None:
+    """300 mAh at 370 mA, and half as long again; 3.8 V a cell for storage, 3.0 V is the end of a cell."""
+    for robot, cells in ((built("kenan-2.0"), 1), (of_kit("strong-2s"), 2)):
+        found = operation_values(robot)
+        assert found["charged_by_usb"] is (cells == 1)
+        assert (found["stored_v"], found["dead_v"]) == pytest.approx((3.8 * cells, 3.0 * cells))
+        battery = chosen_parts(robot.workshop).battery
+        assert found["outside_ma"] == min(battery.capacity_mah, battery.bears_ma)
+        if cells == 1:
+            assert found["charge_rate"] == pytest.approx(370.0 / 300.0)
+            assert found["charge_h"] == pytest.approx(1.5 * 300.0 / 370.0)
 
 
-def test_what_state_prints_is_off_by_that_of_the_battery_and_not_of_its_pin() -> None:
-    """680 over 200 kΩ on two cells: 2 % of 0.77 of 7.4 V, and 35 mV times 4.4, are 0.27 V together."""
-    words = _measured(Wiring((), {"battery": "D1"}, 680_000), 7.4)
-    assert (words["state_off"], words["divider_pin"]) == ("0.3", "D1")
+LOWER, CORNERS = 200e3, tuple(itertools.product((0.99, 1.0, 1.01), repeat=2))
+"""The lower resistor (ohm); both resistors are of 1 %."""
+
+
+def test_a_multimeter_reads_the_divider_with_itself_beside_the_lower_resistor() -> None:
+    """10 MΩ in parallel, by Ohm's law, and 1 % of the reading."""
+    for upper in (200_000, 470_000, 680_000, 1_000_000):
+        read = []
+        for one, other in CORNERS:
+            lower = 1.0 / (1.0 / (LOWER * one) + 1.0 / 10e6)
+            read += [lower / (lower + upper * other) * meter for meter in (0.99, 1.01)]
+        assert pin_share(Wiring((), {}, upper)) == pytest.approx((min(read), max(read)), rel=5e-4), upper
+
+
+def test_state_is_off_by_resistors_and_converter() -> None:
+    """The pin's voltage, 35 mV off, times the divider that the firmware believes."""
+    for upper, volts in ((200_000, 3.7), (680_000, 7.4)):
+        believed = (upper + LOWER) / LOWER
+        off = [
+            abs(believed * (volts * LOWER * one / (LOWER * one + upper * other) + converter) - volts)
+            for one, other in CORNERS
+            for converter in (-0.035, 0.035)
+        ]
+        assert state_off_v(Wiring((), {}, upper), volts) == pytest.approx(max(off), rel=0.02), upper
 
 
 def test_one_pair_of_gears_turns_the_cam_against_the_motor_and_two_with_it() -> None:
-    one, two = expected(built("kenan-2.0"), []), expected(geared(), [])
+    one, two = values(built("kenan-2.0")), values(geared())
     assert one["cam_turn"] == two["cam_turn"] == two["motor_turn"] == "counter-clockwise"
     assert one["motor_turn"] == "clockwise"
 
 
-@pytest.mark.parametrize("preload_deg", [0.0, 4.0])
-def test_what_hands_feel_of_the_springs_follows_from_hookes_law(preload_deg: float) -> None:
+@pytest.mark.thorough
+def test_what_hands_feel_of_the_springs_follows_from_hookes_law() -> None:
     """A spring of k N·mm/° pushes with k times its angle over the lever; both on the leg's pin at the hub.
 
     With the leg on its stop, 3° past rest, a spring is loaded by 3° less.
     """
-    design, shop = load_design("kenan-2.0"), load_workshop()
-    preloaded = shop.spring.model_copy(update={"preload_deg": preload_deg})
-    robot = build(design, shop.model_copy(update={"spring": preloaded}))
-    words, spring = expected(robot, []), robot.layout.drive.spring
-    rate = design.stiffness_nmm_per_deg / 2.0
-    compression_deg = math.degrees(design.compression_rad)
-    wound_deg = compression_deg if not preload_deg else math.degrees(spring.wound_rad)
-    wider = math.floor(0.1 * wound_deg)
-    assert words["stroke"] == f"{compression_deg:.0f}"
-    assert words["lift"] == "310"
-    at_stop = preload_deg - 3.0
-    slack = (
-        "up to 3° with springs as ordered, for up to 13° with arms" if not preload_deg else "slack for up to 9° before"
-    )
-    assert slack in words["near_stop"]
-    assert words["wider"] == f"{wider}"
-    assert figure(words, "preload") == max(0.0, at_stop)
-    assert figure(words, "preload_n") == pytest.approx(max(0.0, at_stop) * rate / spring.arms.lever_mm, abs=0.051)
-    arm_n = max(1.0, (at_stop + wider) * rate / spring.arms.lever_mm)
-    assert figure(words, "arm_n") == pytest.approx(arm_n, abs=0.51)
-    assert figure(words, "foot_n") == pytest.approx(2.0 * rate * wound_deg / design.carrying_link_mm, abs=0.051)
-    joules = rate * math.radians(1.0) * (wound_deg**2 - preload_deg**2) / 1000.0
-    assert figure(words, "energy") == pytest.approx(joules, abs=0.0051)
-    assert figure(words, "push_ms") == pytest.approx(1000.0 * robot.release.push_off_s, abs=0.51)
-    assert figure(words, "pin_hole") == pytest.approx(robot.layout.pin_hole.diameter_mm, abs=0.051)
-    assert figure(words, "dog_play") == pytest.approx(math.degrees(robot.layout.drive.dog.play_rad), abs=0.51)
+    for preload_deg in (0.0, 4.0):
+        robot = preloaded(preload_deg)
+        found, spring, design = values(robot), robot.layout.drive.spring, robot.design
+        rate = design.stiffness_nmm_per_deg / 2.0
+        compression_deg = math.degrees(design.compression_rad)
+        wound_deg = compression_deg if not preload_deg else math.degrees(spring.wound_rad)
+        wider, at_stop = math.floor(0.1 * wound_deg), preload_deg - 3.0
+        assert found["stroke_deg"] == pytest.approx(compression_deg)
+        assert found["lift_deg"] == pytest.approx(310.0)
+        slack = (3, 13) if not preload_deg else (0, 9)
+        assert (found["slack_deg"], found["most_slack_deg"]) == slack
+        assert found["wider_deg"] == wider
+        assert found["stop_deg"] == pytest.approx(max(0.0, at_stop))
+        assert found["stop_n"] == pytest.approx(max(0.0, at_stop) * rate / spring.arms.lever_mm)
+        assert found["arm_n"] == pytest.approx(max(1.0, (at_stop + wider) * rate / spring.arms.lever_mm))
+        assert found["pull_n"] == pytest.approx(2.0 * rate * wound_deg / design.carrying_link_mm)
+        joules = rate * math.radians(1.0) * (wound_deg**2 - preload_deg**2) / 1000.0
+        assert found["energy_j"] == pytest.approx(joules, rel=1e-6)
 
 
-def test_springs_with_much_preload_push_the_leg_against_its_stop() -> None:
-    """With 13° and more even the narrowest arms, 10° less, are loaded on a stop 3° past rest."""
-    assert _near_stop(0.0, 0.0) == "The springs push it against its stop."
-    assert "slack for up to 1° before its stop: no fault" in _near_stop(0.0, 0.4)
+def test_a_scale_bears_a_spring_that_is_stiff_by_its_tolerance() -> None:
+    """10 % more than computed, in whole kilograms; grams are of force, 9.80665 N a kilogram."""
+    robot = built("kenan-2.0")
+    drive = robot.layout.drive
+    assert robot.workshop.safety.spring_rate_scatter == 0.1
+    for grams, kilograms in ((400.0, 1), (905.0, 1), (920.0, 2), (1800.0, 2), (1850.0, 3)):
+        lever = drive.spring.torque_nmm / (9.80665e-3 * grams)
+        spring = replace(drive.spring, arms=replace(drive.spring.arms, lever_mm=lever))
+        assert loaded_grams(spring) == pytest.approx(grams, rel=1e-3)
+        own = replace(robot, layout=replace(robot.layout, drive=replace(drive, spring=spring)))
+        assert scale_range_kg(own) == kilograms, grams
 
 
-def test_slack_is_never_said_to_be_less_than_it_is() -> None:
-    """0.4° and 2.2° are 1° and 3° at most; 3° stays 3° where its last digit is lost on the way from radians."""
-    assert "slack, for up to 1° with springs as ordered, for up to 3° with" in _near_stop(0.4, 2.2)
-    assert "slack, for up to 3° with springs as ordered" in _near_stop(math.degrees(math.radians(3.0)), 13.0)
-
-
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize(
-    ("across", "along", "out", "prong"),
-    [(20.0, 0.0, 1.0, 6.0), (8.1, 0.0, 1.0, 3.5), (8.4, 4.9, 1.0, 3.5), (8.1, 5.1, 1.0, 6.0), (5.0, 0.0, 1.0, 3.0),
-     (8.1, 0.0, -3.0, 6.0)],
-)  # fmt: skip
-def test_the_block_stops_half_a_millimetre_before_what_stands_beside_the_window(
-    across: float, along: float, out: float, prong: float, sign: float
-) -> None:
+def test_the_block_stops_half_a_millimetre_before_what_stands_beside_the_window() -> None:
     """An N20's window is 8 x 10 mm; the block is 9 mm long, with 3 to 6 mm on either side, in halves of a millimetre.
 
     The thing is 2 mm wide and long, `across` and `along` from the window's middle, outside of the plate.
     """
     robot = built("kenan-2.0")
     layout, item = robot.layout, next(one for one in robot.hardware if one.body == "body")
-    corners = np.array([[x, y, z] for x in (across, across + 2.0) for y in (0.0, out) for z in (along, along + 2.0)])
-    turn = layout.motor_angle_rad
-    cos, sin = sign * math.cos(turn), sign * math.sin(turn)
-    points = np.column_stack([
-        layout.motor_mm[0] + cos * corners[:, 0] - sin * corners[:, 2],
-        layout.lateral.right_plate[0] - corners[:, 1],
-        layout.motor_mm[1] + sin * corners[:, 0] + cos * corners[:, 2],
-    ])  # fmt: skip
-    thing = replace(item, T_body_part=np.eye(4))
-    vars(thing)["look"] = SimpleNamespace(vertices=points)  # the mesh that is seen
-    assert _prong_mm(replace(robot, hardware=(thing,))) == prong
+    for across, along, out, prong in (
+        (20.0, 0.0, 1.0, 6.0), (8.1, 0.0, 1.0, 3.5), (8.4, 4.9, 1.0, 3.5), (8.1, 5.1, 1.0, 6.0), (5.0, 0.0, 1.0, 3.0),
+        (8.1, 0.0, -3.0, 6.0),
+    ):  # fmt: skip
+        for sign in (1.0, -1.0):
+            sides = (across, across + 2.0)
+            corners = np.array([[x, y, z] for x in sides for y in (0.0, out) for z in (along, along + 2.0)])
+            turn = layout.motor_angle_rad
+            cos, sin = sign * math.cos(turn), sign * math.sin(turn)
+            points = np.column_stack([
+                layout.motor_mm[0] + cos * corners[:, 0] - sin * corners[:, 2],
+                layout.lateral.right_plate[0] - corners[:, 1],
+                layout.motor_mm[1] + sin * corners[:, 0] + cos * corners[:, 2],
+            ])  # fmt: skip
+            thing = replace(item, T_body_part=np.eye(4))
+            vars(thing)["look"] = SimpleNamespace(vertices=points)  # the mesh that is seen
+            assert _prong_mm(replace(robot, hardware=(thing,))) == prong, (across, along, out, sign)
 
 
 def test_sizes_are_those_of_the_parts() -> None:
     """A rod of 3 mm in a bore reamed 0.1 mm wider; a rod may be 0.3 mm short, and then has as much more play."""
     robot = built("kenan-2.0")
-    words = expected(robot, [])
-    assert words["eye_drill"] == "3.1"
-    least, most = map(float, words["end_play"].split(" mm, or "))
+    found = values(robot)
+    assert found["reamed_mm"] == pytest.approx(3.1)
+    least, most = found["end_play_mm"]
     assert most - least == pytest.approx(0.3)
     rod = next(item for item in robot.hardware if item.name == "leg_axle")
     between = float(np.diff(robot.layout.lateral.outside)[0]) - 2.0 * AXLE_FLOOR_MM  # of the plates' closed bores
     assert least == pytest.approx(between - float(np.ptp(rod.look.vertices[:, 2])), abs=0.051)
-    assert figure(words, "motor_wire") == max(mm for *_, end, _, mm in wires(robot) if end.part == "motor")
-
-    def length(name: str) -> float:
-        return float(part(robot, name).mesh.extents[2])
-
-    right, left = length("front_spacer_right"), length("front_spacer_left")
-    assert words["front_tubes"] == f"{right:.1f} mm on the right, {left:.1f} mm on the left"
-    assert right != pytest.approx(left, abs=0.05)
-    for name, tube in (
-        ("bushing_left", "spring_bushing_left"), ("bushing_right", "spring_bushing_right"),
-        ("cam_tube", "cam_spacer_right"),
-    ):  # fmt: skip
-        assert figure(words, name) == pytest.approx(length(tube), abs=0.051)
+    assert found["motor_wire_mm"] == max(mm for *_, end, _, mm in wires(robot) if end.part == "motor")
+    for name in ("front_spacer_right", "front_spacer_left", "spring_bushing_left", "cam_spacer_right"):
+        assert found["tube_mm"][name] == pytest.approx(float(part(robot, name).mesh.extents[2]), abs=0.001)
+    two = geared()
+    for name in ("cam_spacer_left", "idler_spacer_right"):
+        assert values(two)["tube_mm"][name] == pytest.approx(float(part(two, name).mesh.extents[2]), abs=0.001)
     socket, cap = (placed(robot, name).bounds[:, 1] for name in ("body_plate_right", "motor_cap"))
-    assert figure(words, "clamp") == pytest.approx(cap[0] - socket[1], abs=1e-3)  # the cap lies on the motor
-    pins = {
-        item.article: (item.body, *(float(place) for place in item.T_body_part[[0, 2], 3])) for item in robot.hardware
-    }
-    design = robot.design
-    assert pins[words["ankle_pin"]] == ("foot", pytest.approx(0.0), pytest.approx(0.0))
-    assert pins[words["front_pin"]] == ("foot", pytest.approx(design.l4_mm), pytest.approx(0.0))
-    assert pins[words["leg_pin"]][0] == "main_leg"
-    assert (
-        words["axle_length"]
-        == f"{np.ptp([placed(robot, f'body_plate_{side}').bounds[:, 1] for side in ('left', 'right')]):.0f}"
-    )
-    wide, long = map(float, words["window"].split(" x "))
-    assert words["block"] == f"{wide + 12.0:g} x {long - 1.0:g}"
-    assert words["groove"] == f"{wide:g}"
+    assert found["clamp_mm"] == pytest.approx(cap[0] - socket[1], abs=1e-3)  # the cap lies on the motor
+    plates = [placed(robot, f"body_plate_{side}").bounds[:, 1] for side in ("left", "right")]
+    assert found["axle_length_mm"] == pytest.approx(float(np.ptp(plates)), abs=1e-3)
+    window, block = found["window_mm"], found["block_mm"]
+    assert block == pytest.approx((window[0] + 12.0, window[1] - 1.0))
+    assert found["program"] == numbers(robot)
 
 
 def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pytest.MonkeyPatch) -> None:
     """In steps of half a metre upwards; 3 m by 2 m where nothing is known of the jump."""
     robot = built("kenan-2.0")
 
-    def words(**jump: object) -> list[str]:
+    def told(**jump: object) -> tuple[object, ...]:
         monkeypatch.setattr(module, "simulate", lambda robot, engine: SimpleNamespace(**jump))
-        found = expected(robot, [])
-        return [found[name] for name in ("range", "rise", "far", "high")]
+        return tuple(_jump(robot)[name] for name in ("range_mm", "rise_mm", "far_m", "high_m"))
 
-    assert words(verdict="jump", ballistic_range_m=0.883, com_rise_m=0.634) == ["880", "630", "2", "1.5"]
-    assert words(verdict="jump", ballistic_range_m=0.31, com_rise_m=0.12) == ["310", "120", "1", "1"]
+    assert told(verdict="jump", ballistic_range_m=0.883, com_rise_m=0.634) == (880, 630, 2.0, 1.5)
+    assert told(verdict="jump", ballistic_range_m=0.31, com_rise_m=0.12) == (310, 120, 1.0, 1.0)
     for verdict, reach, rise in (("no jump", 0.9, 0.6), ("jump", None, 0.6), ("jump", 0.9, None)):
-        found = words(verdict=verdict, ballistic_range_m=reach, com_rise_m=rise)
-        assert found == ["0", "0", "3", "2"]
+        assert told(verdict=verdict, ballistic_range_m=reach, com_rise_m=rise) == (None, None, 3.0, 2.0)
 
     def refused(robot: object, engine: str) -> None:
         raise CannotBuildError("no engine")
 
     monkeypatch.setattr(module, "simulate", refused)
-    found = expected(robot, [])
-    assert [found[name] for name in ("range", "rise", "far", "high")] == ["?", "?", "3", "2"]
+    assert _jump(robot) == {"range_mm": None, "rise_mm": None, "far_m": 3.0, "high_m": 2.0}
 
 
-def test_screws_are_tightened_by_their_size_and_less_in_plastic_and_a_thumb_presses_in_newtons() -> None:
+def test_screws_are_tightened_by_their_size_and_less_in_plastic() -> None:
     """Usual tables give 1.3 N·m for M3 and 0.37 N·m for M2 of strength 8.8; M3 strips its thread in plastic sooner."""
-    words = expected(built("kenan-2.0"), [])
-    m3, m2, plastic = (figure(words, f"torque_{name}") for name in ("m3", "m2", "plastic"))
+    m3, m2, plastic = module.TORQUE_M3_NM, module.TORQUE_M2_NM, module.TORQUE_PLASTIC_NM
     assert 1.3 / 4.0 < m3 < 1.3 / 2.0
     assert 0.37 / 4.0 < m2 < 0.37 / 2.0
     assert m2 < plastic < m3
-    assert figure(words, "press_n") == module.PRESS_N
-
-
-def test_names_in_braces_are_replaced_and_steps_are_counted_from_one() -> None:
-    steps = [SimpleNamespace(key="trays"), SimpleNamespace(key="motor")]
-    words = expected(built("kenan-2.0"), steps)  # type: ignore[arg-type]
-    assert filled("from step {step_trays} to {step_motor}", words) == "from step 1 to 2"
-
-
-@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
-def test_a_sentence_may_go_on_with_switching_off(kit: str) -> None:
-    """In the middle of a sentence it begins with a small letter, and is the same otherwise."""
-    shop = load_workshop()
-    chosen = shop.catalogue.kits[kit].model_dump() | {"kit": kit}
-    robot = build(
-        load_design("best-printable"), shop.model_copy(update={"bought": shop.bought.model_copy(update=chosen)})
-    )
-    words = expected(robot, [])
-    first = {"light-1s": "Pull the USB cable", "strong-2s": "Switch off"}[kit]
-    assert words["off"].startswith(first)
-    assert words["off_then"] == first[0].lower() + words["off"][1:]
 
 
 def test_the_capacitors_wires_start_at_named_pins_of_the_driver() -> None:
     """Both poles; without a capacitor the pins have no name here."""
     robot = built("kenan-2.0")
-    found = expected(robot, [])["driver_supply"].split(" and ")
     driver = chosen_parts(robot.workshop).driver
-    assert len(found) == 2
-    pins = [words.removeprefix("the driver ") for words in found]
-    assert set(pins) <= set(driver.pins) | set(driver.supply_v)
-    assert pins[0] in driver.supply_v
-    assert pins[1] in driver.with_function("ground")
+    supply, ground = (one.removeprefix("driver ") for one in operation_values(robot)["driver_supply"])
+    assert supply in driver.supply_v
+    assert ground in driver.with_function("ground")
     bare = robot.workshop.model_copy(update={"bought": robot.workshop.bought.model_copy(update={"capacitor": ""})})
-    without = expected(replace(robot, workshop=bare), [])
-    assert without["driver_supply"] == "the driver's supply pins"
-    # a beep between the plug's poles is a short circuit, unless a capacitor is being charged
-    assert (without["beep"], expected(robot, [])["beep"]) == ("", " (a short beep is the capacitor)")
+    assert operation_values(replace(robot, workshop=bare))["driver_supply"] == []

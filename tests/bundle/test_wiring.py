@@ -1,28 +1,17 @@
-"""wiring.svg and the guide's wiring table for both kits: the drawing traced as a circuit; rows and notes."""
+"""wiring.svg for both kits, traced as a circuit, and the list of wires."""
 
 import itertools
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 import shapely
-from jumpcad.bundle.operation import charging
-from support.built import built, of_kit
+from support.built import of_kit
 
-from jumpcad.building import build
-from jumpcad.bundle import wiring as module
-from jumpcad.bundle.drawings.lead_drawing import leads_svg
-from jumpcad.bundle.drawings.soldering import soldering_svg
-from jumpcad.bundle.drawings.wiring import _boxes, _net_lines, _notes, drawings_of, wires, wiring_lines, wiring_svg
-from jumpcad.bundle.facts import jumps_per_charge
-from jumpcad.design import load_design
+from jumpcad.bundle.drawings.wiring import _boxes, _net_lines, wires, wiring_svg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.nets import Net, Terminal, Wiring, wiring_of
-from jumpcad.parts.lead_ways import way_words
 from jumpcad.robot import Robot
-from jumpcad.workshop import load_workshop
 
 SPACE = "{http://www.w3.org/2000/svg}"
 NO_LEADS = {"upper resistor", "lower resistor", "pull-up resistor", "diode"}
@@ -210,60 +199,6 @@ def test_every_net_has_one_wire_less_than_terminals(robot: Robot) -> None:
         assert {colour for *_, colour, _ in of_net} == {net.colour}
 
 
-def test_a_row_of_the_table_is_a_wire_from_its_source_on(robot: Robot) -> None:
-    lines = list(wiring_lines(robot))
-    first = lines.index("|--:|---|---|---|--:|---|") + 1
-    assert lines[first - 1].count("|") == lines[first - 2].count("|") == 7
-    for number, (_, start, end, colour, _) in enumerate(wires(robot), start=1):
-        cells = lines[first + number - 1].strip("| ").split(" | ")
-        assert cells[:4] == [str(number), f"{start.part} {start.pin}", f"{end.part} {end.pin}", colour]
-        assert cells[5] == way_words(robot.layout, start.part, end.part)
-    assert lines[first + len(wires(robot))] == ""
-
-
-def test_the_section_shows_the_drawings_in_the_order_of_the_work(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is connected, where it runs, what is soldered; the last one only where there is one."""
-    assert drawings_of(robot) == {
-        "wiring.svg": wiring_svg(robot), "leads.svg": leads_svg(robot), "soldering.svg": soldering_svg(robot),
-    }  # fmt: skip
-    lines = list(wiring_lines(robot))
-    assert lines[1] == "## Wiring"
-    assert [line for line in lines if line.startswith("![")] == [
-        f"![{name}]({name}.svg)" for name in ("wiring", "leads", "soldering")
-    ]
-    assert "The drawing shows what is connected, not where bodies lie" in "\n".join(lines)
-    monkeypatch.setattr(module, "soldering_svg", lambda _: "")
-    lines = list(wiring_lines(robot))
-    assert [line for line in lines if line.startswith("![")] == ["![wiring](wiring.svg)", "![leads](leads.svg)"]
-    assert "not where bodies lie" not in "\n".join(lines)
-    assert drawings_of(robot)["soldering.svg"] == ""
-
-
-def test_the_notes_say_how_the_battery_is_charged(robot: Robot) -> None:
-    """A controller behind a regulator has battery pads that stay empty; one without such pads is not spoken of so."""
-    chosen, wiring = net_list(robot)
-    (line,) = (line for line in _notes(chosen, wiring) if line.startswith("- Charge "))
-    assert line.startswith(f"- {charging(chosen)}")
-    if chosen.regulator is None:
-        assert line == f"- {charging(chosen)}"
-        return
-    assert line.endswith(" The controller's battery pads stay empty")
-    pins = {name: uses for name, uses in chosen.controller.pins.items() if "battery" not in uses}
-    plain = replace(chosen, controller=chosen.controller.model_copy(update={"pins": pins}))
-    assert "pads stay empty" not in "\n".join(_notes(plain, wiring))
-
-
-def test_the_notes_speak_only_of_parts_that_are_there(robot: Robot) -> None:
-    chosen, wiring = net_list(robot)
-    without = {role: part for role, part in chosen.components.items() if role not in ("sensor", "diode")}
-    fewer = "\n".join(_notes(replace(chosen, components=without), replace(wiring, upper_ohm=None, pull_up_ohm=None)))
-    for words in ("COM and NC", "plunger", "diode", "resistors", "resistor"):
-        assert words not in fewer
-    whole = "\n".join(_notes(chosen, wiring))
-    for words in ("sensor, by multimeter: COM and NC have contact only while the plunger is free", "0.1 W or more"):
-        assert words in whole
-
-
 def test_the_drawing_names_every_terminal_and_is_the_same_each_time(robot: Robot) -> None:
     drawing = wiring_svg(robot)
     assert drawing == wiring_svg(robot)
@@ -278,48 +213,6 @@ def test_the_drawing_names_every_terminal_and_is_the_same_each_time(robot: Robot
             assert 30.0 <= length <= 250.0
     resistors = [end for _, start, end, _, _ in wires(robot) if end.part == "pull-up resistor"]
     assert {(end.pin) for end in resistors} == {"1", "2"}
-    table = [line for line in wiring_lines(robot) if line.startswith("| ")]
-    assert len(table) == len(wires(robot)) + 1
-
-
-def test_what_a_jump_takes_is_told_in_its_shares(robot: Robot) -> None:
-    """Joules of motor and boards add up; the boards' are their share of the time that winding takes."""
-    text, train = "\n".join(wiring_lines(robot)), robot.layout.drive.train
-    found = re.search(
-        r"takes ([\d.]+) J from the battery: ([\d.]+) J the motor, ([\d.]+) J the boards while it winds for ([\d.]+) "
-        r"s; .* lasts for about (\d+) jumps",
-        text,
-    )
-    assert found is not None
-    whole, motor, boards, seconds, jumps = map(float, found.groups())
-    assert whole == pytest.approx(motor + boards, abs=0.011)
-    assert (motor, boards) == pytest.approx((train.motor_j, train.boards_j), abs=0.0051)
-    assert seconds == pytest.approx(train.winding_s, abs=0.051)
-    assert jumps == pytest.approx(jumps_per_charge(robot), rel=0.05)
-
-
-def test_which_ground_is_used_is_said_where_there_are_two(robot: Robot) -> None:
-    """The controller's battery pads are joined to its ground; behind a regulator they stay empty."""
-    text = "\n".join(wiring_lines(robot))
-    one = not robot.workshop.bought.regulator
-    assert ("BAT- and GND of the controller are connected on the board" in text) == one
-    assert ("The controller's battery pads stay empty" in text) != one
-    assert ("diode: K is the end with the ring" in text) != one
-    chosen = chosen_parts(robot.workshop)
-    pins = {name: uses for name, uses in chosen.controller.pins.items() if name != "BAT-"}
-    alone = replace(chosen, controller=chosen.controller.model_copy(update={"pins": pins}))
-    assert len(alone.controller.with_function("ground")) == 1
-    assert "are connected on the board" not in "\n".join(_notes(alone, wiring_of(chosen, robot.workshop.bought.pins)))
-
-
-@pytest.mark.parametrize("level", [0, 1])
-def test_the_notes_on_the_sensor_are_those_of_its_contact(robot: Robot, level: int) -> None:
-    """A contact that opens at the ready position leaves its pin pulled up, at 1: that of COM and NC."""
-    chosen = chosen_parts(robot.workshop)
-    resistors = wiring_of(chosen, robot.workshop.bought.pins).resistors
-    text = "\n".join(_notes(chosen, SimpleNamespace(ready_level=level, resistors=resistors)))  # type: ignore[arg-type]
-    assert ("use COM and NC: pressed, the contact opens" in text) == (level == 1)
-    assert ("known limit: this sensor has no contact that opens" in text) == (level == 0)
 
 
 def test_the_drawing_names_resistors_in_kiloohms(robot: Robot) -> None:
@@ -328,9 +221,6 @@ def test_the_drawing_names_resistors_in_kiloohms(robot: Robot) -> None:
     for name, ohm in wiring.resistors.items():
         (said,) = set(re.findall(rf"{name}: ([\d.]+) kΩ", drawn))
         assert 1000.0 * float(said) == ohm
-    (note,) = (one for one in _notes(chosen_parts(robot.workshop), wiring) if one.startswith("- resistors: "))
-    said = {f"{name} resistor": 1000.0 * float(kilo) for name, kilo in re.findall(r"([\w-]+) ([\d.]+) kΩ", note)}
-    assert said == wiring.resistors
 
 
 def test_parts_are_called_by_their_articles_in_the_drawing(robot: Robot) -> None:
@@ -345,18 +235,3 @@ def test_parts_are_called_by_their_articles_in_the_drawing(robot: Robot) -> None
         *named,
         *wiring_of(chosen, robot.workshop.bought.pins).resistors,
     }
-
-
-def test_a_wire_is_cut_to_whole_millimetres_and_legs_of_parts_are_none(robot: Robot) -> None:
-    rows = [line.split(" | ") for line in wiring_lines(robot) if line.startswith("| ") and "no." not in line]
-    cut = [f"{length:.0f}" if length else "none" for *_, length in wires(robot)]
-    assert [row[4] for row in rows] == cut
-    assert "none" in cut
-
-
-def test_without_a_capacitor_no_note_speaks_of_one() -> None:
-    """Then a beep between the plug's poles is a short circuit."""
-    shop, kenan = load_workshop(), load_design("kenan-2.0")
-    without = shop.model_copy(update={"bought": shop.bought.model_copy(update={"capacitor": ""})})
-    assert "a short beep is the capacitor" in "\n".join(wiring_lines(built("kenan-2.0")))
-    assert "capacitor" not in "\n".join(wiring_lines(build(kenan, without)))

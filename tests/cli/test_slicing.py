@@ -74,7 +74,7 @@ def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, prete
     assert lines["ring"]["print_time_s"] == lines["plate-1-PLA"]["print_time_s"] == "3750"
     assert {line["print_time_s"] for line in lines.values() if line["kind"] == "bought"} == {""}
     assert [line["print_time_s"] for line in lines.values() if line["kind"] == "total"] == ["7500"]
-    assert "| ring | 4 | PETG | 0.12 | 1:02 h |" in (bundle / "assembly.md").read_text()
+    assert "| plate-1-PLA | 1:02 h |" in (bundle / "assembly.md").read_text()
     assert verify(bundle) == []
     before, after = (open_bundle(folder).manifest for folder in (built, bundle))
     changed = {path for path in after["files"] if after["files"][path] != before["files"][path]}

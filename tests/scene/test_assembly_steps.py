@@ -9,18 +9,15 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.built import LONG_TOES, built, geared
-from support.built import placed as placed_mesh
+from support.built import LONG_TOES, built
 
 from jumpcad.building import build
-from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_order import ORDER
-from jumpcad.scene.assembly_order.plan import HEX_AXLE, HEX_M3, NUT_M3, Move, Plan, Words
-from jumpcad.scene.assembly_steps import REST, SIDES, Step, _texts, assembly_steps, travel
+from jumpcad.scene.assembly_order.plan import HEX_AXLE, HEX_M3, NUT_M3, Move
+from jumpcad.scene.assembly_steps import REST, SIDES, Step, assembly_steps, travel
 from jumpcad.scene.step_views import step_views
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import pose_about_y, pose_about_z
@@ -139,33 +136,6 @@ def test_a_key_needs_the_room_of_its_hexagon_and_a_nut_driver_that_of_a_nut() ->
         corners_mm = across_mm / math.cos(math.radians(30.0))
         assert corners_mm - 0.05 < tool.diameter_mm < corners_mm + 3.0, tool.name
     assert HEX_M3.length_mm == 50.0
-
-
-REFERENCES = {
-    "stays out until step {step_arm}": "leg_spring_pin",
-    "come onto the foot in step {step_feet}": "toe_left",
-    "strapped in for good in step {step_trays}": "Now strap it in",
-    "stay free until step {step_left}": "sensor",
-    "under the screw's head in step {step_close}": "standoff_1_screw_left",
-    "strap it in as in step {step_lower}": "strap_battery",
-    "It comes off in step {step_close}": "Pull the strip of tape off the springs' pin",
-    "The sensor's check of step {step_left}": "Pressed on the inside, the plunger clicks",
-}
-"""Where texts refer to other steps, and what is put on or said there."""
-
-
-def test_steps_that_texts_refer_to_are_those_in_which_it_is_done() -> None:
-    def words(*plans: Plan) -> str:
-        return " ".join(one.text for plan in plans for one in (*plan.text, *plan.warnings, *plan.checks))
-
-    keys = re.compile(r"\{step_(\w+)\}")
-    plans, said = {plan.key: plan for plan in ORDER}, words(*ORDER)
-    assert sorted(keys.findall(said)) == sorted(key for text in REFERENCES for key in keys.findall(text))
-    for text, done in REFERENCES.items():
-        assert said.count(text) == 1, text
-        there = plans[keys.findall(text)[0]]
-        put = any(re.fullmatch(move.parts, done) for move in there.moves)
-        assert put or done in words(there), text
 
 
 def test_what_no_step_knows_is_not_forgotten(small_robot: Robot) -> None:
@@ -288,16 +258,6 @@ def test_what_is_laid_on_a_tray_comes_square_to_it() -> None:
     np.testing.assert_allclose(turned[:3, :3].T @ found, [0.0, 0.0, -1.0], atol=1e-12)
 
 
-def test_warnings_come_as_warnings_and_checks_as_checks(robot: Robot) -> None:
-    plans, found = {plan.key: plan for plan in ORDER}, Counter[str]()
-    for step in assembly_steps(robot):
-        for kind in ("text", "warnings", "checks"):
-            ours, planned = getattr(step, kind), [words.text for words in getattr(plans[step.key], kind)]
-            assert set(ours) <= set(planned), step.key
-            found[kind] += len(ours)
-    assert min(found.values()) > 3
-
-
 def test_what_is_glued_together_is_listed_where_it_is_glued() -> None:
     """Bars come with the ends into which they are glued; the glued front link is put on as one piece."""
     steps = assembly_steps(built("kenan-2.0", leg="carbon-strip-3x6"))
@@ -308,104 +268,9 @@ def test_what_is_glued_together_is_listed_where_it_is_glued() -> None:
     for bar, ends in glued.items():
         (step,) = (step for step in steps if bar in {thing.name for thing in step.added})
         assert ends <= {thing.name for thing in step.added}
-        assert any("bar" in text and "glue" in text.lower() for text in step.text)
-    (legs,) = (step for step in steps if step.key == "legs")
+        (legs,) = (step for step in steps if step.key == "legs")
     assert {"leg", "front link"} <= {placed.move.brings for placed in legs.placed}
     assert "front" not in {step.key for step in assembly_steps(built("kenan-2.0"))}
-
-
-FIGURES = {
-    "after_ms": "stops # ms later", "ankle_pin": "where the toes meet and push # through from the left",
-    "arm_n": r"right one's; # N at most|# N where an arm is \{wider\}° wider", "axle_length": "rods .* # mm long",
-    "battery_v": "# V at rest", "block": "wood of # mm", "boards_a": r"shows # and \{free_a\} A",
-    "boards_ma": "about # mA while the motor stands", "bushing_left": "RIGHT-HAND spring; the bushing of # mm",
-    "bushing_right": "Leg axle: the bushing of # mm; over it the LEFT-HAND spring", "cam_left_tube": "tube [(]# mm",
-    "cam_tube": "Cam axle: its tube [(]# mm", "cam_turn": "turn, # as seen from the left", "clamp": "above it [(]# mm",
-    "contact": "solder them to COM and #", "divider_pin": "ground and #:", "divider_share": ": # of that",
-    "divider_v": "of that [(]# V", "dog_play": "from jaw to jaw, by #°", "dry_s": "It winds in about # s and stops",
-    "end_play": "moved along by # mm", "energy": "can be loaded: # J", "eye_drill": "drill (or reamer )?of # mm",
-    "far": "# m free ahead", "foot_n": "pulled forward; # N", "free": "sensor, # where|unplugged: #; pressed",
-    "free_a": "and # A", "free_ma": "# mA while it turns", "free_rpm": "shaft alone turns with about # rpm",
-    "front_pin": "lugs of the nose, with #", "front_tubes": "Front axle: .* [(]#", "groove": "groove # mm wide",
-    "high": "and # m above", "idler_tube": "Idler axle: its tube [(]# mm", "landing_s": "For # s after",
-    "leg_pin": "Drop the pin [(]#", "lift": "over #° of its turn", "min_v": "at least # V", "motor_turn": "must turn #",
-    "motor_wire": "motor's two wires first [(]# mm each", "nominal_v": "V at # V", "nutted_screws": "without thread: #",
-    "peak_ma": "# mA at most", "pin_hole": "hole in the left plate, # mm wide", "preload": "springs are loaded by #°",
-    "preload_n": r"right one's; # N, and \{arm_n|# N each", "press_n": "cut. # N at most", "pressed": "pressed, #",
-    "push_ms": "set free within # ms", "range": "it jumps # mm far", "ready_deg": "clicks #° before",
-    "release_ms": "let go at once, within # ms|leg falls within # ms", "rise": "and # mm high", "stroke": "it by #°",
-    "state_off": "to # V of the multimeter", "strap": "Cut its strap to # mm", "torque_m3": "the washer .*: # N·m",
-    "torque_m2": "two screws into the plastic(:|.*and no further:) # N·m", "wider": "#° wider than ordered",
-    "torque_plastic": "(for good,|right plate.* from outside:|stubs from outside:) # N·m", "window": "window of # mm",
-    "wind_j": "# J; do not connect", "wind_ma": "# mA from the battery on average", "wind_s": "in about # s. Of that",
-    "wind_max": "motor that runs for # s and says|turns for # s at most",
-}  # fmt: skip
-"""What a text says of each figure that it has in braces."""
-
-
-def test_every_figure_stands_where_its_words_are() -> None:
-    texts = [one.text for plan in ORDER for kind in (plan.text, plan.warnings, plan.checks) for one in kind]
-    for name, words in FIGURES.items():
-        field = f"{{{name}}}"
-        said, found = re.compile(words.replace("#", re.escape(field))), [text for text in texts if field in text]
-        assert found, name
-        for text in found:
-            assert text.count(field) == len(said.findall(text)), text
-
-
-@pytest.mark.parametrize("boss_mm", [0.0, 2.0])
-def test_the_springs_pin_leans_on_a_boss_or_on_a_strip_of_tape(boss_mm: float) -> None:
-    robot = built("kenan-2.0")
-    steps = assembly_steps(replace(robot, layout=replace(robot.layout, spring_boss_mm=boss_mm)))
-    words = " ".join(text for step in steps for text in step.text)
-    tape = ("adhesive tape from it to the plate", "Pull the strip of tape off the springs' pin")
-    found = [text in words for text in ("its boss on the plate holds it", *tape)]
-    assert found == [boss_mm > 0.0, boss_mm == 0.0, boss_mm == 0.0]
-
-
-@pytest.mark.parametrize("retention", ["", "clips", "nuts"])
-def test_what_stands_in_open_bores_is_kept_from_falling_through(retention: str) -> None:
-    """Tape closes the lower plate's bores where its mesh is open outside; it comes off before screws or clips go on."""
-    robot = _retained(retention)
-    outside = robot.layout.lateral.right_plate[0] + 0.3
-    spot = [[robot.layout.hub_mm[0], outside, robot.layout.hub_mm[1]]]
-    is_open = not placed_mesh(robot, "body_plate_right").contains(spot)[0]
-    (legs,), (close,) = ([step for step in assembly_steps(robot) if step.key == key] for key in ("legs", "close"))
-    (stands,) = (number for number, text in enumerate(legs.text) if text.startswith("Stand the axles"))
-    closed = ["stick adhesive tape over those of the right plate, outside" in text for text in legs.text[:stands]]
-    opened = [text.startswith("Pull the tape off the right plate's bores") for text in close.text]
-    assert sum(closed) == sum(opened) == is_open == bool(retention)
-
-
-TOLD = {
-    "rods of their diameter": "nuts", "stick adhesive tape over those": "clips nuts", "turn the lock nuts on": "nuts",
-    "closed bores of both plates hold the axles": "plates geared toes", "a clip into every groove": "clips",
-    "their nuts touch the plate": "nuts", "at the springs' pin, the others are covered": "plates geared toes",
-    "Idler axle: its tube": "geared", "Then the idler": "geared",
-    "Bend the split pins' ends": "plates nuts geared toes",
-    "Press the clips into the grooves": "clips", "cross hole points forwards": "plates nuts geared toes",
-    "the groove at one end of the pin": "clips", "the groove at the pin's right end": "clips", "Screw the toes": "toes",
-    "head is on the left, its split pin": "plates nuts geared toes", "both clips are in their grooves": "clips",
-    "The toes, with their pads, come": "toes",
-}  # fmt: skip
-"""Which of five robots are told what; all, of what has other words for each."""
-
-
-def test_a_robot_is_told_of_what_it_has_and_of_nothing_else() -> None:
-    robots = {"plates": built("kenan-2.0"), "clips": _retained("clips"), "nuts": _retained("nuts"),
-              "geared": geared(), "toes": built(LONG_TOES)}  # fmt: skip
-    assert [name for name, robot in robots.items() if robot.layout.toes_apart] == ["toes"]
-    for name, robot in robots.items():
-        steps = assembly_steps(robot)
-        said = " ".join(text for step in steps for kind in (step.text, step.warnings, step.checks) for text in kind)
-        for words, told in TOLD.items():
-            assert said.count(words) == (name in told.split()), (name, words)
-        for words in (
-            "Left plate and its screws for good",
-            "The leg still swings freely",
-            "The shaft alone turns with",
-        ):
-            assert said.count(words) == 1, (name, words)
 
 
 def test_what_stands_out_of_a_plate_is_put_on_from_outside(robot: Robot) -> None:
@@ -436,76 +301,6 @@ def test_pads_are_put_on_what_is_there(name: str) -> None:
         assert names.index(under) < names.index(pad)
         _, move, thing = put[names.index(pad)]
         assert travel(robot, thing, move, poses[thing.body])[2] > 0.99, pad
-
-
-@pytest.mark.parametrize("preload_rad", [0.0, 0.1])
-def test_springs_with_a_preload_are_put_on_with_a_screwdriver(preload_rad: float) -> None:
-    robot = built("kenan-2.0")
-    layout = robot.layout
-    drive = replace(layout.drive, spring=replace(layout.drive.spring, preload_rad=preload_rad))
-    steps = assembly_steps(replace(robot, layout=replace(layout, drive=drive)))
-    words = " ".join(text for step in steps for text in (*step.text, *step.warnings))
-    for said, with_preload in (
-        ("The springs are loaded by", True), ("On the stop, too, the springs are loaded", True),
-        ("An arm may be up to", False),
-    ):  # fmt: skip
-        assert words.count(said) == (with_preload == (preload_rad > 0.0)), said
-
-
-@pytest.mark.parametrize(
-    ("key", "names", "said", "unsaid"),
-    [
-        ("foot", ("nose_pad_1",), ("Degrease the soles with alcohol. Cut the pads",), ("Roughen soles",)),
-        ("foot", ("nose_pad_1", "printed_nose_pad_1"), ("Roughen soles and printed pads",), ("Cut the pads to size",)),
-        ("foot", (), ("Open the eyes of the front link",), ("Degrease", "Roughen", "The toes, with their pads")),
-        ("foot", ("front_link_bar",), ("The holes of the foot must let",), ("Open the eyes of the front link",)),
-        ("stop", ("printed_stop_pad",), ("Glue the pad into its seat", "The pad is printed"), ()),
-        ("stop", (), ("Glue the pad into its seat",), ("The pad is printed",)),
-    ],
-)
-def test_pads_and_eyes_are_made_ready_as_they_are_made(
-    key: str, names: tuple[str, ...], said: tuple[str, ...], unsaid: tuple[str, ...]
-) -> None:
-    """Pads that are cut and pressed on, or printed and glued, feet without; a front link whole or of a bar."""
-    (plan,) = (plan for plan in ORDER if plan.key == key)
-    words = " ".join(_texts(plan.text, list(names)))
-    assert [words.count(one) for one in (*said, *unsaid)] == [1] * len(said) + [0] * len(unsaid)
-
-
-@pytest.mark.parametrize(
-    ("button", "regulator", "readable"),
-    [("D9", "", True), ("", "s7v7f5", True), ("D9", "s7v7f5", True), ("", "", False)],
-)
-def test_the_current_is_read_where_the_battery_alone_feeds_the_driver(
-    button: str, regulator: str, readable: bool
-) -> None:
-    """Without a button USB stays in, and feeds the driver too where no regulator is between."""
-    robot, boards = built("kenan-2.0"), load_catalogue().boards
-    assert "switch" in {thing.name for thing in visuals(robot)}
-    held = robot.layout.electronics
-    changed = replace(
-        held,
-        controller=held.controller.model_copy(update={"button": button}),
-        regulator=boards[regulator] if regulator else None,
-    )
-    steps = assembly_steps(replace(robot, layout=replace(robot.layout, electronics=changed)))
-    words = " ".join(text for step in steps for text in (*step.text, *step.checks))
-    assert words.count("multimeter on its 10 A range") == words.count("the 10 A range shows") == readable
-    assert words.count("reaches the board's button") == bool(button)
-
-
-@pytest.mark.parametrize(
-    ("needs", "lacks", "said"),
-    [
-        ("", "", True), ("gear_.*", "", True), ("idler", "", False), ("", "idler", True), ("", "gear_.*", False),
-        ("gear_1", "idler", True), ("gear_1", "gear_2", False), ("idler", "toe", False), ("gear", "", False),
-    ],
-)  # fmt: skip
-def test_words_are_said_of_a_robot_that_has_what_they_need_and_lacks_what_they_lack(
-    needs: str, lacks: str, said: bool
-) -> None:
-    """Patterns of whole names."""
-    assert _texts([Words("so", needs, lacks)], ["gear_1", "gear_2"]) == (("so",) if said else ())
 
 
 def test_what_is_only_tried_or_brought_from_earlier_steps_is_not_added() -> None:

@@ -25,6 +25,7 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.spring_wire import ORDERED
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_steps import Step
 from jumpcad.scene.step_views import motor_sense
 from jumpcad.simulation import default_engine, simulate
@@ -57,7 +58,8 @@ def guide_values(robot: Robot, steps: Sequence[Step], bill: Bill) -> Mapping[str
         | {
             "mass_g": 1000.0 * robot.mass_kg,
             "broken": [finding.name for finding in errors(quick_findings(robot))],
-            "number": {step.key: number for number, step in enumerate(steps, start=1)},
+            "number": dict.fromkeys((plan.key for plan in ORDER), "")
+            | {step.key: str(number) for number, step in enumerate(steps, start=1)},
             "tools": sorted({one.move.tool.name for step in steps for one in step.placed if one.move.tool}),
             "pair_percent": PAIR_PERCENT,
             "ordered": ORDERED,
@@ -93,7 +95,6 @@ def _springs(robot: Robot) -> dict[str, Any]:
     without = spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)
     return {
         "spring": spring,
-        "scatter": robot.workshop.safety.spring_rate_scatter,
         "loadings": robot.workshop.safety.jumps,
         "asked_rate": robot.design.stiffness_nmm_per_deg / 2.0,
         "free_deg": math.degrees(spring.free_arm_angle_rad),

@@ -38,7 +38,7 @@ def operation_values(robot: Robot) -> dict[str, Any]:
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
     duty = supply.duty(train.motor, workshop.safety.motor_torque_max_nm)
     # the battery gives that share of the motor's current: in PWM's pauses some of it flows back
-    free_a, peak_a = (duty * motor_a for motor_a in (train.motor.no_load_current_a, train.peak_current_a))
+    free_a = duty * train.motor.no_load_current_a
     boards_a = supply.boards_w / supply.nominal_v
     rate = None if controller.charge_ma is None else controller.charge_ma / battery.capacity_mah
     cuts = lead_lengths(robot.layout, wiring)
@@ -67,7 +67,6 @@ def operation_values(robot: Robot) -> dict[str, Any]:
         "resistors": wiring.resistors,
         "opens": bool(wiring.ready_level),
         "contact": wiring.contact,
-        "grounds": controller.with_function("ground"),
         "battery_pads": controller.with_function("battery"),
         "driver_supply": [str(one) for _, one, end, *_ in cuts if end.part == "capacitor" and one.part == "driver"],
         "motor_plus": next((str(one) for _, one, end, *_ in cuts if (end.part, end.pin) == ("motor", "+")), "motor +"),
@@ -75,12 +74,8 @@ def operation_values(robot: Robot) -> dict[str, Any]:
         # a bench supply feeds the controller only if its own button starts it: else USB does
         "boards_a": boards_a if controller.button else boards_beside_a(chosen),
         "free_a": free_a + (boards_a if controller.button else boards_beside_a(chosen)),
-        "peak_a": peak_a + boards_a,
-        "wind_a": train.electrical_j / supply.nominal_v / train.winding_s,
         "wind_s": train.winding_s,
         "wind_j": train.electrical_j,
-        "motor_j": train.motor_j,
-        "boards_j": train.boards_j,
         "free_rpm": free.no_load_rpm,
         "dry_s": 2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0),
         "after_ms": AFTER_RELEASE_MS,

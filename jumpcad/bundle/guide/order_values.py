@@ -14,7 +14,7 @@ from jumpcad.electronics.nets import wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.exporters.threemf import pad_plates
 from jumpcad.layout.leg_bars import END_PLAY_MM
-from jumpcad.parts.fittings import KNOB_MM, SWITCH_SCREWS_MM
+from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.leads import metres_by_colour
 from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.wired import SWITCH_EAR_MM
@@ -59,8 +59,6 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
     pads, billed = printed_pads(robot.hardware, workshop), {item.name for item in bill.items}
     usb = layout.fittings.usb_size_mm if layout.fittings.usb_mm is not None else None
     return {
-        "process": workshop.process,
-        "printer": workshop.printer,
         "plates": [plate.name for plate in (*plates, *pad_plates(pads, workshop))],
         "pads": {
             kind: sum(1000.0 * one.item.mass_kg for one in pads if one.pad.description == kind)
@@ -197,8 +195,6 @@ def _switch(robot: Robot) -> dict[str, Any] | None:
     return {
         "article": fittings.switch,
         "holes_mm": 2.0 * SWITCH_SCREWS_MM,
-        "slot_mm": KNOB_MM,
-        "plate_mm": plate,
         "out_mm": plate + SLIDER_MM,
         "blocked_a": blocked_a,
         "nutted": nutted_screw(robot),
