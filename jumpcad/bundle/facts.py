@@ -7,7 +7,6 @@ from jumpcad.checks.electronics import links
 from jumpcad.checks.sideways import play_rad, rolls
 from jumpcad.drive.release import Release
 from jumpcad.drive.rolling import ReleaseParts
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
@@ -106,7 +105,7 @@ def stop_facts(robot: Robot) -> dict[str, Any]:
 
 def electronics_facts(robot: Robot) -> dict[str, Any]:
     """Return the battery's voltages (empty, full), and for each part the supplied and the permitted voltages."""
-    chosen, train = chosen_parts(robot.workshop), robot.layout.drive.train
+    chosen, train = robot.electrical_parts, robot.layout.drive.train
     supply = supply_of(chosen)
     empty, full = chosen.battery.range_v
     chained = [
@@ -133,7 +132,7 @@ def electronics_facts(robot: Robot) -> dict[str, Any]:
 
 def jumps_per_charge(robot: Robot) -> int:
     """Return how often a full battery winds the springs, without what the boards take while the robot waits."""
-    usable = USABLE * supply_of(chosen_parts(robot.workshop)).usable_j
+    usable = USABLE * supply_of(robot.electrical_parts).usable_j
     return int(usable / robot.layout.drive.train.electrical_j)
 
 

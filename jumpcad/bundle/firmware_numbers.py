@@ -4,8 +4,7 @@ import math
 
 from jumpcad.catalogue import Battery
 from jumpcad.checks.sensor import RUN_ON_S
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import gpio, wiring_of
+from jumpcad.electronics.nets import gpio
 from jumpcad.electronics.supply import supply_of
 from jumpcad.robot import Robot
 
@@ -34,8 +33,8 @@ Judgement: a winding lowers the voltage by less, also with an old battery of thr
 def numbers(robot: Robot) -> dict[str, float | int | None]:
     """Return this robot's numbers, by the names that the firmware uses."""
     workshop, train = robot.workshop, robot.layout.drive.train
-    chosen = chosen_parts(workshop)
-    supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
+    chosen = robot.electrical_parts
+    supply, wiring = supply_of(chosen), robot.wiring
     torque_max = workshop.safety.motor_torque_max_nm
     slow = supply.driven(train.motor, supply.empty_v, torque_max)
     fast = supply.driven(train.motor, supply.full_v, torque_max)

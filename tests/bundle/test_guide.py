@@ -22,7 +22,6 @@ from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.bundle.guide.markdown import bill_text, duration, put_on, with_bill, write_guide
 from jumpcad.bundle.step_pictures import named_views
 from jumpcad.design import Design
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files import template_names, templates_folder
 from jumpcad.files.rendering import environment, render
 from jumpcad.findings import limit
@@ -214,18 +213,14 @@ def test_two_cells_are_never_charged_inside_the_robot() -> None:
 
 
 @pytest.mark.thorough
-def test_a_board_without_a_button_is_told_by_typing_and_reads_no_current_of_usb(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_board_without_a_button_is_told_by_typing_and_reads_no_current_of_usb() -> None:
     """Commands come over USB, which feeds the controller; on one cell its charger feeds the driver as well."""
     for kit, readable in (("light-1s", False), ("strong-2s", True)):
         shop = varied(load_workshop(), {"bought.kit": kit})
-        parts = chosen_parts(shop)
-        parts = replace(parts, controller=parts.controller.model_copy(update={"button": ""}))
-        robot = build(design("kenan-2.0"), shop, "own")
-        held = replace(robot.layout.electronics, controller=parts.controller)
-        monkeypatch.setattr(operation_values, "chosen_parts", lambda _, parts=parts: parts)
-        text = write_guide(replace(robot, layout=replace(robot.layout, electronics=held)))
+        name = shop.bought.controller
+        board = shop.catalogue.boards[name].model_copy(update={"button": ""})
+        shop = shop.model_copy(update={"boards": shop.boards | {name: board}})
+        text = write_guide(build(design("kenan-2.0"), shop, "own"))
         assert "the button" not in text, kit
         assert "Type `wind`." in text, kit
         assert ("10 A range on its terminals" in text) == ("mA standing" in text) == readable, kit

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import wiring_of
 from jumpcad.layout.layout import Layout
 from jumpcad.parts.lead_ways import battery_way, corners, outer_way, plate_of
 from jumpcad.parts.leads import lead_lengths
@@ -29,7 +27,7 @@ class Lead:
 
 def leads_of(robot: Robot) -> list[Lead]:
     """Return every lead that is no part's own leg, side by side with the others at its parts."""
-    layout, wiring = robot.layout, wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)
+    layout, wiring = robot.layout, robot.wiring
     rows = [
         (number, colour, (start.part, end.part))
         for number, (_, start, end, colour, length) in enumerate(lead_lengths(layout, wiring), start=1)

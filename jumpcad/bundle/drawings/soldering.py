@@ -3,8 +3,7 @@
 from collections.abc import Iterator
 from html import escape
 
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import AT, Terminal, Wiring, wiring_of
+from jumpcad.electronics.nets import AT, Terminal, Wiring
 from jumpcad.parts.leads import OWN_LEGS
 from jumpcad.robot import Robot
 
@@ -17,8 +16,8 @@ Point = tuple[float, float]
 
 def soldering_svg(robot: Robot) -> str:
     """Return the drawing; empty where nothing is soldered so, or where the board's sides are not known."""
-    chosen = chosen_parts(robot.workshop)
-    board, wiring = chosen.controller, wiring_of(chosen, robot.workshop.bought.pins)
+    chosen = robot.electrical_parts
+    board, wiring = chosen.controller, robot.wiring
     legs = {name: legs for name in OWN_LEGS if (legs := _legs(wiring, name))}
     if not legs or not (board.left or board.right):
         return ""

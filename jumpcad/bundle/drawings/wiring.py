@@ -5,8 +5,8 @@ from html import escape
 
 from jumpcad.bundle.drawings.lead_drawing import STROKES, leads_svg
 from jumpcad.bundle.drawings.soldering import soldering_svg
-from jumpcad.electronics.chosen import Chosen, chosen_parts
-from jumpcad.electronics.nets import Net, Terminal, Wiring, wiring_of
+from jumpcad.electronics.chosen import Chosen
+from jumpcad.electronics.nets import Net, Terminal, Wiring
 from jumpcad.parts.leads import lead_lengths
 from jumpcad.robot import Robot
 
@@ -23,13 +23,13 @@ def drawings_of(robot: Robot) -> dict[str, str]:
 
 def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
     """Return every wire: its net, both ends, colour and length to cut (mm)."""
-    return lead_lengths(robot.layout, wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins))
+    return lead_lengths(robot.layout, robot.wiring)
 
 
 def wiring_svg(robot: Robot) -> str:
     """Return a drawing of the net list: parts as boxes with their terminals, every net in a lane of its own (mm)."""
-    chosen = chosen_parts(robot.workshop)
-    wiring = wiring_of(chosen, robot.workshop.bought.pins)
+    chosen = robot.electrical_parts
+    wiring = robot.wiring
     boxes, ends, height = _boxes(wiring.nets, _titles(chosen, wiring, robot))
     lanes = {net.name: index for index, net in enumerate(wiring.nets)}
     width = MARGIN_MM + COLUMN_MM * (len(COLUMNS) - 1) + BOX_MM + 4.0 * len(lanes) + 2.0 * MARGIN_MM

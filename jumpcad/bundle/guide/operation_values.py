@@ -10,8 +10,7 @@ from jumpcad.bundle.firmware_numbers import (
     numbers,
 )
 from jumpcad.catalogue.electrical import DEAD_CELL_V
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import LOWER_OHM, Wiring, wiring_of
+from jumpcad.electronics.nets import LOWER_OHM, Wiring
 from jumpcad.electronics.supply import boards_beside_a, supply_of
 from jumpcad.parts.leads import lead_lengths
 from jumpcad.robot import Robot
@@ -32,8 +31,8 @@ CONVERTER_V = 0.035
 def operation_values(robot: Robot) -> dict[str, Any]:
     """Return articles, currents (mA), voltages (V), times (s, ms) and energies (J) by the names that templates use."""
     workshop, train, cam = robot.workshop, robot.layout.drive.train, robot.layout.drive.cam
-    chosen, program = chosen_parts(workshop), numbers(robot)
-    supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
+    chosen, program = robot.electrical_parts, numbers(robot)
+    supply, wiring = supply_of(chosen), robot.wiring
     battery, controller = chosen.battery, chosen.controller
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
     duty = supply.duty(train.motor, workshop.safety.motor_torque_max_nm)

@@ -9,8 +9,6 @@ import numpy as np
 
 from jumpcad.bundle.bom import Bill
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.exporters.threemf import pad_plates
 from jumpcad.layout.leg_bars import END_PLAY_MM
@@ -54,7 +52,7 @@ ROOM_MM = 0.5
 
 def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
     """Return what is printed, cut, bought and used (mm, m, g, A), by the names that templates use."""
-    workshop, layout, chosen = robot.workshop, robot.layout, chosen_parts(robot.workshop)
+    workshop, layout, chosen = robot.workshop, robot.layout, robot.electrical_parts
     plates = packed(robot.parts, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
     pads, billed = printed_pads(robot.hardware, workshop), {item.name for item in bill.items}
     usb = layout.fittings.usb_size_mm if layout.fittings.usb_mm is not None else None
@@ -69,7 +67,7 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
         "strips": _strips(bill),
         "bars": _bars(robot, bill),
         "bearings": [one for one in workshop.catalogue.bearings.values() if f"ball bearing {one.name}" in billed],
-        "wire_m": dict(sorted(metres_by_colour(layout, wiring_of(chosen, workshop.bought.pins)).items())),
+        "wire_m": dict(sorted(metres_by_colour(layout, robot.wiring).items())),
         "strap_mm": strap_mm(robot),
         "boards": chosen.boards,
         "slide_switch": _switch(robot),
@@ -81,7 +79,7 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
 
 def strap_mm(robot: Robot) -> float:
     """Return the length of the battery's strap: around battery and tray through both slots, and the overlap."""
-    battery = chosen_parts(robot.workshop).battery
+    battery = robot.electrical_parts.battery
     across, upright = battery.width_mm + 2.0 * STRAP_SLOT_MM[0], battery.height_mm + TRAY_MM
     return 5.0 * math.ceil((2.0 * (across + upright) + STRAP_OVERLAP_MM) / 5.0)
 
@@ -189,7 +187,7 @@ def _switch(robot: Robot) -> dict[str, Any] | None:
     fittings, lateral = robot.layout.fittings, robot.layout.lateral
     if fittings.switch is None or fittings.switch_mm is None:
         return None
-    chosen, plate = chosen_parts(robot.workshop), lateral.inside[0] - lateral.outside[0]
+    chosen, plate = robot.electrical_parts, lateral.inside[0] - lateral.outside[0]
     supply, most_nm = supply_of(chosen), robot.workshop.safety.motor_torque_max_nm
     blocked_a = supply.driven(robot.layout.drive.train.motor, supply.full_v, most_nm).stall_current_a
     return {
