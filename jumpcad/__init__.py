@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from jumpcad.errors import JumpcadError as JumpcadError
     from jumpcad.evaluation import EvaluationResult as EvaluationResult
     from jumpcad.findings import Finding as Finding
+    from jumpcad.landing.landing import land as land
+    from jumpcad.landing.series import jumps as jumps
     from jumpcad.paper import published as published
     from jumpcad.robot import Robot as Robot
     from jumpcad.search.optimization import optimize as optimize
@@ -50,6 +52,8 @@ _HOMES = {
     "check": "api",
     "evaluate": "api",
     "export": "api",
+    "jumps": "landing.series",
+    "land": "landing.landing",
     "load_design": "design",
     "load_settings": "settings",
     "load_workshop": "workshop",

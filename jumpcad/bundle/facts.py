@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from jumpcad.checks.electronics import links
+from jumpcad.checks.electronics import jumps_per_charge, links
 from jumpcad.checks.sideways import play_rad, rolls
 from jumpcad.drive.release import Release
 from jumpcad.drive.rolling import ReleaseParts
@@ -12,8 +12,6 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 
 DIGITS, ROLL_DIGITS = 6, 3
-USABLE = 0.8
-"""Share of a battery's energy that is used before the firmware stops winding; practice with lithium polymer packs."""
 
 
 def spring_facts(robot: Robot) -> list[dict[str, Any]]:
@@ -128,12 +126,6 @@ def electronics_facts(robot: Robot) -> dict[str, Any]:
         "energy_j": {"motor": round(train.motor_j, DIGITS), "boards": round(train.boards_j, DIGITS)},
         "jumps_per_charge": jumps_per_charge(robot),
     }
-
-
-def jumps_per_charge(robot: Robot) -> int:
-    """Return how often a full battery winds the springs, without what the boards take while the robot waits."""
-    usable = USABLE * supply_of(robot.electrical_parts).usable_j
-    return int(usable / robot.layout.drive.train.electrical_j)
 
 
 def _rounded(volts: tuple[float, float]) -> list[float]:

@@ -13,6 +13,8 @@ from jumpcad.robot import Robot
 ROUND_OFF_V = 1e-9
 SHEETS = "ratings: makers' data sheets, templates/hardware/electronics.toml"
 STALL = "I = D·U_full/(R_motor + R_battery + R_driver) of the blocked motor, D mean share of U under PWM"
+USABLE = 0.8
+"""Share of a battery's energy that is used before the firmware stops winding; practice with lithium polymer packs."""
 BASIS = {
     "supply_voltage_motor": Basis(
         "D·U_empty ≥ U_min and D·U_full ≤ U_max (V); battery without load, D mean share of U under PWM, U_min and "
@@ -121,3 +123,9 @@ def _gearbox(robot: Robot, supply: Supply) -> Finding:
         "allowed",
         "a weaker motor, or a battery of fewer cells",
     )  # fmt: skip
+
+
+def jumps_per_charge(robot: Robot) -> int:
+    """Return how often a full battery winds the springs, without what the boards take while the robot waits."""
+    usable = USABLE * robot.supply.usable_j
+    return int(usable / robot.layout.drive.train.electrical_j)

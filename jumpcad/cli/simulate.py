@@ -42,6 +42,10 @@ LINES = (
 )
 
 
+TRIES = 20
+"""Landings that are tried unless asked for more."""
+
+
 def register(app: typer.Typer) -> None:
     """Add the commands of this module."""
     app.command()(simulate)
@@ -63,7 +67,17 @@ def simulate(
         bool,
         typer.Option("--uncertain", help="Also the uncertainty: 10, 50, 90 % quantiles of range and rise, by source."),
     ] = False,
-    seed: Annotated[int, typer.Option(help="Random seed of --uncertain.", min=0, max=2**32 - 1)] = 0,
+    landing: Annotated[
+        bool, typer.Option("--landing", help="How it lands, on what it rests, whether winding rights it (MuJoCo).")
+    ] = False,
+    tries: Annotated[int, typer.Option(help="Landings of --landing.", min=1, max=10_000)] = TRIES,
+    row: Annotated[
+        int | None,
+        typer.Option("--jumps", help="Jumps in a row, each from where the last one ended (MuJoCo).", min=1, max=1000),
+    ] = None,
+    seed: Annotated[
+        int, typer.Option(help="Random seed of --uncertain, --landing, --jumps.", min=0, max=2**32 - 1)
+    ] = 0,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -86,8 +100,16 @@ def simulate(
         raise JumpcadError("--flight and --trajectory cannot apply to --published; leave them out")
     if published and settings != DEFAULT_SETTINGS:
         raise JumpcadError(f"--settings {settings}: --published has the study's own; leave one of them out")
-    if seed and not uncertain:
-        raise JumpcadError(f"--seed {seed}: is that of --uncertain alone; leave it out, or add --uncertain")
+    if seed and not (uncertain or landing or row):
+        raise JumpcadError(f"--seed {seed}: is that of --uncertain, --landing or --jumps; leave it out, or add one")
+    if tries != TRIES and not landing:
+        raise JumpcadError(f"--tries {tries}: is that of --landing; leave it out, or add --landing")
+    if landing or row:
+        given = {"--landing and --jumps": landing and row, "--capsule": capsule, "--published": published,
+                 f"--engine {engine}": engine not in (None, "mujoco"), "--flight": flight,
+                 "--trajectory": trajectory, "--uncertain": uncertain}  # fmt: skip
+        if wrong := next((name for name, value in given.items() if value), None):
+            raise JumpcadError(f"{wrong}: a landing is simulated alone, of a printed robot, in MuJoCo: leave it out")
     require_apart({"--trajectory": trajectory}, {"the design": design, "--workshop": workshop, "--settings": settings})
     if trajectory:
         require_target(trajectory, TRAJECTORY_SUFFIXES, force)
@@ -108,6 +130,19 @@ def simulate(
     robot = capsule_robot(subject) if capsule else written or printed_robot(design, workshop)
     model = "capsule" if capsule else "URDF" if written else "printed"
     heading = {"design": design, "model": model, "settings": settings}
+    if landing or row:
+        from jumpcad.cli.landing import report_jumps, report_landing
+        from jumpcad.robot import Robot
+
+        if not isinstance(robot, Robot):
+            raise JumpcadError(
+                f"{design}: --landing and --jumps are for printed robots: give the design, or its bundle"
+            )
+        if row:
+            report_jumps(robot, heading, asked, row, seed, as_json)
+        else:
+            report_landing(robot, heading, asked, tries, seed, as_json)
+        return
     jumps = _jumps(robot, asked, engines)
     if trajectory:
         _write_trajectory(trajectory, jumps[0])

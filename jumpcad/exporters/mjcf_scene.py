@@ -53,7 +53,7 @@ poses the robot alone, in the world and not in your frame: add the frame's posit
 
 ## What it is
 
-Contacts: spheres under nose, toes and body, capsules along the links, a box about the body; they touch everything in a
+Contacts: spheres under nose, toes and body, and the convex hull of each body's parts; they touch everything in a
 scene but the robot itself. Friction and stiffness are the robot's (priority 1): {foot:g} under the feet, {body:g}
 elsewhere. Springs that only push are the tendon `springs`; the rest stop is the upper limit of the joint `leg`; the
 loop is the equality `loop`. The motor, its gears and the cam's turn are not modelled: winding takes no time here.

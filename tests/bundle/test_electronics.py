@@ -14,8 +14,9 @@ from jumpcad.building import build
 from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.drawings.wiring import drawings_of, wires
 from jumpcad.bundle.export import export
-from jumpcad.bundle.facts import electronics_facts, jumps_per_charge
+from jumpcad.bundle.facts import electronics_facts
 from jumpcad.bundle.firmware_numbers import numbers
+from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts

@@ -96,7 +96,7 @@ def test_a_trajectory_replaces_nothing_unasked(command: Run, tmp_path: Path) -> 
         (["kenan-2.0", "--published", "--trajectory", "a.csv"], "cannot apply to --published"),
         (["kenan-2.0", "--published", "--settings", "fine"], "--settings fine: --published has the study's own"),
         (["kenan-2.0", "--published", "--settings", "nowhere.toml"], "--published has the study's own"),
-        (["kenan-2.0", "--seed", "3"], "--seed 3: is that of --uncertain alone"),
+        (["kenan-2.0", "--seed", "3"], "--seed 3: is that of --uncertain, --landing or --jumps"),
         (["kenan-2.0", "--capsule", "--workshop", "fine"], "--workshop fine: cannot apply"),
         (["kenan-2.0", "--capsule", "--settings", "quick"], "'quick' is neither a TOML file nor"),
         (["kenan-3.0", "--capsule"], "did you mean kenan-2.0"),

@@ -1,6 +1,5 @@
 """MJCF: the model that MuJoCo compiles is the robot."""
 
-import itertools
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -17,11 +16,10 @@ from jumpcad.design import load_design
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.model import BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
-from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
 
 
@@ -54,31 +52,6 @@ def test_mujoco_has_the_robots_inertia() -> None:
         assert compiled.mass[0] == pytest.approx(body.mass_kg, rel=1e-12)
         np.testing.assert_allclose(compiled.ipos, body.com_m, rtol=1e-12)
         np.testing.assert_allclose(tensor, body.inertia_kg_m2, rtol=1e-9, atol=1e-15)
-
-
-@pytest.mark.parametrize("hanging_m", [0.0, 0.02, 0.06])
-@pytest.mark.parametrize("name", ["kenan-1.0", "best-printable"])
-def test_the_bodys_box_is_as_low_as_its_parts_or_as_the_ground_lets_it(name: str, hanging_m: float) -> None:
-    """MuJoCo places it with loaded springs, nose up or nose down; parts that hang lower come to the ground.
-
-    All its corners are then 1 mm above the floor or more; one is just there where the box does not reach to its parts.
-    """
-    mujoco = needs.package("mujoco")
-    robot, lower = built(name), np.eye(4)
-    lower[2, 3] = -hanging_m
-    seen = [replace(one, T_body_mesh=lower @ one.T_body_mesh) for one in visuals(robot) if one.body == BODY]
-    model = mujoco.MjModel.from_xml_string(without_meshes(write_robot(robot, seen)))
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, model.key("wound").id)
-    mujoco.mj_kinematics(model, data)
-    box = model.geom(f"{BODY}_collision")
-    place, signs = data.geom(box.id), np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
-    lowest = (place.xpos + (signs * box.size) @ place.xmat.reshape(3, 3).T)[:, 2].min()
-    parts = np.concatenate([one.corners_m @ one.T_body_mesh[:3, :3].T + one.T_body_mesh[:3, 3] for one in seen])
-    raised = box.pos[2] - box.size[2] - parts[:, 2].min()
-    assert lowest > 0.0008
-    assert raised > -1e-4
-    assert raised < 1e-4 or lowest == pytest.approx(0.001, abs=2e-4)
 
 
 @pytest.mark.parametrize("dt_s", [0.0005, 0.002])

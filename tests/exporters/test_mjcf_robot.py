@@ -12,10 +12,10 @@ from support import needs
 from support.built import built
 from support.machines import one_sided
 
-from jumpcad.exporters.collision import body_box, capsules
+from jumpcad.exporters.collision import capsules
 from jumpcad.exporters.mjcf_robot import mjcf_files, write_robot
 from jumpcad.exporters.urdf import urdf_files
-from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -97,7 +97,7 @@ def test_the_scene_lies_beside_the_robot_that_it_includes_and_meshes_beside_both
     root, scene = (ET.fromstring(files[f"mjcf/{file}.xml"]) for file in (name, "scene"))
     assert [one.get("file") for one in scene.iter("include")] == [f"{name}.xml"]
     folder = root.find("compiler").get("meshdir")
-    paths = {os.path.normpath(f"mjcf/{folder}/{mesh.get('file')}") for mesh in root.iter("mesh")}
+    paths = {os.path.normpath(f"mjcf/{folder}/{mesh.get('file')}") for mesh in root.iter("mesh") if mesh.get("file")}
     assert paths == {path for path, _ in urdf_files(small_robot) if path.endswith(".stl")}
     assert files["mjcf/README.md"].startswith(f"# {name} in MuJoCo")
 
@@ -203,7 +203,7 @@ def test_what_is_seen_hangs_on_its_body_in_its_colour(robot: Robot) -> None:
         for shape in visuals(robot)
     }
     assert seen == expected
-    files = {mesh.get("name"): (mesh.get("file"), mesh.get("scale")) for mesh in root.iter("mesh")}
+    files = {mesh.get("name"): (mesh.get("file"), mesh.get("scale")) for mesh in root.iter("mesh") if mesh.get("file")}
     assert files == {
         name: (f"{name}.stl", "0.001 0.001 0.001") for name in {shape.mesh_name for shape in visuals(robot)}
     }
@@ -216,20 +216,22 @@ def test_what_is_seen_hangs_on_its_body_in_its_colour(robot: Robot) -> None:
     assert visual.find("geom").attrib == {"type": "mesh", "contype": "0", "conaffinity": "0", "group": "2"}
 
 
-def test_the_box_about_the_body_is_that_of_the_collision_shapes(robot: Robot) -> None:
-    """As MuJoCo reads it: middle and half the sides of the one box, for what is seen of the robot; without, none."""
-    seen = visuals(robot)
-    root = ET.fromstring(write_robot(robot, seen))
-    for node in [root.find("asset"), *root.iter("body")]:
-        for one in [*node.findall("mesh"), *(geom for geom in node.findall("geom") if geom.get("class") == "visual")]:
-            node.remove(one)  # no files are read here
-    model = mujoco.MjModel.from_xml_string(ET.tostring(root, encoding="unicode"))
-    kinds = [mujoco.mjtGeom(int(kind)) for kind in model.geom_type]
-    assert kinds.count(mujoco.mjtGeom.mjGEOM_BOX) == 1
-    box, whole = model.geom("body_collision"), body_box(robot, seen)
-    assert whole is not None
-    assert kinds[box.id] == mujoco.mjtGeom.mjGEOM_BOX
-    assert model.body(box.bodyid[0]).name == BODY
-    assert box.pos - box.size == pytest.approx(whole.low_m, abs=1e-6)
-    assert box.pos + box.size == pytest.approx(whole.high_m, abs=1e-6)
-    assert box.group[0] == 3
+def test_bodies_collide_by_the_convex_hull_of_their_parts(robot: Robot) -> None:
+    """It reaches as far as they do in any direction; the foot's stays half a millimetre above its sole."""
+    model = mujoco.MjModel.from_xml_string(write_robot(robot, visuals(robot), looks=False))
+    directions = np.random.default_rng(0).normal(size=(50, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    for name in BODY_NAMES:
+        geom = model.geom(f"{name}_collision")
+        first = model.mesh_vertadr[geom.dataid[0]]
+        turn = np.zeros(9)
+        mujoco.mju_quat2Mat(turn, geom.quat)
+        hull = model.mesh_vert[first : first + model.mesh_vertnum[geom.dataid[0]]] @ turn.reshape(3, 3).T + geom.pos
+        parts = np.concatenate([
+            one.mesh.vertices / 1000.0 @ one.T_body_mesh[:3, :3].T + one.T_body_mesh[:3, 3]
+            for one in visuals(robot) if one.body == name
+        ])  # fmt: skip
+        upward = directions[directions[:, 2] > 0.0] if name == FOOT else directions
+        np.testing.assert_allclose((hull @ upward.T).max(axis=0), (parts @ upward.T).max(axis=0), atol=2e-5)
+        if name == FOOT:
+            assert hull[:, 2].min() == pytest.approx(parts[:, 2].min() + 0.0005, abs=2e-5)

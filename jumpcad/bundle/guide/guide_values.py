@@ -11,12 +11,12 @@ import numpy as np
 from jumpcad.bundle.bom import Bill
 from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.bundle.drawings.wiring import wires
-from jumpcad.bundle.facts import jumps_per_charge
 from jumpcad.bundle.guide.incoming_inspection import inspection_values
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
 from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg
 from jumpcad.checks import quick_findings
+from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import window_mm
 from jumpcad.errors import JumpcadError

@@ -1,0 +1,146 @@
+"""How a robot lands and whether its next winding puts it on its feet: from its own jumps, and dropped anyhow."""
+
+from collections import Counter
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from jumpcad.arguments import check_arguments
+from jumpcad.errors import JumpcadError
+from jumpcad.landing.arena import Arena, Floor
+from jumpcad.robot import Robot
+from jumpcad.settings import Settings
+from jumpcad.simulation.prior import FLOOR_SHARE
+
+SCATTER_DEG, SPIN_DEG_S = 5.0, 40.0
+"""Standard deviations of roll, pitch and yaw at the apex, and of the spins about the body's axes; judgement: a roller
+that drops earlier on one side, and a foot that slips."""
+SOFTNESS_S = (0.0005, 0.005)
+"""Time constants of contacts, from stone to carpet."""
+WIND_S, HOLD_S = 1.2, 1.0
+"""Winding and holding in a test of righting: quicker than a drive winds, which rolls it no better."""
+DROP_M, DROP_M_S, DROP_RAD_S = (0.05, 0.35), (0.3, 1.8), 5.0
+"""Heights, speeds along the floor and spins of robots that are dropped in any attitude."""
+
+
+@dataclass(frozen=True)
+class Landing:
+    """One landing: how far from where it stood it rests and touched down, on what, and whether winding rights it.
+
+    Distances (m) are along the floor, of the centre of mass. `rests_on` is `feet`, `nose`, `back`, `left`, `right`,
+    `top` or `belly`.
+    """
+
+    touchdown_m: float
+    rest_m: float
+    rests_on: str
+    rights_itself: bool
+
+
+@dataclass(frozen=True)
+class Landings:
+    """Landings of a robot's own jumps."""
+
+    tries: tuple[Landing, ...]
+
+    @property
+    def share_on_feet(self) -> float:
+        """Share that comes to rest on its feet."""
+        return float(np.mean([one.rests_on == "feet" for one in self.tries]))
+
+    @property
+    def share_righted(self) -> float:
+        """Share that stands on its feet once it is wound again."""
+        return float(np.mean([one.rights_itself for one in self.tries]))
+
+    @property
+    def rests_on(self) -> dict[str, int]:
+        """How often it rests on what, most often first."""
+        return dict(Counter(one.rests_on for one in self.tries).most_common())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        figures = {"share_on_feet": self.share_on_feet, "share_righted": self.share_righted, "rests_on": self.rests_on}
+        return figures | {"tries": [asdict(one) for one in self.tries]}
+
+
+@check_arguments
+def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None = None) -> Landings:
+    """Let a robot jump and land a number of times, each with another attitude, spin and floor.
+
+    Parameters
+    ----------
+    robot
+        A printed robot.
+    tries
+        How often, from 1 on.
+    seed
+        Of what is scattered.
+    settings
+        Of which gravity and friction hold; None: the defaults.
+
+    Raises
+    ------
+    JumpcadError
+        If the robot does not leave the floor, or MuJoCo is not installed.
+    """
+    if tries < 1:
+        raise JumpcadError(f"tries = {tries}: a landing must be tried at least once")
+    arena, rng = Arena(robot, settings), np.random.default_rng(seed)
+    return Landings(tuple(_land(arena, rng) for _ in range(tries)))
+
+
+def share_righted(robot: Robot, drops: int, rng: np.random.Generator, settings: Settings | None = None) -> float:
+    """Return the share of drops in any attitude after which the winding robot stands on its feet."""
+    arena, stood = Arena(robot, settings), 0
+    for _ in range(drops):
+        arena.stand_on(scattered_floor(rng))
+        along = rng.uniform(0.0, 2.0 * np.pi)
+        velocity = rng.uniform(*DROP_M_S) * np.array([np.cos(along), np.sin(along), 0.0])
+        attitude = Rotation.random(rng=rng).as_quat(scalar_first=True)
+        arena.put(attitude, rng.uniform(*DROP_M), velocity, rng.uniform(-DROP_RAD_S, DROP_RAD_S, 3))
+        arena.rest()
+        stood += _righted(arena)
+    return stood / drops
+
+
+def _land(arena: Arena, rng: np.random.Generator) -> Landing:
+    arena.stand_on(scattered_floor(rng))
+    arena.stand()
+    start = arena.centre_of_mass_m
+    arena.release()
+    if not arena.fall():
+        raise JumpcadError("the robot does not leave the floor, so that it does not land: jumpcad check says why")
+    disturb(arena, rng)
+    touched: list[float] = []
+
+    def look() -> None:
+        if not touched and arena.data.ncon:
+            touched.append(_away_m(arena, start))
+
+    arena.rest(look)
+    return Landing(touched[0], _away_m(arena, start), arena.rests_on, _righted(arena))
+
+
+def _righted(arena: Arena) -> bool:
+    arena.wind(WIND_S)
+    arena.step(HOLD_S, quiet=True)
+    return arena.stands
+
+
+def _away_m(arena: Arena, start_m: np.ndarray) -> float:
+    return float(np.linalg.norm((arena.centre_of_mass_m - start_m)[:2]))
+
+
+def disturb(arena: Arena, rng: np.random.Generator) -> None:
+    """Change attitude and spin of a robot in the air, as no two jumps are the same."""
+    scatter = Rotation.from_rotvec(rng.normal(0.0, np.radians(SCATTER_DEG), 3)).as_matrix()
+    arena.turn(scatter, rng.normal(0.0, np.radians(SPIN_DEG_S), 3))
+
+
+def scattered_floor(rng: np.random.Generator) -> Floor:
+    """Draw a floor: friction as of an untested one, any softness from stone to carpet."""
+    low, high = np.log(SOFTNESS_S)
+    return Floor(float(np.exp(rng.normal(0.0, FLOOR_SHARE))), float(np.exp(rng.uniform(low, high))))

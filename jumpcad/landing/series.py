@@ -1,0 +1,136 @@
+"""Jumps in a row: the robot winds wherever it lies, waits, is released, flies and lands, and does so again."""
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from jumpcad.arguments import check_arguments
+from jumpcad.checks.electronics import jumps_per_charge
+from jumpcad.errors import JumpcadError
+from jumpcad.landing.arena import Arena
+from jumpcad.landing.landing import disturb, scattered_floor
+from jumpcad.robot import Robot
+from jumpcad.settings import Settings
+
+WAIT_S = 1.0
+"""The firmware's pause before a release, in which the wound robot comes to rest."""
+
+
+@dataclass(frozen=True)
+class Hop:
+    """One jump of a row: whether it stood on its feet at the release, and what became of it.
+
+    `way_m` is how far its centre of mass moved along the floor until it rested, `height_m` how high it rose,
+    `heading_deg` the turn of its heading (left positive), `time_s` winding, waiting, flight and landing.
+    """
+
+    stood: bool
+    way_m: float
+    height_m: float
+    heading_deg: float
+    time_s: float
+
+
+@dataclass(frozen=True)
+class Series:
+    """Jumps in a row, with the energy of a jump and how many a full battery gives."""
+
+    hops: tuple[Hop, ...]
+    distance_m: float
+    weight_n: float
+    electrical_j: float
+    jumps_per_charge: int
+
+    @property
+    def stood(self) -> int:
+        """How many jumps began on the feet."""
+        return sum(hop.stood for hop in self.hops)
+
+    @property
+    def way_m(self) -> float:
+        """The way of all jumps (m)."""
+        return sum(hop.way_m for hop in self.hops)
+
+    @property
+    def metres_per_charge(self) -> float:
+        """The mean way of a jump times the jumps of a full battery (m)."""
+        return self.way_m / len(self.hops) * self.jumps_per_charge
+
+    @property
+    def cost_of_transport(self) -> float:
+        """Electrical energy over weight and way."""
+        return self.electrical_j * len(self.hops) / (self.weight_n * self.way_m) if self.way_m > 0.0 else math.inf
+
+    @property
+    def heading_drift_deg(self) -> float:
+        """Root mean square turn of the heading in a jump."""
+        return float(np.sqrt(np.mean([hop.heading_deg**2 for hop in self.hops])))
+
+    @property
+    def seconds_per_jump(self) -> float:
+        """The mean time of a jump, with winding and waiting."""
+        return float(np.mean([hop.time_s for hop in self.hops]))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        names = ("stood", "way_m", "metres_per_charge", "cost_of_transport", "heading_drift_deg", "seconds_per_jump")
+        figures = {name: getattr(self, name) for name in names}
+        return {**figures, "distance_m": self.distance_m, "electrical_j": self.electrical_j,
+                "jumps_per_charge": self.jumps_per_charge, "jumps": [asdict(hop) for hop in self.hops]}  # fmt: skip
+
+
+@check_arguments
+def jumps(robot: Robot, count: int = 10, seed: int = 0, settings: Settings | None = None) -> Series:
+    """Let a robot jump a number of times in a row, from where it has come to rest each time.
+
+    It winds within the time of its own drive and is released by its own cam, standing or not, as its firmware does.
+
+    Parameters
+    ----------
+    robot
+        A printed robot.
+    count
+        How often, from 1 on.
+    seed
+        Of the floor, the same for all jumps, and of attitude and spin at each apex.
+    settings
+        Of which gravity and friction hold; None: the defaults.
+
+    Raises
+    ------
+    JumpcadError
+        If MuJoCo is not installed.
+    """
+    if count < 1:
+        raise JumpcadError(f"count = {count}: at least one jump is needed")
+    arena, train = Arena(robot, settings), robot.layout.drive.train
+    rng = np.random.default_rng(seed)
+    arena.stand_on(scattered_floor(rng))
+    arena.stand("home")
+    first = arena.centre_of_mass_m
+    hops = tuple(_hop(arena, train.winding_s, rng) for _ in range(count))
+    way = float(np.linalg.norm((arena.centre_of_mass_m - first)[:2]))
+    weight = robot.mass_kg * arena.gravity_m_s2
+    return Series(hops, way, weight, train.electrical_j, jumps_per_charge(robot))
+
+
+def _hop(arena: Arena, wind_s: float, rng: np.random.Generator) -> Hop:
+    begun = float(arena.data.time)
+    arena.wind(wind_s)
+    arena.step(WAIT_S, quiet=True)
+    stood, start, heading = arena.stands, arena.centre_of_mass_m, arena.heading_rad
+    highest = float(start[2])
+
+    def look() -> None:
+        nonlocal highest
+        highest = max(highest, float(arena.centre_of_mass_m[2]))
+
+    arena.release()
+    if arena.fall(look):
+        disturb(arena, rng)
+    arena.rest(look)
+    way = float(np.linalg.norm((arena.centre_of_mass_m - start)[:2]))
+    turned = (arena.heading_rad - heading + math.pi) % (2.0 * math.pi) - math.pi
+    return Hop(stood, way, highest - float(start[2]), math.degrees(turned), float(arena.data.time) - begun)

@@ -1,0 +1,120 @@
+"""Landings, righting and jumps in a row, against mechanics and against the jump that engines simulate."""
+
+import math
+
+import numpy as np
+import pytest
+from support.built import built
+
+from jumpcad.errors import JumpcadError
+from jumpcad.landing.arena import Arena, Floor
+from jumpcad.landing.landing import land, share_righted
+from jumpcad.landing.series import jumps
+from jumpcad.landing.stable_poses import share_on_feet
+from jumpcad.robot import Robot
+from jumpcad.settings import Settings
+from jumpcad.simulation import simulate
+from jumpcad.simulation.mechanics import Mechanics, loaded_state
+
+pytest.importorskip("mujoco")
+NOT_TURNED = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return built("best-bo")
+
+
+@pytest.fixture
+def arena(robot: Robot) -> Arena:
+    return Arena(robot)
+
+
+def test_a_wound_robot_stands_as_high_as_its_bodies_say(arena: Arena, robot: Robot) -> None:
+    arena.stand()
+    arena.step(0.3, quiet=True)
+    expected = Mechanics(robot, 9.81).centre_of_mass_m(loaded_state(robot))
+    assert arena.centre_of_mass_m[2] == pytest.approx(expected[2], abs=2e-4)
+    assert arena.stands
+    assert arena.rests_on == "feet"
+
+
+def test_a_dropped_robot_falls_as_a_stone_does(arena: Arena) -> None:
+    """From 0.2 m for √(2·h/g), its lowest point first; thrown sideways it keeps its speed."""
+    arena.put(NOT_TURNED, 0.2, np.array([0.5, 0.0, 0.0]), np.zeros(3))
+    assert arena.lowest_m() == pytest.approx(0.2, abs=1e-6)
+    arena.step(math.sqrt(2.0 * 0.2 / 9.81) - 0.004)
+    assert 0.0 < arena.lowest_m() < 0.009
+    assert arena.velocity_m_s[0] == pytest.approx(0.5, abs=1e-3)
+    assert arena.data.ncon == 0
+
+
+def test_a_released_robot_rises_as_the_engine_says(arena: Arena, robot: Robot) -> None:
+    arena.stand()
+    start, highest = arena.centre_of_mass_m[2], 0.0
+    arena.release()
+
+    def look() -> None:
+        nonlocal highest
+        highest = max(highest, arena.centre_of_mass_m[2])
+
+    assert arena.fall(look)
+    assert highest - start == pytest.approx(simulate(robot, engine="mujoco").com_rise_m, rel=0.01)
+
+
+def test_a_turned_robot_keeps_place_and_momentum_of_its_centre(arena: Arena) -> None:
+    arena.put(NOT_TURNED, 0.3, np.array([0.4, 0.1, 0.2]), np.array([0.0, 3.0, 0.0]))
+    before = np.concatenate([arena.centre_of_mass_m, arena.velocity_m_s])
+    quarter = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+    arena.turn(quarter, np.zeros(3))
+    np.testing.assert_allclose(np.concatenate([arena.centre_of_mass_m, arena.velocity_m_s]), before, atol=1e-9)
+    assert not arena.stands
+    assert arena.rests_on == "right"
+
+
+def test_a_slippery_floor_lets_a_robot_slide_farther(arena: Arena) -> None:
+    """As the square of speed over friction: with a third of it at least twice as far."""
+    slid = []
+    for friction in (1.0, 1.0 / 3.0):
+        arena.stand_on(Floor(friction))
+        arena.put(np.array([math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0]), 0.001, np.array([1.0, 0.0, 0.0]), np.zeros(3))
+        start = arena.centre_of_mass_m[0]
+        arena.rest()
+        slid.append(arena.centre_of_mass_m[0] - start)
+    assert slid[1] > 2.0 * slid[0] > 0.0
+
+
+def test_landings_are_those_of_their_seed(robot: Robot) -> None:
+    first, again, other = (land(robot, 3, seed) for seed in (1, 1, 2))
+    assert first == again
+    assert first != other
+    assert sum(first.rests_on.values()) == 3
+    assert all(0.4 < one.touchdown_m < 0.7 for one in first.tries)
+    for few in (0, -1):
+        with pytest.raises(JumpcadError, match=f"tries = {few}: "):
+            land(robot, few)
+
+
+def test_jumps_in_a_row_begin_where_the_last_one_ended(robot: Robot) -> None:
+    series = jumps(robot, 2, seed=3)
+    assert series.hops[0].stood
+    assert series.distance_m <= series.way_m + 0.05  # winding shifts it too
+    train = robot.layout.drive.train
+    assert series.seconds_per_jump > train.winding_s + 1.0
+    assert series.metres_per_charge == pytest.approx(series.way_m / 2.0 * series.jumps_per_charge)
+    energy = 2.0 * train.electrical_j / (robot.mass_kg * 9.81 * series.way_m)
+    assert series.cost_of_transport == pytest.approx(energy)
+    with pytest.raises(JumpcadError, match="count = 0: "):
+        jumps(robot, 0)
+
+
+def test_on_the_moon_it_rises_about_six_times_as_high(robot: Robot) -> None:
+    heights = [jumps(robot, 1, settings=Settings(gravity_m_s2=gravity)).hops[0].height_m for gravity in (9.81, 1.62)]
+    assert heights[1] / heights[0] == pytest.approx(9.81 / 1.62, rel=0.06)
+
+
+def test_stable_poses_of_a_robot_without_a_cage_are_mostly_its_sides(robot: Robot) -> None:
+    """A figure between 0 and 1; what few stable poses on the feet promise, drops keep."""
+    static = share_on_feet(robot)
+    assert 0.0 < static < 0.4
+    assert share_righted(robot, 12, np.random.default_rng(0)) < 0.5
