@@ -6,7 +6,7 @@ lie a quarter of their range farther out. A rejected design scores 0.
 Every peer gets what `bo` has: its first designs (half ranked by the capsule robot, half evenly spread, each with room
 for its parts); the signed margins of the limits that rejected a design, at most `MAX_CONSTRAINTS` with the verdict, in
 units of their typical size and large ones compressed; the square root of the score; and the knowledge, free of charge,
-that a linkage does not close. What `bo` alone has is its rehearsal: the layout and the guess of a stand-in, for each
+that a linkage does not close. What `bo` alone has is its dry run: the layout and an estimate of the jump, for each
 proposal, and what was refused while the start was chosen.
 
 - `logcei`: BoTorch, logarithm of the constrained expected improvement (Ament et al., NeurIPS 2023). Matérn 5/2 with
@@ -49,7 +49,7 @@ from jumpcad.design import SEARCH_BOUNDS
 from jumpcad.search.models import robot_model
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.propose.bayesian import default_initial, incumbent
-from jumpcad.search.propose.dry_run import Rehearsal
+from jumpcad.search.propose.dry_run import DryRun
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.posterior import VERDICT, constraint_margins, forwards, warped
 from jumpcad.search.propose.task import Task
@@ -143,10 +143,10 @@ class Search:
         self.generator = np.random.default_rng([seed, 3])
         self._free: list[Trial] = []
         task = Task(evaluations, seed, default_initial(self.space, evaluations, guessed=True))
-        rehearsal = Rehearsal.of(evaluator, "bo", task)
-        assert rehearsal is not None
+        dry_run = DryRun.of(evaluator, "bo", task)
+        assert dry_run is not None
         generator = np.random.default_rng([seed, 1])  # as `bo` does
-        self.evaluate(first_points(self.space, task.initial, generator, rehearsal.ranked, rehearsal.starts_with))
+        self.evaluate(first_points(self.space, task.initial, generator, dry_run.ranked, dry_run.starts_with))
 
     @property
     def left(self) -> int:

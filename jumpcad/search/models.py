@@ -15,8 +15,8 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, did_you_mean
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.search.estimate.estimated_robot import figures_of, laid_out
-from jumpcad.search.estimate.refusal import refusal_findings, room_findings
+from jumpcad.search.estimate.estimated_robot import layout_figures, robot_figures
+from jumpcad.search.estimate.refusal import layout_findings, room_findings, statics_refusal
 from jumpcad.search.pick.tolerances import PREFIX, Tolerances, perturbed
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
 from jumpcad.search.study.variant import NOTHING, Variant
@@ -89,13 +89,11 @@ class RobotModel:
         try:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:
-            return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
+            return Evaluation(CANNOT_BUILD, findings=layout_findings(error), detail=str(error))
 
     def refused_first(self, design: Design) -> Evaluation | None:
         """Return the outcome of a design that an estimate of the printed robot's masses refuses; None of others."""
-        from jumpcad.search.estimate.quick_refusal import quick_refusal
-
-        refused = quick_refusal(design, self.workshop or load_workshop(), self.guess_settings)
+        refused = statics_refusal(design, self.workshop or load_workshop(), self.settings or Settings())
         if not refused:
             return None
         return Evaluation(refused[0].name, findings=(*geometry_findings(design), *refused))
@@ -173,9 +171,9 @@ class RobotModel:
 
         try:
             model = self.varied(variant.workshop) if variant.workshop else self
-            return laid_out(layout_of(variant.design, model.workshop or load_workshop()))
+            return layout_figures(layout_of(variant.design, model.workshop or load_workshop()))
         except CannotBuildError as error:
-            return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
+            return Evaluation(CANNOT_BUILD, findings=layout_findings(error), detail=str(error))
         except JumpcadError as error:  # the values of the workshop do not go together
             return Evaluation("workshop", detail=str(error))
 
@@ -240,7 +238,7 @@ class RobotModel:
         findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
         if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
-        figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.stand_in else {})
+        figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
         return Evaluation(result.verdict, figures, findings)
 
     def _capsule(self, design: Design) -> Evaluation:

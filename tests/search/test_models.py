@@ -131,7 +131,7 @@ def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbi
     assert found.findings[3:] != tuple(room_findings(small_robot.layout, reserve_mm + 1.0))
     assert made._printed(design).findings == (jumped, broken)
     assert made._printed(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}
-    monkeypatch.setattr(models, "figures_of", lambda robot: {"bodies": len(robot.bodies)})
+    monkeypatch.setattr(models, "robot_figures", lambda robot: {"bodies": len(robot.bodies)})
     assert replace(plain, stand_in=True)._printed(design).metrics == found.metrics | {"bodies": 4}
 
 
@@ -204,17 +204,15 @@ def test_a_variant_is_laid_out_in_its_own_workshop(monkeypatch):
 
 
 def test_what_estimates_refuse_is_told_with_the_margins_of_its_geometry(monkeypatch):
-    """In the model's own workshop, with the settings of guesses."""
+    """In the model's own workshop and settings."""
     asked, refused = (
         [],
         (Finding("tips", "error", -20.0, "mm", "", ""), Finding("too_weak", "error", -1.0, "J", "", "")),
     )
-    monkeypatch.setattr(
-        "jumpcad.search.estimate.quick_refusal.quick_refusal", lambda *given: asked.append(given) or refused
-    )
+    monkeypatch.setattr("jumpcad.search.models.statics_refusal", lambda *given: asked.append(given) or refused)
     light, fine, design = load_workshop("light"), load_settings("fine"), load_design("kenan-2.0")
     found = robot_model("printed", light, fine)(design)
-    assert asked == [(design, light, fine.model_copy(update={"dt_s": 0.002}))]
+    assert asked == [(design, light, fine)]
     assert found == Evaluation("tips", findings=(*geometry_findings(design), *refused))
 
 

@@ -2,7 +2,7 @@
 
 from jumpcad.building import build
 from jumpcad.design import load_design
-from jumpcad.search.estimate.estimated_robot import EXTENTS, figures_of, stand_in
+from jumpcad.search.estimate.estimated_robot import EXTENTS, estimated_robot, robot_figures
 from jumpcad.search.models import RobotModel, robot_model
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
@@ -11,7 +11,7 @@ from jumpcad.simulation import simulate
 BEST = load_design("best-printable")
 SPACE = Space.make(around=BEST, within_percent=15.0)
 LIKE = build(BEST)
-FIGURES = figures_of(LIKE) | {f"{name}_mass_kg": body.mass_kg for name, body in LIKE.bodies.items()}
+FIGURES = robot_figures(LIKE) | {f"{name}_mass_kg": body.mass_kg for name, body in LIKE.bodies.items()}
 
 
 class Quick(RobotModel):
@@ -23,7 +23,7 @@ class Quick(RobotModel):
         larger = design.carrying_link_mm / BEST.carrying_link_mm
         heavier = larger * (1.0 + 0.002 * design.stiffness_nmm_per_deg * larger)
         figures = {name: value * (heavier if "mass" in name else 1.0) for name, value in FIGURES.items()}
-        jump = simulate(stand_in(design, figures, LIKE), self.settings, "pybullet")
+        jump = simulate(estimated_robot(design, figures, LIKE), self.settings, "pybullet")
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
         size = max(0.1, design.l_max_mm / 1000.0)
         figures |= dict.fromkeys(EXTENTS, 0.1)

@@ -1,4 +1,4 @@
-"""A printed robot from a few figures: what a screen simulates in place of a built one.
+"""A printed robot from a few figures: what is simulated in place of a built one.
 
 Lengths, loaded angle and springs follow from the design, friction and pins from the workshop. What is left are mass,
 centre of mass and inertia of the bodies, the radii that touch the ground, the stop and the release.
@@ -26,22 +26,22 @@ LAID = {
 """Figures of a layout on which masses depend, and what counts as 1 of each in a fit; judgement."""
 
 
-def laid_out(layout: Layout) -> dict[str, float]:
+def layout_figures(layout: Layout) -> dict[str, float]:
     """Return figures of a layout on which masses depend, to six digits: they leap where it takes another wire."""
     spring = layout.drive.spring
     values = (spring.mass_g, spring.arms.mean_mm, *layout.cam_axis_mm, *layout.motor_mm, layout.tray_mm[0])
     return {name: float(f"{value:.6g}") for name, value in zip(LAID, values, strict=True)}
 
 
-def figures_of(robot: Robot) -> dict[str, float]:
-    """Return the figures that `stand_in` needs, to six digits, but for the masses; x and z in the bodies' frames."""
+def robot_figures(robot: Robot) -> dict[str, float]:
+    """Return what `estimated_robot` needs but for the masses, to six digits; x and z in the bodies' frames."""
     assert robot.stop is not None
     assert robot.roller_off is not None
     found: dict[str, float] = {}
     for name, body in robot.bodies.items():
         found |= {f"{name}_com_x_m": float(body.com_m[0]), f"{name}_com_z_m": float(body.com_m[2])}
         found[f"{name}_inertia_kg_m2"] = float(body.inertia_kg_m2[1, 1])
-    found |= laid_out(robot.layout) | dict(zip(EXTENTS, extent_m(robot).tolist(), strict=True))
+    found |= layout_figures(robot.layout) | dict(zip(EXTENTS, extent_m(robot).tolist(), strict=True))
     found |= {
         "foot_depth_m": robot.foot_depth_m,
         "toe_radius_m": robot.bodies[FOOT].contacts[-1].radius_m,
@@ -54,7 +54,7 @@ def figures_of(robot: Robot) -> dict[str, float]:
     return {name: float(f"{value:.6g}") for name, value in found.items()}
 
 
-def stand_in(design: Design, figures: Mapping[str, float], like: Robot) -> Mechanism:
+def estimated_robot(design: Design, figures: Mapping[str, float], like: Robot) -> Mechanism:
     """Return the robot of a design with these figures, in all else like another one of its workshop."""
     plain = capsule_robot(design)
     bodies = {name: _body(plain.bodies[name], figures, like.bodies[name]) for name in BODY_NAMES}

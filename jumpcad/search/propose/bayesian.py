@@ -15,10 +15,10 @@ import numpy as np
 from jumpcad.blas_threads import one_thread
 from jumpcad.plural import counted
 from jumpcad.search.propose.acquisition import Proposal, propose
-from jumpcad.search.propose.dry_run import TRIED, Rehearsal
+from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.local_search import FARTHEST, HOPELESS, STALLED, Progress
-from jumpcad.search.propose.proposal_loop import Learner
+from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
@@ -40,7 +40,7 @@ PATIENCE = 7
 IDLE = 10
 """Where robots are guessed, it ends after so many steps in a row that gain too little; judgement."""
 
-Proposer = Callable[[Learner, Sequence[Trial], int, np.random.Generator], list[Proposal]]
+Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
 
 
@@ -75,29 +75,29 @@ def run_bayesian(evaluator: Evaluator, task: Task, polls: bool = True) -> bool:
         return Progress.of(evaluator.trials[start:], known, task.least_gain)
 
     def proposer(
-        learner: Learner, trials: Sequence[Trial], count: int, generator: np.random.Generator
+        loop: ProposalLoop, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
         best, elite = incumbent(evaluator.space, trials)
         stalled = polls and progress().idle >= STALLED
         proposals: list[Proposal] = []
         while len(proposals) < count:
-            admits = unproposed(evaluator, proposals, learner.may_hold)
+            admits = unproposed(evaluator, proposals, loop.may_hold)
             ask = partial(propose, evaluator.space, best=best, elite=elite, generator=generator, admits=admits)
-            beside = learner.beside(trials, admits, generator) if stalled else None
-            proposal = beside or learner.propose(ask, best)
+            beside = loop.beside(trials, admits, generator) if stalled else None
+            proposal = beside or loop.propose(ask, best)
             if proposal is None:
                 break
             if polls and beside is None and proposal.promised_gain(best) < HOPELESS:
                 wider = FARTHEST ** generator.random()
-                proposal = learner.beside(trials, admits, generator, wider) or proposal
+                proposal = loop.beside(trials, admits, generator, wider) or proposal
             proposals.append(proposal)
         return proposals
 
-    def ended(rehearsal: Rehearsal | None) -> bool:
+    def ended(dry_run: DryRun | None) -> bool:
         if not task.least_gain:
             return False
         idle, low = progress()
-        guessed = polls and rehearsal is not None and not evaluator.space.varies_workshop
+        guessed = polls and dry_run is not None and not evaluator.space.varies_workshop
         return idle >= IDLE if guessed else low >= PATIENCE
 
     return run_steps(evaluator, "bo", task, proposer, ended)
@@ -105,18 +105,18 @@ def run_bayesian(evaluator: Evaluator, task: Task, polls: bool = True) -> bool:
 
 def run_steps(
     evaluator: Evaluator, phase: str, task: Task, proposer: Proposer,
-    ended: Callable[[Rehearsal | None], bool] = lambda _rehearsal: False,
+    ended: Callable[[DryRun | None], bool] = lambda _dry_run: False,
 ) -> bool:  # fmt: skip
     """Evaluate the initial designs, then what `proposer` proposes, one batch per step.
 
     Return whether the search has `ended` before its evaluations, time or proposals were spent.
     """
     space, start = evaluator.space, len(evaluator.trials)
-    rehearsal = Rehearsal.of(evaluator, phase, task)
+    dry_run = DryRun.of(evaluator, phase, task)
     if task.initial:
         generator = np.random.default_rng([task.seed, 1])
-        if rehearsal:
-            points = first_points(space, task.initial, generator, rehearsal.ranked, rehearsal.starts_with)
+        if dry_run:
+            points = first_points(space, task.initial, generator, dry_run.ranked, dry_run.starts_with)
         else:
             points = first_points(space, task.initial, generator)
         evaluator.evaluate(
@@ -127,7 +127,7 @@ def run_steps(
     for step in itertools.count(1):
         if left <= 0 or evaluator.expired():
             return False
-        if ended(rehearsal):
+        if ended(dry_run):
             return True
         count = min(task.batch, left)
         finished = evaluator.finished(phase, step, count, task.run)
@@ -136,18 +136,18 @@ def run_steps(
         else:
             known = known_trials(evaluator)
             with one_thread():
-                always = len(known) <= REFIT_AFTER and rehearsal is None
+                always = len(known) <= REFIT_AFTER and dry_run is None
                 refit = always or step % REFIT_EVERY == 1
-                if rehearsal:
-                    rehearsal.learn(known)
-                learner = Learner(space, learned_trials(space, known), rehearsal, thetas, refit)
+                if dry_run:
+                    dry_run.learn(known)
+                loop = ProposalLoop(space, learned_trials(space, known), dry_run, thetas, refit)
                 proposals = proposer(
-                    learner, known, count, np.random.default_rng([task.seed, 2, RUN_SEED * task.run + step])
+                    loop, known, count, np.random.default_rng([task.seed, 2, RUN_SEED * task.run + step])
                 )
-            thetas = learner.thetas
+            thetas = loop.thetas
             notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
-            if notes and learner.tried:
-                notes[0] |= {TRIED: [point.tolist() for point in learner.tried]}
+            if notes and loop.tried:
+                notes[0] |= {TRIED: [point.tolist() for point in loop.tried]}
             evaluator.evaluate([proposal.variant for proposal in proposals], phase, step, proposals=notes, run=task.run)
             count = len(proposals)
         if count == 0:

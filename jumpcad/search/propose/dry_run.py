@@ -1,10 +1,8 @@
-"""What a proposal is tried on before a robot is built: its layout, exactly, and a stand-in, about.
+"""What a proposal is tried on before a robot is built: its estimate, which counts as no evaluation.
 
-Near the best designs of the printed robot half of the proposals have no room for some part, and the score of a robot
-follows from its masses, which robots that were built tell about. Both are known in a fifth of the time of an evaluation
-and count as none. What the rehearsals showed is learned like trials, and the next proposal is better.
-
-All of it follows from the trials and from the points that are kept with them, so that a resumed search goes on alike.
+Near the best designs half of the proposals have no room for some part. What dry runs showed is learned like trials, and
+the next proposal is better. All of it follows from the trials and from the points that are kept with them, so that a
+resumed search goes on alike.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -14,30 +12,26 @@ from typing import Self
 import numpy as np
 
 from jumpcad.findings import bare
-from jumpcad.search.estimate.estimate import Fit, Guess, Guesser
-from jumpcad.search.estimate.fitting import MARK, STATICS, Table, learned_rows
+from jumpcad.search.estimate.estimate import Estimator
 from jumpcad.search.models import RobotModel
 from jumpcad.search.propose.initial_designs import ranked_points
 from jumpcad.search.propose.task import Task
-from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import Evaluation
-from jumpcad.search.study.trial import Trial, best_trial
+from jumpcad.search.study.trial import Trial
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
 TRIED = "tried"
-"""What the note of a trial calls the points that were rehearsed for its step."""
-SPREAD = 32
-"""Designs that are guessed first: the best by the capsule robot."""
-GUESSED, FAILED = 160, 160
-"""Most guesses that are learned from besides those of trials, and most failures: the last ones. Guesses are made anew
-with every fit, and the time of a step grows with both."""
-LEAST, GROWTH = 8, 1.3
-"""Trials from which on figures are fitted; they are fitted anew when there are so many times more."""
+"""What the note of a trial calls the points of the dry runs of its step."""
+FIRST = 32
+"""Designs that are estimated first: the best by the capsule robot."""
+ESTIMATED, FAILED = 160, 160
+"""Most estimates that are learned from besides those of trials, and most failures: the last ones. Estimates are made
+anew with every fit, and the time of a step grows with both."""
 
 
-class Rehearsal:
+class DryRun:
     """Tries variants of one search; see `of`.
 
     Parameters
@@ -50,20 +44,16 @@ class Rehearsal:
 
     def __init__(self, evaluator: Evaluator, phase: str, task: Task) -> None:
         assert isinstance(evaluator.model, RobotModel)
-        self._evaluator, self._model, self._phase, self._task = evaluator, evaluator.model, phase, task
-        self._space: Space = evaluator.space
-        self._laid: dict[Key, Mapping[str, float] | Trial] = {}
-        self._fit: Fit | None = None
-        self._guesser: Guesser | None = None
-        self._guesses: dict[Key, Guess | None] = {}
-        self._first: list[Variant] = []
+        self._evaluator, self._phase, self._task = evaluator, phase, task
+        self._space = evaluator.space
+        self.estimator = Estimator(evaluator.space, evaluator.model, evaluator.objective)
         self._variants: dict[tuple[float, ...], Variant] = {}
         self._prior = {trial.key for trial in evaluator.prior}
-        self._passed_over: dict[Key, Trial] = {}
+        self._passed_over: list[Variant] = []
 
     @classmethod
     def of(cls, evaluator: Evaluator, phase: str, task: Task) -> Self | None:
-        """Return the rehearsal of a search of printed robots; None of others, which are simulated as quickly."""
+        """Return the dry run of a search of printed robots; None of others, which are simulated as quickly."""
         model = evaluator.model
         return cls(evaluator, phase, task) if isinstance(model, RobotModel) and model.name == "printed" else None
 
@@ -74,72 +64,55 @@ class Rehearsal:
 
     def starts_with(self, variant: Variant) -> bool:
         """Whether a search may start with a variant: its parts have room. If not, that is learned."""
-        refusal = self._refusal(variant)
-        if refusal is not None:
-            self._passed_over[variant.key] = refusal
-        return refusal is None
+        if not isinstance(self.estimator.layout(variant), Evaluation):
+            return True
+        self._passed_over.append(variant)
+        return False
 
     def learn(self, trials: Sequence[Trial]) -> None:
-        """Fit the figures of the robots that were built, if there are enough new ones.
-
-        What was tried for any of the trials, which may be more than the processes learn from, is tried no more.
-        """
+        """Learn the robots that were built; what was tried for any of these trials is laid out once more."""
         for variant in self._tried(trials, ()):
-            self._refusal(variant)
-        rows = learned_rows(len(trials), LEAST, GROWTH)
-        if rows == 0 or self._space.varies_workshop or (self._fit is not None and self._fit.rows == rows):
-            return
-        known = trials[:rows]
-        first = next((trial for trial in known if MARK in trial.evaluation.metrics), None)
-        if first is None:
-            return
-        if self._guesser is None:
-            self._guesser = Guesser.quick(self._space, self._model, self._evaluator.objective, first)
-            self._first = [self._variant(point) for point in self.ranked[:SPREAD]]
-        centre = self._space.to_unit((best_trial(known) or first).variant)
-        self._fit = Fit(rows, Table(self._space, known, centre, laid=True).coefficients(), {})
-        self._guesses.clear()
-
-    @property
-    def guessing(self) -> bool:
-        """Whether enough robots were built to guess the jump of others."""
-        return self._fit is not None
+            self.estimator.layout(variant)
+        self.estimator.learn(trials)
 
     def known(self, trials: Sequence[Trial], tried: Sequence[Array]) -> set[Key]:
         """Return the keys of what was tried for `trials` and since then."""
         return {variant.key for variant in self._tried(trials, tried)}
 
-    def guess(self, variant: Variant) -> float | None:
-        """Return the guessed score of a variant; None where it has no room or does not jump."""
-        guess = self._guess(variant)
-        return None if guess is None else guess.score
+    def score(self, variant: Variant) -> float | None:
+        """Return the estimated score of a variant; None where it has no room or does not jump."""
+        estimate = self.estimator(variant)
+        return None if estimate is None else estimate.score
 
-    def is_refused(self, variant: Variant) -> bool:
-        """Whether a variant was tried and has no room."""
-        return isinstance(self._laid.get(variant.key), Trial)
+    def failure(self, variant: Variant) -> Trial | None:
+        """Return what a variant is learned as that has no room or stays on the ground; None of one that may jump.
 
-    def holds(self, variant: Variant) -> bool:
-        """Whether a variant jumps, as far as can be guessed, and has room."""
-        return self._failure(variant) is None
+        What stays on the ground has the margins of its statics.
+        """
+        laid, estimate = self.estimator.layout(variant), self.estimator(variant)
+        if isinstance(laid, Evaluation):
+            return _stayed(variant, laid)
+        if estimate is None or estimate.score is not None:
+            return None
+        margins = estimate.margins.items()
+        findings = [bare(name, "error" if margin < 0.0 else "info", margin, "") for name, margin in margins]
+        return _stayed(variant, Evaluation("no_takeoff", findings=tuple(findings)))
 
     def failures(self, trials: Sequence[Trial], tried: Sequence[Array]) -> list[Trial]:
         """Return the last that were tried for `trials` and since then and did not hold, as if they were trials."""
-        found = list(self._passed_over.values())
-        found += [one for one in map(self._failure, self._tried(trials, tried)) if one is not None]
-        return found[-FAILED:]
+        found = map(self.failure, [*self._passed_over, *self._tried(trials, tried)])
+        return [one for one in found if one is not None][-FAILED:]
 
-    def guesses(self, trials: Sequence[Trial], tried: Sequence[Array]) -> Mapping[Key, tuple[Array, float]]:
-        """Return points (d,) and guessed scores, by key, of what was tried and of the trials that jumped."""
-        if self._fit is None:
+    def estimates(self, trials: Sequence[Trial], tried: Sequence[Array]) -> Mapping[Key, tuple[Array, float]]:
+        """Return points (d,) and estimated scores, by key, of what was tried and of the trials that jumped."""
+        if not self.estimator.ready:
             return {}
-        before = [*self._first, *filter(self.holds, self._tried(trials, tried))][-GUESSED:]
+        first = [self._variant(point) for point in self.ranked[:FIRST]]
+        held = [one for one in self._tried(trials, tried) if self.failure(one) is None]
         jumped = [trial.variant for trial in trials if trial.score is not None]
-        found = {}
-        for variant in (*before, *jumped):
-            guess = self._guess(variant)
-            if guess is not None and guess.score is not None:
-                found[variant.key] = self._space.to_unit(variant), guess.score
-        return found
+        variants = [*[*first, *held][-ESTIMATED:], *jumped]
+        scores = ((one, self.score(one)) for one in variants)
+        return {one.key: (self._space.to_unit(one), score) for one, score in scores if score is not None}
 
     def _tried(self, trials: Sequence[Trial], tried: Sequence[Array]) -> Iterator[Variant]:
         ours = (
@@ -156,35 +129,6 @@ class Rehearsal:
         if key not in self._variants:
             self._variants[key] = self._space.to_variant(point)
         return self._variants[key]
-
-    def _failure(self, variant: Variant) -> Trial | None:
-        """Return what a variant that does not hold is learned as; of one with room, with the margins of its statics."""
-        refusal, guess = self._refusal(variant), self._guess(variant)
-        if guess is None or guess.score is not None:
-            return refusal
-        statics = {name: guess.margins[name] for name in STATICS if name in guess.margins}
-        findings = [bare(name, "error" if margin < 0.0 else "info", margin, "") for name, margin in statics.items()]
-        return _stayed(variant, Evaluation("no_takeoff", findings=tuple(findings)))
-
-    def _refusal(self, variant: Variant) -> Trial | None:
-        laid = self._layout(variant)
-        return laid if isinstance(laid, Trial) else None
-
-    def _layout(self, variant: Variant) -> Mapping[str, float] | Trial:
-        """Return figures of a variant's layout, or what is learned of one that has no room."""
-        if variant.key not in self._laid:
-            found = self._model.laid_out(variant)
-            self._laid[variant.key] = _stayed(variant, found) if isinstance(found, Evaluation) else found
-        return self._laid[variant.key]
-
-    def _guess(self, variant: Variant) -> Guess | None:
-        """Return what a variant would do; None where it has no room, or its jump cannot be guessed."""
-        if self._guesser is None or self._fit is None:
-            return None
-        if variant.key not in self._guesses:
-            laid = self._layout(variant)
-            self._guesses[variant.key] = None if isinstance(laid, Trial) else self._guesser(variant, self._fit, laid)
-        return self._guesses[variant.key]
 
 
 def _stayed(variant: Variant, outcome: Evaluation) -> Trial:

@@ -132,7 +132,7 @@ class ScreenedFitness(Fitness):
     """Fitness with a screen; a candidate that it leaves out has the score that was guessed, which the study keeps."""
 
     def __init__(self, *arguments: Any) -> None:
-        from jumpcad.search.estimate.screen import Screen
+        from jumpcad.search.estimate.corrected_estimate import Screen
 
         super().__init__(*arguments)
         evaluator = self.evaluator
@@ -156,8 +156,7 @@ class ScreenedFitness(Fitness):
         self._seen.update(fresh)
         if all(evaluator.holds(variant) for variant in fresh.values()):
             return {}
-        if screen.learn(evaluator.trials, evaluator.store.recall("screen")):
-            evaluator.store.remember("screen", screen.to_record())
+        screen.learn(evaluator.trials)
         best = best_trial(evaluator.trials)
         return screen.outcomes(fresh.values(), (best and best.score) or 0.0)
 

@@ -18,7 +18,7 @@ from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, find_cost, fr
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.bayesian import incumbent, learned_trials, run_steps, unproposed
 from jumpcad.search.propose.genetic import Fitness, begun_with, evolve
-from jumpcad.search.propose.proposal_loop import Learner
+from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
@@ -52,16 +52,16 @@ def run_pareto(evaluator: Evaluator, task: Task) -> None:
     space, cost = evaluator.space, find_cost(task.against)
 
     def proposer(
-        learner: Learner, trials: Sequence[Trial], count: int, generator: np.random.Generator
+        loop: ProposalLoop, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
         proposals: list[Proposal] = []
         for cap, penalty in _caps(space, cost, trials)[:count]:
             best, elite = incumbent(space, [trial for trial in trials if cost.of(trial) <= cap])
             ask = partial(
                 propose, space, best=best, elite=elite, generator=generator, penalty=penalty,
-                admits=unproposed(evaluator, proposals, learner.may_hold),
+                admits=unproposed(evaluator, proposals, loop.may_hold),
             )  # fmt: skip
-            proposal = learner.propose(ask, best)
+            proposal = loop.propose(ask, best)
             if proposal is not None:
                 proposals.append(proposal)
         return proposals

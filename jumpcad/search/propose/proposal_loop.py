@@ -1,4 +1,4 @@
-"""What one step of a search learns from its trials, and again from each rehearsal of a proposal."""
+"""What one step of a search learns from its trials, and again from each dry run of a proposal."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from jumpcad.search.propose.acquisition import DIGITS, REHEARSED, Proposal
-from jumpcad.search.propose.dry_run import Rehearsal
+from jumpcad.search.propose.dry_run import DryRun
 from jumpcad.search.propose.local_search import WITHIN, neighbours
 from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.space import Space
@@ -17,25 +17,25 @@ from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
 ROUNDS = 8
-"""Most rehearsals of a proposal."""
+"""Most dry runs of a proposal."""
 HELD = 4
 """Of which so many hold; the best of them is evaluated."""
 AROUND, LEAP = 0.2, 0.02
-"""How far beside a best its neighbours along the axes are rehearsed, in the unit cube, and the share by which it must
-be better than the last one whose neighbours were; judgement. A search that follows small gains along a bound does not
-see what another axis is worth: see docs/decisions/default-search.md."""
+"""How far beside a best its neighbours along the axes are tried, in the unit cube, and the share by which it must be
+better than the last one whose neighbours were; judgement. A search that follows small gains along a bound does not see
+what another axis is worth: see docs/decisions/default-search.md."""
 WORTH = 0.001
-"""Least gain, as a share of the best score, that a further rehearsal must promise once one holds; judgement."""
+"""Least gain, as a share of the best score, that a further dry run must promise once one holds; judgement."""
 
 
-class Learner:
-    """Makes the posterior of a step, and proposals that were rehearsed.
+class ProposalLoop:
+    """Makes the posterior of a step, and proposals that were tried.
 
     Parameters
     ----------
     space, trials
         The space, and evaluated designs in it.
-    rehearsal
+    dry_run
         Where proposals are tried; None where they are not.
     thetas
         Hyperparameters of the step before.
@@ -44,22 +44,21 @@ class Learner:
     """
 
     def __init__(
-        self,
-        space: Space,
-        trials: Sequence[Trial],
-        rehearsal: Rehearsal | None,
-        thetas: Mapping[str, Any],
-        refit: bool,
+        self, space: Space, trials: Sequence[Trial], dry_run: DryRun | None, thetas: Mapping[str, Any], refit: bool
     ) -> None:
-        self._space, self._trials, self._rehearsal = space, trials, rehearsal
+        self._space, self._trials, self._dry_run = space, trials, dry_run
         self.thetas: Mapping[str, Any] = thetas
         self._fit: Sequence[str] | None = None if refit else ()
         self.tried: list[Array] = []
         self._proposed: list[Array] = []
         self._failed: set[Key] = set()
 
+    @property
+    def _estimates(self) -> bool:
+        return self._dry_run is not None and self._dry_run.estimator.ready
+
     def propose(self, ask: Callable[..., Proposal | None], best: float) -> Proposal | None:
-        """Return a proposal of `ask`, which is called with a posterior and the points that were rehearsed for it.
+        """Return a proposal of `ask`, which is called with a posterior and the points that held in a dry run for it.
 
         Its own mean is then believed, as if it had been measured, until the step is over. `best` is the score to be
         improved.
@@ -68,8 +67,8 @@ class Learner:
         self._look_around()
         posterior = self._learned()
         proposal = ask(posterior, rehearsed=[])
-        for _ in range(ROUNDS if self._rehearsal else 0):
-            assert self._rehearsal is not None
+        for _ in range(ROUNDS if self._dry_run else 0):
+            assert self._dry_run is not None
             if proposal is None:
                 proposal = _best_of(held, posterior, best) if held else None
                 break
@@ -79,7 +78,7 @@ class Learner:
                 proposal = _best_of(held, posterior, best)
                 break
             self.tried.append(proposal.unit)
-            holds = self._rehearsal.holds(proposal.variant)
+            holds = self._dry_run.failure(proposal.variant) is None
             posterior = self._learned()
             if holds:
                 held.append(proposal)
@@ -102,29 +101,30 @@ class Learner:
         generator: np.random.Generator,
         wider: float = 1.0,
     ) -> Proposal | None:
-        """Return the neighbour of the best of some trials with the best guess; None where none is about as good.
+        """Return the neighbour of the best of some trials with the best estimate; None where none is about as good.
 
-        `admits` tells which variants are new; neighbours are so many times `wider` apart. All of them are rehearsed.
+        `admits` tells which variants are new; neighbours are so many times `wider` apart. All of them are tried.
         """
-        best, rehearsal = best_trial(trials), self._rehearsal
-        if rehearsal is None or not rehearsal.guessing or best is None:
+        best = best_trial(trials)
+        if not self._estimates or best is None:
             return None
-        offers, known = [], rehearsal.known(self._trials, self.tried)
+        assert self._dry_run is not None
+        offers, known = [], self._dry_run.known(self._trials, self.tried)
         for point in neighbours(self._space, best, generator, wider):
             variant = self._space.to_variant(point)
             if admits(variant):
                 self.tried += [] if variant.key in known else [point]
-                offers.append((rehearsal.guess(variant) or 0.0, Proposal(variant, point, 0.0, 0.0)))
-        guess, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
-        if found is None or guess < (1.0 - WITHIN) * (rehearsal.guess(best.variant) or math.inf):
+                offers.append((self._dry_run.score(variant) or 0.0, Proposal(variant, point, 0.0, 0.0)))
+        score, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
+        if found is None or score < (1.0 - WITHIN) * (self._dry_run.score(best.variant) or math.inf):
             return None
         found = _best_of([found], self._learned(), best.score or 0.0)
         self._proposed.append(found.unit)
         return found
 
     def _look_around(self) -> None:
-        """Rehearse the neighbours of what the last step found, if it is a leap."""
-        if self._rehearsal is None or not self._rehearsal.guessing or self.tried:
+        """Try the neighbours of what the last step found, if it is a leap."""
+        if not self._estimates or self.tried:
             return
         found, last = _last_leap(self._trials), self._trials[-1]
         if found is None or found.position[:3] != last.position[:3]:
@@ -136,15 +136,15 @@ class Learner:
         self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
 
     def may_hold(self, variant: Variant) -> bool:
-        """Whether a variant may be proposed: it has not failed in a rehearsal of this step, nor was refused in any."""
-        return variant.key not in self._failed and not (self._rehearsal and self._rehearsal.is_refused(variant))
+        """Whether a variant may be proposed: it has not failed in a dry run of this step, nor has no room."""
+        return variant.key not in self._failed and not (self._dry_run and self._dry_run.estimator.refuses(variant))
 
     def _learned(self) -> SearchPosterior:
-        """Return the posterior of the trials and all rehearsals, with what was proposed believed."""
+        """Return the posterior of the trials and all dry runs, with what was proposed believed."""
         trials, guesses = list(self._trials), NO_GUESSES
-        if self._rehearsal is not None:
-            trials += self._rehearsal.failures(self._trials, self.tried)
-            guesses = self._rehearsal.guesses(self._trials, self.tried)
+        if self._dry_run is not None:
+            trials += self._dry_run.failures(self._trials, self.tried)
+            guesses = self._dry_run.estimates(self._trials, self.tried)
         posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._fit, guesses)
         self.thetas, self._fit = {**self.thetas, **posterior.thetas}, ()
         for point in self._proposed:

@@ -1,4 +1,4 @@
-"""A stand-in has the figures that it is made of, each where it belongs; `test_guess.py` has its springs and release."""
+"""An estimated robot has the figures that it is made of, each where it belongs."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from support.quick import FIGURES, LIKE
 
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
-from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, figures_of, stand_in
+from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, estimated_robot, robot_figures
 
 MADE_UP = {
     name: 0.001 * number
@@ -20,7 +20,7 @@ MADE_UP = {
 
 
 def test_figures_are_those_of_the_robot_to_six_digits() -> None:
-    found = figures_of(LIKE)
+    found = robot_figures(LIKE)
     named = {f"{name}_{figure}" for name in BODY_NAMES for figure in ("com_x_m", "com_z_m", "inertia_kg_m2")}
     others = {"foot_depth_m", "toe_radius_m", "stop_rad", "stop_nm_per_rad"}
     release = {"release_turn_rad", "release_rad_s", "release_ratio"}
@@ -43,7 +43,7 @@ def test_figures_are_those_of_the_robot_to_six_digits() -> None:
 
 
 def test_figures_of_a_layout_say_where_cam_motor_and_trays_are_and_how_large_a_spring_is() -> None:
-    layout, found = LIKE.layout, figures_of(LIKE)
+    layout, found = LIKE.layout, robot_figures(LIKE)
     places = {"cam": layout.cam_axis_mm, "motor": layout.motor_mm}
     for part, (x, z) in places.items():
         assert (found[f"laid_{part}_x_mm"], found[f"laid_{part}_z_mm"]) == pytest.approx((x, z), rel=6e-6), part
@@ -54,7 +54,7 @@ def test_figures_of_a_layout_say_where_cam_motor_and_trays_are_and_how_large_a_s
 
 def test_each_figure_is_found_again_in_the_stand_in() -> None:
     """Bodies turn about y; the toes' spheres stand on the same ground as the foot's others."""
-    plain, made = capsule_robot(LIKE.design), stand_in(LIKE.design, MADE_UP, LIKE)
+    plain, made = capsule_robot(LIKE.design), estimated_robot(LIKE.design, MADE_UP, LIKE)
     for name in BODY_NAMES:
         body = made.bodies[name]
         com = [MADE_UP[f"{name}_com_x_m"], 0.0, MADE_UP[f"{name}_com_z_m"]]

@@ -21,7 +21,7 @@ from jumpcad.search.propose.bayesian import (
     unproposed,
 )
 from jumpcad.search.propose.local_search import FARTHEST
-from jumpcad.search.propose.proposal_loop import Learner
+from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import SCREENED, Evaluation
@@ -73,21 +73,21 @@ def test_where_a_proposal_promises_nothing_neighbours_near_and_far_are_looked_at
     evaluator, monkeypatch, promise, polls, looks
 ):
     """What is found there is evaluated in place of the proposal."""
-    proposed, asked, propose = [], [], Learner.propose
+    proposed, asked, propose = [], [], ProposalLoop.propose
 
-    def promising(learner, ask, best):
-        proposed.append(replace(propose(learner, ask, best), log_improvement=promise, log_feasible=0.0))
+    def promising(loop, ask, best):
+        proposed.append(replace(propose(loop, ask, best), log_improvement=promise, log_feasible=0.0))
         return proposed[-1]
 
-    def beside(learner, trials, admits, generator, wider=1.0):
+    def beside(loop, trials, admits, generator, wider=1.0):
         asked.append(wider)
         if len(asked) < 3:
             return None
         point = np.full(3, 0.5)
         return replace(proposed[-1], variant=SMALL.to_variant(point), unit=point)
 
-    monkeypatch.setattr(Learner, "propose", promising)
-    monkeypatch.setattr(Learner, "beside", beside)
+    monkeypatch.setattr(ProposalLoop, "propose", promising)
+    monkeypatch.setattr(ProposalLoop, "beside", beside)
     one = evaluator()
     run_bayesian(one, Task(8, 0, initial=5), polls)
     assert len(asked) == looks
@@ -101,14 +101,14 @@ def test_where_a_proposal_promises_nothing_neighbours_near_and_far_are_looked_at
 @pytest.mark.usefixtures("quick_proposals_once")
 def test_after_four_steps_without_a_gain_neighbours_are_looked_at_whatever_is_promised(evaluator, monkeypatch):
     """Each step promises more than asked for, and gains less."""
-    asked, propose = [], Learner.propose
+    asked, propose = [], ProposalLoop.propose
 
-    def promising(learner, ask, best):
-        return replace(propose(learner, ask, best), log_improvement=9.0, log_feasible=0.0)
+    def promising(loop, ask, best):
+        return replace(propose(loop, ask, best), log_improvement=9.0, log_feasible=0.0)
 
     one = evaluator()
-    monkeypatch.setattr(Learner, "propose", promising)
-    monkeypatch.setattr(Learner, "beside", lambda *_: asked.append(len(one.trials)))
+    monkeypatch.setattr(ProposalLoop, "propose", promising)
+    monkeypatch.setattr(ProposalLoop, "beside", lambda *_: asked.append(len(one.trials)))
     run_bayesian(one, Task(12, 0, initial=5, least_gain=50.0))
     assert asked == [9, 10, 11]
 
@@ -251,10 +251,10 @@ def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as
     """No more than are left: of eleven four first, then three, three and one; steps are counted from the first."""
     asked = []
 
-    def proposer(learner, trials, count, generator):
+    def proposer(loop, trials, count, generator):
         asked.append((len(trials), count, generator.random()))
-        learner.tried.append(np.full(3, 0.25))
-        learner.thetas = {"score": [0.1 * len(asked)] * 5}
+        loop.tried.append(np.full(3, 0.25))
+        loop.thetas = {"score": [0.1 * len(asked)] * 5}
         points = [np.array([0.01 * len(asked) + 0.001 * n, 0.5, 0.5]) for n in range(count)]
         return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0 - n) for n, point in enumerate(points)]
 
@@ -277,7 +277,7 @@ def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as
 def test_what_was_evaluated_before_a_stage_costs_it_nothing(evaluator):
     """Six designs of an earlier stage, then ten of this one."""
 
-    def proposer(learner, trials, count, generator):
+    def proposer(loop, trials, count, generator):
         points = [np.array([0.01 * (len(trials) + n), 0.5, 0.5]) for n in range(count)]
         return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0) for point in points]
 
@@ -288,12 +288,12 @@ def test_what_was_evaluated_before_a_stage_costs_it_nothing(evaluator):
 
 
 def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evaluator):
-    def proposer(learner, trials, count, generator):
+    def proposer(loop, trials, count, generator):
         point = np.array([0.01 * len(trials), 0.5, 0.5])
         return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0)]
 
     one = evaluator()
-    assert run_steps(one, "bo", Task(20, 0, initial=3), proposer, lambda rehearsal: len(one.trials) >= 6) is True
+    assert run_steps(one, "bo", Task(20, 0, initial=3), proposer, lambda dry_run: len(one.trials) >= 6) is True
     assert len(one.trials) == 6
     late = evaluator()
     late.expired = lambda: len(late.trials) >= 5
@@ -305,7 +305,7 @@ def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evalua
 
 
 @pytest.mark.parametrize(
-    ("rehearsal", "polls", "steps", "promised", "least_gain", "ended"),
+    ("dry_run", "polls", "steps", "promised", "least_gain", "ended"),
     [
         (None, True, PATIENCE - 1, -20.0, 0.01, False), (None, True, PATIENCE, -20.0, 0.01, True),
         (None, True, PATIENCE, -20.0, 0.0, False), (None, True, 20, 2.0, 0.01, False),
@@ -315,7 +315,7 @@ def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evalua
     ],
 )  # fmt: skip
 def test_a_search_ends_after_so_many_steps_that_gained_too_little(
-    monkeypatch, rehearsal, polls, steps, promised, least_gain, ended
+    monkeypatch, dry_run, polls, steps, promised, least_gain, ended
 ):
     """And promised too little, where no robots are guessed to look beside; with no least gain it goes on."""
     first = Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), Evaluation("jump"), 2.0, "m", 0.0)
@@ -325,7 +325,7 @@ def test_a_search_ends_after_so_many_steps_that_gained_too_little(
     def steps_of(evaluator, phase, task, proposer, end):
         assert phase == "bo"
         evaluator.trials += [replace(first, phase="bo", step=n, score=1.0, proposal=note) for n in range(1, steps + 1)]
-        return end(rehearsal)
+        return end(dry_run)
 
     monkeypatch.setattr(bayesian, "run_steps", steps_of)
     assert run_bayesian(one, Task(40, 0, least_gain=least_gain), polls) is ended

@@ -163,7 +163,7 @@ def test_what_a_screen_leaves_out_has_the_score_that_was_guessed():
 
 
 def test_a_search_with_a_screen_begins_at_its_own_step(monkeypatch):
-    monkeypatch.setattr("jumpcad.search.estimate.screen.Screen", lambda *given: given)
+    monkeypatch.setattr("jumpcad.search.estimate.corrected_estimate.Screen", lambda *given: given)
     evaluator = SimpleNamespace(model=robot_model(), space="space", objective="objective", prior=[])
     fitness = ScreenedFitness(evaluator, "ga", 9, -2.0, 40)
     assert (fitness.phase, fitness.left, fitness.rejected, fitness.run) == ("ga", 9, -2.0, 40)

@@ -1,4 +1,4 @@
-"""What a step learns, with rehearsals that are known."""
+"""What a step learns, with dry runs that are known."""
 
 import math
 from dataclasses import replace
@@ -11,7 +11,7 @@ from support.hills import SMALL, Hill
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.propose.local_search import DRAWN, STEP, WITHIN
 from jumpcad.search.propose.posterior import SearchPosterior
-from jumpcad.search.propose.proposal_loop import HELD, ROUNDS, Learner, _best_of, _last_leap
+from jumpcad.search.propose.proposal_loop import HELD, ROUNDS, ProposalLoop, _best_of, _last_leap
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
 
@@ -26,33 +26,27 @@ def trial_of(unit):
 TRIALS = [trial_of(point) for point in SMALL.spread(16, np.random.default_rng(0))]
 
 
-class Rehearsal:
+class DryRun:
     """Only what is left of a half holds; of what was tried, nothing else is known."""
 
-    guessing = False
+    def __init__(self, half=0.5, ready=False):
+        self.half, self.estimator = half, SimpleNamespace(ready=ready, refuses=lambda _: False)
 
-    def __init__(self, half=0.5):
-        self.half = half
-
-    def is_refused(self, variant):
-        return False
-
-    def holds(self, variant):
-        return SMALL.to_unit(variant)[0] < self.half
+    def failure(self, variant):
+        no_room = Trial("", 0, 0, variant.design, Evaluation("no_room"), None, "", 0.0)
+        return None if SMALL.to_unit(variant)[0] < self.half else no_room
 
     def known(self, trials, tried):
         return {SMALL.to_variant(point).key for point in tried}
 
-    def guess(self, variant):
+    def score(self, variant):
         """The sum of its coordinates."""
         return float(SMALL.to_unit(variant).sum())
 
     def failures(self, trials, tried):
-        for unit in tried:
-            if unit[0] >= self.half:
-                yield Trial("", 0, 0, SMALL.to_design(unit), Evaluation("no_room"), None, "", 0.0)
+        return [one for one in map(self.failure, map(SMALL.to_variant, tried)) if one is not None]
 
-    def guesses(self, trials, tried):
+    def estimates(self, trials, tried):
         return {}
 
 
@@ -69,34 +63,34 @@ class Asked:
         return Proposal(SMALL.to_variant(unit), unit, self.promised, 0.0)
 
 
-def test_what_keeps_its_promise_in_its_rehearsal_is_taken_at_once():
+def test_what_keeps_its_promise_in_its_dry_run_is_taken_at_once():
     """A fifth less, in logarithms, is kept; more is not, and another is asked for."""
     unit = np.array([[0.2, 0.5, 0.5]])
     for less, asked in ((0.19, 1), (0.21, 2)):
-        learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
-        posterior = learner._learned()
+        loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=True)
+        posterior = loop._learned()
         value = float((posterior.log_improvement(unit, 1.0) + posterior.log_feasible(unit))[0])
         ask = Asked(unit[0].tolist(), promised=value + less)
-        found = learner.propose(ask, 1.0)
+        found = loop.propose(ask, 1.0)
         assert found.unit.tolist() == unit[0].tolist()
         assert len(ask.posteriors) == asked
         if asked == 1:
             assert found.log_value == pytest.approx(value, abs=1e-3)  # hyperparameters are rounded after a fit
 
 
-def test_without_rehearsals_the_first_proposal_is_taken():
+def test_without_dry_runs_the_first_proposal_is_taken():
     ask = Asked([0.9, 0.1, 0.1])
-    learner = Learner(SMALL, TRIALS, None, {}, refit=True)
-    assert learner.propose(ask, 1.0).unit.tolist() == [0.9, 0.1, 0.1]
-    assert (len(ask.posteriors), learner.tried) == (1, [])
-    assert "score" in learner.thetas
+    loop = ProposalLoop(SMALL, TRIALS, None, {}, refit=True)
+    assert loop.propose(ask, 1.0).unit.tolist() == [0.9, 0.1, 0.1]
+    assert (len(ask.posteriors), loop.tried) == (1, [])
+    assert "score" in loop.thetas
 
 
 def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
     ask = Asked([0.9, 0.1, 0.1], [0.2, 0.2, 0.2])
-    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
-    assert learner.propose(ask, 1.0).unit.tolist() == [0.2, 0.2, 0.2]
-    assert [point.tolist() for point in learner.tried] == [[0.9, 0.1, 0.1], [0.2, 0.2, 0.2]]
+    loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=True)
+    assert loop.propose(ask, 1.0).unit.tolist() == [0.2, 0.2, 0.2]
+    assert [point.tolist() for point in loop.tried] == [[0.9, 0.1, 0.1], [0.2, 0.2, 0.2]]
     assert [len(held) for held in ask.rehearsed] == [0, 0, 1]
     before, after = ask.posteriors[:2]
     unit = np.array([[0.9, 0.1, 0.1]])
@@ -105,41 +99,41 @@ def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
 
 def test_what_failed_where_all_seemed_well_is_believed_to_fail():
     """Compression ratio 0.59, of up to 0.7: there the trials know of nothing wrong."""
-    learner, unit = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True), np.array([[0.7, 0.3, 0.3]])
-    assert math.exp(learner._learned().log_feasible(unit)[0]) > 0.99
-    learner.tried.append(unit[0])
-    assert math.exp(learner._learned().log_feasible(unit)[0]) < 0.5
+    loop, unit = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=True), np.array([[0.7, 0.3, 0.3]])
+    assert math.exp(loop._learned().log_feasible(unit)[0]) > 0.99
+    loop.tried.append(unit[0])
+    assert math.exp(loop._learned().log_feasible(unit)[0]) < 0.5
 
 
 def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
     many = [[0.01 * number, 0.5, 0.5] for number in range(40)]
-    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
-    learner.propose(Asked(*many), 1.0)
-    assert len(learner.tried) == HELD
-    hopeless = Learner(SMALL, TRIALS, Rehearsal(half=-1.0), {}, refit=False)
+    loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False)
+    loop.propose(Asked(*many), 1.0)
+    assert len(loop.tried) == HELD
+    hopeless = ProposalLoop(SMALL, TRIALS, DryRun(half=-1.0), {}, refit=False)
     assert hopeless.propose(Asked(*many), 1.0).unit.tolist() == many[ROUNDS]
     assert len(hopeless.tried) == ROUNDS
 
 
 def test_of_many_rounds_the_one_that_held_is_taken_not_the_last_which_nobody_tried():
     many = [[0.2, 0.5, 0.5], *([0.6 + 0.01 * number, 0.5, 0.5] for number in range(ROUNDS + 1))]
-    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
-    assert learner.propose(Asked(*many), 1.0).unit.tolist() == many[0]
-    assert len(learner.tried) == ROUNDS
+    loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False)
+    assert loop.propose(Asked(*many), 1.0).unit.tolist() == many[0]
+    assert len(loop.tried) == ROUNDS
 
 
 def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
     ask = Asked([0.3, 0.3, 0.3], [0.6, 0.6, 0.6])
-    learner = Learner(SMALL, TRIALS, None, {}, refit=True)
-    learner.propose(ask, 1.0)
-    learner.propose(ask, 1.0)
+    loop = ProposalLoop(SMALL, TRIALS, None, {}, refit=True)
+    loop.propose(ask, 1.0)
+    loop.propose(ask, 1.0)
     unit = np.array([[0.3, 0.3, 0.3]])
     (_, before), (_, after) = (posterior.score.predict(unit) for posterior in ask.posteriors)
     assert after < 0.5 * before
 
 
 def test_none_is_passed_on():
-    assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).propose(lambda *_, **__: None, 1.0) is None
+    assert ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False).propose(lambda *_, **__: None, 1.0) is None
 
 
 def test_the_best_of_many_proposals_is_the_one_with_the_most_to_gain_that_is_likely_to_be_built():
@@ -176,13 +170,13 @@ def found_in(*steps):
 )  # fmt: skip
 def test_beside_a_leap_all_axes_are_rehearsed(trials, looks):
     """A fifth to either side, less at a bound, nothing beyond it: 1.0 has one side, 0.9 the other one halfway."""
-    rehearsal = Rehearsal()
-    rehearsal.guessing = True
-    learner = Learner(SMALL, trials, rehearsal, {}, refit=False)
-    learner.propose(Asked([0.2, 0.2, 0.2]), 1.0)
+    dry_run = DryRun()
+    dry_run.estimator.ready = True
+    loop = ProposalLoop(SMALL, trials, dry_run, {}, refit=False)
+    loop.propose(Asked([0.2, 0.2, 0.2]), 1.0)
     beside = [[0.3, 0.9, 1.0], [0.5, 0.7, 1.0], [0.5, 0.9, 0.8], [0.7, 0.9, 1.0]]
     expected = [*(beside if looks else []), [0.2, 0.2, 0.2]]
-    assert np.array(learner.tried) == pytest.approx(np.array(expected))
+    assert np.array(loop.tried) == pytest.approx(np.array(expected))
 
 
 def test_what_promises_little_is_not_rehearsed_once_one_holds():
@@ -193,10 +187,10 @@ def test_what_promises_little_is_not_rehearsed_once_one_holds():
             found = super().__call__(posterior, rehearsed)
             return replace(found, log_improvement=math.log(0.0004)) if rehearsed else found
 
-    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
-    found = learner.propose(Little([0.1, 0.5, 0.5], [0.9, 0.5, 0.5], [0.3, 0.5, 0.5]), 1.0)
+    loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False)
+    found = loop.propose(Little([0.1, 0.5, 0.5], [0.9, 0.5, 0.5], [0.3, 0.5, 0.5]), 1.0)
     assert found.unit.tolist() == [0.1, 0.5, 0.5]  # not the second, of which nobody knows whether it holds
-    assert len(learner.tried) == 1
+    assert len(loop.tried) == 1
 
 
 def test_the_promised_gain_is_a_share_of_the_score():
@@ -210,82 +204,85 @@ def test_the_promised_gain_is_a_share_of_the_score():
 
 def test_what_failed_is_not_asked_for_again_and_what_held_is_taken_where_nothing_else_is_left():
     few = [SMALL.to_variant(np.array(unit)) for unit in ([0.9, 0.1, 0.1], [0.2, 0.2, 0.2], [0.8, 0.3, 0.3])]
-    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
+    loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=True)
 
     def ask(posterior, rehearsed):
         known = [unit.tolist() for unit in rehearsed]
         for variant in few:
             unit = SMALL.to_unit(variant)
-            if learner.may_hold(variant) and unit.tolist() not in known:
+            if loop.may_hold(variant) and unit.tolist() not in known:
                 return Proposal(variant, unit, 0.0, 0.0)
         return None
 
-    assert learner.propose(ask, 1.0).variant == few[1]
-    assert len(learner.tried) == 3
-    assert [learner.may_hold(variant) for variant in few] == [False, True, False]
-    nothing = Learner(SMALL, TRIALS, Rehearsal(half=-1.0), {}, refit=True)
-    learner = nothing  # of which `ask` asks
+    assert loop.propose(ask, 1.0).variant == few[1]
+    assert len(loop.tried) == 3
+    assert [loop.may_hold(variant) for variant in few] == [False, True, False]
+    nothing = ProposalLoop(SMALL, TRIALS, DryRun(half=-1.0), {}, refit=True)
+    loop = nothing  # of which `ask` asks
     assert nothing.propose(ask, 1.0) is None
 
 
 def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as_the_best():
     """Guesses grow with all coordinates, so that a step forwards along some axis is better, whatever is drawn."""
     best = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0)
-    rehearsal = Rehearsal()
-    learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=False)
-    assert learner.beside([best], lambda _: True, np.random.default_rng(0)) is None  # nothing can be guessed yet
-    rehearsal.guessing = True
-    found = learner.beside([best], lambda _: True, np.random.default_rng(0))
-    assert len(learner.tried) == 6 + DRAWN
-    assert found.unit.sum() == pytest.approx(max(point.sum() for point in learner.tried))
+    dry_run = DryRun()
+    loop = ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False)
+    assert loop.beside([best], lambda _: True, np.random.default_rng(0)) is None  # nothing can be guessed yet
+    dry_run.estimator.ready = True
+    found = loop.beside([best], lambda _: True, np.random.default_rng(0))
+    assert len(loop.tried) == 6 + DRAWN
+    assert found.unit.sum() == pytest.approx(max(point.sum() for point in loop.tried))
     assert found.unit.sum() >= 1.5 + STEP
-    new = {SMALL.to_variant(point).key for point in learner.tried} - {found.variant.key}
-    other = learner.beside([best], lambda one: one.key in new, np.random.default_rng(0))
+    new = {SMALL.to_variant(point).key for point in loop.tried} - {found.variant.key}
+    other = loop.beside([best], lambda one: one.key in new, np.random.default_rng(0))
     assert 1.5 * (1.0 - WITHIN) < other.unit.sum() < found.unit.sum()
-    assert len(learner.tried) == 6 + DRAWN  # the same points, which are learned from once
-    lesser = {key for key in new if rehearsal.guess(variant_of(learner, key)) < 1.5 * (1.0 - WITHIN)}
+    assert len(loop.tried) == 6 + DRAWN  # the same points, which are learned from once
+    lesser = {key for key in new if dry_run.score(variant_of(loop, key)) < 1.5 * (1.0 - WITHIN)}
     assert lesser
-    assert learner.beside([best], lambda one: one.key in lesser, np.random.default_rng(0)) is None
-    assert learner.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
+    assert loop.beside([best], lambda one: one.key in lesser, np.random.default_rng(0)) is None
+    assert loop.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
 
 
 def test_a_neighbour_that_was_proposed_is_believed_in_the_rest_of_the_step():
-    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), Rehearsal(1.0)
-    rehearsal.guessing = True
-    before, after = (Learner(SMALL, TRIALS, rehearsal, {}, refit=False) for _ in range(2))
+    best, dry_run = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), DryRun(1.0)
+    dry_run.estimator.ready = True
+    before, after = (ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False) for _ in range(2))
     unit = after.beside([best], lambda _: True, np.random.default_rng(0)).unit[None]
     assert after._learned().score.predict(unit)[1] < 0.5 * before._learned().score.predict(unit)[1]
 
 
 @pytest.mark.parametrize("refused", [True, False])
-def test_what_has_no_room_may_not_be_proposed(monkeypatch, refused):
+def test_what_has_no_room_may_not_be_proposed(refused):
     variant = SMALL.to_variant([0.5, 0.5, 0.5])
-    monkeypatch.setattr(Rehearsal, "is_refused", lambda self, one: refused and one == variant)
-    assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).may_hold(variant) != refused
-    assert Learner(SMALL, TRIALS, None, {}, refit=False).may_hold(variant)
+    dry_run = DryRun()
+    dry_run.estimator.refuses = lambda one: refused and one == variant
+    assert ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False).may_hold(variant) != refused
+    assert ProposalLoop(SMALL, TRIALS, None, {}, refit=False).may_hold(variant)
 
 
 @pytest.mark.parametrize(("less", "proposed"), [(-1.0, True), (0.9, True), (1.1, False)])
 def test_a_neighbour_may_be_a_little_worse_than_the_best(less, proposed):
     """By half a hundredth of its guess."""
-    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), Rehearsal()
-    rehearsal.guessing = True
-    rehearsal.guess = lambda variant: 3.0 if variant.key == best.key else 3.0 * (1.0 - 0.005 * less)
-    found = Learner(SMALL, TRIALS, rehearsal, {}, refit=False).beside([best], lambda _: True, np.random.default_rng(0))
+    best, dry_run = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), DryRun()
+    dry_run.estimator.ready = True
+    dry_run.score = lambda variant: 3.0 if variant.key == best.key else 3.0 * (1.0 - 0.005 * less)
+    found = ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False).beside(
+        [best], lambda _: True, np.random.default_rng(0)
+    )
     assert (found is not None) == proposed
 
 
 def test_a_neighbour_without_a_guess_is_not_proposed_however_small_scores_are():
     """Ranges in metres are less than one."""
-    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=0.2), Rehearsal()
-    rehearsal.guessing = True
-    rehearsal.guess = lambda variant: 0.2 if variant.key == best.key else None
-    learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=False)
-    assert learner.beside([best], lambda _: True, np.random.default_rng(0)) is None
+    best, dry_run = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=0.2), DryRun()
+    dry_run.estimator.ready = True
+    dry_run.score = lambda variant: 0.2 if variant.key == best.key else None
+    loop = ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False)
+    assert loop.beside([best], lambda _: True, np.random.default_rng(0)) is None
 
 
-def variant_of(learner, key):
-    return next(one for one in map(SMALL.to_variant, learner.tried) if one.key == key)
+def variant_of(loop, key):
+    return next(one for one in map(SMALL.to_variant, loop.tried) if one.key == key)
 
 
 def test_hyperparameters_are_those_of_the_newest_fit():
@@ -293,7 +290,7 @@ def test_hyperparameters_are_those_of_the_newest_fit():
     other = {"slope": [0.1] * 5}
     fitted = SearchPosterior.from_trials(SMALL, TRIALS, {}, None).thetas
     old = {"score": [1.0, -1.0, -1.0, -1.0, -4.0]}
-    refit, kept = (Learner(SMALL, TRIALS, None, old | other, refit) for refit in (True, False))
+    refit, kept = (ProposalLoop(SMALL, TRIALS, None, old | other, refit) for refit in (True, False))
     again = SearchPosterior.from_trials(SMALL, TRIALS, old, None).thetas
     posteriors = [one._learned() for one in (refit, kept)]
     assert refit.thetas == other | again

@@ -95,7 +95,7 @@ def ranges() -> Mapping[tuple[str, str], tuple[float, float]]:
     return found | RANGES
 
 
-def quick_robot(design: Design, workshop: Workshop) -> Mechanism:
+def robot_of_masses(design: Design, workshop: Workshop) -> Mechanism:
     """Return the robot of a design with estimated masses: springs, lengths and angles are exact.
 
     Its bodies have no inertia and touch no ground; it serves statics alone.

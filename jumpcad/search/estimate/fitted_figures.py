@@ -1,0 +1,92 @@
+"""Figures of robots that were built, fitted by quadratics of the parameters and by figures of the layout."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Self
+
+import numpy as np
+
+from jumpcad.search.estimate.estimated_robot import LAID
+from jumpcad.search.space import Space
+from jumpcad.search.study.trial import Trial
+from jumpcad.transforms import Array
+
+MARK = "laid_coil_mm"
+"""A figure that only robots have that were built to be learned from."""
+FITTED = 300
+"""Most robots that figures are fitted to: the nearest to the best."""
+REACH = 0.25
+"""Distance from the best, in ranges, at which a robot counts half as much; judgement."""
+RIDGE = 1e-3
+FEW, FEW_MORE = 80, 10.0
+"""Where the robots are fewer, the ridge of the second order is so many times larger: then they do not say it."""
+
+
+class FittedFigures:
+    """Coefficients of every figure that all robots have; of its logarithm where it is positive in all of them.
+
+    So masses stay positive. Weighted ridge regression about a point; see `of`.
+
+    Parameters
+    ----------
+    positive, others
+        By name, coefficients (features + layout figures,) of logarithms and of figures.
+    """
+
+    def __init__(self, positive: Mapping[str, Array], others: Mapping[str, Array]) -> None:
+        self._logarithms = len(positive)
+        self._names = [*positive, *others]
+        self._matrix = np.array([*positive.values(), *others.values()])
+
+    @classmethod
+    def of(cls, space: Space, trials: Sequence[Trial], centre: Array) -> Self:
+        """Fit the figures of trials with a `MARK`, the nearest to a point (d,) of the unit cube."""
+        units = np.array([space.to_unit(trial.variant) for trial in trials])
+        distance = np.abs(units - centre).max(axis=1)
+        order = np.sort(np.argsort(distance, kind="stable")[:FITTED])
+        metrics = [trials[index].evaluation.metrics for index in order]
+        rows = np.hstack([features(units[order]), np.array([of_layout(one) for one in metrics])])
+        solver = _solver(rows, 1.0 / (1.0 + (distance[order] / REACH) ** 2), units.shape[1])
+        positive, others = {}, {}
+        for name in sorted(set.intersection(*map(set, metrics)) - LAID.keys()):
+            values = np.array([one[name] for one in metrics])
+            if values.min() > 0.0:
+                positive[name] = solver @ np.log(values)
+            else:
+                others[name] = solver @ values
+        return cls(positive, others)
+
+    def predict(self, unit: Array, laid: Mapping[str, float]) -> dict[str, float]:
+        """Return the figures at a point (d,) of the unit cube, of a robot with these figures of its layout.
+
+        Raises
+        ------
+        OverflowError
+            Far from all that was built.
+        """
+        values = (self._matrix * np.append(features(unit[None])[0], of_layout(laid))).sum(axis=1).tolist()
+        values[: self._logarithms] = map(math.exp, values[: self._logarithms])
+        return dict(zip(self._names, values, strict=True))
+
+
+def _solver(rows: Array, weights: Array, d: int) -> Array:
+    """Return the matrix (k, n) that takes values of the rows (n, k) to coefficients of weighted ridge regression."""
+    weighted = rows * weights[:, None]
+    second = RIDGE * (1.0 if len(rows) >= FEW else FEW_MORE)
+    products = d * (d + 1) // 2
+    more = rows.shape[1] - 1 - d - products
+    ridge = [1e-9, *[RIDGE] * d, *[second] * products, *[RIDGE] * more]
+    found: Array = np.linalg.solve(weighted.T @ rows + weights.sum() * np.diag(ridge), weighted.T)
+    return found
+
+
+def features(units: Array) -> Array:
+    """Return 1, the coordinates and their products (n, 1 + d + d·(d + 1)/2) of points (n, d) of the unit cube."""
+    x = 2.0 * units - 1.0
+    first, second = np.triu_indices(x.shape[1])
+    return np.hstack([np.ones((len(x), 1)), x, x[:, first] * x[:, second]])
+
+
+def of_layout(laid: Mapping[str, float]) -> Array:
+    """Return the features (k,) of a layout."""
+    return np.array([laid[name] / unit for name, unit in LAID.items()])
