@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import cache, cached_property, wraps
+from functools import cache, wraps
 from pathlib import Path
 from typing import Any
 
@@ -27,10 +27,8 @@ from jumpcad.checks import Check, printability
 from jumpcad.design import Design
 from jumpcad.exporters import threemf
 from jumpcad.findings import Finding
-from jumpcad.parts.part import Drawing, Shape
 from jumpcad.robot import Robot
 from jumpcad.solids import finish
-from jumpcad.solids.stack import Stack
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop
 
@@ -38,8 +36,6 @@ ALONE = ("test_contributing.py", "test_examples.py", "test_notebooks.py", "test_
 THOROUGH = [Path(__file__).parent / name for name in ("clients", "hostile", *ALONE)]
 """Folders and files whose tests are all thorough; a quick run does not even import them."""
 QUICK = "not thorough"
-KEPT = 600
-"""Shapes kept, those of some 20 robots."""
 
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # else every program that a test starts compiles the package: 0.2 s
 sys.dont_write_bytecode = False
@@ -55,31 +51,8 @@ def of_all_workers(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> 
 
 
 @pytest.fixture(scope="session", autouse=True)
-def shapes(of_all_workers: Path) -> Iterator[None]:
-    """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before.
-
-    So are a report's hundred jumps and its pictures: of equal robots they are the same. So are files of plates, with
-    their thumbnails.
-    """
-    known: dict[Shape, dict[str, Any]] = {}
-
-    def once(name: str, make: Callable[[Any], Any], shape_of: Callable[[Any], Shape]) -> Callable[[Any], Any]:
-        def get(asked: Any) -> Any:
-            shape = shape_of(asked)
-            if shape not in known and len(known) == KEPT:
-                del known[next(iter(known))]  # of which no test has asked for longest
-            made = known[shape] = known.pop(shape, {})
-            if name not in made:
-                made[name] = make(asked)
-            return made[name]
-
-        return get
-
-    def kept(name: str) -> cached_property[Any]:
-        made = cached_property(once(name, vars(Drawing)[name].func, lambda drawing: drawing.shape))
-        made.__set_name__(Drawing, name)
-        return made
-
+def judged_once(of_all_workers: Path) -> Iterator[None]:
+    """Judge equal shapes once, simulate and draw equal robots once, and write equal plates once."""
     seen: dict[object, Any] = {}
     faults = once_of(seen, finish.faults, lambda stl: hashlib.sha256(stl).digest())
     undersides = once_of(
@@ -94,9 +67,6 @@ def shapes(of_all_workers: Path) -> Iterator[None]:
         patch.setattr(threemf, "write_threemf", once_of(seen, threemf.write_threemf, threemf_key))
         for name in ("uncertainty_of", "renders"):
             patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
-        patch.setattr(Stack, "solid", once("solid", Stack.solid, lambda stack: stack))
-        for name in ("mesh", "look"):
-            patch.setattr(Drawing, name, kept(name))
         yield
 
 

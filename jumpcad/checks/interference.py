@@ -17,7 +17,7 @@ from jumpcad.findings import Basis, Finding
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
-from jumpcad.parts.part import Drawing, Shape
+from jumpcad.parts.part import Drawing, Shape, solid_of
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.solids.overlap import overlap_volume_mm3
@@ -68,7 +68,7 @@ class Piece:
     @cached_property
     def solid(self) -> Manifold:
         """The piece in its own frame (mm)."""
-        return self.source.solid if self.source else self.shape.solid()
+        return self.source.solid if self.source else solid_of(self.shape)
 
     @cached_property
     def corners(self) -> Array:

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Shape
-from jumpcad.solids.finish import to_trimesh
+from jumpcad.parts.part import Shape, mesh_of
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.text import engravable, text
@@ -63,7 +62,7 @@ class Piece:
     @cached_property
     def mesh(self) -> "trimesh.Trimesh":
         """Mesh (mm)."""
-        return to_trimesh(self.shape.solid())
+        return mesh_of(self.shape)
 
     @property
     def look(self) -> "trimesh.Trimesh":

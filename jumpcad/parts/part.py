@@ -6,7 +6,7 @@ laid on the bed on their left or right face.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
@@ -27,6 +27,8 @@ Face = Literal["left", "right"]
 
 UNSEEN_MM = 0.05
 """Size of detail that is left out of meshes for pictures; judgement: less than a pixel."""
+SHAPES_KEPT = 400
+"""Shapes of which solids and meshes are kept, those of some 15 robots: most parts are those of the robot before."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +54,7 @@ class Drawing:
     @cached_property
     def solid(self) -> Manifold:
         """The part as one closed solid in printing orientation (mm)."""
-        return self.shape.solid()
+        return solid_of(self.shape)
 
     def fit_to_bed(self, bed_mm: Sequence[float]) -> BedFit:
         """Return how the part fits a bed (x, y, z)."""
@@ -68,16 +70,34 @@ class Drawing:
     @cached_property
     def mesh(self) -> "trimesh.Trimesh":
         """The part's mesh in printing orientation (mm)."""
-        from jumpcad.solids.finish import to_trimesh
-
-        return to_trimesh(self.solid)
+        return mesh_of(self.shape)
 
     @cached_property
     def look(self) -> "trimesh.Trimesh":
         """The mesh without fine detail, for pictures of the part (mm)."""
-        from jumpcad.solids.finish import to_trimesh
+        return look_of(self.shape)
 
-        return to_trimesh(self.solid.simplify(UNSEEN_MM))
+
+@lru_cache(SHAPES_KEPT)
+def solid_of(shape: Shape) -> Manifold:
+    """Return a shape's solid (mm)."""
+    return shape.solid()
+
+
+@lru_cache(SHAPES_KEPT)
+def mesh_of(shape: Shape) -> "trimesh.Trimesh":
+    """Return a shape's mesh (mm); whoever asks gets the same one."""
+    from jumpcad.solids.finish import to_trimesh
+
+    return to_trimesh(solid_of(shape))
+
+
+@lru_cache(SHAPES_KEPT)
+def look_of(shape: Shape) -> "trimesh.Trimesh":
+    """Return a shape's mesh without fine detail (mm); whoever asks gets the same one."""
+    from jumpcad.solids.finish import to_trimesh
+
+    return to_trimesh(solid_of(shape).simplify(UNSEEN_MM))
 
 
 def laid(slabs: Iterable[tuple[float, float, Region]], face: Face = "left") -> tuple[Stack, Array]:

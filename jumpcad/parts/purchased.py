@@ -9,7 +9,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.mechanism.mass import MassProperties
-from jumpcad.parts.part import UNSEEN_MM, laid, lying_on_left
+from jumpcad.parts.part import laid, look_of, lying_on_left, solid_of
 from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import Slab
 from jumpcad.solids.stack import Stack
@@ -59,13 +59,13 @@ class BoughtPart(ByValue):
     @cached_property
     def solid(self) -> Manifold:
         """The part's envelope in its own frame (mm)."""
-        return self.shape.solid()
+        return solid_of(self.shape)
 
     @cached_property
     def look(self) -> "trimesh.Trimesh":
         """The mesh that is seen, in its own frame, without detail that eyes miss (mm)."""
         if self.wire is None:
-            return _look(self.shape)
+            return look_of(self.shape)
         rotation, origin = self.T_body_part[:3, :3], self.T_body_part[:3, 3]
         return tube(np.einsum("ji,nj->ni", rotation, self.wire.points_mm - origin), self.wire.diameter_mm)
 
@@ -97,11 +97,3 @@ def _drawn(slabs: tuple[Slab, ...]) -> tuple[Stack, float, MassProperties]:
     """Return slabs along y laid on their left face, the y of that face, and the mass properties at unit density."""
     stack, _ = laid((slab.z0_mm, slab.z1_mm, slab.outline) for slab in slabs)
     return stack, max(slab.z1_mm for slab in slabs), stack.mass_properties(1.0)
-
-
-@lru_cache(maxsize=64)
-def _look(shape: Stack) -> "trimesh.Trimesh":
-    """Return the mesh of a shape, which all copies share."""
-    from jumpcad.solids.finish import to_trimesh
-
-    return to_trimesh(shape.solid().simplify(UNSEEN_MM))

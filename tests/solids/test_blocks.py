@@ -133,3 +133,22 @@ def test_outlines_span_what_is_seen_from_above() -> None:
     solid = Blocks((bar, finger)).solid().to_mesh().vert_properties[:, :2]
     hull, seen = (shapely.MultiPoint(one).convex_hull for one in (points, solid))
     assert hull.symmetric_difference(seen).area < 0.01 * seen.area
+
+
+def test_blocks_of_the_same_numbers_are_equal_and_others_are_not():
+    def blocks(width=8.0, tip=4.0, angle=0.7, removed=2.0, place=(0.0, 0.0)):
+        finger = Finger(np.array([3.0, 8.0]), 8.0, 9.0, np.array([-60.0, 40.0]), 5.0, tip)
+        bar = Bar(rectangle((20.0, width)), ((1.0, 3.0),))
+        return Blocks((Turned(finger, angle, np.array(place)), bar), (Bar(disc(removed), ((0.0, 9.0),)),))
+
+    assert blocks() == blocks()
+    assert hash(blocks()) == hash(blocks())
+    assert len({blocks(), blocks(width=8.1), blocks(tip=4.1), blocks(angle=0.8), blocks(removed=2.1),
+                blocks(place=(0.1, 0.0)), blocks(place=(0.0, 0.1))}) == 7  # fmt: skip
+
+
+def test_what_differs_in_any_number_is_another_finger() -> None:
+    places = [{name: getattr(FINGER, name) + step} for name in ("root_mm", "tip_mm") for step in 0.1 * np.eye(2)]
+    sizes = ("root_diameter_mm", "root_height_mm", "tip_diameter_mm", "tip_height_mm")
+    others = [replace(FINGER, **change) for change in (*places, *({name: 4.7} for name in sizes))]
+    assert len({one.key for one in (FINGER, *others)}) == 1 + 8

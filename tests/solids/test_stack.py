@@ -23,6 +23,14 @@ def test_overlapping_slabs_count_once():
     np.testing.assert_allclose(stack.bounds_mm, [[-5, -5, 0], [10, 5, 6]])
 
 
+def test_a_stack_of_a_stacks_slabs_is_that_stack():
+    """At their own heights, above the bed and below it."""
+    stack = Stack.of([(-3, 1.5, rectangle((10, 10))), (2, 6, disc(8))])
+    again = Stack.of(stack.slabs)
+    assert [(slab.z0_mm, slab.z1_mm) for slab in again.slabs] == [(-3, 1.5), (2, 6)]
+    assert again.volume_mm3 == stack.volume_mm3
+
+
 def test_the_order_of_slabs_does_not_matter():
     slabs = [(0, 3, disc(10)), (1, 5, rectangle((4, 30))), (2, 4, disc(6, (5, 5)))]
     assert Stack.of(slabs).volume_mm3 == pytest.approx(Stack.of(slabs[::-1]).volume_mm3)
@@ -118,6 +126,26 @@ def test_what_a_pocket_divides_stays_one_outline():
     block = Stack.of([(0, 6, rectangle((20, 20)))]).minus([(2, 4, disc(8))])
     for shape in (block, block.flipped(), block.rotated(30).moved(1, 2, 0)):
         assert shape.sections_at([1.0, 3.0, 5.0]).which.tolist() == [0, 1, 0]
+
+
+def test_slabs_of_one_number_have_one_outline():
+    for seed in range(10):
+        stack = random_stack(np.random.default_rng(seed))
+        areas = {(slab.number, slab.outline.area()) for slab in stack.slabs}
+        assert len(areas) == len({number for number, _ in areas})
+
+
+def test_stacks_that_are_made_alike_are_equal_and_others_are_not():
+    slabs = [(0, 3, (10.0, 0.0)), (1, 5, (6.0, 2.0))]
+
+    def made(changes=(0.0, 0.0)):
+        return Stack.of([(z0, z1 + changes[0], disc(d + changes[1], (x, 0.0))) for z0, z1, (d, x) in slabs])
+
+    assert made() == made()
+    assert hash(made()) == hash(made())
+    assert len({made(), made().moved(), made((0.1, 0.0)), made((0.0, 0.1)), made().mirrored().mirrored()}) == 3
+    assert made() != made().chamfered(0.35, 0.2)
+    assert Stack.of([(0, 3, disc(9))]) != Stack.of([(0, 4, disc(9))])
 
 
 @pytest.mark.thorough
