@@ -1,5 +1,7 @@
 """Sections of blocks in closed form against slices of their solids, which another program cuts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
