@@ -43,13 +43,12 @@ def test_a_release_keeps_all_or_what_a_standing_cam_leaves() -> None:
 
 def test_priors_are_those_that_the_documentation_says() -> None:
     """docs/calibration.md, Priors: distributions, and shares of what is weighed, measured and tested."""
-    page = (ROOT / "docs" / "calibration.md").read_text(encoding="utf-8").split("- **Priors**")[1].split("- **")[0]
-    page = " ".join(page.split())
+    page = (ROOT / "docs" / "calibration.md").read_text(encoding="utf-8").split("**Priors.**")[1].split("| measured")[0]
     shapes = {"N": "normal", "LogN": "lognormal", "U": "uniform"}
     said = {
         name: (shapes[shape], float(first), float(second))
         for name, shape, first, second in re.findall(
-            r"(spring efficiency|pin friction|back efficiency|model's|floor) (LogN|N|U)\(([\d.]+), ([\d.]+)\)", page
+            r"(spring efficiency|pin friction|back efficiency|model's|floor) \| (LogN|N|U)\(([\d.]+), ([\d.]+)\)", page
         )
     }
     known = {
@@ -57,13 +56,13 @@ def test_priors_are_those_that_the_documentation_says() -> None:
         "back efficiency": priors.BACK_EFFICIENCY, "model's": priors.DRIVE_EFFICIENCY, "floor": priors.FLOOR,
     }  # fmt: skip
     assert {name: (one.shape, one.first, one.second) for name, one in known.items()} == said
-    travel, mass = re.search(r"half-normal with (\d+) mm.*mass N\(model, (\d+) %\)", page).groups()  # type: ignore[union-attr]
+    travel, mass = re.search(r"half-normal with (\d+) mm.*mass \| N\(model, (\d+) %\)", page, re.S).groups()  # type: ignore[union-attr]
     assert (priors.TRAVEL_MM.shape, priors.TRAVEL_MM.first, priors.TRAVEL_MM.second) == (
         "half-normal",
         0,
         float(travel),
     )
-    weighed, floor = re.search(r"weighed mass \((\d+) %\).*tested floor \((\d+) %/√n\)", page).groups()  # type: ignore[union-attr]
+    floor, weighed = re.search(r"tested floor, (\d+) %/√n.*weighed mass, (\d+) %", page, re.S).groups()  # type: ignore[union-attr]
     assert weighed_mass(100.0, 100.0, None).second == pytest.approx(float(weighed) / 100.0)
     shares = np.hypot(float(mass) * np.array([0.0, 0.5, 1.0]), float(weighed)) / 100.0
     assert [priors.modelled_mass(share).second for share in (0.0, 0.5, 1.0)] == pytest.approx(shares)
