@@ -43,12 +43,18 @@ model = scene.compile()
 ```
 
 Needs MuJoCo {least} or later, tested up to {newest}.
-Attached, the robot keeps its contacts, joints and springs, but the scene's options hold:
-set `timestep` to 0.00025, `integrator` to `implicitfast`, `cone` to `elliptic` and `impratio` to 100 for the figures of
-the bundle. With longer steps robots jump shorter: the five templates, held for 0.1 s before, by up to 4 % at 1 ms and
-6 % at 2 ms, but released at once from the key `wound` by up to 12 % and 21 %. With MuJoCo's own options feet creep: 3
-to 9 % shorter at 0.25 ms; at MuJoCo's own step of 2 ms 4 to 7 % if held, 7 to 22 % at once. A key frame of the robot
-poses the robot alone, in the world and not in your frame: add the frame's position to
+Attached, the robot keeps its contacts, joints and springs, but the scene's options hold. For the figures of the bundle
+set `timestep` to 0.00025, `integrator` to `implicitfast`, `cone` to `elliptic` and `impratio` to 100. The five
+templates jump shorter with others, since feet creep or steps are too long:
+
+| options | step | held for 0.1 s before | released at once from the key `wound` |
+|---|--:|--:|--:|
+| these | 1 ms | up to 4 % | up to 12 % |
+| these | 2 ms | up to 6 % | up to 21 % |
+| MuJoCo's own | 0.25 ms | 3 to 9 % | 3 to 9 % |
+| MuJoCo's own | 2 ms | 4 to 7 % | 7 to 22 % |
+
+A key frame poses the robot alone, in the world and not in your frame: add the frame's position to
 `data.joint("jumper-free").qpos[:3]`.
 
 ## What it is
