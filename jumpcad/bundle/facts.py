@@ -7,7 +7,6 @@ from jumpcad.checks.electronics import jumps_per_charge, links
 from jumpcad.checks.sideways import play_rad, rolls
 from jumpcad.drive.release import Release
 from jumpcad.drive.rolling import ReleaseParts
-from jumpcad.electronics.supply import supply_of
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 
@@ -104,7 +103,7 @@ def stop_facts(robot: Robot) -> dict[str, Any]:
 def electronics_facts(robot: Robot) -> dict[str, Any]:
     """Return the battery's voltages (empty, full), and for each part the supplied and the permitted voltages."""
     chosen, train = robot.electrical_parts, robot.layout.drive.train
-    supply = supply_of(chosen)
+    supply = robot.supply
     empty, full = chosen.battery.range_v
     chained = [
         {

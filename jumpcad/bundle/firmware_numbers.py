@@ -5,8 +5,7 @@ import math
 from jumpcad.catalogue import Battery
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.nets import gpio
-from jumpcad.electronics.supply import supply_of
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, carried
 
 BUTTON_DELAY_MS = 3000
 """Time to step back after the button was pressed; judgement."""
@@ -30,11 +29,12 @@ RESERVE_V = 0.2
 Judgement: a winding lowers the voltage by less, also with an old battery of three times the resistance."""
 
 
+@carried
 def numbers(robot: Robot) -> dict[str, float | int | None]:
     """Return this robot's numbers, by the names that the firmware uses."""
     workshop, train = robot.workshop, robot.layout.drive.train
     chosen = robot.electrical_parts
-    supply, wiring = supply_of(chosen), robot.wiring
+    supply, wiring = robot.supply, robot.wiring
     torque_max = workshop.safety.motor_torque_max_nm
     slow = supply.driven(train.motor, supply.empty_v, torque_max)
     fast = supply.driven(train.motor, supply.full_v, torque_max)

@@ -5,7 +5,7 @@ from html import escape
 
 from jumpcad.electronics.nets import AT, Terminal, Wiring
 from jumpcad.parts.leads import OWN_LEGS
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, carried
 
 PITCH_MM, WIDE_MM, AROUND_MM, TOP_MM = 7.0, 46.0, 48.0, 18.0
 ROW_MM, TRACK_MM, BODY_MM = 9.0, 3.0, (22.0, 4.0)
@@ -14,6 +14,7 @@ CONTROLLER = "controller"
 Point = tuple[float, float]
 
 
+@carried
 def soldering_svg(robot: Robot) -> str:
     """Return the drawing; empty where nothing is soldered so, or where the board's sides are not known."""
     chosen = robot.electrical_parts

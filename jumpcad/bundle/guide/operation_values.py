@@ -11,9 +11,9 @@ from jumpcad.bundle.firmware_numbers import (
 )
 from jumpcad.catalogue.electrical import DEAD_CELL_V
 from jumpcad.electronics.nets import LOWER_OHM, Wiring
-from jumpcad.electronics.supply import boards_beside_a, supply_of
+from jumpcad.electronics.supply import boards_beside_a
 from jumpcad.parts.leads import lead_lengths
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, carried
 
 STORED_V = 3.8
 """Per lithium polymer cell at rest, for storage; practice."""
@@ -28,11 +28,12 @@ CONVERTER_V = 0.035
 """Largest error of the ESP32-C3's calibrated converter over its range up to 2.5 V; its data sheet, from memory."""
 
 
+@carried
 def operation_values(robot: Robot) -> dict[str, Any]:
     """Return articles, currents (mA), voltages (V), times (s, ms) and energies (J) by the names that templates use."""
     workshop, train, cam = robot.workshop, robot.layout.drive.train, robot.layout.drive.cam
     chosen, program = robot.electrical_parts, numbers(robot)
-    supply, wiring = supply_of(chosen), robot.wiring
+    supply, wiring = robot.supply, robot.wiring
     battery, controller = chosen.battery, chosen.controller
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
     duty = supply.duty(train.motor, workshop.safety.motor_torque_max_nm)

@@ -9,14 +9,12 @@ import numpy as np
 
 from jumpcad.bundle.bom import Bill
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
-from jumpcad.electronics.supply import supply_of
-from jumpcad.exporters.threemf import pad_plates
+from jumpcad.exporters.threemf import print_plates
 from jumpcad.layout.leg_bars import END_PLAY_MM
 from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.leads import metres_by_colour
 from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.wired import SWITCH_EAR_MM
-from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import SCREW_THREAD_MM
 
@@ -53,11 +51,10 @@ ROOM_MM = 0.5
 def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
     """Return what is printed, cut, bought and used (mm, m, g, A), by the names that templates use."""
     workshop, layout, chosen = robot.workshop, robot.layout, robot.electrical_parts
-    plates = packed(robot.parts, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
     pads, billed = printed_pads(robot.hardware, workshop), {item.name for item in bill.items}
     usb = layout.fittings.usb_size_mm if layout.fittings.usb_mm is not None else None
     return {
-        "plates": [plate.name for plate in (*plates, *pad_plates(pads, workshop))],
+        "plates": [plate.name for plate in print_plates(robot)],
         "pads": {
             kind: sum(1000.0 * one.item.mass_kg for one in pads if one.pad.description == kind)
             for kind in sorted({one.pad.description for one in pads})
@@ -187,8 +184,8 @@ def _switch(robot: Robot) -> dict[str, Any] | None:
     fittings, lateral = robot.layout.fittings, robot.layout.lateral
     if fittings.switch is None or fittings.switch_mm is None:
         return None
-    chosen, plate = robot.electrical_parts, lateral.inside[0] - lateral.outside[0]
-    supply, most_nm = supply_of(chosen), robot.workshop.safety.motor_torque_max_nm
+    plate = lateral.inside[0] - lateral.outside[0]
+    supply, most_nm = robot.supply, robot.workshop.safety.motor_torque_max_nm
     blocked_a = supply.driven(robot.layout.drive.train.motor, supply.full_v, most_nm).stall_current_a
     return {
         "article": fittings.switch,
