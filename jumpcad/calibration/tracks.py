@@ -23,12 +23,19 @@ LEAST_POINTS = 6
 """Least number of points from which gravity can be fitted."""
 HEAD_LINES, HEAD_CHARACTERS = 50, 1000
 """Where the head is looked for: in the first lines, and how long it may be."""
-NAMES = dict.fromkeys(("time", "zeit", "temps", "tiempo", "tempo"), "t") | dict.fromkeys(("height", "höhe"), "z")
+NAMES = dict.fromkeys(("time", "timestamp", "zeit", "temps", "tiempo", "tempo"), "t") | dict.fromkeys(
+    ("height", "höhe"), "z"
+)
 """Other names of a column."""
 SILENT = ("in", "position", "coordinate")
 """Words of a name that say no more: x position (m), t in ms."""
-SECONDS = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "sekunden": 1.0, "ms": 1e-3, "milliseconds": 1e-3, "min": 60.0}
-METRES = {"m": 1.0, "metres": 1.0, "meters": 1.0, "dm": 0.1, "cm": 0.01, "mm": 1e-3, "in": 0.0254, "ft": 0.3048}
+SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "sekunde": 1.0, "ms": 1e-3, "millisecond": 1e-3, "min": 60.0}
+METRES = {
+    "m": 1.0, "metre": 1.0, "meter": 1.0, "dm": 0.1, "cm": 0.01, "centimetre": 0.01, "centimeter": 0.01, "mm": 1e-3,
+    "millimetre": 1e-3, "millimeter": 1e-3, "in": 0.0254, "ft": 0.3048,
+}  # fmt: skip
+SECONDS |= {f"{name}{end}": one for name, one in SECONDS.items() for end in "sn" if len(name) > 3}
+METRES |= {f"{name}s": one for name, one in METRES.items() if len(name) > 3}
 
 Column = tuple[int, float]
 """Place in a row, and the factor to seconds or metres."""

@@ -30,6 +30,7 @@ FILES = {
     "Logger Pro": '"Latest: Time (s)","Video: X (m)","Video: X Velocity (m/s)","Video: Y (m)"\n' + rows("{},{},7,{}"),
     "Vernier text": "Vernier Format 2\nrun.cmbl\nVideo\nTime\tX\tY\nt\tX\tY\ns\tm\tm\n\n" + rows("{}\t{}\t{}"),
     "names in words": "Zeit (s);x-Position (cm);Höhe (mm)\n" + rows("{};{}e2;{}e3"),
+    "units in words": "Time (seconds),X Position (centimeters),Y Position (metres)\n" + rows("{},{}e2,{}"),
     "slashes": "t/s\tx/mm\ty/mm\n" + rows("{}\t{}\t{}", 1.0, 1e3, comma=True),
     "brackets, trailing delimiters": "Zeit [ms];x [cm];y [cm];\n" + rows("{};{};{};", 1e3, 1e2),
     "units in names": "t_ms,x_mm,y in cm\n" + rows("{},{},{}e-1", 1e3, 1e3),
