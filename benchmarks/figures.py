@@ -30,7 +30,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose import bayesian
 from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.variant import Variant
@@ -190,7 +190,7 @@ def of_best_printable() -> dict[str, str]:
     """Return the figures of the template `best-printable` that need no search."""
     design, workshop = load_design("best-printable"), load_workshop("default")
     generator = np.random.default_rng(0)
-    model, score = RobotModel("printed", workshop), find_objective("fitness").score
+    model, score = PrintedModel(workshop), find_objective("fitness").score
     one, making = Variant(design), model.making
     neighbours = [*making.varied(one, generator), *making.neighbours(one, generator)]
     refused = sum(score(model(neighbour.design, neighbour.workshop)) is None for neighbour in neighbours)

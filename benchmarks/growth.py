@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from jumpcad.design import load_design
-from jumpcad.search.models import RobotModel, robot_model
+from jumpcad.search.models import CapsuleModel, robot_model
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.pool import local_pool
@@ -32,7 +32,7 @@ SPACE = Space.default()
 
 def request_of(rows: int) -> Request:
     """Return the request that the study answers."""
-    return Request(SPACE, RobotModel("capsule"), method="ga", evaluations=rows)
+    return Request(SPACE, CapsuleModel(), method="ga", evaluations=rows)
 
 
 def trials(rows: int) -> Iterator[Trial]:

@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.design import Design
-from jumpcad.search.models import RobotModel, robot_model
+from jumpcad.search.models import PrintedModel, RobotModel, robot_model
 from jumpcad.search.propose.bayesian import default_initial, run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.propose.task import Task
@@ -61,7 +61,7 @@ def bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     )
 
 
-class Spread(RobotModel):
+class Spread(PrintedModel):
     """A model that ranks no designs to start with."""
 
     def quick_score(self, _design: Design, _objective: Objective) -> float:
@@ -144,7 +144,7 @@ def main() -> None:
         method, evaluations = METHODS[name][0], min(METHODS[name][1], arguments.evaluations)
         model = robot_model(arguments.model)
         if "spread" in name:
-            model = Spread(model.name, model.workshop, model.settings, model.engine)
+            model = Spread(model.workshop, model.settings, model.engine)
         climbs = [climb(method, seed, evaluations, model) for seed in range(arguments.seeds)]
         marks = [mark for mark in MARKS if mark <= evaluations]
         table[name] = {mark: [one[min(mark, len(one)) - 1] for one in climbs] for mark in marks}

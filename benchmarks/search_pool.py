@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel, RobotModel
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import Evaluation, find_objective
@@ -35,7 +35,7 @@ SPACE = Space.parse(bound=["compression_ratio=0.6:0.8", "rest_angle_deg=55:70", 
 
 
 @dataclass(frozen=True)
-class Waiting(RobotModel):
+class Waiting(PrintedModel):
     """Waits, and then returns the evaluation of the first design for every design."""
 
     def __call__(self, design: Design) -> Evaluation:
@@ -103,12 +103,11 @@ def _shown(values: list[float]) -> str:
 def main() -> None:
     """Print the figures."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--model", default="printed")
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument("--repeats", type=int, default=5)
     arguments = parser.parse_args()
-    workshop = load_workshop("default") if arguments.model == "printed" else None
-    real, waiting = RobotModel(arguments.model, workshop), Waiting(arguments.model, workshop)
+    workshop = load_workshop("default")
+    real, waiting = PrintedModel(workshop), Waiting(workshop)
     figures: dict[str, list[float]] = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -127,7 +126,7 @@ def main() -> None:
                 (f"the same, waiting {1000 * PAUSE_S:.0f} ms per design", waited.wall_s / waited_two.wall_s),
             ):
                 figures.setdefault(what, []).append(value)
-        print(f"{arguments.model} robot: median, and each of {arguments.repeats}")
+        print(f"printed robot: median, and each of {arguments.repeats}")
         for what, values in figures.items():
             print(f"{what:54s}{_shown(values)}", flush=True)
         if arguments.kills:

@@ -154,8 +154,9 @@ def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
     from jumpcad.building import build
     from jumpcad.checks import costly_findings
     from jumpcad.findings import errors
+    from jumpcad.search.models import PrintedModel
 
-    if result.winner is None or robot.name != "printed":
+    if result.winner is None or not isinstance(robot, PrintedModel):
         return []
     with status("checking the winner …"):
         return errors(costly_findings(build(result.design, robot.varied(result.winner.workshop).workshop)))

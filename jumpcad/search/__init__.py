@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from jumpcad.search.fronts import front as front
     from jumpcad.search.fronts import hypervolume as hypervolume
     from jumpcad.search.models import MODELS as MODELS
+    from jumpcad.search.models import CapsuleModel as CapsuleModel
+    from jumpcad.search.models import PrintedModel as PrintedModel
+    from jumpcad.search.models import PublishedModel as PublishedModel
     from jumpcad.search.models import RobotModel as RobotModel
     from jumpcad.search.models import robot_model as robot_model
     from jumpcad.search.optimization import optimize as optimize
@@ -60,6 +63,9 @@ _HOMES = {
     "Pool": "study.pool",
     "Request": "study.request",
     "Result": "study.result",
+    "CapsuleModel": "models",
+    "PrintedModel": "models",
+    "PublishedModel": "models",
     "RobotModel": "models",
     "SearchParameter": "parameter",
     "Space": "space",

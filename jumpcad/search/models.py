@@ -1,9 +1,9 @@
-"""What evaluates a design in a search: the printed, the capsule or the published robot, chosen by name."""
+"""What evaluates a design in a search: the printed, the capsule or the published robot, a class of each."""
 
 import hashlib
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -33,97 +33,42 @@ PUBLISHED_FIGURES = ("fitness", "base_distance_m", "base_height_m", "spring_ener
 """Figures of a jump of the published robot."""
 GUESS_STEP_S = 0.002
 """Time step of the planar engine for a guess: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
+LENGTH_MM = 0.2
+"""Error of a link's length of a robot that is made in no workshop; judgement."""
 
 
-@dataclass(frozen=True, repr=False)
 class RobotModel:
-    """A picklable function from design to evaluation.
-
-    Parameters
-    ----------
-    name
-        `printed`: built, simulated and checked in a workshop. `capsule`: the published masses as uniform capsules.
-        `published`: the published simulation, after the geometric checks, which its study did not have.
-    workshop
-        Where `printed` is built; the default if None.
-    settings, engine
-        How `printed` and `capsule` are simulated; the default settings if None.
-    stand_in
-        Whether the evaluation of a printed robot has the figures of which stand-ins of others are made.
-    perturbation
-        What of a printed robot is made otherwise than designed, by the keys of `tolerances`.
-    """
+    """A picklable function from design to evaluation: geometric checks, then what the class of a robot does."""
 
     name: str
+    default_objective = "fitness"
+    """What is searched for unless the user says something else: only a printed robot has a size."""
     workshop: Workshop | None = None
     settings: Settings | None = None
     engine: str = "pybullet"
-    stand_in: bool = False
-    perturbation: Mapping[str, Value] = field(default_factory=dict)
 
     def __repr__(self) -> str:
-        return f"<RobotModel {self.name}, {self.describe()['engine']}>"
+        return f"<RobotModel {self.name}, {self.engine}>"
 
-    def __post_init__(self) -> None:
-        check_fields(self)
-        if self.name not in MODELS:
-            raise JumpcadError(
-                f"{self.name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(self.name, MODELS)}"
-            )
-
-    def __call__(self, design: Design, workshop: Mapping[str, Value] = NOTHING) -> Evaluation:
-        """Evaluate a design, in the workshop with these values; one that cannot be built is a verdict, not an error."""
-        if workshop:
-            try:
-                return self.varied(workshop)(design)
-            except JumpcadError as error:  # the values do not go together
-                return Evaluation("workshop", detail=str(error))
+    def __call__(self, design: Design) -> Evaluation:
+        """Evaluate a design; one that cannot be built is a verdict, not an error."""
         findings = tuple(geometry_findings(design))
         rejecting = errors(findings)
         if rejecting:
             return Evaluation(rejecting[0].name, findings=findings)
-        others_learn = self.stand_in or self.perturbation  # from every robot that is built
-        refused = None if self.name != "printed" or others_learn else self.refused_first(design)
-        if refused:
-            return refused
         try:
-            return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
+            return self._evaluated(design)
         except CannotBuildError as error:
             return Evaluation(CANNOT_BUILD, findings=layout_findings(error), detail=str(error))
 
-    def refused_first(self, design: Design) -> Evaluation | None:
-        """Return the outcome of a design that an estimate of the printed robot's masses refuses; None of others."""
-        refused = statics_refusal(design, self.workshop or load_workshop(), self.settings or Settings())
-        if not refused:
-            return None
-        return Evaluation(refused[0].name, findings=(*geometry_findings(design), *refused))
-
-    def varied(self, values: Mapping[str, Value]) -> "RobotModel":
-        """Return the model of the robot in the workshop with other values, or made otherwise than designed."""
-        others = {key: value for key, value in values.items() if not key.startswith(PREFIX)}
-        model = replace(self, perturbation={key: value for key, value in values.items() if key not in others})
-        return replace(model, workshop=varied(self.workshop or load_workshop(), others)) if others else model
-
-    @property
-    def tolerance_mm(self) -> float:
-        """Error of a link's length (mm).
-
-        A capsule or published robot is made in no workshop; for it this is 0.2 mm (judgement).
-        """
-        return 0.2 if self.workshop is None else self.workshop.fits.link_tolerance_mm
+    def _evaluated(self, design: Design) -> Evaluation:
+        """Evaluate a design whose geometry is right."""
+        raise NotImplementedError
 
     @property
     def making(self) -> Tolerances:
-        """How far what is made of a design differs from it: for a robot that is made in no workshop, lengths alone."""
-        if self.workshop is None or self.name != "printed":
-            return Tolerances(self.tolerance_mm)
-        rate = self.workshop.safety.spring_rate_scatter / 2.0
-        return Tolerances(self.tolerance_mm, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
-
-    @property
-    def default_objective(self) -> str:
-        """What is searched for unless the user says something else: only a printed robot has a size."""
-        return "body_lengths" if self.name == "printed" else "fitness"
+        """How far what is made of a design differs from it: of a robot that is made in no workshop, lengths alone."""
+        return Tolerances(LENGTH_MM)
 
     def aiming_at(self, objective: str | Callable[..., Any] | None, default: str = "") -> Objective:
         """Return an objective, see `find_objective`; without one the default, the model's own if none is given.
@@ -133,7 +78,7 @@ class RobotModel:
         JumpcadError
             If there is no such objective, or a jump of this robot lacks a figure that it needs.
         """
-        aim = find_objective(default or self.default_objective if objective is None else objective)
+        aim = find_objective((default or self.default_objective) if objective is None else objective)
         self.require_figures(aim)
         return aim
 
@@ -145,22 +90,164 @@ class RobotModel:
         JumpcadError
             If one is missing.
         """
-        if self.name == "printed" or objective.code:
-            return
-        from jumpcad.simulation.jump import Jump
+        if not objective.code:
+            objective.score(Evaluation("jump", dict.fromkeys(self.figure_names, 1.0)))
 
-        names = PUBLISHED_FIGURES if self.name == "published" else [one.name for one in fields(Jump)]
-        objective.score(Evaluation("jump", dict.fromkeys(names, 1.0)))
+    @property
+    def figure_names(self) -> Iterable[str]:
+        """Names of the figures of a jump."""
+        return PUBLISHED_FIGURES
 
     def admits(self, design: Design) -> bool:
         """Whether the feasibility checks that need neither solids nor simulation accept a design (microseconds)."""
-        if errors(geometry_findings(design)):
-            return False
-        if self.name != "capsule":
-            return True
+        return not errors(geometry_findings(design))
+
+    def quick_score(self, _design: Design, _objective: Objective) -> float:
+        """Return about what a design scores, from a model that is much quicker; -inf where there is none."""
+        return -math.inf
+
+    def describe(self) -> dict[str, Any]:
+        """Return all that decides an evaluation, as plain data."""
+        record: dict[str, Any] = {"name": self.name, "engine": self.engine}
+        for key in ("workshop", "settings"):
+            value = getattr(self, key)
+            record[key] = None if value is None else value.model_dump(mode="json")
+        return record
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of the description and of the versions of the packages (hexadecimal)."""
+        content = json.dumps([self.describe(), self.versions()], sort_keys=True)
+        return hashlib.sha256(content.encode()).hexdigest()
+
+    def versions(self) -> dict[str, str]:
+        """Return the versions of the packages that decide an evaluation, and the hash of this one's code."""
+        return {"jumpcad": __version__, "code": code_digest()} | versions("numpy", self.engine)
+
+
+@dataclass(frozen=True, repr=False)
+class PublishedModel(RobotModel):
+    """The published simulation, after the geometric checks, which its study did not have."""
+
+    name = "published"
+
+    def _evaluated(self, design: Design) -> Evaluation:
+        from jumpcad.paper import published
+
+        jump = published.simulate(design)
+        fitness = jump.distance_m / (design.l_max_mm / 1000.0)
+        figures = (fitness, jump.distance_m, jump.base_height_m, jump.energy_j)
+        metrics = dict(zip(PUBLISHED_FIGURES, figures, strict=True))
+        return Evaluation("jump" if jump.distance_m > 0 else "no_takeoff", metrics, tuple(geometry_findings(design)))
+
+
+@dataclass(frozen=True, repr=False)
+class CapsuleModel(RobotModel):
+    """The published masses as uniform capsules, simulated with some settings (the default ones if None)."""
+
+    settings: Settings | None = None
+    engine: str = "pybullet"
+    name = "capsule"
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def admits(self, design: Design) -> bool:
+        """Whether the robot stands and its springs are strong enough, too."""
         from jumpcad.mechanism.capsule import capsule_robot
 
-        return not errors(statics_findings(capsule_robot(design)))
+        return super().admits(design) and not errors(statics_findings(capsule_robot(design)))
+
+    @property
+    def figure_names(self) -> Iterable[str]:
+        """Names of the figures of a jump."""
+        from jumpcad.simulation.jump import Jump
+
+        return [one.name for one in fields(Jump)]
+
+    def _evaluated(self, design: Design) -> Evaluation:
+        from jumpcad.mechanism.capsule import capsule_robot
+        from jumpcad.simulation import simulate
+
+        jump = simulate(capsule_robot(design), self.settings, self.engine)
+        return Evaluation(jump.verdict, _figures(jump), tuple(jump.findings))
+
+
+@dataclass(frozen=True, repr=False)
+class PrintedModel(RobotModel):
+    """A robot that is built, simulated and checked in a workshop.
+
+    Parameters
+    ----------
+    workshop, settings, engine
+        Where it is built, and how it is simulated; the default ones if None.
+    stand_in
+        Whether the evaluation has the figures of which stand-ins of other robots are made.
+    perturbation
+        What is made otherwise than designed, by the keys of `tolerances`.
+    """
+
+    workshop: Workshop | None = None
+    settings: Settings | None = None
+    engine: str = "pybullet"
+    stand_in: bool = False
+    perturbation: Mapping[str, Value] = field(default_factory=dict)
+    name = "printed"
+    default_objective = "body_lengths"
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def __call__(self, design: Design, workshop: Mapping[str, Value] = NOTHING) -> Evaluation:
+        """Evaluate a design, in the workshop with these values; values that do not go together are a verdict."""
+        if not workshop:
+            return super().__call__(design)
+        try:
+            return self.varied(workshop)(design)
+        except JumpcadError as error:
+            return Evaluation("workshop", detail=str(error))
+
+    def _evaluated(self, design: Design) -> Evaluation:
+        others_learn = self.stand_in or self.perturbation  # from every robot that is built
+        refused = None if others_learn else self.refused_first(design)
+        return refused or self._built(design)
+
+    def _built(self, design: Design) -> Evaluation:
+        from jumpcad.evaluation import evaluate_made
+
+        result = evaluate_made(
+            design, self.workshop, self.settings, self.engine, partial(perturbed, values=self.perturbation)
+        )
+        robot = result.robot
+        findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
+        if self.perturbation:  # what the design keeps stands in its own row
+            findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
+        figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
+        return Evaluation(result.verdict, figures, findings)
+
+    def refused_first(self, design: Design) -> Evaluation | None:
+        """Return the outcome of a design that an estimate of the robot's masses refuses; None of others."""
+        refused = statics_refusal(design, self.workshop or load_workshop(), self.settings or Settings())
+        if not refused:
+            return None
+        return Evaluation(refused[0].name, findings=(*geometry_findings(design), *refused))
+
+    def varied(self, values: Mapping[str, Value]) -> "PrintedModel":
+        """Return the model of the robot in the workshop with other values, or made otherwise than designed."""
+        others = {key: value for key, value in values.items() if not key.startswith(PREFIX)}
+        model = replace(self, perturbation={key: value for key, value in values.items() if key not in others})
+        return replace(model, workshop=varied(self.workshop or load_workshop(), others)) if others else model
+
+    @property
+    def making(self) -> Tolerances:
+        """How far what is made of a design differs from it; without a workshop, as a capsule's."""
+        if self.workshop is None:
+            return super().making
+        length, rate = self.workshop.fits.link_tolerance_mm, self.workshop.safety.spring_rate_scatter / 2.0
+        return Tolerances(length, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
+
+    def require_figures(self, objective: Objective) -> None:
+        """Require nothing: a printed robot has the figures of all objectives."""
 
     def laid_out(self, variant: Variant) -> Mapping[str, float] | Evaluation:
         """Return figures of the layout of a printed robot, or the outcome of one whose parts have no room.
@@ -178,13 +265,11 @@ class RobotModel:
             return Evaluation("workshop", detail=str(error))
 
     def quick_score(self, design: Design, objective: Objective) -> float:
-        """Return about what the capsule robot of a printed design scores; -inf where it does not jump, or is no guide.
+        """Return about what the capsule robot of the design scores; -inf where it does not jump.
 
         Where it has no such figure, its fitness ranks the designs: it has no size but that of its links.
         """
-        if self.name != "printed":
-            return -math.inf
-        quick = RobotModel("capsule", None, load_settings("screening"), self.guess_engine)
+        quick = CapsuleModel(load_settings("screening"), self.guess_engine)
         if not quick.admits(design):
             return -math.inf
         found = quick(design)
@@ -211,51 +296,11 @@ class RobotModel:
 
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""
-        record: dict[str, Any] = {"name": self.name, "engine": "pybullet" if self.name == "published" else self.engine}
-        for key in ("workshop", "settings"):
-            value = getattr(self, key)
-            record[key] = None if value is None else value.model_dump(mode="json")
-        return record | ({"stand_in": True} if self.stand_in else {})
-
-    @cached_property
-    def digest(self) -> str:
-        """SHA-256 of the description and of the versions of the packages (hexadecimal)."""
-        content = json.dumps([self.describe(), self.versions()], sort_keys=True)
-        return hashlib.sha256(content.encode()).hexdigest()
+        return super().describe() | ({"stand_in": True} if self.stand_in else {})
 
     def versions(self) -> dict[str, str]:
-        """Return the versions of the packages that decide an evaluation, and the hash of this one's code."""
-        solids = ["manifold3d", "trimesh"] if self.name == "printed" else []
-        return {"jumpcad": __version__, "code": code_digest()} | versions("numpy", self.describe()["engine"], *solids)
-
-    def _printed(self, design: Design) -> Evaluation:
-        from jumpcad.evaluation import evaluate_made
-
-        result = evaluate_made(
-            design, self.workshop, self.settings, self.engine, partial(perturbed, values=self.perturbation)
-        )
-        robot = result.robot
-        findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
-        if self.perturbation:  # what the design keeps stands in its own row
-            findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
-        figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
-        return Evaluation(result.verdict, figures, findings)
-
-    def _capsule(self, design: Design) -> Evaluation:
-        from jumpcad.mechanism.capsule import capsule_robot
-        from jumpcad.simulation import simulate
-
-        jump = simulate(capsule_robot(design), self.settings, self.engine)
-        return Evaluation(jump.verdict, _figures(jump), tuple(jump.findings))
-
-    def _published(self, design: Design) -> Evaluation:
-        from jumpcad.paper import published
-
-        jump = published.simulate(design)
-        fitness = jump.distance_m / (design.l_max_mm / 1000.0)
-        figures = (fitness, jump.distance_m, jump.base_height_m, jump.energy_j)
-        metrics = dict(zip(PUBLISHED_FIGURES, figures, strict=True))
-        return Evaluation("jump" if jump.distance_m > 0 else "no_takeoff", metrics, tuple(geometry_findings(design)))
+        """Return the versions of the packages that decide an evaluation, those of solids too."""
+        return super().versions() | versions("manifold3d", "trimesh")
 
 
 @check_arguments
@@ -291,19 +336,19 @@ def robot_model(
             raise JumpcadError(f"{option}{named}: does not apply to the {name} robot; leave it out")
     if name == "published" and engine not in (None, "pybullet"):
         raise JumpcadError(f"engine {engine}: the published simulation exists in pybullet alone")
-    if name not in MODELS or name == "published":
-        return RobotModel(name)
-    built_in = None
-    if name == "printed":
-        built_in = (
-            workshop if isinstance(workshop, Workshop) else load_workshop(DEFAULT if workshop is None else workshop)
-        )
+    if name not in MODELS:
+        raise JumpcadError(f"{name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(name, MODELS)}")
+    if name == "published":
+        return PublishedModel()
     how = (
         settings.revalidated()
         if isinstance(settings, Settings)
         else load_settings("default" if settings is None else settings)
     )
-    return RobotModel(name, built_in, how, engine or default_engine())
+    if name == "capsule":
+        return CapsuleModel(how, engine or default_engine())
+    shop = workshop if isinstance(workshop, Workshop) else load_workshop(DEFAULT if workshop is None else workshop)
+    return PrintedModel(shop, how, engine or default_engine())
 
 
 def _figures(jump: Any) -> dict[str, float]:

@@ -6,7 +6,7 @@ from pathlib import Path
 from jumpcad.building import build
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.search.fronts import described_cost, front
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.study.objective import described_objective
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial, feasible_trials, searched, trial_numbers
@@ -105,7 +105,7 @@ class Points:
         """Return the workshop in which a trial's robot was made; raises as `workshop`."""
         if not trial.workshop:
             return self.workshop
-        return RobotModel("printed", self.workshop).varied(trial.workshop).workshop or self.workshop
+        return PrintedModel(self.workshop).varied(trial.workshop).workshop or self.workshop
 
     def require_built(self, number: int) -> None:
         """Reject a trial whose robot cannot be built.

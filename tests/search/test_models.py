@@ -13,7 +13,7 @@ from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.estimate.refusal import room_findings
-from jumpcad.search.models import RobotModel, _figures, robot_model
+from jumpcad.search.models import CapsuleModel, PrintedModel, _figures, robot_model
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.variant import Variant
@@ -26,7 +26,6 @@ def test_only_a_printed_robot_has_a_workshop_a_size_and_a_quick_score():
     """Its links are 0.4 mm off (sliding fits of 0.2 mm at both ends), others 0.2 mm; its springs by half of ±10 %."""
     printed, capsule, published = robot_model(), robot_model("capsule"), robot_model("published")
     assert [one.default_objective for one in (printed, capsule, published)] == ["body_lengths", "fitness", "fitness"]
-    assert [one.tolerance_mm for one in (printed, capsule, published)] == pytest.approx([0.4, 0.2, 0.2])
     assert (printed.making.length_mm, printed.making.rate, printed.making.printed) == pytest.approx((0.4, 0.05, True))
     assert capsule.making == published.making == Tolerances(0.2)
     design, score = load_design("kenan-2.0"), find_objective("fitness")
@@ -43,7 +42,6 @@ def test_a_model_says_what_decides_its_evaluations():
     printed, capsule, published = robot_model(), robot_model("capsule"), robot_model("published")
     assert [one.describe()["engine"] for one in (printed, capsule, published)] == ["pybullet"] * 3
     assert replace(capsule, engine="planar").describe()["engine"] == "planar"
-    assert replace(published, engine="planar").describe()["engine"] == "pybullet"
     assert [one.describe()["workshop"] is None for one in (printed, capsule, published)] == [False, True, True]
     assert [one.describe()["settings"] is None for one in (printed, capsule, published)] == [False, False, True]
     assert {"manifold3d", "trimesh"} < set(printed.versions())
@@ -86,7 +84,7 @@ def test_a_design_is_evaluated_in_the_model_s_own_workshop_settings_and_engine(m
     printed = robot_model("printed", light, fine, "mujoco")
     for model in (printed, printed.varied(thick)):
         with pytest.raises(ZeroDivisionError):
-            model._printed(design)
+            model._built(design)
     shop = varied(light, thick)
     assert asked == [(fine, "mujoco"), (light, fine, "mujoco"), (shop, fine, "mujoco")]
     assert (model.making.length_mm, model.making.rate) == (0.5, 0.1)
@@ -125,26 +123,25 @@ def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbi
     monkeypatch.setattr("jumpcad.evaluation.evaluate_made", lambda *_: result)
     plain, made = robot_model(), robot_model().varied({"made.spring_factor": 1.05})
     design = load_design("kenan-2.0")
-    found = plain._printed(design)
+    found = plain._built(design)
     assert found.findings[:3] == (jumped, kept, broken)
     assert found.findings[3:] == tuple(room_findings(small_robot.layout, reserve_mm))
     assert found.findings[3:] != tuple(room_findings(small_robot.layout, reserve_mm + 1.0))
-    assert made._printed(design).findings == (jumped, broken)
-    assert made._printed(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}
+    assert made._built(design).findings == (jumped, broken)
+    assert made._built(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}
     monkeypatch.setattr(models, "robot_figures", lambda robot: {"bodies": len(robot.bodies)})
-    assert replace(plain, stand_in=True)._printed(design).metrics == found.metrics | {"bodies": 4}
+    assert replace(plain, stand_in=True)._built(design).metrics == found.metrics | {"bodies": 4}
 
 
 def test_only_a_printed_robot_of_which_no_other_learns_is_refused_before_it_is_built(monkeypatch):
     """Stand-ins and what is made otherwise than designed need figures of robots that are built."""
-    for name, verdict in (("refused_first", "tips"), ("_printed", "jump"), ("_capsule", "jump")):
-        monkeypatch.setattr(RobotModel, name, lambda self, design, said=verdict: Evaluation(said))
+    for name, verdict in (("refused_first", "tips"), ("_built", "jump")):
+        monkeypatch.setattr(PrintedModel, name, lambda self, design, said=verdict: Evaluation(said))
     printed, design = robot_model(), load_design("kenan-2.0")
     assert printed(design).verdict == "tips"
     assert replace(printed, stand_in=True)(design).verdict == "jump"
     assert printed(design, {"made.spring_factor": 1.05}).verdict == "jump"
     assert printed(design, {"process.infill": 0.3}).verdict == "tips"
-    assert robot_model("capsule")(design).verdict == "jump"
 
 
 @pytest.mark.parametrize(
@@ -226,7 +223,7 @@ def test_quick_scores_are_those_of_a_capsule_robot_by_the_engine_of_guesses(monk
         asked.append((self.name, self.engine, self.settings))
         return Evaluation(verdict, figures, wrong)
 
-    monkeypatch.setattr(RobotModel, "_capsule", capsule)
+    monkeypatch.setattr(CapsuleModel, "_evaluated", capsule)
     model, design = robot_model("printed", None, None, "mujoco"), load_design("kenan-2.0")
     scores = {name: model.quick_score(design, find_objective(name)) for name in ("rise", "body_lengths")}
     assert scores == {"rise": find_objective("rise").figure(figures), "body_lengths": 2.0}
@@ -268,7 +265,6 @@ def test_guesses_and_quick_scores_have_settings_of_their_own():
     assert plain.guess_settings.model_copy(update={"dt_s": plain.settings.dt_s}) == plain.settings
     dragged = replace(plain, settings=plain.settings.model_copy(update={"drag_per_s": 0.1}))
     assert (dragged.guess_engine, dragged.guess_settings.dt_s) == ("mujoco", 0.002)
-    assert robot_model("capsule", None, "fine").guess_settings.dt_s == 0.002
     slow = replace(plain, settings=plain.settings.model_copy(update={"dt_s": 0.004}))
     assert slow.guess_settings.dt_s == 0.004
 
@@ -284,11 +280,11 @@ def test_figures_of_a_jump_are_its_numbers_alone():
 def test_a_model_is_made_of_what_it_says(field):
     """A name is no workshop: `robot_model` takes names."""
     with pytest.raises(JumpcadError, match=field):
-        RobotModel("printed", **{field: 5 if field == "engine" else "light"})
+        PrintedModel(**{field: 5 if field == "engine" else "light"})
 
 
 def test_a_printed_robot_without_a_workshop_is_made_as_exactly_as_a_capsule() -> None:
-    assert RobotModel("printed").making == Tolerances(0.2)
+    assert PrintedModel().making == Tolerances(0.2)
 
 
 def test_every_objective_is_for_printed_robots_and_for_others_what_they_have() -> None:

@@ -11,7 +11,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.evaluation import evaluate
 from jumpcad.search.explore import feasibility_map, sweep
-from jumpcad.search.models import RobotModel, robot_model
+from jumpcad.search.models import PrintedModel, robot_model
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.propose.task import Task
@@ -182,7 +182,7 @@ def test_sweeps_start_from_the_model_s_workshop(evaluator):
 
 def test_values_that_do_not_go_together_are_a_verdict():
     design = load_design("best-printable")
-    found = RobotModel("printed", WORKSHOP)(design, {"process.layer_height_mm": 0.3, "printer.nozzle_mm": 0.25})
+    found = PrintedModel(WORKSHOP)(design, {"process.layer_height_mm": 0.3, "printer.nozzle_mm": 0.25})
     assert (found.verdict, found.feasible) == ("workshop", False)
     assert "nozzle" in found.detail
 

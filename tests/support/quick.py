@@ -3,7 +3,7 @@
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.search.estimate.estimated_robot import EXTENTS, estimated_robot, robot_figures
-from jumpcad.search.models import RobotModel, robot_model
+from jumpcad.search.models import PrintedModel, robot_model
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.simulation import simulate
@@ -14,7 +14,7 @@ LIKE = build(BEST)
 FIGURES = robot_figures(LIKE) | {f"{name}_mass_kg": body.mass_kg for name, body in LIKE.bodies.items()}
 
 
-class Quick(RobotModel):
+class Quick(PrintedModel):
     """Robots of which all is known: masses grow with the main leg and the springs, the rest is best-printable's."""
 
     quick_score = None  # its first designs are spread
@@ -34,4 +34,4 @@ class Quick(RobotModel):
 def quick() -> Quick:
     """Return the model of these robots."""
     plain = robot_model(settings="default")
-    return Quick("printed", plain.workshop, plain.settings, "pybullet", stand_in=True)
+    return Quick(plain.workshop, plain.settings, "pybullet", stand_in=True)

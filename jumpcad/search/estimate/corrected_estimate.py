@@ -13,7 +13,7 @@ import numpy as np
 from jumpcad.blas_threads import one_thread
 from jumpcad.search.estimate.estimate import Estimate, Estimator
 from jumpcad.search.estimate.fitted_figures import MARK
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation, Objective
@@ -57,7 +57,7 @@ class Screen:
         Of the search: a printed robot, whose workshop does not vary.
     """
 
-    def __init__(self, space: Space, model: RobotModel, objective: Objective) -> None:
+    def __init__(self, space: Space, model: PrintedModel, objective: Objective) -> None:
         self._space, self._model = space, model
         self._estimator = Estimator(space, model, objective)
         self._ratios: Surrogate | None = None

@@ -17,7 +17,7 @@ from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import Robot
 from jumpcad.search.estimate.estimated_robot import EXTENTS, estimated_robot
 from jumpcad.search.estimate.fitted_figures import MARK, FittedFigures
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, Objective
 from jumpcad.search.study.trial import Trial, best_trial
@@ -47,7 +47,7 @@ class Estimator:
         Of the search; the model is one of printed robots. Where the workshop varies, layouts alone are known.
     """
 
-    def __init__(self, space: Space, model: RobotModel, objective: Objective) -> None:
+    def __init__(self, space: Space, model: PrintedModel, objective: Objective) -> None:
         self._space, self._model, self._objective = space, model, objective
         self._layouts: dict[Key, Mapping[str, float] | Evaluation] = {}
         self._estimates: dict[Key, Estimate | None] = {}

@@ -13,7 +13,7 @@ import numpy as np
 
 from jumpcad.findings import bare
 from jumpcad.search.estimate.estimate import Estimator
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.initial_designs import ranked_points
 from jumpcad.search.propose.task import Task
 from jumpcad.search.study.evaluator import Evaluator
@@ -37,13 +37,13 @@ class DryRun:
     Parameters
     ----------
     evaluator
-        Of the search; its model is a `RobotModel` of printed robots.
+        Of the search; its model is a `PrintedModel`.
     phase, task
         Of the search too: what other searches tried is not looked at.
     """
 
     def __init__(self, evaluator: Evaluator, phase: str, task: Task) -> None:
-        assert isinstance(evaluator.model, RobotModel)
+        assert isinstance(evaluator.model, PrintedModel)
         self._evaluator, self._phase, self._task = evaluator, phase, task
         self._space = evaluator.space
         self.estimator = Estimator(evaluator.space, evaluator.model, evaluator.objective)
@@ -55,7 +55,7 @@ class DryRun:
     def of(cls, evaluator: Evaluator, phase: str, task: Task) -> Self | None:
         """Return the dry run of a search of printed robots; None of others, which are simulated as quickly."""
         model = evaluator.model
-        return cls(evaluator, phase, task) if isinstance(model, RobotModel) and model.name == "printed" else None
+        return cls(evaluator, phase, task) if isinstance(model, PrintedModel) else None
 
     @cached_property
     def ranked(self) -> list[Array]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.initial_designs import first_points, ranked_points
 from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
@@ -136,7 +136,7 @@ class ScreenedFitness(Fitness):
 
         super().__init__(*arguments)
         evaluator = self.evaluator
-        assert isinstance(evaluator.model, RobotModel)
+        assert isinstance(evaluator.model, PrintedModel)
         self._screen = Screen(evaluator.space, evaluator.model, evaluator.objective)
         self._seen: set[Key] = set()
 

@@ -13,7 +13,7 @@ from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.plural import counted
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel, RobotModel
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 from jumpcad.search.pick.robust import pick_share
 from jumpcad.search.pick.tolerances import LENGTHS_ALONE, Tolerances
@@ -103,12 +103,12 @@ class Request:
         """
         if against is not None and method not in FRONTS:
             raise JumpcadError(f"against: does not apply to {method or DEFAULT}, only to {', '.join(FRONTS)}")
-        printed_front = model.name == "printed" and method in FRONTS
+        printed_front = isinstance(model, PrintedModel) and method in FRONTS
         if against is None:
             against = (ELECTRICAL_ENERGY if printed_front else SPRING_ENERGY).name
         aim = model.aiming_at(objective, "range" if method in FRONTS else "")
         own = aim if aim.code else None
-        if model.name == "printed" and (others.get("screen") or method not in ("ga", "nsga2")):
+        if isinstance(model, PrintedModel) and (others.get("screen") or method not in ("ga", "nsga2")):
             model = replace(model, stand_in=True)
         return cls(space, model, aim.name, method or DEFAULT, making=model.making, own=own, against=against, **others)
 
@@ -235,7 +235,7 @@ class Request:
             "seed": self.seed,
             "preset": self.preset,
             "batch": self.batch,
-            **({"screen": self.model.guess_engine} if self.screen and isinstance(self.model, RobotModel) else {}),
+            **({"screen": self.model.guess_engine} if self.screen and isinstance(self.model, PrintedModel) else {}),
             "making": asdict(self.making),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),

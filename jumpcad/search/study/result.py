@@ -11,7 +11,7 @@ from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_atomically
 from jumpcad.plural import counted
 from jumpcad.search.fronts import front, hypervolume
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.trial import Trial, count_rejections
@@ -79,7 +79,7 @@ class Result:
     def workshop(self) -> Workshop | None:
         """The workshop with the winner's values; None where the search varied none. Raises as `design`."""
         values, model = self._won().workshop, self.request.model
-        return model.varied(values).workshop if values and isinstance(model, RobotModel) else None
+        return model.varied(values).workshop if values and isinstance(model, PrintedModel) else None
 
     @property
     def score(self) -> float:

@@ -26,7 +26,7 @@ ONE = np.eye(45 + len(LAID))[0]
 def no_builds(monkeypatch):
     """The robots of `Quick` are like best-printable also where that could not be built."""
     monkeypatch.setattr("jumpcad.search.estimate.estimate.build", lambda *_: LIKE)
-    monkeypatch.setattr("jumpcad.search.models.RobotModel.laid_out", lambda *_: LAYOUT)
+    monkeypatch.setattr("jumpcad.search.models.PrintedModel.laid_out", lambda *_: LAYOUT)
 
 
 def trials_of(points, model, objective):
@@ -101,7 +101,7 @@ def test_what_an_objective_cannot_take_is_not_estimated():
 def test_what_has_no_room_is_refused_once_it_was_laid_out(monkeypatch):
     laid, estimator = [], estimator_of({"mass_kg": ONE})
     monkeypatch.setattr(
-        "jumpcad.search.models.RobotModel.laid_out", lambda _, one: laid.append(one) or Evaluation("cannot_build")
+        "jumpcad.search.models.PrintedModel.laid_out", lambda _, one: laid.append(one) or Evaluation("cannot_build")
     )
     assert not estimator.refuses(Variant(BEST))
     assert estimator(Variant(BEST)) is None

@@ -206,7 +206,7 @@ def test_what_is_not_asked_for_follows_from_method_and_robot():
     assert {one.method for (_, method), one in made.items() if method is None} == {"bo"}
     assert {one.objective for (_, method), one in made.items() if method in ("nsga2", "pareto")} == {"range"}
     assert [made[name, "ga"].objective for name in ("printed", "capsule")] == ["body_lengths", "fitness"]
-    stand_ins = {key for key, one in made.items() if one.model.stand_in}
+    stand_ins = {key for key, one in made.items() if one.model.describe().get("stand_in")}
     assert stand_ins == {("printed", None), ("printed", "ga+bo"), ("printed", "pareto")}
     assert Request.make(SMALL, printed, "ga", screen=True).model.stand_in
     assert (made["printed", None].making, made["capsule", None].making) == (printed.making, capsule.making)

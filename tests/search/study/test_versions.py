@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from jumpcad.search.models import RobotModel
+from jumpcad.search.models import CapsuleModel
 from jumpcad.search.study import versions
 from jumpcad.search.study.versions import PRESENTATION, code_digest
 
@@ -47,7 +47,7 @@ def test_every_change_of_what_computes_is_noticed(package, name, counts):
 
 
 def test_the_digest_is_part_of_what_a_study_is_about():
-    assert RobotModel("capsule").versions()["code"] == code_digest()
+    assert CapsuleModel().versions()["code"] == code_digest()
 
 
 @pytest.mark.thorough
@@ -56,10 +56,10 @@ def test_no_evaluation_imports_what_the_digest_leaves_out():
 import sys
 from jumpcad.design import load_design
 from jumpcad.search.study import run as study
-from jumpcad.search.models import MODELS, RobotModel
+from jumpcad.search.models import CapsuleModel, PrintedModel
 from jumpcad.workshop import load_workshop
-for name in ("printed", "capsule"):
-    RobotModel(name, load_workshop("default") if name == "printed" else None)(load_design("kenan-2.0"))
+for model in (PrintedModel(load_workshop("default")), CapsuleModel()):
+    model(load_design("kenan-2.0"))
 print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part] for part in {PRESENTATION}]])
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
