@@ -20,6 +20,7 @@ from jumpcad.electronics.nets import wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.exporters.threemf import print_plates
 from jumpcad.printing.plates import packed
+from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.visuals import visuals
 
@@ -27,10 +28,20 @@ DECIDES: tuple[Callable[..., object], ...] = (
     assembly_steps, bill_of_materials, chosen_parts, numbers, operation_values, packed, print_plates, soldering_svg,
     supply_of, visuals, wiring_of,
 )  # fmt: skip
+ONCE = {decide.__name__: 1 for decide in DECIDES}
 
 
-@pytest.mark.parametrize("pictures", [False, pytest.param(True, marks=pytest.mark.thorough)])
-def test_an_export_decides_each_thing_once(tmp_path: Path, pictures: bool) -> None:
+def test_an_export_decides_each_thing_once(small_robot: Robot, tmp_path: Path) -> None:
+    assert decided(small_robot, tmp_path / "frog", pictures=False) == ONCE
+
+
+@pytest.mark.thorough
+def test_so_does_one_with_all_parts_and_pictures(tmp_path: Path) -> None:
+    assert decided(built("kenan-2.0"), tmp_path / "kenan-2.0", pictures=True) == ONCE
+
+
+def decided(robot: Robot, folder: Path, pictures: bool) -> Counter[str]:
+    """Count what an export decides about a robot that carries nothing yet."""
     codes = {getattr(decide, "__wrapped__", decide).__code__: decide.__name__ for decide in DECIDES}
     calls: Counter[str] = Counter()
 
@@ -39,11 +50,10 @@ def test_an_export_decides_each_thing_once(tmp_path: Path, pictures: bool) -> No
         if event == "call" and code in codes:
             calls[codes[code]] += 1
 
-    robot = replace(built("kenan-2.0"))  # which carries nothing yet
     before = sys.getprofile()
     sys.setprofile(count)
     try:
-        export(robot, tmp_path / "kenan-2.0", pictures)
+        export(replace(robot), folder, pictures)
     finally:
         sys.setprofile(before)
-    assert calls == dict.fromkeys(codes.values(), 1)
+    return calls
