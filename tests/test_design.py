@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 from support.each import each
-from support.places import ROOT
 
-from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of, load_design, unit_of
+from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 
 KENAN_2 = [100.0, 1.0, 0.833, 0.934, 0.46145125, 88.2, 9.2, 40.0]
@@ -43,35 +42,6 @@ def test_spring_energy_and_torque_are_the_published_ones(name: str, energy_j: fl
     assert design.spring_energy_j == pytest.approx(energy_j, abs=5e-4)
     if torque_nm:
         assert design.peak_spring_torque_nm == pytest.approx(torque_nm, rel=5e-3)
-
-
-@each("name", PARAMETERS)
-def test_a_parameter_has_the_limits_within_which_a_design_is_one(name: str) -> None:
-    """Just outside of either it is refused; a search's usual bounds lie within."""
-    numbers, (low, high) = dict(zip(PARAMETERS, KENAN_2, strict=True)), limits_of(name)
-    for value in (low, high):
-        assert getattr(Design(**(numbers | {name: value})), name) == value
-    for value in (low - 1e-6 * max(1.0, abs(low)), high * (1.0 + 1e-6)):
-        with pytest.raises(JumpcadError, match=name):
-            Design(**(numbers | {name: value}))
-    assert low <= SEARCH_BOUNDS[name].lower < SEARCH_BOUNDS[name].upper <= high
-
-
-@each("name", PARAMETERS)
-def test_limits_and_searched_ranges_are_those_that_users_are_told(name: str) -> None:
-    """docs/robot.md: the searched ones are the published study's."""
-    page = (ROOT / "docs" / "robot.md").read_text(encoding="utf-8")
-    (row,) = re.findall(rf"^\| `{name}` \|[^|]*\| ([\d.]+) to ([\d.]+) \| ([\d.]+) to ([\d.]+) \|", page, re.M)
-    bounds = SEARCH_BOUNDS[name]
-    assert (*limits_of(name), bounds.lower, bounds.upper) == tuple(map(float, row))
-
-
-@pytest.mark.parametrize(
-    ("name", "unit"),
-    [("carrying_link_mm", "mm"), ("rest_angle_deg", "°"), ("stiffness_nmm_per_deg", "N·mm/°"), ("c_coef", "")],
-)
-def test_a_parameter_s_name_says_its_unit(name: str, unit: str) -> None:
-    assert unit_of(name) == unit
 
 
 def test_work_of_the_springs_is_the_integral_of_their_torque() -> None:

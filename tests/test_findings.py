@@ -5,7 +5,7 @@ import math
 import pytest
 from support.each import each
 
-from jumpcad.findings import Finding, at_least, at_most, limit
+from jumpcad.findings import Finding, at_least, at_most
 
 
 @each(
@@ -44,11 +44,6 @@ def test_use_is_a_minimum_over_the_value(
 ) -> None:
     finding = at_least("gap", value, needed, "mm", "found", "remedy", "warning")
     assert (finding.margin, finding.use, finding.severity) == (margin, use, severity)
-
-
-def test_a_margin_alone_has_no_use() -> None:
-    finding = limit("walls", 0.1, "mm", "found", "remedy")
-    assert (finding.value, finding.limit, finding.use, finding.grows) == (None, None, None, "")
 
 
 def test_plain_data_gives_the_finding_back() -> None:

@@ -14,12 +14,10 @@ from support.commands import exit_code_of
 
 from jumpcad.building import build
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
-from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import load_workshop
 
 Tables = dict[str, dict[str, Any]]
@@ -233,19 +231,6 @@ def test_the_example_of_the_documentation_passes_every_check_and_its_parts_are_l
     assert lines["gear motor square-16"].mass_kg == pytest.approx(0.032)
     assert lines["ball bearing 693"].quantity == 2
     assert lines["my LiPo 2S 180 mAh"].mass_kg == pytest.approx(0.0134)
-
-
-def test_own_parts_join_the_shipped_ones_and_no_other_workshop(written: Write) -> None:
-    workshop = load_workshop(written(EXAMPLE + SPRING))
-    shipped = load_catalogue()
-    assert list(workshop.catalogue.motors) == [*shipped.motors, "square-16"]
-    assert workshop.catalogue.batteries["my-pack"].length_mm == shipped.batteries["lipo-2s-180"].length_mm
-    assert workshop.catalogue.batteries["my-pack"].source == "weighed"
-    assert "square-16" not in load_workshop().catalogue.motors
-    other = workshop.model_copy(update={"motors": {}})
-    assert "square-16" not in other.catalogue.motors
-    anyone = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"leg_bearing": "any"})})
-    assert "693" in [found.name for found in hub_bearings(anyone) if found]
 
 
 @pytest.mark.thorough

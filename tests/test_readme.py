@@ -35,33 +35,6 @@ def test_figures_that_follow_from_the_templates(readme: ModuleType, capsys: pyte
     assert (code, capsys.readouterr().out) == (0, "every figure is what the program gives\n")
 
 
-def test_every_stage_that_is_timed_is_there(readme: ModuleType) -> None:
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        stages = importlib.import_module("evaluate").STAGES
-    finally:
-        sys.path.pop(0)
-    assert [name for name, (module, function) in stages.items() if not hasattr(module, function)] == []
-
-
-def test_a_figure_that_nothing_computes_is_named(
-    readme: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(readme, "CHEAP", {readme.figures.of_assumptions: 0.0})
-    monkeypatch.setattr(
-        readme, "COSTLY", {"masses": (lambda: {"mass model": shown_anywhere(readme)["mass model"]}, 0.0)}
-    )
-    assert readme.main([]) == 1
-    said = capsys.readouterr().out
-    assert "speed: nothing computes it" in said
-    assert "mass model" not in said
-
-
-def shown_anywhere(readme: ModuleType) -> dict[str, str]:
-    """Return the figures of all pages."""
-    return {name: text for page in readme.PAGES for name, text in readme.shown(page.read_text("utf-8")).items()}
-
-
 def test_wrong_figures_are_named_and_corrected(
     readme: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
@@ -83,29 +56,6 @@ def test_wrong_figures_are_named_and_corrected(
     assert readme.main(["--cheap", "--write"]) == 0
     assert page.read_text(encoding="utf-8") == README
     assert picture.read_bytes() == (ROOT / "docs" / "best-printable.png").read_bytes()
-
-
-def test_a_new_figure_of_several_lines_ends_on_a_line_of_its_own(readme: ModuleType) -> None:
-    page = readme.rewritten("<!-- a -->\n<!-- / -->\nof <!-- b -->1<!-- / -->", {"a": "| x |\n| y |", "b": "2"})
-    assert page == "<!-- a -->\n| x |\n| y |\n<!-- / -->\nof <!-- b -->2<!-- / -->"
-
-
-@pytest.mark.parametrize(
-    ("one", "other", "slack", "apart"),
-    [
-        ("910", "911", 0.0, False), ("910", "912", 0.0, True), ("0.65", "0.67", 0.0, True),
-        ("9.05", "9.13", 0.01, False), ("9.05", "9.15", 0.01, True),
-        ("4.0", "5.9", 1 / 3, False), ("4.0", "6.1", 1 / 3, True),
-    ],
-)  # fmt: skip
-def test_how_far_apart_numbers_may_be(readme: ModuleType, one: str, other: str, slack: float, apart: bool) -> None:
-    assert readme.apart(one, other, slack) is apart
-    assert readme.apart(other, one, slack) is apart
-
-
-def test_other_words_differ_whatever_the_numbers(readme: ModuleType) -> None:
-    assert list(readme.differences("rejected", "none is", "1 is", slack=1.0))
-    assert not list(readme.differences("rejected", "2 are", "3 are"))
 
 
 def test_every_command_is_described_with_options_that_it_has() -> None:

@@ -1,13 +1,11 @@
 """One sign convention: a positive angle turns about +y, so that what points forwards turns downwards."""
 
 import math
-from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
 
 from jumpcad.transforms import (
-    ByValue,
     chained,
     direction,
     in_metres,
@@ -19,24 +17,6 @@ from jumpcad.transforms import (
     turned_about_y,
     velocity_about_y,
 )
-
-
-@dataclass(frozen=True, eq=False)
-class Placed(ByValue):
-    name: str
-    at_m: np.ndarray
-    note: str = field(default="", compare=False)
-
-
-def test_things_are_equal_by_value_of_what_is_compared() -> None:
-    """Arrays by their numbers and shape; of one class alone."""
-    one = Placed("hub", np.array([1.0, 2.0]))
-    assert one == Placed("hub", np.array([1.0, 2.0]), "drawn twice")
-    for other in (
-        Placed("eye", np.array([1.0, 2.0])), Placed("hub", np.array([1.0, 2.5])), Placed("hub", np.array([1.0])), "hub",
-    ):  # fmt: skip
-        assert one != other
-
 
 ANGLES = [-2.0, -0.3, 0.0, 0.7, math.pi / 2, 3.0]
 

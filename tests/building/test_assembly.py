@@ -23,7 +23,6 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.solids.stl import write_stl
-from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 
@@ -147,12 +146,6 @@ def test_what_cannot_be_built_is_refused_with_value_and_remedy(case: str) -> Non
     assert caught.value.exit_code == 1
 
 
-def test_an_unknown_motor_is_a_wrong_request() -> None:
-    with pytest.raises(JumpcadError, match=r"'n20-99': is no motor in the catalogue.*did you mean") as caught:
-        build(KENAN, changed(bought={"motors": ("n20-99",)}))
-    assert caught.value.exit_code == 2
-
-
 def test_screws_as_axles_have_one_size_and_a_thinner_one_is_no_way_out() -> None:
     """M3, before anything is said of the spacers around a thicker axle."""
     with pytest.raises(JumpcadError, match=r'^bought.axle_mm = 6: bought.retention = "nuts" .*: make it 3, or choose'):
@@ -167,26 +160,11 @@ def test_springs_that_are_bought_are_as_stiff_as_their_maker_says() -> None:
     assert robot.design.stiffness_nmm_per_deg != pytest.approx(2.0 * stock.rate_nmm_per_deg, rel=0.01)
 
 
-def test_plates_grow_by_their_own_factor_and_boards_keep_their_places() -> None:
-    usual, shop = built("kenan-2.0").layout, load_workshop()
-    grown = layout_of(KENAN, shop, Growth(plate=1.25))
-    assert np.ptp(grown.lateral.left_plate) == pytest.approx(1.25 * np.ptp(usual.lateral.left_plate), abs=0.01)
-    for role, board in grown.electronics.boards.items():
-        assert board.name == getattr(shop.bought, role)
-
-
 def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     """Spacers of 6.4 mm with 0.2 mm of play and walls of 0.8 mm hold axles of 4.4 mm."""
     with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
         layout_of(KENAN, changed(bought={"axle_mm": 4.5, "leg_bearing": ""}))
     assert caught.value.exit_code == 2
-
-
-def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
-    robot = geared()
-    names = {item.name for item in robot.hardware}
-    assert "idler_axle" in names
-    assert "idler_axle" not in {item.name for item in built("kenan-2.0").hardware}
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -243,10 +221,3 @@ def test_nothing_that_is_bought_is_left_out() -> None:
     assert bought["standoff"] == standoffs >= 2
     for number in range(1, standoffs + 1):
         assert {f"standoff_{number}_screw_{side}" for side in ("left", "right")} < set(names)
-
-
-def test_trays_have_the_walls_and_the_play_of_the_workshop() -> None:
-    shop = load_workshop()
-    fits = shop.fits.model_copy(update={"wall_min_mm": 0.95, "sliding_mm": 0.23})
-    electronics = layout_of(load_design("kenan-2.0"), shop.model_copy(update={"fits": fits})).electronics
-    assert (electronics.wall_mm, electronics.play_mm) == (0.95, 0.23)

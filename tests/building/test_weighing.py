@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from support.built import LONG_TOES, built, geared
+from support.built import built
 from support.workshops import changed
 
 from jumpcad.building import build
@@ -70,15 +70,6 @@ def test_a_weight_in_kilograms_or_milligrams_is_refused(share: float) -> None:
     (foot,) = (part for part in built("kenan-2.0").parts if part.name == "foot")
     with pytest.raises(JumpcadError, match=r"weighed_g\.foot = .*: as drawn it weighs about 8\.5 g: is it in grams"):
         build(load_design("kenan-2.0"), weighed(foot=share * 1000.0 * foot.mass_kg))
-
-
-def test_weights_of_one_robot_do_not_hinder_another() -> None:
-    """Whatever part some robot has may be weighed; robots without it are built as if it were not."""
-    names = {part.name for robot in (geared(), built(LONG_TOES)) for part in robot.parts}
-    others = names - {part.name for part in built("kenan-2.0").parts}
-    assert {"idler", "toe_left", "toe_right"} < others
-    robot = build(load_design("kenan-2.0"), weighed(**dict.fromkeys(others, 1.0)), "kenan-2.0")
-    assert robot.mass_kg == built("kenan-2.0").mass_kg
 
 
 def test_parts_of_which_a_workshops_choice_decides_may_be_weighed_for_all_robots() -> None:

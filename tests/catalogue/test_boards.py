@@ -28,17 +28,6 @@ def test_a_boards_pins_contradict_each_other_by_what_they_say() -> None:
     assert (place, value, reason) == (("diode_at",), "VIN", "is none of the inputs in supply_v, 5V")
 
 
-def test_a_board_is_used_for_what_its_pins_do() -> None:
-    """An output for other boards makes a regulator of one that neither controls nor drives; of a driver it does not."""
-    board = load_catalogue().boards["drv8833"]
-    motor = {"A": ("motor+",), "B": ("motor-",)}
-    for pins, uses in (
-        ({"VOUT": ("out",)}, ("regulator",)), ({"VOUT": ("out",), **motor}, ("driver",)),
-        ({"VOUT": ("out",), "D1": ("gpio1",)}, ("controller",)), ({"G": ("ground",)}, ()),
-    ):  # fmt: skip
-        assert board.model_copy(update={"pins": pins}).uses == uses
-
-
 def test_voltages_ascend() -> None:
     data = load_catalogue().boards["xiao-esp32c3"].model_dump(exclude_none=True)
     for volts, taken in (((3.0, 3.001), True), ((3.0, 3.0), False), ((4.0, 3.0), False)):

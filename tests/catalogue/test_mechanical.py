@@ -75,14 +75,6 @@ def test_a_rate_per_radian_per_turn_or_in_newton_metres_is_refused(name: str) ->
     assert not list(spring.model_copy(update={"rate_nmm_per_deg": 1.1 * by_hand}).contradictions())
 
 
-@pytest.mark.parametrize("scale", [0.5, 1.0, 2.0])
-def test_bearings_of_one_shape_have_outer_rings_of_one_shape(scale: float) -> None:
-    """That of a 623, from 8.2 to 10 mm around a bore of 3 mm (SKF), and of bearings of that shape in other sizes."""
-    size = {"bore_mm": 3.0 * scale, "outer_mm": 10.0 * scale}
-    bearing = load_catalogue().bearings["623"].model_copy(update=size)
-    assert bearing.outer_ring_mm == pytest.approx(8.2 * scale)
-
-
 @pytest.mark.parametrize(("kind", "ranges"), [("bearings", 5), ("springs", 6), ("pads", 5)])
 def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
     assert len(documented_ranges(f"{kind}.NAME")) == ranges

@@ -15,10 +15,7 @@ from jumpcad.checks import assembly as checked_assembly
 from jumpcad.checks.assembly import (
     BASIS,
     Blocked,
-    Way,
-    _in_the_way,
     _tool,
-    _tool_blocked,
     assembly_findings,
     assembly_ways,
     paths,
@@ -139,39 +136,6 @@ def block(name: str, size: tuple[float, float, float], low: tuple[float, float, 
     pose = np.eye(4)
     pose[:3, 3] = low
     return Piece(name, BODY, stack, pose)
-
-
-def way_past(*there: Piece) -> Way:
-    return Way(None, SimpleNamespace(move=SimpleNamespace(past="")), [], [], list(there))
-
-
-@pytest.mark.parametrize("axis", [0, 1, 2])
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_what_stands_in_the_way_covers_its_section(axis: int, sign: float) -> None:
-    """A cube of 2 mm comes from 20 mm away, past a block 4 mm long that reaches 0.5 mm into its way: 1 mm²."""
-    path = sign * 20.0 * np.eye(3)[axis]
-    size, low = np.full(3, 3.0), np.full(3, 1.5)
-    size[axis], low[axis] = 4.0, -sign * 10.0 - 2.0
-    low[(axis + 1) % 3] = 0.0
-    cube = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0))
-    found = _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path)
-    assert found is not None
-    assert (found.name, found.by) == ("cube", "beside")
-    assert found.share_mm2 == pytest.approx(1.0)
-    low[axis] = sign * 10.0  # ahead of it, where it does not come by
-    assert _in_the_way(way_past(block("ahead", tuple(size), tuple(low))), cube, path) is None
-    low[axis], low[(axis + 2) % 3] = -sign * 10.0 - 2.0, 2.0  # beside it
-    assert _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path) is None
-
-
-@pytest.mark.parametrize(("past", "free"), [("", False), ("post", True), ("post|wall", True), ("po|wall", False)])
-def test_a_part_passes_what_its_move_names_and_nothing_else(past: str, free: bool) -> None:
-    """A ring comes along its post; a tool stands on it there too."""
-    cube, post = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), block("post", (1.0, 1.0, 30.0), (0.5, 0.5, -25.0))
-    way = Way(None, SimpleNamespace(move=SimpleNamespace(past=past, reach="")), [], [], [post])
-    path, key = np.array([0.0, 0.0, 20.0]), Tool("key", 4.0, 50.0)
-    assert (_in_the_way(way, cube, path) is None) == free
-    assert (_tool_blocked(way, key, cube, path) is None) == free
 
 
 @pytest.mark.parametrize("side", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, -0.8)])

@@ -139,26 +139,6 @@ def test_strapping_pins_are_left_alone_and_the_divider_stays_in_range(kit: str, 
     assert chosen_parts(shop).battery.range_v[1] / wired.divider <= 2.5
 
 
-@pytest.mark.parametrize(
-    ("pins", "name", "words"),
-    [
-        ('motor = "D0"', "wiring_strapping", r"D0 \(motor\) is a strapping pin"),
-        ('battery = "D4"', "wiring_strapping", r"D4 \(battery\) has no adc"),
-        ('ready = "GND"', "wiring_strapping", r"GND \(ready\) has no GPIO"),
-        ('ready = "D99"', "wiring_strapping", r"D99 \(ready\) has no GPIO"),
-        ('motor = "D4"\nready = "D4"', "wiring_pins", r"D4 is used twice, by motor and ready"),
-    ],
-)
-def test_pins_that_do_not_suit_are_named(pins: str, name: str, words: str, workshop: Write) -> None:
-    import re
-
-    shop = workshop(f"[bought.pins]\n{pins}")
-    findings = {f.name: f for f in wiring_findings(chosen_parts(shop), wiring(shop))}
-    assert findings[name].severity == "error"
-    assert re.search(words, findings[name].message)
-    assert "[bought.pins]" in findings[name].remedy
-
-
 OWN = '[bought]\ncontroller = "mine"\n[boards.mine]\nlike = "xiao-esp32c3"\nsource = "x"\nbutton = ""\npins = %s\n'
 FED = OWN.replace("pins = %s", 'supply_v = { VSYS = [%s] }\ndiode_at = ["VSYS"]')
 """A board without pads for a cell, whose supply is behind a diode of its USB socket, as on a Raspberry Pi Pico."""

@@ -13,7 +13,7 @@ from support.said import well_told
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import constraint_findings, leg_bar
-from jumpcad.checks.leg_bar import BASIS, _bent_nmm, _socket, leg_bar_findings
+from jumpcad.checks.leg_bar import BASIS, _bent_nmm, leg_bar_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.findings import Finding
 from jumpcad.layout.leg_bars import BarPlace
@@ -86,14 +86,6 @@ def test_whatever_breaks_a_socket_first_counts(worst: str, monkeypatch: pytest.M
     mouth, floor = (900.0 * (length - x) / length for x in (place.mouth_mm, place.floor_mm))
     assert seen["pressure_mpa"] == seen["wall_mpa"] == (pytest.approx(mouth), pytest.approx(900.0 / length))
     assert seen["bending_mpa"] == (pytest.approx(floor),)
-
-
-def test_a_socket_is_between_floor_and_mouth_of_the_hubs_end() -> None:
-    case = LoadCase(robot("carbon-strip-3x6"))
-    socket = _socket(case, BarPlace(BARS["carbon-strip-2x6"], 8.0, 21.0, 40.0, 51.0))
-    assert socket.bar == BARS["carbon-strip-2x6"]
-    assert socket.length_mm == 13.0
-    assert socket.thickness_mm == case.layout.sections.thickness_mm
 
 
 @pytest.mark.parametrize(
@@ -195,15 +187,6 @@ def test_the_socket_is_bent_by_what_is_left_of_the_torque_at_its_floor() -> None
     second = (sections.thickness_mm * height**3 - 3.2 * 6.2**3) / 12.0
     (socket,) = (finding for finding in leg_bar_findings(case) if finding.name == "leg_socket_strength")
     assert socket.value == pytest.approx(torque * height / 2.0 / second, rel=1e-6)
-
-
-def test_a_socket_is_as_high_as_the_tapering_leg_at_its_mouth() -> None:
-    """From 12 mm at the hub to 8 mm at the ankle, whatever the front link has."""
-    found = robot("carbon-strip-3x6")
-    sections = replace(found.layout.sections, leg_root_mm=12.0, leg_tip_mm=8.0, front_mm=9.5)
-    case = LoadCase(replace(found, layout=replace(found.layout, sections=sections)))
-    place = replace(place_of(case), mouth_mm=0.25 * found.design.l2_mm)
-    assert _socket(case, place).height_mm == pytest.approx(11.0)
 
 
 @pytest.mark.parametrize("worst", ["bar_bending_mpa", "bar_sideways_mpa", "bar_shear_mpa"])

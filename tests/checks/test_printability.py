@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from support.built import checked
 from support.documented import documented_bases
 from support.each import each
 from support.said import well_told
@@ -32,7 +31,6 @@ Slabs = list[tuple[float, float, Region]]
 
 BLOCK = rectangle((30.0, 20.0))
 HOLE, TONGUE = rectangle((14.0, 14.0)), rectangle((5.0, 4.0), (-4.5, 0.0))
-KINDS = ("walls", "holes", "pins", "overhangs", "bridges", "solid", "bed_fit")
 
 
 def robot_of(kenan: Robot, shape: Stack | Blocks) -> Robot:
@@ -42,12 +40,6 @@ def robot_of(kenan: Robot, shape: Stack | Blocks) -> Robot:
 
 def found(kenan: Robot, shape: Stack | Blocks) -> dict[str, Finding]:
     return {finding.name: finding for finding in printability_findings(robot_of(kenan, shape))}
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
-    severity = {finding.name: finding.severity for finding in checked(name)}
-    assert {severity[kind] for kind in KINDS} == {"info"}
 
 
 @each(
@@ -118,18 +110,6 @@ def test_walls_are_looked_for_in_all_that_is_as_high_as_the_least_of_them(
     assert (findings["walls"].severity == "error") == seen
 
 
-@pytest.mark.parametrize(("less_mm", "accepted"), [(0.03, True), (0.05, False)])
-def test_walls_and_holes_may_be_four_hundredths_narrower(kenan: Robot, less_mm: float, accepted: bool) -> None:
-    """As docs/limits.md says; so may columns. Polygons of circles are narrower than these."""
-    shapes: dict[str, Slabs] = {
-        "walls": [(0.0, 5.0, rectangle((30.0, 0.8 - less_mm)))],
-        "holes": [(0.0, 5.0, BLOCK - rectangle((1.6 - less_mm, 1.6 - less_mm)))],
-        "pins": [(0.0, 2.0, BLOCK), (2.0, 12.0, rectangle((3.0 - less_mm, 3.0 - less_mm)))],
-    }
-    for name, slabs in shapes.items():
-        assert (found(kenan, Stack.of(slabs))[name].severity != "error") == accepted, name
-
-
 @pytest.mark.parametrize(("gap_mm", "name"), [(0.0, "bridges"), (0.15, "overhangs")])
 def test_a_ledge_that_ends_beside_a_wall_hangs(kenan: Robot, gap_mm: float, name: str) -> None:
     """From one wall 5 mm towards another: on it is a bridge, 0.15 mm before it an overhang of more than two lines."""
@@ -149,30 +129,6 @@ def test_steps_of_45_degrees_are_no_overhang_and_steeper_ones_are(kenan: Robot) 
     assert found(kenan, steps(0.2))["overhangs"].margin == pytest.approx(0.9)
     assert found(kenan, steps(0.3))["overhangs"].margin == pytest.approx(0.9 - 0.3, abs=0.05)
     assert found(kenan, steps(1.0))["overhangs"].margin == pytest.approx(0.9 - 1.0, abs=0.05)
-
-
-@pytest.mark.parametrize(
-    ("layer_mm", "overhang_deg", "steepest_mm"),
-    [(0.2, 45.0, 0.2), (0.3, 45.0, 0.3), (0.2, 60.0, 0.3464), (0.2, 30.0, 0.1155)],
-)
-def test_a_step_is_an_overhang_from_the_workshops_own_angle_and_layer_on(
-    kenan: Robot, layer_mm: float, overhang_deg: float, steepest_mm: float
-) -> None:
-    """One layer up, the tangent of the angle out; seen from below, the next layer is not held farther out."""
-    shop = kenan.workshop
-    own = replace(
-        kenan,
-        workshop=shop.model_copy(
-            update={
-                "process": shop.process.model_copy(update={"layer_height_mm": layer_mm}),
-                "fits": shop.fits.model_copy(update={"overhang_deg": overhang_deg}),
-            }
-        ),
-    )
-    for out_mm, over in ((steepest_mm - 0.02, False), (steepest_mm + 0.03, True)):
-        slabs = [(layer_mm * n, layer_mm * (n + 1), disc(10.0 + 2.0 * out_mm * n)) for n in range(4)]
-        value = found(own, Stack.of(slabs))["overhangs"].value
-        assert bool(value) == over
 
 
 def test_limits_of_holes_and_overhangs_are_the_workshops_own(kenan: Robot) -> None:

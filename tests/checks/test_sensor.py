@@ -102,12 +102,5 @@ def test_scatter_beyond_the_switchs_travel_is_an_error(seats: dict[str, float], 
     assert (name in wrong) if name else not wrong
 
 
-def test_a_robot_without_a_sensor_has_no_track() -> None:
-    robot = build(load_design("kenan-2.0"), workshop(bought={"sensor": ""}))
-    assert robot.layout.sensor is None
-    assert not list(sensor_findings(robot))
-    assert "sensor_mount" not in [part.name for part in robot.parts]
-
-
 def test_formulas_and_limits_are_those_of_the_reference() -> None:
     assert documented_bases(BASIS) == BASIS

@@ -16,7 +16,6 @@ from jumpcad.checks.load_case import LoadCase
 from jumpcad.checks.steel import BASIS
 from jumpcad.checks.strength import strength_findings
 from jumpcad.robot import Robot
-from jumpcad.workshop import Workshop
 
 
 def test_hub_bearings_warn_when_the_springs_overload_them(strongest: Robot) -> None:
@@ -85,24 +84,6 @@ def test_what_is_advised_for_a_weak_axle_holds(kenan: Robot) -> None:
     assert "silver-steel" not in found.remedy.partition("bought.axle_mm")[0] or needed <= 400.0
     diameter = float(found.remedy.partition("bought.axle_mm of ")[2].partition(" ")[0])
     assert found.value * (3.0 / diameter) ** 3 <= 1.02 * found.limit
-
-
-def test_a_stock_springs_axle_is_not_helped_by_the_designs_stiffness(kenan: Robot) -> None:
-    """A robot built with a spring of the rate that is named holds, although its cam and gears are others too."""
-    stiff = build(kenan.design, changed(kenan, "bought", spring="9271K589").workshop)
-    enough = LoadCase(stiff).steel_stresses_mpa["leg_axle"] * stiff.workshop.safety.metal_factor
-    soft = changed(stiff, "safety", steel_yield_mpa=enough / 1.6)
-    found = {one.name: one for one in strength_findings(soft)}["leg_axle_strength"]
-    assert found.severity == "error"
-    assert "stiffness_nmm_per_deg" not in found.remedy
-    rate = float(found.remedy.partition("bought.spring of ")[2].partition(" ")[0])
-    assert rate < 26.36
-    shop = soft.workshop.model_dump(exclude_none=True)
-    spring = soft.workshop.catalogue.springs["9271K589"].model_dump(exclude_none=True) | {"rate_nmm_per_deg": rate}
-    advised = Workshop(**shop | {"springs": {"own": spring}, "bought": shop["bought"] | {"spring": "own"}})
-    (axle,) = (one for one in strength_findings(build(kenan.design, advised)) if one.name == "leg_axle_strength")
-    assert axle.severity == "info"
-    assert axle.limit == found.limit
 
 
 def test_a_pin_that_is_too_weak_is_answered_with_what_is_strong_enough() -> None:
@@ -182,20 +163,6 @@ def test_a_rod_has_its_yield_stress_over_0_78_as_tensile_strength(kenan: Robot, 
     lasts = math.exp((1.0 - of_way) * math.log(0.77 * tensile) + of_way * math.log(endless))
     allowed = min(2.0 / (1.0 / lasts + 1.0 / tensile), 0.78 * tensile)
     assert finding.limit == pytest.approx(allowed / LOADS)
-
-
-@pytest.mark.parametrize("roller_mm", [3.0, 6.0])
-def test_a_wider_roller_is_farther_from_the_hubs_bearings(kenan: Robot, roller_mm: float) -> None:
-    """Statics of two supports, the roller's middle half its width and a washer of 0.5 mm beside the leg."""
-    layout = kenan.layout
-    begins = layout.lateral.cam[0]
-    wide = replace(layout, lateral=replace(layout.lateral, cam=(begins, begins + roller_mm)))
-    case = LoadCase(replace(kenan, layout=wide))
-    (found,) = steel._bearings(case)
-    (arms, _), push = case.wound_forces_n
-    thick = layout.sections.thickness_mm
-    aside = (thick / 2.0 + 0.5 + roller_mm / 2.0) / (thick - layout.hub_bearing.width_mm)
-    assert found.value == pytest.approx(math.hypot(*(arms / 2.0 + push * (0.5 + aside))))
 
 
 def test_formulas_and_limits_are_those_of_the_reference() -> None:

@@ -68,11 +68,6 @@ def test_a_second_supply_that_no_wire_reaches_is_named() -> None:
     assert len(parts("strong-2s").controller.supply_v) == 2
 
 
-def test_a_battery_that_nothing_measures_is_a_warning() -> None:
-    finding = found(board(parts("light-1s"), "controller", adc_max_v=None))["wiring_pins"]
-    assert (finding.severity, "adc_max_v" in finding.message) == ("warning", True)
-
-
 def test_a_converter_that_no_divider_brings_the_battery_to_is_named_with_both_voltages() -> None:
     """Six times less than 8.4 V are 1.4 V: with the largest divider, 1000 to 200 kOhm."""
     for most, severity in ((1.39, "warning"), (1.41, "info")):
@@ -90,11 +85,6 @@ def test_pins_have_the_level_of_the_drivers_inputs(pins_v: float, inputs_v: floa
     assert finding.margin == pytest.approx(0.1 * inputs_v - abs(pins_v - inputs_v))
     assert f"give {pins_v:g} V" in finding.message
     assert f"are for {inputs_v:g} V" in finding.message
-
-
-def test_levels_that_are_not_known_are_not_compared() -> None:
-    for role in ("controller", "driver"):
-        assert "wiring_logic" not in found(board(parts("light-1s"), role, logic_v=None))
 
 
 def test_a_board_without_ground_is_named() -> None:

@@ -2,14 +2,11 @@
 
 import json
 from pathlib import Path
-from typing import NoReturn
 
 import pytest
 from support.calibrations import with_coarse_calibration
 from support.commands import Run
 
-from jumpcad.errors import JumpcadError
-from jumpcad.files.templates import templates_folder
 from jumpcad.simulation import uncertain
 
 
@@ -66,26 +63,3 @@ def test_wrong_requests(run: Run, arguments: tuple[str, ...], message: str) -> N
     code, out, err = run(*arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert message in err
-
-
-@pytest.mark.parametrize("name", ["parameters.svg", "measurements.svg", "parameters.png", "measurements.png"])
-def test_pictures_of_one_s_own_are_not_replaced_unasked(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
-    def sampling(files: object, seed: int) -> NoReturn:
-        raise JumpcadError("begun")
-
-    monkeypatch.setattr("jumpcad.calibration.calibrate", sampling)
-    (tmp_path / "pictures").mkdir()
-    (tmp_path / "pictures" / name).write_text("mine")
-    command = ("calibrate", "kenan-2.0", "--plots", "pictures")
-    assert f"pictures/{name}: exists already" in run(*command)[2]
-    assert run(*command, "--force")[2] == "jumpcad: begun\n"
-
-
-def test_an_output_over_the_measurements(run: Run, tmp_path: Path) -> None:
-    text = (templates_folder() / "measurements" / "kenan-2.0.toml").read_text()
-    (tmp_path / "mine.toml").write_text(text)
-    code, _, err = run("calibrate", "mine.toml", "-o", "mine.toml")
-    assert code == 2
-    assert "is measurements mine.toml itself" in err

@@ -49,18 +49,6 @@ def test_wrong_request_is_one_line_and_exit_code_2(run: Run, tmp_path: Path, arg
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["simulate", "kenan-2.0", "--seed", "x"], ", not 'x' (see jumpcad --help)\n"),
-        (["new"], "Missing argument 'FILE.toml' (see jumpcad --help)\n"),
-    ],
-)
-def test_an_error_in_the_arguments_says_where_help_is(run: Run, arguments: list[str], said: str) -> None:
-    """In one sentence."""
-    assert said in run(*arguments)[2]
-
-
 def test_a_cache_that_cannot_be_written_is_no_message(tmp_path: Path) -> None:
     """As in containers: matplotlib, which draws the letters of a name, and ezdxf warn of it in two lines each."""
     (tmp_path / "file").touch()
@@ -221,27 +209,6 @@ def test_completion_is_installed_without_an_error(tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=surroundings)
     assert (done.returncode, done.stderr) == (0, "")
     assert f"bash completion installed in {tmp_path}" in done.stdout
-
-
-@pytest.mark.parametrize(
-    ("line", "expected"),
-    [
-        ("jumpcad ver", {"verify"}),
-        ("jumpcad check kenan", {"kenan-1.0", "kenan-2.0"}),
-        ("jumpcad build x --printer a1", {"a1", "a1-mini"}),
-        ("jumpcad new x.toml --workshop f", {"fine"}),
-        ("jumpcad list mot", {"motors"}),
-    ],
-)
-def test_the_shell_completes_commands_and_names(
-    run: Run, monkeypatch: pytest.MonkeyPatch, line: str, expected: set[str]
-) -> None:
-    monkeypatch.setenv("_JUMPCAD_COMPLETE", "complete_bash")
-    monkeypatch.setenv("COMP_WORDS", line)
-    monkeypatch.setenv("COMP_CWORD", str(len(line.split()) - 1))
-    code, out, err = run()
-    assert (code, err) == (0, "")
-    assert set(out.split()) == expected
 
 
 @pytest.mark.parametrize(("ended", "code"), [(0, 0), (None, 0), (3, 3)])

@@ -7,7 +7,6 @@ import pytest
 
 from jumpcad.cli.commented import commented_design, commented_workshop
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
-from jumpcad.files import find_template
 from jumpcad.workshop import Workshop, load_workshop, varied
 
 DEFAULT = load_workshop("default")
@@ -40,20 +39,6 @@ def test_a_workshop_s_file_is_read_back_as_the_workshop(name: str, tmp_path: Pat
     assert text.startswith("# A workshop, copied from here: ")
     assert read_back(text, tmp_path).model_dump() == SHOPS[name].model_dump()
     tomllib.loads(text)
-
-
-def test_of_a_shipped_material_what_was_measured_is_written_and_nothing_else(tmp_path: Path) -> None:
-    """As `coupon --measured` lowers a strength."""
-    weaker = varied(DEFAULT, {"materials.PETG.strength_in_plane_mpa": 40.0})
-    text = commented_workshop(weaker, "here")
-    assert tomllib.loads(text)["materials"] == {"PETG": {"strength_in_plane_mpa": 40.0}}
-    assert read_back(text, tmp_path) == weaker
-
-
-def test_the_default_workshop_is_its_template_but_for_the_head() -> None:
-    template = find_template("workshops", "default").read_text(encoding="utf-8")
-    tables = template[template.index("\n[") :]
-    assert commented_workshop(DEFAULT, "here").rstrip().endswith(tables.rstrip())
 
 
 def test_a_design_s_numbers_stand_with_what_they_do_and_their_searched_range() -> None:

@@ -19,12 +19,6 @@ def test_new_writes_a_copy_that_can_be_loaded(run: Run, tmp_path: Path) -> None:
     assert load_design(tmp_path / "frog.toml") == load_design("best-bo")
 
 
-def test_a_new_design_is_a_copy_of_the_template_that_the_help_says(run: Run, tmp_path: Path) -> None:
-    (default,) = re.findall(r"--from .*?\[default: \((.*?)\)\]", " ".join(run("new", "--help")[1].split()))
-    assert run("new", "frog.toml")[1].startswith(f"frog.toml: a copy of {default};")
-    assert load_design(tmp_path / "frog.toml") == load_design(default)
-
-
 def test_new_keeps_what_is_there(run: Run, tmp_path: Path) -> None:
     (tmp_path / "frog.toml").write_text("mine")
     code, _, err = run("new", "frog.toml")
@@ -81,19 +75,6 @@ cam = 1.5
 """
 
 
-def test_the_next_command_takes_the_new_file(run: Run) -> None:
-    """Not what it was copied from."""
-    said = run("new", "w.toml", "--workshop", "fine")[1]
-    assert said.startswith("w.toml: a copy of fine; try: jumpcad check ")
-    assert said.endswith(" --workshop w.toml\n")
-    said = run("new", "d.toml", "--from", "kenan-1.0")[1]
-    assert said == "d.toml: a copy of kenan-1.0; try: jumpcad simulate d.toml\n"
-    said = run("new", "my robot.toml")[1]
-    assert said.endswith("; try: jumpcad simulate 'my robot.toml'\n")
-    first = Path("my robot.toml").read_text().splitlines()[1]
-    assert first.endswith("everything to print and buy: jumpcad build 'my robot.toml'")
-
-
 def test_a_workshop_of_ones_own_is_copied_with_all_that_it_says(run: Run, tmp_path: Path) -> None:
     (tmp_path / "own.toml").write_text(OWN)
     assert run("new", "again.toml", "--workshop", "own.toml") == (0, ANY, "")
@@ -115,13 +96,6 @@ def test_a_printer_of_ones_own_is_written_as_a_table(run: Run, tmp_path: Path) -
     (tmp_path / "mine.toml").write_text('name = "mine"\nbed_mm = [300, 300, 300]\nnozzle_mm = 0.4\n')
     assert run("new", "w.toml", "--printer", "./mine.toml")[0] == 0
     assert load_workshop(tmp_path / "w.toml").printer.bed_mm == (300.0, 300.0, 300.0)
-
-
-def test_a_workshop_has_no_design(run: Run, tmp_path: Path) -> None:
-    code, _, err = run("new", "w.toml", "--from", "best-bo", "--printer", "mk4")
-    assert code == 2
-    assert "leave --from out" in err
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(

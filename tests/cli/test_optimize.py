@@ -8,7 +8,6 @@ import sys
 import time
 from contextlib import nullcontext
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from support.commands import interruptible
@@ -16,16 +15,11 @@ from support.searches import NARROW, QUICK, data, refusal, run
 from typer.testing import CliRunner
 
 import jumpcad.search.optimization  # noqa: F401  # before its pool is replaced
-from jumpcad.cli import optimize
 from jumpcad.cli.commands import app
-from jumpcad.cli.search_result import print_result
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.findings import Finding
-from jumpcad.search.models import robot_model
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
-from jumpcad.search.study.objective import find_objective
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
 
@@ -117,15 +111,6 @@ def test_nothing_jumps_is_exit_code_1(folder):
     assert "no design jumps" in run("optimize", "ga", *QUICK, *weak, "--evaluations", 20, code=1)
 
 
-def test_says_that_all_designs_of_a_small_space_were_tried(folder):
-    fixed = {"c_coef": 1, "d_coef": 0.7, "e_coef": 1, "compression_ratio": 0.5, "rest_angle_deg": 45}
-    fixed |= {"stiffness_nmm_per_deg": 20, "ground_link_angle_deg": 30}
-    few = [part for name, value in fixed.items() for part in ("--fix", f"{name}={value}")]
-    said = run("optimize", *QUICK, *few, "--choose", "carrying_link_mm=100,120,140", "--evaluations", 20)
-    assert "3 designs evaluated" in said
-    assert "these are all designs of the space" in said
-
-
 @pytest.mark.thorough
 def test_says_that_it_ended_early_and_how_it_goes_on(folder):
     asked = ("optimize", *QUICK, *NARROW, "--evaluations", 60, "--study", "s.db", "-o", "best.toml")
@@ -167,85 +152,6 @@ def data_or_none(path):
     """Return how many trials a study has, 0 while it has none."""
     result = CliRunner().invoke(app, ["study", path, "--json"])
     return json.loads(result.stdout)["evaluations"] if result.exit_code == 0 and not result.exception else 0
-
-
-def test_a_winner_that_cannot_be_made_is_told_with_its_workshop(capsys, monkeypatch):
-    """Its limits are those that take seconds; what was searched in a workshop is built, or checked, in that one."""
-    design = load_design("kenan-2.0")
-    trial = SimpleNamespace(design=design, score=1.5, workshop={})
-    request = SimpleNamespace(
-        aim=find_objective("range"), searched=9, space=SimpleNamespace(size=1000), is_front=False,
-        objective="range",
-    )  # fmt: skip
-    result = SimpleNamespace(
-        request=request, evaluations=9, trials=[trial] * 9, rejected={}, converged=False, notes=[], best=trial,
-        winner=trial, candidates=[], score=1.5, design=design, bounds=[],
-    )  # fmt: skip
-    wrong = Finding("assembly_paths", "error", -1.0, "mm²", "a toe blocks the path", "raise d_coef")
-    kept, built = Finding("walls", "info", 1.0, "mm", "", ""), []
-    monkeypatch.setattr("jumpcad.building.build", lambda *given: built.append(given))
-    monkeypatch.setattr("jumpcad.checks.costly_findings", lambda _: [kept, wrong])
-    fine = robot_model("printed", "fine")
-    assert optimize._violated(result, fine) == [wrong]
-    assert built == [(design, fine.workshop)]
-    assert optimize._violated(result, robot_model("capsule")) == []
-    print_result(result, Path("won.toml"), [wrong], "fine")
-    assert capsys.readouterr().out.splitlines()[-3:] == [
-        "error: assembly_paths: a toe blocks the path; raise d_coef", "",
-        "next: jumpcad check won.toml --workshop fine: do not build it as it is; a search does not look at these "
-        "limits",
-    ]  # fmt: skip
-    print_result(result, Path("won.toml"), [], "fine")
-    assert capsys.readouterr().out.splitlines()[-1] == "next: jumpcad build won.toml --workshop fine"
-
-
-def test_a_winner_s_limits_are_looked_at_in_its_own_workshop(monkeypatch):
-    """The values that the search varied too."""
-    design, built = load_design("kenan-2.0"), []
-    monkeypatch.setattr("jumpcad.building.build", lambda *given: built.append(given))
-    monkeypatch.setattr("jumpcad.checks.costly_findings", lambda _: [])
-    trial = SimpleNamespace(workshop={"body.plate_mm": 2.25})
-    assert optimize._violated(SimpleNamespace(winner=trial, design=design), robot_model("printed", "fine")) == []
-    ((asked, workshop),) = built
-    fine = robot_model("printed", "fine").workshop
-    assert asked == design
-    assert workshop == fine.model_copy(update={"body": fine.body.model_copy(update={"plate_mm": 2.25})})
-
-
-def test_the_heading_comes_once_before_the_first_trial(capsys):
-    seen = []
-    watch = optimize._headed("the heading", lambda *given: seen.append((capsys.readouterr().out, *given)))
-    watch("one", True)
-    watch("two", False)
-    assert seen == [("the heading\n", "one", True), ("", "two", False)]
-
-
-def test_the_document_names_files_and_violated_limits(folder, monkeypatch):
-    """And all that the result says; a file of its own for the workshop only where the search varied it."""
-    wrong = Finding("assembly_paths", "error", -1.0, "mm²", "a toe blocks the path", "raise d_coef")
-    monkeypatch.setattr(optimize, "_violated", lambda result, robot: [wrong])
-    found = data("optimize", "ga", *QUICK, *NARROW, "--evaluations", 12, "--study", "s.db", "-o", "b.toml")
-    assert (found["study"], found["design_file"], found["pictures"]) == ("s.db", "b.toml", [])
-    assert found["violated"] == [wrong.to_dict()]
-    assert (found["method"], found["objective"], found["searched"]) == ("ga", "fitness", 12)
-    assert "workshop_file" not in found
-    assert found["winner"]["design"] == load_design("b.toml").model_dump()
-
-
-@pytest.mark.parametrize("won", [True, False])
-def test_the_document_names_the_workshop_s_file_where_the_search_varied_it(folder, monkeypatch, won):
-    """Beside the design's file; null where no design jumps, so that no file is written."""
-    saved = []
-    winner = SimpleNamespace(workshop={"body.plate_mm": 2.0}) if won else None
-    result = SimpleNamespace(winner=winner, save=lambda file, force: saved.append(file), to_dict=dict)
-    monkeypatch.setattr(study, "run_study", lambda *_: result)
-    monkeypatch.setattr(optimize, "_violated", lambda result, robot: [])
-    asked = ["optimize", "--bound", "body.plate_mm=1.6:2.4", "--workers", "0", "-o", "far.toml", "--json"]
-    done = CliRunner().invoke(app, asked, catch_exceptions=False)
-    found = json.loads(done.stdout)
-    assert (done.exit_code, saved) == ((0, [Path("far.toml")]) if won else (1, []))
-    assert found["design_file"] == ("far.toml" if won else None)
-    assert found["workshop_file"] == ("far-workshop.toml" if won else None)
 
 
 def test_a_design_that_is_edited_while_the_search_runs_is_kept_unless_it_is_to_be_replaced(folder, monkeypatch):

@@ -38,22 +38,6 @@ def test_an_edited_page_of_a_bundle_is_not_replaced(
     assert run("report", copy, "--force")[2] == "jumpcad: begun\n"
 
 
-def test_the_page_of_a_template_is_a_file_of_its_own(run: Run, tmp_path: Path) -> None:
-    code, out, _ = run("report", "kenan-2.0")
-    assert (code, out) == (0, "kenan-2.0-report.html\n")
-    page = (tmp_path / "kenan-2.0-report.html").read_text()
-    assert "It jumps" in page
-    assert page.count('href="') == page.count('href="#')  # there is nothing beside it to link to
-
-
-@pytest.mark.parametrize(("target", "said"), [("page.txt", ".html"), ("no/page.html", "no")])
-def test_a_page_in_a_wrong_place_is_refused_before_the_work(run: Run, tmp_path: Path, target: str, said: str) -> None:
-    code, out, err = run("report", "kenan-2.0", "-o", target)
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert said in err
-    assert not list(tmp_path.iterdir())
-
-
 @pytest.mark.parametrize(("name", "more"), [("kenan-2.0-report.html", ()), ("own.html", ("-o", "own.html"))])
 def test_a_users_page_is_not_replaced(run: Run, tmp_path: Path, name: str, more: tuple[str, ...]) -> None:
     (tmp_path / name).write_text("mine")

@@ -1,23 +1,14 @@
 """Options that all searches share, with the capsule robot."""
 
 import os
-from dataclasses import replace
 
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
 
-from jumpcad.cli.searching import SearchOptions, require_plots
+from jumpcad.cli.searching import require_plots
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.report.figures import PICTURES
-from jumpcad.settings import load_settings
-from jumpcad.workshop import load_workshop
-
-
-def test_without_a_study_file_each_request_has_its_own(folder):
-    first = data("optimize", "ga", *QUICK, "--evaluations", 20)["study"]
-    assert data("optimize", "ga", *QUICK, "--evaluations", 20)["study"] == first
-    assert data("optimize", "ga", *QUICK, "--evaluations", 20, "--seed", 1)["study"] != first
 
 
 def test_options_of_the_space_arrive(folder):
@@ -118,17 +109,3 @@ def test_no_picture_of_one_s_own_is_replaced_unless_it_is_forced(tmp_path, name)
     require_plots(tmp_path, True)
     with pytest.raises(JumpcadError, match="is there already and is no folder"):
         require_plots(tmp_path / name, True)
-
-
-def test_options_describe_model_pool_and_files():
-    options = SearchOptions("printed", workshop="light", settings="fine", engine="planar", workers=0, limit=12.5)
-    model = options.robot_model()
-    assert (model.name, model.engine) == ("printed", "planar")
-    assert (model.workshop, model.settings) == (load_workshop("light"), load_settings("fine"))
-    assert options.inputs() == {"--workshop": "light", "--settings": "fine"}
-    with replace(options, workers=3).pool() as pool:
-        assert (pool.workers, pool._limit_s) == (3, 12.5)
-    with options.pool() as pool:
-        assert pool.workers == 1
-    with pytest.raises(JumpcadError, match="workers and dask exclude each other"):
-        replace(options, dask="tcp://here:1").pool()

@@ -82,30 +82,6 @@ def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, prete
     assert after["versions"] == before["versions"] | {"PrusaSlicer": "2.9.1"}
 
 
-def test_settings_that_were_not_taken_over_are_named(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
-    pretend(OBEDIENT.replace("TAMPER", "del settings['infill_extrusion_width']; settings['perimeters'] = '2'"))
-    code, out, _ = run("slice", str(bundle))
-    assert code == 0
-    assert "ignored   perimeters = 3: the slicer used 2" in out
-    assert "ignored   infill_extrusion_width = 0.45: the slicer used nothing" in out
-    assert "all taken over" not in out
-
-
-def test_another_workshop_prints_the_same_parts(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
-    pretend(OBEDIENT.replace("TAMPER", "assert settings['fill_density'] == '5%', settings"))
-    Path("thin.toml").write_text("[process]\ninfill = 0.05\n")
-    bill = (bundle / "bom.csv").read_bytes()
-    code, out, err = run("slice", str(bundle), "--workshop", "thin.toml")
-    assert (code, err) == (0, "")
-    assert "written" not in out
-    assert (bundle / "bom.csv").read_bytes() == bill
-    code, _, err = run("slice", str(bundle), "--workshop", "light")
-    assert (code, err) == (
-        2,
-        "jumpcad: the bundle has parts of PETG, but the workshop only PLA: build it with that\n",
-    )
-
-
 @pytest.mark.parametrize(
     ("program", "exit_code", "complaint"),
     [
@@ -206,17 +182,6 @@ def test_nothing_is_written_or_read_outside_of_a_bundle(
     assert "bom.csv: a link" in err
     assert (home / "bom.csv").read_bytes() == before
     assert (home / ".bashrc").read_text() == "precious"
-
-
-def test_a_plate_of_an_unknown_material_is_one_line(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
-    pretend(OBEDIENT.replace("TAMPER", ""))
-    manifest = json.loads((bundle / "manifest.json").read_text())
-    (bundle / "print" / "plate-1-GOLD.3mf").write_bytes(b"x")
-    manifest["files"]["print/plate-1-GOLD.3mf"] = hashlib.sha256(b"x").hexdigest()
-    (bundle / "manifest.json").write_text(json.dumps(manifest))
-    code, _, err = run("slice", "frog")
-    assert (code, err.count("\n")) == (2, 1)
-    assert "parts of GOLD" in err
 
 
 @pytest.mark.parametrize(

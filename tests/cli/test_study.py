@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from support.searches import QUICK, data, refusal, run
 from support.studies import IDENTITY, trials
-from support.told import told_default
 
 from jumpcad.cli import study
 from jumpcad.design import load_design
@@ -79,20 +78,6 @@ def summary(**changes: object) -> dict[str, object]:
     return plain | changes
 
 
-def test_a_study_is_told_with_every_count_in_its_place(capsys: pytest.CaptureFixture[str]) -> None:
-    study._print_one(summary())
-    values = " ".join(f"{value:.5g}" for value in load_design("best-ga").to_vector())
-    assert [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()] == [
-        "s.db: ga+bo on the capsule robot, range",
-        "31 of 40 designs, and 12 around the best",
-        "rejected 6 tips",
-        "rejected 2 loop",
-        "note: a note",
-        f"1. 2.5000 bo {values} body.plate_mm=2 bought.spring=x (trial 7)",
-        f"2. 1.2500 ga {values} (trial 3)",
-    ]
-
-
 @pytest.mark.parametrize(
     ("ended", "told"),
     [
@@ -114,26 +99,6 @@ def test_a_study_says_what_ended_its_search(
     assert capsys.readouterr().out.splitlines()[2].strip() == told
 
 
-def test_a_method_whose_parts_have_shares_is_not_said_to_go_on(capsys: pytest.CaptureFixture[str]) -> None:
-    """`jumpcad optimize paper` refuses its study with more evaluations."""
-    identity = summary()["identity"] | {"method": "paper"}  # type: ignore[operator]
-    study._print_one(summary(identity=identity, ended={"by": "evaluations"}))
-    assert capsys.readouterr().out.splitlines()[2].endswith("spent; paper with more is another study")
-
-
-def test_an_exploration_has_no_number_of_designs_to_come(capsys: pytest.CaptureFixture[str]) -> None:
-    study._print_one(summary(planned=0, other_evaluations=0))
-    assert capsys.readouterr().out.splitlines()[1] == "31 designs"
-
-
-def test_studies_are_compared_by_their_best(capsys: pytest.CaptureFixture[str]) -> None:
-    study._print_comparison([summary(), summary(study="t.db", best=None)])
-    assert capsys.readouterr().out.splitlines() == [
-        "s.db: best range 2.5000 m in 31 designs (ga+bo, capsule, seed 5)",
-        "t.db: best range none in 31 designs (ga+bo, capsule, seed 5)",
-    ]
-
-
 def test_what_cannot_be_written_is_told_before_a_study_is_read(folder, monkeypatch):
     monkeypatch.setattr(StudyStore, "read", lambda *_: pytest.fail("begun"))
     (folder / "s.db").touch()
@@ -146,11 +111,3 @@ def test_what_cannot_be_written_is_told_before_a_study_is_read(folder, monkeypat
         (("--export", "all.txt"), "all.txt: must end in .csv or .parquet"),
     ):  # fmt: skip
         assert said in refusal("study", "s.db", *words)
-
-
-def test_as_many_of_the_best_are_shown_as_the_reference_says(folder):
-    with StudyStore.write(folder / "s.db", IDENTITY) as store:
-        store.append(trials(24))
-    assert len([one for one in trials(24) if one.score is not None]) > 9
-    ranks = re.findall(r"^ *(\d+)\. ", run("study", "s.db"), re.M)
-    assert ranks[-1] == told_default("study", "--list")

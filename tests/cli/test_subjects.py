@@ -7,8 +7,6 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
-from jumpcad.cli.subjects import completion
-
 
 def test_a_bare_name_is_the_template_and_a_path_the_bundle(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -50,11 +48,3 @@ def test_links_in_a_bundle_are_not_read(run: Run, bundle: Path, tmp_path: Path) 
         assert (code, out, err.count("\n")) == (2, "", 1)
         assert f"{path}: a link" in err
         shutil.rmtree(own)
-
-
-def test_a_shell_completes_names_of_templates_however_they_are_typed() -> None:
-    """All are of small letters; a material's is said in large ones everywhere else."""
-    assert completion("printers")("MK") == completion("printers")("mk") == ["mk4"]
-    assert completion("materials")("P") == ["pa12", "petg", "pla"]
-    assert completion("robots")("kenan-") == ["kenan-1.0", "kenan-2.0"]
-    assert completion("robots")("x") == []

@@ -87,21 +87,6 @@ def test_holes_are_as_wide_as_is_engraved_under_them(material: str) -> None:
         assert cut.area() == pytest.approx(word.area(), rel=0.01)
 
 
-@pytest.mark.parametrize("material", ["PETG", "PLA"])
-def test_a_gauge_has_its_materials_name_at_its_back(material: str) -> None:
-    """Whole, 5 mm high, 3 mm from both edges, above all else that is engraved."""
-    solid = reread(PIECES[f"gauge_{material}"])
-    left, _, _, _, back, _ = solid.bounding_box()
-    cut = (solid.slice(1.5) - solid.slice(2.8)) ^ CrossSection.square((100.0, 9.0)).translate((left, back - 9.0))
-    word = text(material, 5.0)
-    letters = np.concatenate([polygon for polygon in contours(cut)[0] if np.ptp(polygon[:, 1]) > 4.0])
-    shift = letters.min(axis=0) - word.bounds()[:2]
-    assert (word.translate(tuple(shift)) ^ cut).area() == pytest.approx(word.area(), rel=0.01)
-    assert cut.area() == pytest.approx(word.area(), rel=0.01)
-    assert letters[:, 0].min() - left == pytest.approx(3.0, abs=0.7)  # with a letter's own room
-    assert back - letters[:, 1].max() == pytest.approx(3.0, abs=0.2)
-
-
 def test_pegs_can_be_measured() -> None:
     pegs, _ = contours(reread(PIECES["gauge_PETG"]).slice(7.0))
     spans = sorted((float(p[:, 0].min()), float(np.ptp(p[:, 0]))) for p in pegs)
@@ -152,18 +137,6 @@ def test_pinions_play_by_the_backlash_engraved_on_them() -> None:
         assert (solid.slice(2.5) - solid.slice(4.8)).area() == pytest.approx(text(label, 3.0).area(), rel=0.01)
     expected = {f"pinion_{number:02d}": number / 100.0 for number in (5, 10, 15, 20, 25)}
     assert played == pytest.approx(expected, abs=6e-3)
-
-
-def test_legs_without_a_bearing_need_no_seats() -> None:
-    workshop = changed("bought", leg_bearing="")
-    _, holes = contours(reread(coupon(workshop)["gauge_PLA"]).slice(1.5))
-    assert max(width(polygon) for polygon in holes) < 4.0
-
-
-def test_one_material_needs_one_gauge() -> None:
-    names = set(coupon(load_workshop("light")))
-    assert names >= {"gauge_PLA", "gear_wheel", "gear_holder"}
-    assert "gauge_PETG" not in names
 
 
 def test_a_coupon_fits_the_smallest_bed() -> None:

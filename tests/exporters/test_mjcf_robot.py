@@ -126,23 +126,6 @@ def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: A
     assert count == model.ngeom
 
 
-def test_collisions_and_limits_are_as_stiff_as_the_time_step_allows(model: Any) -> None:
-    """`solref` of two time steps; constraints are hard from 0.99 on, contacts begin with nothing."""
-    soft, hard = [2.0 * model.opt.timestep, 1.0], [0.99, 0.9999, 0.0001, 0.5, 2.0]
-    assert model.geom_solref == pytest.approx(np.tile(soft, (model.ngeom, 1)))
-    assert model.geom_solimp == pytest.approx(np.tile([0.0, 0.95, 0.0001, 0.5, 1.0], (model.ngeom, 1)))
-    wound = model.tendon("wound").id
-    for solref, solimp in (
-        (model.tendon_solref_lim[wound], model.tendon_solimp_lim[wound]),
-        *(
-            (model.eq_solref[model.equality(one).id], model.eq_solimp[model.equality(one).id])
-            for one in ("loop", "latch")
-        ),
-    ):
-        assert solref == pytest.approx(soft)
-        assert solimp == pytest.approx(hard)
-
-
 def test_bodies_do_not_touch_each_other(model: Any) -> None:
     """Of six pairs three have a joint in common, and the others are excluded: nothing but a scene is touched."""
     assert model.nexclude == 3
@@ -188,32 +171,6 @@ def test_the_velocity_of_the_centre_of_mass_is_how_its_place_changes(model: Any)
     for joint in JOINTS:
         assert data.sensor(f"{joint}_angle").data[0] == data.joint(joint).qpos[0]
     assert len({round(float(data.joint(joint).qpos[0]), 6) for joint in JOINTS}) == 3
-
-
-def test_what_is_seen_hangs_on_its_body_in_its_colour(robot: Robot) -> None:
-    """Meshes in millimetres from beside the URDF, each once; a material for every colour, by its hexadecimal name."""
-    root = ET.fromstring(write_robot(robot, visuals(robot)))
-    seen = {}
-    for body in root.iter("body"):
-        for geom in body.findall("geom"):
-            if geom.get("class") == "visual":
-                seen[geom.get("name")] = (body.get("name"), geom.get("mesh"), geom.get("material"))
-    expected = {
-        shape.name: (shape.body, shape.mesh_name, "colour_" + bytes(round(255 * part) for part in shape.colour).hex())
-        for shape in visuals(robot)
-    }
-    assert seen == expected
-    files = {mesh.get("name"): (mesh.get("file"), mesh.get("scale")) for mesh in root.iter("mesh") if mesh.get("file")}
-    assert files == {
-        name: (f"{name}.stl", "0.001 0.001 0.001") for name in {shape.mesh_name for shape in visuals(robot)}
-    }
-    paints = {one.get("name"): [float(part) for part in one.get("rgba").split()] for one in root.iter("material")}
-    places = {one.get("name"): [float(part) for part in one.get("pos", "0 0 0").split()] for one in root.iter("geom")}
-    for shape in visuals(robot):
-        assert places[shape.name] == pytest.approx(shape.T_body_mesh[:3, 3], abs=1e-6)
-        assert paints[expected[shape.name][2]] == pytest.approx([*shape.colour, 1.0])
-    (visual,) = (one for one in root.iter("default") if one.get("class") == "visual")
-    assert visual.find("geom").attrib == {"type": "mesh", "contype": "0", "conaffinity": "0", "group": "2"}
 
 
 def test_bodies_collide_by_the_convex_hull_of_their_parts(robot: Robot) -> None:

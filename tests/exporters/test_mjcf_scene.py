@@ -15,9 +15,7 @@ from support.built import built
 
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.exporters.mjcf_scene import HOLD, LEAST_MUJOCO, NEWEST_MUJOCO, readme, write_scene
-from jumpcad.mechanism.model import BODY, FOOT, Friction
 from jumpcad.robot import Robot
-from jumpcad.settings import Settings, coefficients
 
 mujoco = needs.package("mujoco")
 STAND_IN = b'<mujoco><worldbody><body name="stand_in"><geom size="0.01"/></body></worldbody></mujoco>'
@@ -43,15 +41,6 @@ def test_the_motor_holds_by_a_quarter_more_than_the_springs_push(robot: Robot, t
     )
     assert float(held) == pytest.approx(-1.25 * times * robot.spring.peak_torque_nm, rel=5e-3)
     assert HOLD == 1.25
-
-
-def test_friction_is_that_of_the_robots_own_pads_and_plates_on_its_ground(robot: Robot) -> None:
-    """Contacts that have priority 1 do without the floor's: theirs is the product of both."""
-    rubbing = replace(robot, friction=Friction(0.9, 0.4, 0.2, (0.0015,) * 4))
-    foot, body = re.findall(r"\(priority 1\): (\S+) under the feet, (\S+)\s+elsewhere", readme(rubbing))[0]
-    rubs = coefficients(rubbing, Settings())
-    assert (float(foot), float(body)) == pytest.approx((rubs.ground * rubs.foot, rubs.ground * rubs.body))
-    assert float(foot) > float(body)
 
 
 def test_the_notes_programs_are_python_and_use_what_there_is(robot: Robot) -> None:
@@ -107,25 +96,3 @@ def at_key(model: Any, key: str) -> Any:
     mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
     mujoco.mj_forward(model, data)
     return data
-
-
-def test_in_its_scene_the_robot_stands_on_the_floor_alone(robot: Robot) -> None:
-    """A plane through the world's origin, up; the robot touches it with its foot and rests there."""
-    scene, alone = write_scene(robot), write_robot(robot)
-    model = mujoco.MjModel.from_xml_string(scene, {f"{robot.name}.xml": alone.encode()})
-    floor = model.geom("floor")
-    assert mujoco.mjtGeom(int(floor.type[0])) == mujoco.mjtGeom.mjGEOM_PLANE
-    assert (floor.pos.tolist(), floor.quat.tolist()) == ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0])
-    assert floor.bodyid[0] == 0
-    data = at_key(model, "home")
-    start = data.body(BODY).xpos.copy()
-    for _ in range(400):  # in which it would fall by 49 mm
-        mujoco.mj_step(model, data)
-    assert data.body(BODY).xpos == pytest.approx(start, abs=0.001)
-    assert data.ncon > 0
-    for contact in data.contact:
-        assert floor.id in contact.geom
-        (other,) = set(contact.geom.tolist()) - {floor.id}
-        assert model.body(model.geom_bodyid[other]).name == FOOT
-    names = [one.split(b"\0", 1)[0].decode() for one in (model.names, mujoco.MjModel.from_xml_string(alone).names)]
-    assert names == [f"{robot.name} scene", robot.name]

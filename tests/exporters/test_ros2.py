@@ -13,7 +13,7 @@ from support.each import each
 
 from jumpcad.design import load_design
 from jumpcad.exporters.collision import body_box, capsules
-from jumpcad.exporters.ros2 import Mimic, _links, mimicked, model_name, ros2_files
+from jumpcad.exporters.ros2 import mimicked, model_name, ros2_files
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.scene.visuals import visuals
@@ -170,16 +170,6 @@ def test_the_controller_holds_the_leg_where_its_springs_are_loaded(package: dict
     for torque in held:
         assert robot.spring.peak_torque_nm < torque <= float(limit.get("effort"))
     assert float(limit.get("lower")) == pytest.approx(-robot.spring.wind_rad)
-
-
-def test_a_joint_that_mimics_has_slope_and_offset_of_its_line() -> None:
-    """Those of Kenan 2.0 have no offset: its links are parallel."""
-    robot = built("kenan-2.0")
-    root = ET.fromstring(_links(robot, visuals(robot), {"ankle": Mimic(-0.75, 0.125, 0.0)}, "meshes"))
-    (mimic,) = root.iter("mimic")
-    assert (mimic.get("joint"), float(mimic.get("multiplier")), float(mimic.get("offset"))) == ("leg", -0.75, 0.125)
-    (joint,) = (one for one in root.findall("joint") if mimic in one.iter())
-    assert joint.get("name") == "ankle"
 
 
 def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.Element]) -> None:

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from jumpcad.design import load_design
-from jumpcad.exporters.sdf import sdf_files, write_sdf
+from jumpcad.exporters.sdf import write_sdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, Mechanism
 from jumpcad.robot import Robot
@@ -64,12 +64,6 @@ def test_friction_is_the_product_of_ground_and_foot(small_robot: Robot) -> None:
     assert found == {0.4}
 
 
-def test_meshes_are_those_beside_the_urdf(small_robot: Robot) -> None:
-    text = dict(sdf_files(small_robot))[f"sdf/{small_robot.name}.sdf"]
-    uris = {uri.text for uri in ET.fromstring(text).iter("uri")}
-    assert {f"../urdf/meshes/{part.name}.stl" for part in small_robot.parts} <= uris
-
-
 def test_every_link_shows_the_parts_of_its_body_where_they_are(small_robot: Robot) -> None:
     shapes = visuals(small_robot)
     root = ET.fromstring(write_sdf(small_robot, shapes))
@@ -83,15 +77,6 @@ def test_every_link_shows_the_parts_of_its_body_where_they_are(small_robot: Robo
         assert visual.findtext("geometry/mesh/uri") == f"../urdf/meshes/{shape.mesh_name}.stl"
         assert numbers(visual, "geometry/mesh/scale") == pytest.approx([0.001] * 3)
         assert pose(visual) == pytest.approx(shape.T_body_mesh, abs=1e-6)
-
-
-def test_gazebo_finds_the_model_by_its_config(small_robot: Robot) -> None:
-    """Gazebo opens the file that `model.config` names, beside it, if it has the version given."""
-    files = dict(sdf_files(small_robot))
-    (named,) = ET.fromstring(files["sdf/model.config"]).iter("sdf")
-    assert ET.fromstring(files["sdf/model.config"]).findtext("name") == small_robot.name
-    assert files.keys() == {"sdf/model.config", f"sdf/{named.text}"}
-    assert ET.fromstring(files[f"sdf/{named.text}"]).get("version") == named.get("version")
 
 
 @pytest.fixture(scope="module", params=["kenan-1.0", "best-bo"])

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from jumpcad.exporters.threemf import _in_words, pad_plates, write_threemf
+from jumpcad.exporters.threemf import _in_words, write_threemf
 from jumpcad.printing.plates import packed
 from jumpcad.workshop import load_workshop
 
@@ -115,16 +115,3 @@ def test_the_same_plate_gives_the_same_bytes_without_a_date(plate):
         assert {entry.date_time for entry in package.infolist()} == {(1980, 1, 1, 0, 0, 0)}
         assert {entry.external_attr >> 16 for entry in package.infolist()} == {0o644}  # unpacked, all may read them
         assert not re.search(rb"20\d\d-\d\d-\d\d", package.read("3D/3dmodel.model"))
-
-
-@pytest.mark.parametrize("spacing_mm", [2.0, 11.0])
-def test_pads_lie_as_far_apart_as_the_workshops_parts(spacing_mm):
-    """On a plate of their own kind, by its name."""
-    shop = load_workshop("default")
-    process = shop.process.model_copy(update={"part_spacing_mm": spacing_mm})
-    pads = [Part(name, trimesh.creation.box((12.0, 12.0, 2.0)), "tpu-2") for name in ("one", "other")]
-    (only,) = pad_plates(pads, shop.model_copy(update={"process": process}))
-    assert only.name == "pads-1-tpu-2"
-    one, other = (trimesh.transform_points(item.part.mesh.bounds, item.T_bed_part) for item in only.items)
-    apart = np.maximum(other.min(axis=0) - one.max(axis=0), one.min(axis=0) - other.max(axis=0))[:2].max()
-    assert apart == pytest.approx(spacing_mm, abs=0.01)

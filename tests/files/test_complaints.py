@@ -8,17 +8,8 @@ import pytest
 from support.tables import Printer
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files import (
-    did_you_mean,
-)
 from jumpcad.files.complaints import place
 from jumpcad.workshop import load_workshop
-
-
-def test_hint_only_where_something_is_near() -> None:
-    assert did_you_mean("kenan2", ["kenan-2.0", "best-bo"]) == " (did you mean kenan-2.0?)"
-    for word in ("zzz", "keys", "bold-box"):  # two letters that occur in both words do not make them alike
-        assert did_you_mean(word, ["kenan-2.0", "best-bo"]) == ""
 
 
 def complaint(tmp_path: Path, text: str) -> str:
@@ -46,22 +37,6 @@ def test_value_out_of_range_is_named_with_its_line(tmp_path: Path) -> None:
 def test_nested_value_is_named_with_its_section_and_line(tmp_path: Path) -> None:
     text = 'name = "MK4"\n\n[bed]\nwidth_mm = 9000\n'
     assert complaint(tmp_path, text) == "p.toml:4: bed.width_mm = 9000: must be at most 400"
-
-
-def test_misspelt_key_is_recognised(tmp_path: Path) -> None:
-    text = 'name = "MK4"\nnozle_mm = 0.4\n[bed]\nwidth_mm = 250\nwidht_mm = 2\n'
-    assert complaint(tmp_path, text) == (
-        "p.toml:5: bed.widht_mm: unknown key (did you mean width_mm?); "
-        "p.toml:2: nozle_mm: unknown key (did you mean nozzle_mm?)"
-    )
-
-
-def test_all_bad_keys_at_once(tmp_path: Path) -> None:
-    text = "name = 3\nnozzle_mm = nan\n"
-    assert complaint(tmp_path, text) == (
-        "p.toml:1: name = 3: must be a valid string; p.toml:2: nozzle_mm = nan: must be a finite number; "
-        "p.toml: bed: missing"
-    )
 
 
 @pytest.mark.parametrize(

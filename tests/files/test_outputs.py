@@ -13,7 +13,6 @@ from support.elsewhere import environment
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import (
-    require_apart,
     require_free,
     require_path,
     require_target,
@@ -120,22 +119,6 @@ def test_a_sealed_file_is_known_until_it_is_edited(tmp_path: Path, comment: str)
             require_free(file)
 
 
-def test_a_target_has_a_fitting_name_and_a_folder(tmp_path: Path) -> None:
-    require_target(tmp_path / "t.csv", (".csv", ".json"))
-    (tmp_path / "mine.csv").write_text("mine")
-    require_target(tmp_path / "mine.csv", (".csv",), force=True)
-    with pytest.raises(JumpcadError, match="exists already"):
-        require_target(tmp_path / "mine.csv", (".csv",))
-    for name in ("t.txt", "t.CSV", "t.csv.txt", "csv", ".csv"):  # a table's format goes by its exact suffix
-        with pytest.raises(JumpcadError, match=rf"{name}: must end in \.csv or \.json"):
-            require_target(tmp_path / name, (".csv", ".json"))
-    with pytest.raises(JumpcadError, match="cannot be written: there is no folder"):
-        require_target(tmp_path / "no" / "t.csv", (".csv",))
-    (tmp_path / "file").write_text("mine")
-    with pytest.raises(JumpcadError, match="cannot be written: there is no folder"):
-        require_target(tmp_path / "file" / "t.csv", (".csv",))
-
-
 def test_a_folder_that_cannot_be_made_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine")
     with pytest.raises(JumpcadError, match="file: cannot be written"):
@@ -174,34 +157,6 @@ def test_a_sealed_png_is_a_png_and_is_replaced_until_somebody_edits_it(tmp_path:
         path.write_bytes(mine)
         with pytest.raises(JumpcadError, match="exists already"):
             require_free(path)
-
-
-def test_outputs_are_apart_from_each_other_and_from_what_is_read(tmp_path: Path) -> None:
-    """A path with a suffix is a file unless it is a folder: nothing can lie below it."""
-    read, folder = tmp_path / "a.toml", tmp_path / "b.d"
-    read.write_text("")
-    folder.mkdir()
-    require_apart({"-o": tmp_path / "x.toml", "--plots": tmp_path / "plots", "--none": None}, {"design": str(read)})
-    require_apart({"-o": folder, "--plots": folder / "plots"}, {})
-    require_apart({"--plots": tmp_path / "plots", "-o": tmp_path / "plots" / "x.toml"}, {})  # that is made first
-    require_apart({"-o": tmp_path / "x.toml"}, {"design": "kenan-2.0", "bundle": str(folder)})
-    require_apart({"-o": tmp_path / "x.toml", "--plots": tmp_path / "x.toml.d" / "y"}, {})  # beside it
-    (tmp_path / "a.urdf").write_text("")
-    with pytest.raises(JumpcadError, match=r"-o .*: is robot itself; choose another name"):
-        require_apart({"-o": tmp_path / "a.urdf"}, {"robot": str(tmp_path / "a.urdf")})
-    for outputs in (
-        {"-o": tmp_path / "x.toml", "--plots": tmp_path / "x.toml"},
-        {"-o": tmp_path / "x.toml", "--plots": tmp_path / "x.toml" / "plots"},
-        {"--plots": tmp_path / "x.toml" / "plots", "-o": tmp_path / "x.toml"},
-        {"-o": read},
-        {"-o": read / "plots"},
-    ):
-        with pytest.raises(JumpcadError, match="choose another name"):
-            require_apart(outputs, {"design": str(read)})
-    inner, outer = ("--plots", tmp_path / "x.toml" / "plots"), ("-o", tmp_path / "x.toml")
-    for both in ((inner, outer), (outer, inner)):
-        with pytest.raises(JumpcadError, match=r"^--plots .*plots: lies below -o .*x\.toml, which is a file; choose"):
-            require_apart(dict(both), {})
 
 
 @pytest.mark.parametrize(("path", "code"), [("a\ud800.toml", "U+D800"), ("\udfff/b.toml", "U+DFFF")])

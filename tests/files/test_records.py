@@ -17,11 +17,6 @@ def test_good_file(tmp_path: Path) -> None:
     assert Printer.from_toml(file) == Printer(name="MK4", bed=Bed(width_mm=250.0))
 
 
-def test_python_callers_get_the_same_words_without_a_file() -> None:
-    with pytest.raises(JumpcadError, match=r"^nozzle_mm = 0\.01: must be at least 0\.1$"):
-        Printer(name="x", nozzle_mm=0.01, bed=Bed(width_mm=1.0))
-
-
 @pytest.mark.parametrize("value", [float("nan"), float("inf")])
 def test_a_number_is_finite(value: float) -> None:
     with pytest.raises(JumpcadError, match="must be a finite number"):

@@ -1,12 +1,9 @@
 """Where something stands already: what a user made or changed is kept, or the command refuses and names it."""
 
 import json
-import os
 import shutil
-import stat
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 from support.each import each
 from support.sandbox import ANY, Sandbox
@@ -210,27 +207,3 @@ def test_a_manifest_of_another_kind_makes_no_bundle(sandbox: Sandbox, command: t
 def test_who_edits_a_bundle_is_told_which_file(sandbox: Sandbox, originals: Originals) -> None:
     EDITED(sandbox, originals)
     assert "assembly.md" in sandbox.run(*BUILD, "there", exits=(2,)).err
-
-
-@each("umask", [0o022, 0o077, 0o002])
-def test_new_files_are_as_open_as_the_user_wants(sandbox: Sandbox, umask: int) -> None:
-    before = os.umask(umask)
-    try:
-        sandbox.run("new", "r.toml", exits=(0,), writes=["r.toml"])
-        sandbox.run("coupon", "-o", "gauges", exits=(0,), writes=["gauges"])
-        sandbox.run(*JUMP, "t.csv", exits=(0,), writes=["t.csv"])
-    finally:
-        os.umask(before)
-    made = [sandbox.work / name for name in ("r.toml", "t.csv", "gauges", "gauges/coupon.md", "gauges/stl")]
-    for path in made:
-        assert stat.S_IMODE(path.stat().st_mode) == (0o777 if path.is_dir() else 0o666) & ~umask, path.name
-
-
-def test_the_same_command_twice_changes_nothing(
-    sandbox: Sandbox, originals: Originals, remembered: dict[object, object]
-) -> None:
-    remembered.clear()
-    shutil.copytree(originals.whole, sandbox.work / "there")
-    before = {path: path.read_bytes() for path in Path("there").rglob("*") if path.is_file()}
-    sandbox.run(*BUILD, "there", exits=(0,), writes=["there"])
-    assert {path: path.read_bytes() for path in Path("there").rglob("*") if path.is_file()} == before

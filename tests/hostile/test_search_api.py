@@ -1,6 +1,5 @@
 """The search's functions and records in Python, with what they were not made for: what they take is said in a line."""
 
-import contextlib
 import inspect
 from collections.abc import Callable
 from typing import Any
@@ -26,7 +25,6 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "StudyStore.read": search.StudyStore.read,
     "StudyStore.write": search.StudyStore.write,
 }  # fmt: skip
-TAKES_MORE = [name for name in inspect.signature(jumpcad.optimize).parameters if name not in ("workers", "dask")]
 WRONG_PATHS = {"study": ("a\0.db", "a\ud800.db"), "prior": ("a\0.db", "a\ud800.db"), "workshop": ("a\ud800.toml",)}
 
 
@@ -49,30 +47,11 @@ def test_nonsense_is_refused_by_name(sandbox: Sandbox, name: str) -> None:
         assert "takes" in said or "robot" in said
 
 
-@each("name", TAKES_MORE)
-def test_an_odd_option_of_a_search_is_refused_or_borne(sandbox: Sandbox, name: str) -> None:
-    """Where it is borne, one design is evaluated."""
-    for odd in ODD.values():
-        with sandbox.untouched(writes=["."]), contextlib.suppress(jumpcad.JumpcadError):
-            jumpcad.optimize(**{"method": "nsga2", "evaluations": 1, "model": "capsule", "workers": 0, name: odd})
-
-
 @each(("option", "path"), [(option, path) for option, some in WRONG_PATHS.items() for path in some])
 def test_what_cannot_be_a_path_is_refused(sandbox: Sandbox, option: str, path: str) -> None:
     with sandbox.untouched():
         said = refused(lambda: jumpcad.optimize(**{"evaluations": 1, "workers": 0, option: path}))
     assert "cannot be" in said
-
-
-@each("odd", [True, 1.5, None, "1"])
-def test_a_seed_is_a_whole_number(odd: object) -> None:
-    assert "takes a whole number as seed" in refused(lambda: jumpcad.optimize(seed=odd))
-
-
-def test_items_of_a_sequence_are_looked_at() -> None:
-    assert refused(lambda: search.hypervolume([(1, 2)])) == (
-        "hypervolume() takes a list of Trial as trials, not one with (1, 2) (tuple)"
-    )
 
 
 UNUSED = {

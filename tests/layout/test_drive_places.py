@@ -1,6 +1,5 @@
 """Places of spring pin, motor and idler, with nothing in the way and with something."""
 
-import itertools
 import math
 from dataclasses import replace
 
@@ -121,43 +120,6 @@ def test_of_all_idlers_the_one_with_the_motor_nearest(monkeypatch: pytest.Monkey
         costs.append(cost(alone, beside))
     assert len(costs) > 5
     assert cost(idler, motor) == min(costs)
-
-
-def test_an_idler_stands_where_its_wheel_and_its_axle_are_free() -> None:
-    """Distances to a post that is beside the wheel's plane, and to one in it; the cam gear is meshed with."""
-    layout = geared().layout
-    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
-    tip, distance = drive.train.stages[0].wheel.tip_radius_mm, drive.train.stages[-1].centre_distance_mm
-    beside = (lateral.inside[0], lateral.gears[1][0] - 0.5)
-    for interval, reach in ((beside, 3.2), (lateral.gears[1], tip)):
-        post = disc("post", axis + np.array([distance + 1.0, 2.0]), 4.0, interval)
-        found = drive_places._idler_places([post], drive, lateral, axis)
-        turns = 2.0 * math.pi * np.arange(72) / 72.0
-        ring = axis + distance * np.column_stack([np.cos(turns), np.sin(turns)])
-        free = np.hypot(*(ring - post.points_mm[0]).T) >= 4.0 + reach
-        assert 0 < free.sum() < 72
-        np.testing.assert_allclose(found, ring[free], atol=2e-6)
-        for number, way in itertools.product((0, 18, 36, 54), ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))):
-            for room, kept in ((0.02, True), (-0.02, False)):
-                post = disc("post", ring[number] + (reach + 1.0 + room) * np.array(way), 1.0, interval)
-                places = drive_places._idler_places([post], drive, lateral, axis)
-                assert bool((np.hypot(*(places - ring[number]).T) < 1e-5).any()) == kept
-    gear = disc("cam gear", axis, 5.0, lateral.inside)
-    assert len(drive_places._idler_places([gear], drive, lateral, axis)) in (0, 72)
-
-
-def test_what_leaves_pinion_or_motor_no_room_is_told_with_their_sizes() -> None:
-    """In the gears' plane it is the pinion's tips that meet a wall, beside them the N20, 10 x 12 mm."""
-    layout, smaller = built("kenan-2.0").layout, r"raise d_coef .*a smaller motor than n20-[\w-]+ \(10 x 12 mm\)$"
-    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
-    tip = drive.train.stages[0].pinion.tip_radius_mm
-    with pytest.raises(CannotBuildError, match=rf"no room for the pinion of {tip:.1f} mm radius on .*: {smaller}"):
-        train_places([disc("wall", axis, 500.0, lateral.gears[-1])], drive, lateral, axis)
-    with pytest.raises(CannotBuildError, match=rf"no room for the motor: .* beside the wall: {smaller}"):
-        train_places([disc("wall", axis, 500.0, lateral.motor)], drive, lateral, axis)
-    drive, axis, lateral = geared().layout.drive, geared().layout.cam_axis_mm, geared().layout.lateral
-    with pytest.raises(CannotBuildError, match=rf"no room for the idler and the motor beside the cam: {smaller}"):
-        train_places([disc("wall", axis, 500.0, EVERYWHERE)], drive, lateral, axis)
 
 
 def test_the_motors_pinion_keeps_clear_of_what_stands_in_its_own_plane() -> None:

@@ -111,15 +111,6 @@ def test_toes_are_as_wide_as_asked_and_never_narrower_than_their_tips() -> None:
         ).toe_half_width_mm == pytest.approx(wide)
 
 
-def test_axes_of_gears_are_at_their_centre_distances() -> None:
-    for name, layout in plans().items():
-        axes = [layout.motor_mm, *([] if layout.idler_mm is None else [layout.idler_mm]), layout.cam_axis_mm]
-        assert len(axes) == len(layout.drive.train.stages) + 1
-        for pair, one, other in zip(layout.drive.train.stages, axes, axes[1:], strict=False):
-            assert math.dist(one, other) == pytest.approx(pair.centre_distance_mm), name
-        assert layout.cam_axis_mm - layout.hub_mm == pytest.approx(layout.drive.cam.cam_axis_mm)
-
-
 def test_pivots_pins_and_axles_are_where_the_design_says() -> None:
     for name, layout in plans().items():
         assert math.dist(layout.hub_mm, layout.front_mm) == pytest.approx(layout.design.l1_mm), name
@@ -254,35 +245,3 @@ def test_the_lever_has_room_for_the_rollers_screw_on_either_side() -> None:
         assert lever.y_mm[0] == layout.lateral.roller_screw[0] <= layout.lateral.leg[0] - 4.0
         assert layout.lateral.right_plate[1] <= layout.lateral.roller_screw[0] - 0.5
     assert 1.65 <= LEVER_HEAD_MM < 2.0
-
-
-def test_the_ankles_faces_are_those_of_what_stands_farther_out_lug_or_toe() -> None:
-    """Beside a leg of 6 mm, 0.5 mm, and a lug of 4 mm with a toe of 7 mm beside its end; or a thicker lug."""
-    layout = plans()["kenan-2.0"]
-    for lug, toe in ((4.0, 7.0), (8.5, 7.0)):
-        sections = replace(layout.sections, thickness_mm=6.0, lug_thickness_mm=lug, toe_width_mm=toe)
-        assert replace(layout, sections=sections).ankle_face_mm == pytest.approx(3.0 + 0.5 + max(lug, toe))
-
-
-def test_what_moves_occupies_its_share_across_the_robot() -> None:
-    """The lever from its screw's end, 16 or 20 mm behind the roller's face, to the screw's head beside the roller."""
-    for name, screw_mm in (("kenan-2.0", 16.0), ("geared", 20.0)):
-        layout = plans()[name]
-        lateral, half = layout.lateral, layout.sections.thickness_mm / 2.0
-        found = {one.name: one for one in moving_obstacles(layout)}
-        idler = {} if layout.idler_mm is None else {"idler wheel": lateral.gears[1], "idler pinion": lateral.gears[0]}
-        always = {"main leg", "lever", "front link", "foot", "cam", "cam's dog", "cam gear", "pinion"}
-        assert found.keys() == always | idler.keys()
-        assert {one: found[one].y_mm for one in idler} == idler
-        assert found["lever"].y_mm == pytest.approx((lateral.cam[1] - screw_mm, lateral.cam[1] + 1.7))
-        assert found["main leg"].y_mm == found["front link"].y_mm == (-half, half)
-        assert found["cam"].y_mm == lateral.cam
-        assert found["cam gear"].y_mm == lateral.gears[0]
-        assert found["pinion"].y_mm == lateral.gears[-1]
-        assert found["pinion"].points_mm.tolist() == [layout.motor_mm.tolist()]
-        for one in ("cam", "cam's dog", "cam gear"):
-            assert found[one].points_mm.tolist() == [layout.cam_axis_mm.tolist()]
-        for one in idler:
-            assert found[one].points_mm.tolist() == [layout.idler_mm.tolist()]
-        assert found["pinion"].radius_mm == layout.drive.train.stages[0].pinion.tip_radius_mm
-        assert found["front link"].radius_mm == layout.sections.eye_radius_mm  # without a clearance

@@ -1,6 +1,5 @@
 """The switch's place and track, from the data sheet's plunger positions and plane geometry."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,30 +8,13 @@ from support.built import built, geared
 
 from jumpcad.dimensions import GAP_MM
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.sensor import SensorPlace, middle_mm, sensor_obstacle, sensor_place, track_mm
+from jumpcad.layout.sensor import SensorPlace, middle_mm, sensor_place, track_mm
 from jumpcad.robot import Robot
 
 
 @pytest.fixture(scope="module", params=[lambda: built("kenan-2.0"), lambda: built("best-bo"), geared])
 def robot(request: pytest.FixtureRequest) -> Robot:
     return request.param()
-
-
-def test_the_land_is_halfway_between_surely_operated_and_the_end_of_travel(robot: Robot) -> None:
-    travel = robot.layout.sensor.needs.travel
-    surest = travel.operating_mm - travel.operating_tolerance_mm
-    assert middle_mm(travel) == pytest.approx((surest + travel.total_mm) / 2.0)
-    assert robot.layout.sensor.press_mm == pytest.approx(travel.operating_mm - middle_mm(travel))
-
-
-def test_the_groove_frees_the_plunger_and_leaves_the_gear_its_web(robot: Robot) -> None:
-    """In whole layers, deep enough for the free position at the worst, and less than a layer deeper."""
-    sensor, needs = robot.layout.sensor, robot.layout.sensor.needs
-    layers = sensor.depth_mm / needs.layer_mm
-    assert layers == pytest.approx(round(layers))
-    free = middle_mm(needs.travel) + sensor.depth_mm - needs.axial_mm - needs.travel.free_mm
-    assert 0.1 - 1e-9 <= free < 0.1 + needs.layer_mm
-    assert robot.layout.drive.train.stages[-1].face_width_mm - sensor.depth_mm >= 1.6 - 1e-9
 
 
 def test_the_track_is_as_wide_as_plunger_and_errors_and_lies_between_dog_and_teeth(robot: Robot) -> None:
@@ -67,21 +49,6 @@ def test_the_switchs_base_is_where_the_land_presses_it_in_the_middle_of_its_play
     base = lateral.left_plate[1] + sensor.base_mm
     assert base - land == pytest.approx(middle_mm(sensor.needs.travel), abs=1e-6)
     assert GAP_MM == 0.5
-
-
-def test_the_room_kept_free_holds_switch_mount_and_terminals(robot: Robot) -> None:
-    """From the gear's face to 6 mm beyond the mount's wall of 1.2 mm over the base; ears of the mount to the sides."""
-    sensor, lateral = robot.layout.sensor, robot.layout.lateral
-    found = sensor_obstacle(sensor, lateral)
-    assert found.y_mm[0] == lateral.gears[0][1]
-    assert found.y_mm[1] == pytest.approx(lateral.left_plate[1] + sensor.base_mm + 1.2 + 6.0)
-    along = np.array([math.cos(sensor.turn_rad), math.sin(sensor.turn_rad)])
-    across = np.array([-along[1], along[0]])
-    length, width = sensor.case_mm
-    for axis, half in ((along, length / 2.0 + 0.2 + 1.2 + 1.9 + 2.6), (across, width / 2.0 + 0.2 + 1.2)):
-        reach = (found.points_mm - sensor.place_mm) @ axis
-        assert reach.max() + found.radius_mm == pytest.approx(half + 0.8, abs=1e-6)
-        assert reach.min() - found.radius_mm == pytest.approx(-half - 0.8, abs=1e-6)
 
 
 def placed_with(robot: Robot, **travel: float) -> SensorPlace:

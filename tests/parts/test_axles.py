@@ -1,7 +1,6 @@
 """Axles and pins cannot come out: pushed to either side, each with what is on it meets what it carries."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +10,6 @@ from jumpcad.building import build
 from jumpcad.checks.interference import interference_findings, pieces_of
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.parts.axles import _clip, require_retention
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
@@ -125,32 +123,6 @@ def test_axles_of_two_millimetres_have_pins_with_clips() -> None:
     assert sum(article.startswith("silver steel rod 1.2210, annealed 2 x ") for article in articles) == 3
     assert robot.layout.hub_bearing.bore_mm == 2.0
     assert [found.message for found in interference_findings(robot) if found.severity == "error"] == []
-
-
-def test_clips_are_needed_only_where_clevis_pins_are_not_made_so_thin() -> None:
-    """Clevis pins (ISO 2341) begin at 3 mm: thinner pins of foot and leg are rods with clips."""
-    shop = load_workshop()
-    clipless, bought = replace(shop.catalogue, clips={}), shop.bought
-    require_retention(clipless, bought.model_copy(update={"axle_mm": 3.0}))
-    with pytest.raises(JumpcadError):
-        require_retention(clipless, bought.model_copy(update={"axle_mm": 2.0}))
-    with pytest.raises(JumpcadError):
-        require_retention(clipless, bought.model_copy(update={"axle_mm": 3.0, "retention": "clips"}))
-    screws = bought.model_copy(update={"retention": "nuts", "axle_mm": 3.0})
-    require_retention(shop.catalogue, screws)
-    with pytest.raises(JumpcadError, match="screws of 3 mm as axles"):
-        require_retention(shop.catalogue, screws.model_copy(update={"axle_mm": 4.0}))
-
-
-def test_a_clip_is_open_to_one_side_and_as_much_above_as_below() -> None:
-    """It grips the groove all around but for the opening (DIN 6799), and is its own mirror image."""
-    for clip in load_workshop().catalogue.clips.values():
-        region = _clip(clip)
-        low_x, low_y, high_x, high_y = region.bounds()
-        assert (low_x, low_y, high_y) == pytest.approx((-clip.outer_mm / 2, -clip.outer_mm / 2, clip.outer_mm / 2))
-        assert (region ^ region.mirror((0.0, 1.0))).area() == pytest.approx(region.area())
-        assert high_x < clip.outer_mm / 2.0 - 1e-6
-        assert region.area() < math.pi / 4.0 * (clip.outer_mm**2 - clip.groove_mm**2)
 
 
 def reach(item: BoughtPart) -> np.ndarray:

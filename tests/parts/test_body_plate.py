@@ -1,38 +1,20 @@
 """Body plates, measured on their meshes: bores, the motor's seat, and a name where there is material for all of it."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
 from support.built import built, cut, placed, region
-from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, chamfered, measured
+from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, measured
 
-from jumpcad.building import build
-from jumpcad.design import load_design
 from jumpcad.drive.socket import window_mm
-from jumpcad.parts.body_plate import _drawing, _openings, plates
-from jumpcad.parts.engraving import TEXT_HEIGHTS_MM
+from jumpcad.parts.body_plate import _openings, plates
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
 from jumpcad.parts.plate_outline import pin_hole
 from jumpcad.robot import Robot
-from jumpcad.solids.outline import disc, rectangle
-from jumpcad.solids.text import text
-from jumpcad.workshop import load_workshop
-
-
-def engraved_mm2(name: str, label: str) -> dict[str, float]:
-    """Return what a label takes from each plate's section, just above its chamfer."""
-    plain, named = (build(load_design(name), name=label) for label in ("", label))
-
-    def areas(robot: Robot) -> dict[str, float]:
-        height = np.array([0.48])  # letters are 0.5 mm deep
-        plates = [part for part in robot.parts if "plate" in part.name]
-        return {part.name: part.drawing.shape.regions_at(height)[0].area() for part in plates}
-
-    return {part: area - areas(named)[part] for part, area in areas(plain).items()}
+from jumpcad.solids.outline import disc
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -104,31 +86,6 @@ def test_the_motors_socket_has_a_floor_under_it_and_a_sliding_fit_around_it(name
     assert mesh.bounds[1, 1] == pytest.approx(front - 0.2, abs=1e-3)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_no_tab_of_a_tray_stands_in_the_opening_for_usb(name: str) -> None:
-    """What of the printed trays is in the right plate's thickness lies beside the opening; three tabs hold there."""
-    robot = built(name)
-    fittings, (low, high) = robot.layout.fittings, robot.layout.lateral.right_plate
-    assert fittings.usb_mm is not None
-    tabs = 0
-    for tray in ("electronics_tray_lower", "electronics_tray_upper"):
-        segments = cut(placed(robot, tray), (low + high) / 2.0)
-        for piece in shapely.get_parts(region(segments)):
-            opening = shapely.box(*(fittings.usb_mm - np.array(fittings.usb_size_mm) / 2.0),
-                                  *(fittings.usb_mm + np.array(fittings.usb_size_mm) / 2.0))  # fmt: skip
-            assert piece.distance(opening) > 0.5
-            tabs += 1
-    assert tabs == 3
-
-
-@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
-def test_the_whole_label_is_cut_from_the_plate(name: str) -> None:
-    """What is lost is the letters' area: no letter hangs over a hole or an edge."""
-    for part, lost in engraved_mm2(name, name).items():
-        areas = [text(f"{name} {part.split('_')[-1][0].upper()}", height).area() for height in TEXT_HEIGHTS_MM]
-        assert min(abs(lost / area - 1.0) for area in areas) < 1e-6
-
-
 @pytest.fixture(scope="module")
 def kenan() -> Robot:
     return built("kenan-2.0")
@@ -196,25 +153,6 @@ def test_bores_are_closed_outside_where_plates_keep_the_axles(
     assert ((seat ^ ring).area() > 1.0) == closed
 
 
-@pytest.mark.parametrize("side", ["left", "right"])
-def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -> None:
-    """Engraved 0.5 mm deep on the bed, where it is seen in a mirror, as near to the pivots' line as it finds room."""
-    holes = HoleSizes.of(load_workshop(), None)
-    plate, covered = rectangle((60.0, 40.0), (0.0, 12.0)), rectangle((70.0, 8.0), (0.0, 1.0))
-    y0, y1 = (17.0, 20.0) if side == "left" else (-20.0, -17.0)
-    depth = (y1 - 0.5, y1) if side == "left" else (y0, y0 + 0.5)
-    for cover, low, high in ((None, -3.3, 3.3), (covered, 5.0, 13.0)):
-        drawing = _drawing("plate", holes, [(y0, y1, plate)], depth, "Fy R", side, cover)
-        outside, inside = drawing.shape.regions_at(np.array([0.45, 0.55]))
-        letters, flat = inside - outside, text("Fy R", TEXT_HEIGHTS_MM[0]).mirror((1.0, 0.0))
-        box, at = flat.bounds(), letters.bounds()
-        assert low < at[1] < at[3] < high
-        nearest = 0.0 if cover is None else math.ceil(5.0 + 0.8 + (box[3] - box[1]) / 2.0)
-        assert [at[0] + at[2], at[1] + at[3]] == pytest.approx([0.0, 2.0 * nearest])  # on a raster of 1 mm
-        moved = flat.translate((at[0] - box[0], at[1] - box[1]))
-        assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
-
-
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_tabs_of_trays_slide_into_slots_at_both_ends(name: str, side: str) -> None:
@@ -233,8 +171,3 @@ def test_tabs_of_trays_slide_into_slots_at_both_ends(name: str, side: str) -> No
             slot = tab.buffer(fit, join_style="mitre")
             assert slot.intersection(around).area < 0.01
             assert slot.buffer(0.05, join_style="mitre").difference(slot).difference(around).area < 0.05
-
-
-@pytest.mark.parametrize("name", ["body_plate_left", "body_plate_right"])
-def test_plates_lie_on_chamfered_edges(kenan: Robot, name: str) -> None:
-    assert chamfered(kenan, name)

@@ -6,16 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, cut, hole_centres, placed
 from support.each import each
 from support.fits import with_fits_apart
-from support.robots import FOLDED
 
-from jumpcad.building import build, layout_of
+from jumpcad.building import layout_of
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
-from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts import foot as foot_part
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
@@ -55,28 +52,6 @@ def test_toe_tips_are_where_the_design_says(name: str, sign: float) -> None:
     np.testing.assert_allclose(middle, tip, atol=0.02)
 
 
-@pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
-def test_soles_and_pads_are_flat_on_the_ground_from_nose_to_tips(name: str) -> None:
-    robot = built(name)
-    ground = -robot.layout.sections.foot_depth_mm
-    names = [part.name for part in robot.parts if part.placements[0].body == FOOT]
-    lying = np.concatenate([
-        mesh.triangles[(np.abs(mesh.triangles[:, :, 2] - ground) < 1e-6).all(axis=1)].reshape(-1, 3)
-        for mesh in (placed(robot, name) for name in names)
-    ])  # fmt: skip
-    assert min(placed(robot, name).bounds[0, 2] for name in names) == pytest.approx(ground, abs=1e-6)
-    assert lying[:, 0].max() > robot.design.l4_mm
-    tip_x = -robot.design.l5_mm * math.cos(math.radians(robot.design.ground_link_angle_deg))
-    assert lying[:, 0].min() == pytest.approx(tip_x - TIP_RADIUS_MM, abs=2 * TIP_RADIUS_MM)
-    pad = robot.workshop.foot_pad
-    assert pad is not None
-    assert robot.foot_depth_m == pytest.approx((pad.thickness_mm - ground) / 1000.0)
-    pads = [item for item in robot.hardware if item.name.startswith(("toe", "nose")) and item.name.count("_pad")]
-    lowest = [(item.solid.transform(item.T_body_part[:3]).bounding_box())[2] for item in pads]
-    assert len(pads) == 4
-    assert lowest == pytest.approx([-1000.0 * robot.foot_depth_m] * 4, abs=1e-3)
-
-
 @pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
 def test_contact_spheres_touch_the_ground_inside_the_parts(name: str) -> None:
     robot = built(name)
@@ -87,26 +62,6 @@ def test_contact_spheres_touch_the_ground_inside_the_parts(name: str) -> None:
         if "toe" in sphere.name:
             mesh = meshes[float(np.sign(y))]
             assert np.abs(mesh.vertices[:, :2] - [x, y]).sum(axis=1).min() < 2.0 * TIP_RADIUS_MM
-
-
-@pytest.mark.parametrize("workshop", ["default", "fine"])
-def test_the_folded_front_link_clears_the_webs_between_the_rails(workshop: str) -> None:
-    """With loaded springs, measured between the meshes."""
-    robot = build(FOLDED, load_workshop(workshop))
-    poses = body_poses(robot, loaded=1.0)
-    foot, link = (solid_of(placed(robot, name), poses[name]) for name in ("foot", "front_link"))
-    middle = foot.trim_by_plane([0.0, 1.0, 0.0], -2.0)
-    middle = middle.trim_by_plane([0.0, -1.0, 0.0], -2.0)
-    assert middle.min_gap(link, 3.0) > 0.9
-
-
-def solid_of(mesh: trimesh.Trimesh, pose: np.ndarray) -> Manifold:
-    """Return a mesh of a body's frame (mm) as a solid in the world (mm)."""
-    made = Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))
-    assert made.volume() > 0.0
-    matrix = pose.copy()
-    matrix[:3, 3] *= 1000.0
-    return made.transform(matrix[:3])
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
@@ -151,24 +106,3 @@ def test_the_ankles_boss_has_two_walls_around_its_pin_and_more_than_its_ends_hav
     outer = max(8.0, axle_mm + 2.0 * fits.lying_mm + 4.0 * fits.wall_mm)
     assert (-low_x, high_x, high_z) == pytest.approx([outer / 2.0] * 3, abs=1e-6)
     assert low_z == pytest.approx(-layout.sections.foot_depth_mm)
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_a_foot_fits_the_bed_with_its_nose_tips_and_toes(name: str) -> None:
-    """By the sizes of its outline: exactly so large a bed is enough, and one that is 0.1 mm smaller is not."""
-    robot = built(name)
-    size = np.ptp(placed(robot, "foot").bounds, axis=0)
-    given = (robot.design, robot.layout.sections)
-    high = 2.0 * robot.layout.sections.foot_depth_mm
-    top = max(high, robot.layout.sections.toe_root_mm, robot.layout.sections.rail_root_mm)
-    assert foot_part.in_one_piece(*given, (500.0, 500.0, top))
-    assert not foot_part.in_one_piece(*given, (500.0, 500.0, top - 0.1))
-    assert foot_part.in_one_piece(*given, (size[0] + 0.05, size[1] + 0.05, 100.0))
-    assert not foot_part.in_one_piece(*given, (size[0] - 0.1, min(size[0], size[1]) * 0.5, 100.0))
-    for name in ("foot_depth_mm", "toe_root_mm", "rail_root_mm"):
-        high = replace(given[1], **{name: 60.0})
-        top = 120.0 if name == "foot_depth_mm" else 60.0
-        assert foot_part.in_one_piece(robot.design, high, (500.0, 500.0, top)), name
-        assert not foot_part.in_one_piece(robot.design, high, (500.0, 500.0, top - 0.1)), name
-    wide = 1.0 + max(size)
-    assert not foot_part.in_one_piece(*given, (wide, wide, 100.0), toe_half_width_mm=wide)

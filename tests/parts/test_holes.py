@@ -9,9 +9,6 @@ import shapely.affinity
 import shapely.ops
 from support.built import LONG_TOES, built, cut, geared, inscribed_diameter, part, placed, region
 from support.fits import (
-    EYE,
-    LOOSE,
-    LYING,
     LYING_HOLE,
     MR63_OUTER,
     N20_FLAT,
@@ -19,7 +16,6 @@ from support.fits import (
     PRESS,
     RIB,
     RUNNING,
-    SLIDING,
     TOLERANCE_MM,
     measured,
     with_fits_apart,
@@ -109,12 +105,6 @@ def test_pinion_fits_the_d_shaft(which: str) -> None:
         assert any(math.dist((a, b), (x, y)) < 0.31 for a, b in zip(offsets[ribs], across[ribs], strict=True))
 
 
-def test_idler_turns_on_its_axle() -> None:
-    robot = geared()
-    y = sum(robot.layout.lateral.gears[-1]) / 2.0
-    assert measured(robot, "idler", y, robot.layout.idler_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
-
-
 def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:
     robot = built(LONG_TOES)
     toe = part(robot, "toe_left")
@@ -126,26 +116,6 @@ def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:
     for x in (16.0, 30.0):
         assert inscribed_diameter(cut(toe.mesh, middle), np.array([x, height])) == pytest.approx(3.4, abs=TOLERANCE_MM)
         assert inscribed_diameter(cut(foot, 0.01), np.array([x, height])) == pytest.approx(2.5, abs=TOLERANCE_MM)
-
-
-def test_every_fit_is_added_on_both_sides_of_the_shaft() -> None:
-    """The default workshop's fits, and its hub: the bearing's seat with two walls of 1.2 mm around it."""
-    shop = load_workshop()
-    bearing = shop.catalogue.bearings["MR63"]
-    holes = HoleSizes.of(shop, bearing)
-    for made, fit in (
-        (holes.press, PRESS), (holes.eye, EYE), (holes.lying, LYING), (holes.running, SLIDING), (holes.loose, LOOSE),
-    ):  # fmt: skip
-        assert made(4.0) == pytest.approx(4.0 + 2.0 * fit)
-    assert holes.hub_bore_mm == pytest.approx(MR63_OUTER + 2.0 * PRESS)
-    assert holes.hub_radius_mm == pytest.approx(MR63_OUTER / 2.0 + PRESS + 2.0 * shop.fits.wall_mm)
-    bare = HoleSizes.of(shop, None)
-    assert bare.hub_bore_mm == pytest.approx(RUNNING)
-    assert [(y0, y1) for y0, y1, _ in bare.hub_slabs(-3.0, 4.0)] == [(-3.0, 4.0)]
-    slabs = holes.hub_slabs(-3.0, 4.0)
-    width = bearing.width_mm
-    assert [slab[:2] for slab in slabs] == [(-3.0, width - 3.0), (width - 3.0, 4.0 - width), (4.0 - width, 4.0)]
-    assert slabs[1][2].bounds()[2] == pytest.approx((MR63_OUTER - 1.2) / 2.0, abs=0.01)  # 0.6 mm hold its outer ring
 
 
 @pytest.mark.parametrize("first_mm", [0.2, 0.3])

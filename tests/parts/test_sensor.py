@@ -1,18 +1,10 @@
 """The sensor's mount on its mesh: the switch fits, its terminals come out, its screws hold in the plate."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import shapely
-from support.built import built, cut, hole_centres, placed, region
+from support.built import built, cut, placed, region
 
-from jumpcad.parts.sensor import (
-    EAR_MM,
-    THREAD_MIN_MM,
-    ear_height_mm,
-    screw_mm,
-)
 from jumpcad.robot import Robot
 
 
@@ -47,25 +39,6 @@ def test_the_case_lies_in_the_mount_up_to_its_ceiling(robot: Robot) -> None:
     assert (below.bounds[0] + below.bounds[2], below.bounds[1] + below.bounds[3]) == pytest.approx((0, 0), abs=1e-3)
 
 
-def test_both_screws_pass_the_ears_into_the_plate(robot: Robot) -> None:
-    """M2: a clearance hole in the mount, a tapped one in the plate at the same place, and in it 1.6 mm of thread."""
-    lateral, fits = robot.layout.lateral, robot.workshop.fits
-    mount, plate = placed(robot, "sensor_mount"), placed(robot, "body_plate_left")
-    ears = hole_centres(cut(mount, lateral.left_plate[1] + 0.5 * min(robot.layout.sensor.base_mm, 2.0)))
-    through = {at: width for at, width in ears.items() if width == pytest.approx(fits.m2_clearance_mm, abs=0.05)}
-    tapped = hole_centres(cut(plate, sum(lateral.left_plate) / 2.0))
-    assert len(through) == 2
-    for at in through:
-        widths = [width for other, width in tapped.items() if np.hypot(*np.subtract(at, other)) < 0.02]
-        assert widths == [pytest.approx(fits.m2_tap_mm, abs=0.05)]
-    for number in (1, 2):
-        screw = next(one for one in robot.hardware if one.name == f"sensor_screw_{number}")
-        points = screw.look.copy().apply_transform(screw.T_body_part)
-        assert lateral.left_plate[0] - 1e-6 <= points.bounds[0, 1] <= lateral.left_plate[1] - 1.6 + 1e-6
-        middle = points.bounds.mean(axis=0)[::2]
-        assert min(np.hypot(*np.subtract(middle, at)) for at in through) < 0.02
-
-
 def test_the_plate_leaves_the_case_a_gap_and_has_material_around_it(robot: Robot) -> None:
     sensor, lateral = robot.layout.sensor, robot.layout.lateral
     length, width = sensor.case_mm
@@ -87,17 +60,3 @@ def test_the_switch_stands_in_its_mount_with_its_plunger_inwards(robot: Robot) -
     bounds = item.look.copy().apply_transform(item.T_body_part).bounds
     assert bounds[1, 1] == pytest.approx(robot.layout.lateral.left_plate[1] + sensor.base_mm)
     assert np.ptp(bounds[:, 1]) == pytest.approx(sensor.needs.travel.total_mm)
-
-
-def test_the_shortest_screw_that_holds_goes_through_the_ear_and_four_threads() -> None:
-    """M2 has a pitch of 0.4 mm (ISO 261), so four are 1.6 mm; with 2 mm of ear a screw of 4 mm is long enough."""
-    assert screw_mm() == 4.0
-    assert screw_mm() >= EAR_MM + 4 * 0.4
-    assert pytest.approx(4 * 0.4) == THREAD_MIN_MM
-    thin = built("kenan-2.0").layout
-    plate = thin.lateral.left_plate
-    for thickness, height in ((plate[1] - plate[0], 2.0), (1.6, 2.6)):
-        lateral = replace(thin.lateral, left_plate=(plate[0], plate[0] + thickness))
-        ear = ear_height_mm(replace(thin, lateral=lateral))
-        assert ear == pytest.approx(height)
-        assert screw_mm() <= ear + thickness  # it ends inside the plate

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from support.built import built, cut, hole_centres, inscribed_diameter, placed
+from support.built import built, cut, inscribed_diameter, placed
 from support.fits import RUNNING, TOLERANCE_MM
 
 from jumpcad.robot import Robot
@@ -65,31 +65,3 @@ def test_front_link_and_cam_gear_have_half_a_millimetre_beside_what_is_pushed_aw
     shoulder = levels[levels < gear.bounds[0, 1]].max()
     assert gear.bounds[0, 1] - shoulder == pytest.approx(0.25, abs=1e-3)
     assert cam.bounds[0, 1] - spacer.bounds[1, 1] == pytest.approx(0.25, abs=1e-3)
-
-
-def test_the_motors_cap_has_its_boss_between_two_screws(kenan: Robot) -> None:
-    """An N20's boss, and screws M2 on either side of the case, 2.4 mm wide, their heads 3.8 mm, sunk by 1.6 mm."""
-    y0, y1 = kenan.layout.lateral.motor_cap
-    mesh, motor = placed(kenan, "motor_cap"), kenan.layout.drive.train.motor
-    assert mesh.bounds[:, 1] == pytest.approx([y0, y1])
-    screws = [
-        item.look.copy().apply_transform(item.T_body_part).bounds.mean(axis=0)[::2]
-        for item in kenan.hardware
-        if item.name.startswith("cap_screw")
-    ]
-    heads_down = mesh.section(plane_origin=[0.0, y0 + 0.3, 0.0], plane_normal=[0.0, 1.0, 0.0]) is not None
-    assert heads_down
-    found = [hole_centres(cut(mesh, y)) for y in (y0 + 0.3, y1 - 0.3)]
-    widths = []
-    for holes in found:
-        assert len(holes) == 3
-        centres = sorted(holes, key=lambda at: math.dist(at, kenan.layout.motor_mm))
-        assert centres[0] == pytest.approx(tuple(kenan.layout.motor_mm), abs=0.01)
-        assert holes[centres[0]] == pytest.approx(motor.boss_mm + 2.0 * 0.2, abs=TOLERANCE_MM)
-        middle = (np.array(centres[1]) + np.array(centres[2])) / 2.0
-        assert middle == pytest.approx(kenan.layout.motor_mm, abs=0.01)
-        for centre in centres[1:]:
-            assert min(math.dist(centre, at) for at in screws) < 0.02
-        widths.append(holes[centres[1]])
-    assert sorted(widths) == pytest.approx([2.4, 4.0], abs=0.05)
-    assert max(widths) > 3.8

@@ -7,57 +7,17 @@ import numpy as np
 import pytest
 import shapely
 import trimesh
-from support.built import LONG_TOES, built, cut, hole_centres, part, placed
+from support.built import LONG_TOES, built, placed
 
-from jumpcad.building import build
-from jumpcad.design import load_design
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.toes import (
-    joint_height_mm,
     lying_hole,
     on_the_foot,
     toes,
     toes_apart,
 )
 from jumpcad.solids.outline import hole
-from jumpcad.workshop import load_workshop
-
-
-def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
-    layout = built("kenan-2.0").layout
-    for toe, sign in zip(toes(layout), (1.0, -1.0), strict=True):
-        tip = toe.pose_mm @ [toe.length_mm, 0.0, 0.0, 1.0]
-        angle = math.radians(layout.design.ground_link_angle_deg)
-        reach = layout.design.l5_mm * np.array([-math.cos(angle), sign * math.sin(angle)])
-        np.testing.assert_allclose(tip[:2], reach, atol=1e-9)
-        beside = layout.sections.thickness_mm / 2.0 + 0.5 + layout.sections.toe_width_mm / 2.0  # leg, gap, half a toe
-        assert toe.root_mm.tolist() == pytest.approx([0.0, sign * beside])
-
-
-@pytest.mark.parametrize("angle_deg", [38.0, 55.0, 65.0, 80.0])
-def test_toes_keep_their_height_beside_the_ankles_pin(angle_deg: float) -> None:
-    """The printed foot, cut across a toe: its section modulus is that of the whole toe, or a quarter less at most.
-
-    The pin's ends and its way are cut out of the toes, 7 mm wide; toes that point sideways begin behind it.
-    """
-    design = load_design("best-bo").model_copy(update={"ground_link_angle_deg": angle_deg})
-    robot = build(design, load_workshop(), "toes")
-    toe, sections = toes(robot.layout)[0], robot.layout.sections
-    mesh, along = part(robot, "foot").drawing.mesh, np.array([math.cos(toe.angle_rad), math.sin(toe.angle_rad), 0.0])
-    for u in (4.0, 5.0, 6.0, 8.0, 12.0, 20.0):
-        across = np.array([-along[1], along[0], 0.0])
-        frame = np.eye(4)
-        frame[:3, :] = np.column_stack([across, [0.0, 0.0, 1.0], along, [*toe.root_mm, 0.0] + u * along])
-        cut = mesh.section(plane_origin=frame[:3, 3], plane_normal=along)
-        flat = shapely.union_all(cut.to_2D(np.linalg.inv(frame))[0].polygons_full)
-        flat = flat.intersection(shapely.box(-3.6, -1.0, 3.6, 30.0))
-        strips = [flat.intersection(shapely.box(-9.0, z, 9.0, z + 0.05)).area for z in np.arange(0.0, 12.0, 0.05)]
-        heights = np.arange(0.025, 12.0, 0.05)
-        middle = np.dot(strips, heights) / sum(strips)
-        least = np.dot(strips, (heights - middle) ** 2) / max(flat.bounds[3] - middle, middle - flat.bounds[1])
-        height = sections.toe_root_mm + (sections.toe_tip_height_mm - sections.toe_root_mm) * u / toe.length_mm
-        assert least > 0.75 * sections.toe_width_mm * height**2 / 6.0, u
 
 
 @pytest.mark.parametrize("diameter", [2.9, 3.4])
@@ -83,24 +43,6 @@ def test_toes_apart_are_mirror_images() -> None:
     np.testing.assert_allclose(left.center_mass * [1, -1, 1], right.center_mass, atol=2e-3)
     signs = np.array([[1, -1, 1], [-1, 1, -1], [1, -1, 1]])
     np.testing.assert_allclose(left.moment_inertia * signs, right.moment_inertia, rtol=1e-3, atol=100.0)
-
-
-def test_screws_pass_a_toe_from_side_to_side() -> None:
-    """Holes of 3.4 mm at 16 and 30 mm from its root, all through its 7 mm, 0.3 mm from either side too."""
-    robot = built(LONG_TOES)
-    width, holes = robot.layout.sections.toe_width_mm, HoleSizes.of(robot.workshop, None)
-    for name in ("toe_left", "toe_right"):
-        mesh = part(robot, name).mesh
-        joint = mesh.slice_plane([20.0, 0.0, 0.0], [-1.0, 0.0, 0.0])
-        sides, middle = joint.bounds[:, 1], joint_height_mm(robot.layout, holes) / 2.0
-        assert np.ptp(sides) == pytest.approx(width, abs=0.05)
-        for y in (sides[0] + 0.3, sides.mean(), sides[1] - 0.3):
-            opened = hole_centres(cut(mesh, y))
-            for x in (16.0, 30.0):
-                (width_mm,) = (
-                    wide for at, wide in opened.items() if abs(at[0] - x) < 0.1 and abs(at[1] - middle) < 0.5
-                )
-                assert width_mm == pytest.approx(3.4, abs=0.02)
 
 
 def test_screws_of_toes_cut_their_thread_into_the_stubs() -> None:

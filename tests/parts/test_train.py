@@ -17,7 +17,7 @@ from jumpcad.design import load_design
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.part import Drawing
-from jumpcad.parts.train import _track, gear_turns, gears
+from jumpcad.parts.train import _track, gears
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -288,63 +288,3 @@ def test_the_sensors_land_rises_in_layers_from_the_bottom_of_its_groove_to_the_g
     begins, ends = zip(*(step[2:] for step in track.steps), strict=True)
     assert begins == pytest.approx([drop - sensor.ready_rad + high / sensor.radius_mm for high in above])
     assert ends == pytest.approx([drop + sensor.open_rad - high / sensor.radius_mm for high in above])
-
-
-@pytest.mark.parametrize("teeth", [(40, 17, 44, 16), (41, 16, 43, 19)])
-def test_a_gap_of_each_pinion_is_where_a_tooth_of_its_wheel_points(teeth: tuple[int, int, int, int]) -> None:
-    """On the line of centres the shares of a pitch from tooth to line add up to a half, for any numbers of teeth."""
-    layout = geared().layout
-    first, last = layout.drive.train.stages
-    pairs = [
-        replace(pair, wheel=replace(pair.wheel, teeth=wheel), pinion=replace(pair.pinion, teeth=pinion))
-        for pair, wheel, pinion in ((first, *teeth[:2]), (last, *teeth[2:]))
-    ]
-    train = replace(layout.drive.train, stages=tuple(pairs))
-    turns = gear_turns(replace(layout, drive=replace(layout.drive, train=train)))
-    meshes = [
-        (layout.cam_axis_mm, teeth[2], turns["cam_gear"], layout.idler_mm, teeth[3], turns["idler"]),
-        (layout.idler_mm, teeth[0], turns["idler"], layout.motor_mm, teeth[1], turns["motor_pinion"]),
-    ]
-    for wheel_mm, wheel, wheel_rad, pinion_mm, pinion, pinion_rad in meshes:
-        line = math.atan2(*(pinion_mm - wheel_mm)[::-1])
-        share = ((line - wheel_rad) * wheel + (line + math.pi - pinion_rad) * pinion) / (2.0 * math.pi)
-        assert share % 1.0 == pytest.approx(0.5, abs=1e-9)
-
-
-def test_an_idlers_small_teeth_reach_through_the_cam_gear_from_its_wheel_on() -> None:
-    """In one plane with the motor's pinion and with the cam gear, small teeth between them too; no face is past one."""
-    robot = geared()
-    lateral, mesh = robot.layout.lateral, placed(robot, "idler")
-    (cam_low, cam_high), (motor_low, motor_high) = lateral.gears[0], lateral.gears[-1]
-    assert mesh.bounds[:, 1] == pytest.approx([cam_low, motor_high], abs=1e-3)
-    first, last = robot.layout.drive.train.stages
-    places = {cam_low + 0.5: last.pinion, motor_low - 0.1: last.pinion, motor_low + 0.1: first.wheel}
-    for y, gear in places.items():
-        section = region(cut(mesh, y)).bounds
-        assert (section[2] - section[0]) / 2.0 == pytest.approx(gear.tip_radius_mm, rel=0.03), y
-    assert cam_high < motor_low
-
-
-def test_the_cams_jaws_reach_through_the_cam_gear() -> None:
-    """From the roller's plane to the gear's left face, with one pair of gears or two."""
-    for robot in robots().values():
-        lateral = robot.layout.lateral
-        assert placed(robot, "cam").bounds[:, 1] == pytest.approx([lateral.cam[0], lateral.gears[0][1]], abs=1e-3)
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_the_jaws_slide_between_the_gears_hub_and_its_rim(name: str) -> None:
-    """Inside and outside the play of what turns, measured on sections; the boss ends a quarter of a mm off the gear."""
-    robot = built(name)
-    low, high = robot.layout.lateral.gears[0]
-    play = robot.workshop.fits.sliding_mm
-    jaws, gear = (region(cut(placed(robot, part), (low + high) / 2.0) - robot.layout.cam_axis_mm)
-                  for part in ("cam", "cam_gear"))  # fmt: skip
-    radii = np.hypot(*np.concatenate([np.array(jaw.exterior.coords) for jaw in jaws.geoms]).T)
-    rings = [np.hypot(*np.array(ring.coords).T) for ring in gear.interiors]
-    pockets = np.concatenate([ring for ring in rings if ring.min() < radii.max() and ring.max() > radii.min()])
-    assert radii.min() - pockets.min() == pytest.approx(play, abs=0.03)
-    assert pockets.max() - radii.max() == pytest.approx(play, abs=0.03)
-    boss, begun = (region(cut(placed(robot, "cam"), low - gap)) for gap in (0.27, 0.23))
-    assert boss.geom_type == "Polygon"
-    assert len(begun.geoms) == 2

@@ -10,18 +10,7 @@ from support.built import built, placed
 from jumpcad.catalogue import load_catalogue
 from jumpcad.electronics.chosen import chosen_of
 from jumpcad.electronics.nets import wiring_of
-from jumpcad.parts.wired import _soldered, electronics
-from jumpcad.workshop import load_workshop
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_what_has_its_place_is_not_weighed_among_the_wires_too(name: str) -> None:
-    robot = built(name)
-    names = [item.name for item in robot.hardware]
-    placed = robot.layout.fittings.switch_mm is not None
-    assert names.count("switch") == placed
-    assert names.count("wiring_switch") == (not placed)
-    assert names.count("wiring_sensor") == (robot.layout.sensor is None)
+from jumpcad.parts.wired import electronics
 
 
 def test_what_has_no_place_hangs_in_its_wires() -> None:
@@ -87,16 +76,3 @@ def test_resistors_are_ordered_with_what_the_wiring_needs(name: str) -> None:
         said = found[f"wiring_resistor_{which.removesuffix(' resistor').replace('-', '_')}"]
         (thousands,) = re.findall(r"^resistor ([\d.]+) kOhm 0\.25 W, 1 %$", said)
         assert 1000.0 * float(thousands) == pytest.approx(ohm), which
-
-
-@pytest.mark.parametrize("regulator", ["pololu", ""])
-def test_a_diode_is_bought_where_there_is_a_regulator_before_it(regulator: str) -> None:
-    """Whatever the workshop names; what else it names is there with its own mass."""
-    shop = load_workshop()
-    bought = shop.bought.model_copy(update=shop.catalogue.kits["strong-2s"].model_dump())
-    bought = bought if regulator else bought.model_copy(update={"regulator": ""})
-    found = {name: grams for name, _, grams in _soldered(built("kenan-2.0").layout, shop.catalogue, bought, {"plug"})}
-    assert ("diode" in found) == bool(regulator)
-    assert "plug" not in found
-    for role in ("switch", "capacitor", "sensor"):
-        assert found[role] == shop.catalogue.components[getattr(bought, role)].mass_g

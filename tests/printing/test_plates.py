@@ -85,24 +85,6 @@ def test_a_part_larger_than_the_bed_is_refused(size):
         packed([box("giant", size)], (180.0, 180.0, 180.0), 5.0)
 
 
-def test_the_order_of_parts_does_not_matter():
-    def poses(parts):
-        return [(p.name, i.part.name, i.T_bed_part.tolist()) for p in packed(parts, BED, 5.0) for i in p.items]
-
-    assert poses(PARTS) == poses(PARTS[::-1])
-
-
-def test_what_is_on_a_plate_is_listed_by_name():
-    """Whatever lies where; of one name the copies follow each other, and each plate has its own list."""
-    plates = packed(PARTS, BED, 5.0)
-    assert len(plates) == 2
-    for plate in plates:
-        names = [item.part.name for item in plate.items]
-        assert names == sorted(names)
-        places = [item.T_bed_part[:2, 3].tolist() for item in plate.items]
-        assert len({tuple(place) for place in places}) == len(places)
-
-
 @pytest.mark.parametrize(("side", "left"), [(100.0, 10.0), (109.0, 5.5), (118.0, 1.0), (120.0, 0.0)])
 def test_a_plate_lies_in_the_middle_of_the_bed(side, left):
     (plate,) = packed([box("slab", (side, 60.0, 5.0))], (120.0, 100.0, 50.0), 5.0)

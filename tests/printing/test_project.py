@@ -20,11 +20,6 @@ def test_temperatures_that_are_known_are_said(nozzle_c: float | None, bed_c: flo
     assert temperatures_in_words(material) == words
 
 
-def test_unknown_temperatures_are_the_users_to_enter() -> None:
-    material = load_workshop().material("links").model_copy(update={"nozzle_c": None, "bed_c": None})
-    assert "enter your filament's" in temperatures_in_words(material)
-
-
 def test_instructions_have_the_numbers_of_the_process() -> None:
     shop = load_workshop()
     figures = {

@@ -171,21 +171,6 @@ def test_pipes_and_devices_do_not_block(tmp_path: Path) -> None:
         robot_from_urdf(tmp_path / "k.urdf")
 
 
-def test_a_flat_body_is_a_body(read: Callable[..., Robot]) -> None:
-    """Of a lamina the largest moment is the sum of the others, up to the rounding of whoever wrote it."""
-    robot = read(element("inertia", ixx="1.1e-5", ixy="0", ixz="0", iyy="2.2e-5", iyz="0", izz="3.3000001e-5"))
-    assert robot.bodies["body"].inertia_kg_m2.trace() == pytest.approx(6.6e-5)
-
-
-def test_two_collisions_of_a_body_may_not_have_one_name(read: Callable[..., Robot]) -> None:
-    """The loop file tells the surface of each by its name."""
-    first, second = [contact.name for contact in KENAN.bodies["foot"].contacts][:2]
-    twice = URDF.replace(f'collision name="{second}"', f'collision name="{first}"')
-    assert twice != URDF
-    with pytest.raises(JumpcadError, match="foot: two collisions have the same name"):
-        read(twice)
-
-
 def spoilt(text: str, seed: int) -> bytes:
     """A text with flipped bytes, cut short, or with a piece left out or repeated."""
     chance, content = random.Random(seed), bytearray(text.encode())

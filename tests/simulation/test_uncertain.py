@@ -20,24 +20,6 @@ def robot() -> Robot:
     return built("kenan-2.0")
 
 
-def test_indices_of_a_sum_and_a_product() -> None:
-    """y = 3a + 4b + 0c of independent normals: 9/25, 16/25, 0. y = a + a·b: 1/2 for a, and none for b alone."""
-    rng = np.random.default_rng(0)
-    a, b, c = rng.standard_normal((3, 4096, 1))
-    figures = np.concatenate([3 * a + 4 * b, a + a * b], axis=1)
-    found = _first_order({"a": a, "b": b, "c": c}, figures, np.arange(4096))
-    assert found[:, 0] == pytest.approx([9 / 25, 16 / 25, 0.0], abs=0.02)
-    assert found[:, 1] == pytest.approx([0.5, 0.0, 0.0], abs=0.04)
-
-
-def test_a_group_of_two_counts_together() -> None:
-    rng = np.random.default_rng(0)
-    pair, other = rng.standard_normal((4096, 2)), rng.standard_normal((4096, 1))
-    figures = pair[:, :1] ** 2 + pair[:, 1:] + other  # variances 2, 1 and 1
-    found = _first_order({"pair": pair, "other": other}, figures, np.arange(4096))
-    assert found[:, 0] == pytest.approx([0.75, 0.25], abs=0.03)
-
-
 def test_interval_holds_the_jump_and_shrinks_with_a_calibration(robot: Robot) -> None:
     nominal = simulate(robot, Settings(), "planar").ballistic_range_m
     vague = uncertain_jump(robot, Settings(), "planar", samples=64)

@@ -1,28 +1,24 @@
 """The studio without a browser: a real viser server, its sliders, what it shows and says."""
 
-import re
 from collections.abc import Iterator
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support import needs
-from support.built import built
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.evaluation import evaluate
-from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.workshop import load_workshop
 
 viser = needs.package("viser")
 
 from jumpcad.studio import Points, Studio, app  # noqa: E402
-from jumpcad.studio.answers import Printed, capsule_answer, printed_answer  # noqa: E402
+from jumpcad.studio.answers import Printed, capsule_answer  # noqa: E402
 from jumpcad.studio.app import BY_NUMBER, CLICK  # noqa: E402
 
 
@@ -43,17 +39,6 @@ def test_it_shows_every_part_and_says_what_evaluate_says(studio: Studio) -> None
     told = found.figures()["range"][0]
     assert told == pytest.approx(1000.0 * jump.ballistic_range_m, rel=0.005)  # planar against PyBullet
     assert f"{told:.1f} mm" in studio.figures.content
-
-
-def test_differences_are_those_from_the_robot_before() -> None:
-    """Mass of the new one less that of the old one, with its sign."""
-    design, shop = load_design("kenan-2.0"), load_workshop()
-    old, new = (printed_answer(design.model_copy(update={"carrying_link_mm": mm}), shop) for mm in (100.0, 110.0))
-    (mass, _), (before, _) = new.figures()["mass"], old.figures()["mass"]
-    assert mass > before + 0.5
-    assert f"| mass | {mass:.1f} g (+{mass - before:.1f}) |" in new.to_markdown(old)
-    assert f"| mass | {before:.1f} g (-{mass - before:.1f}) |" in old.to_markdown(new)
-    assert f"| mass | {mass:.1f} g |" in new.to_markdown()
 
 
 def test_a_motion_moves_nodes_and_sends_no_mesh(studio: Studio) -> None:
@@ -137,20 +122,6 @@ def test_a_saved_design_is_read_again_and_a_users_file_is_kept(studio: Studio, t
     assert {(tmp_path / name).read_text() for name in ("kenan-2.0-studio.toml", "kenan-2.0-studio-2.toml")} == {"mine"}
 
 
-@pytest.mark.parametrize(("key", "half"), [("compression_ratio", 0.0), ("carrying_link_mm", 1.0), ("c_coef", -5.0)])
-def test_half_a_number_typed_is_told_and_changes_nothing(studio: Studio, key: str, half: float) -> None:
-    """A browser sends a number after every key: "0" on the way to "0.9"."""
-    before, studio._wanted = studio.sliders[key].value, None
-    studio.sliders[key].value = half
-    studio._ask()
-    assert studio.quick.content.startswith(f"**no design**: {key} = {half}: must be ")
-    assert studio._wanted is None
-    studio.sliders[key].value = before
-    studio._ask()
-    assert studio._wanted == studio.design
-    assert studio.quick.content == capsule_answer(studio.design)
-
-
 def test_the_answer_at_once_is_the_capsule_robots() -> None:
     words = capsule_answer(load_design("kenan-2.0"))
     assert "190 mm" in words  # the README's range with the study's masses
@@ -169,59 +140,6 @@ def test_the_workshop_can_be_changed(studio: Studio, monkeypatch: pytest.MonkeyP
     studio.answer(studio.design)
     assert built == [(studio.design, load_workshop("fine"), "kenan-2.0")]
     assert {key: slider.value for key, slider in studio.sliders.items()} == load_design("kenan-2.0").model_dump()
-
-
-def test_a_bundle_of_a_robot_that_is_not_to_be_built_says_so(
-    studio: Studio, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    """Legs of 240 mm stay on the ground with these springs, and the cam's window of release is missed."""
-    monkeypatch.setattr(app, "export", lambda robot, folder, pictures: SimpleNamespace(folder=folder))
-    studio.sliders["carrying_link_mm"].value = 240.0
-    told = studio._build().split("; ")
-    assert told[:2] == [f"built {tmp_path / 'kenan-2.0-studio'}", "**it does not jump (no_takeoff)**"]
-    assert re.fullmatch(r"\*\*\d+ of its \d+ limits are violated: do not build it as it is\*\*", told[2])
-
-
-def test_one_bundle_is_built_at_a_time(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Two at once left a hidden folder beside the bundle; the first says that it is at work."""
-    told: list[str] = []
-
-    def export(robot: Robot, folder: Path, pictures: bool) -> SimpleNamespace:
-        told.append(studio.status.content)
-        studio._run_action(studio._build)
-        told.append(studio.status.content)
-        return SimpleNamespace(folder=folder)
-
-    monkeypatch.setattr(app, "export", export)
-    found = SimpleNamespace(robot=built("kenan-2.0"), jump=SimpleNamespace(verdict="jump"))
-    monkeypatch.setattr(app, "printed_answer", lambda *_: found)
-    assert studio._build().startswith("built ")
-    assert told == ["building …", "**not possible**: a bundle is being built; wait until it is there"]
-    assert studio._build().startswith("built ")
-
-
-def test_a_saved_design_says_with_which_workshop_it_is_the_robot(
-    studio: Studio, study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A workshop with a name by its name; that of a point, whose values no file has, in a file beside the design."""
-    file, shop = tmp_path / "kenan-2.0-studio.toml", tmp_path / "kenan-2.0-studio-workshop.toml"
-    assert studio._save() == f"saved {file}"
-    studio.choice.value = "fine"
-    studio._change_workshop()
-    assert studio._save() == f"saved {file}; this robot: `jumpcad build {file} --workshop fine`"
-    assert not shop.exists()
-    points = Points(study)
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    usual = Studio(points.trial(1).design, "usual", ["of the study"], server, tmp_path, points)
-    assert usual._save() == f"saved {tmp_path / 'usual-studio.toml'}"  # the study's is the default one
-    monkeypatch.setattr(points, "workshop_of", lambda _: load_workshop("light"))
-    shown = Studio(points.trial(1).design, "kenan-2.0", ["of the study"], server, tmp_path, points)
-    assert shown._save() == f"saved {file}; this robot: `jumpcad build {file} --workshop {shop}`"
-    assert load_workshop(str(shop)) == load_workshop("light")
-    shop.write_text("mine")
-    assert "kenan-2.0-studio-2-workshop.toml" in shown._save()
-    assert shop.read_text() == "mine"
-    server.stop()
 
 
 def test_a_workshop_that_cannot_be_used_is_not_named_as_the_one_in_use(studio: Studio) -> None:

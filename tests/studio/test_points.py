@@ -11,23 +11,9 @@ from support.studies import IDENTITY, trials
 from jumpcad.errors import JumpcadError
 from jumpcad.search.study.store import StudyStore
 from jumpcad.studio.points import Points
-from jumpcad.workshop import load_workshop, varied
+from jumpcad.workshop import load_workshop
 
 needs.package("viser")
-
-
-def test_the_workshop_is_that_of_the_study_with_the_trials_values(tmp_path: Path) -> None:
-    fine, file = load_workshop("fine"), tmp_path / "w.db"
-    identity = IDENTITY | {"model": {"name": "printed", "workshop": fine.model_dump(mode="json")}}
-    with StudyStore.write(file, identity) as store:
-        store.append(trials(1))
-    points = Points(file)
-    assert points.workshop == fine
-    one = points.trial(1)
-    assert points.workshop_of(one) == fine
-    object.__setattr__(one, "workshop", {"body.plate_mm": 4.0})
-    assert points.workshop_of(one).body.plate_mm == 4.0
-    assert points.workshop_of(one).printer == fine.printer
 
 
 @pytest.mark.parametrize(
@@ -48,19 +34,6 @@ def test_a_study_without_a_trial_has_no_points(tmp_path: Path) -> None:
         pass
     with pytest.raises(JumpcadError, match="no trial yet"):
         Points(tmp_path / "empty.db")
-
-
-def test_a_trials_robot_is_built_in_its_workshop_with_the_name_of_its_study(
-    study: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A name that cannot be engraved is refused before the studio opens."""
-    points, asked = Points(study), []
-    monkeypatch.setattr("jumpcad.studio.points.build", lambda *given: asked.append(given))
-    thick = varied(load_workshop(), {"body.plate_mm": 4.0})
-    for workshop, values in ((load_workshop(), {}), (thick, {"body.plate_mm": 4.0})):
-        monkeypatch.setattr(points, "trials", [replace(trial, workshop=values) for trial in points.trials])
-        points.require_built(4)
-        assert asked.pop() == (points.trial(4).design, workshop, study.stem)
 
 
 def test_of_a_study_in_which_nothing_jumps_any_trial_is_opened_by_its_number(tmp_path: Path) -> None:

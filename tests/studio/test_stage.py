@@ -10,10 +10,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 from support.built import built
 
-from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.scene.visuals import Visual, visuals
-from jumpcad.studio.playback import ShownMoment
 from jumpcad.studio.stage import StudioStage
 
 NAME = "kenan-2.0"
@@ -121,21 +119,3 @@ def test_a_robot_that_cannot_be_built_leaves_the_last_one_pale_and_a_ghost_as_it
         node = stage.server.scene.nodes[name]
         assert node.color == colour
         assert node.opacity == opacity if name.startswith("/ghost/") else 0.0 < node.opacity < 0.5
-
-
-def test_a_body_goes_where_a_moment_has_it_and_what_turns_turns_about_its_axis(stage: StudioStage) -> None:
-    """Quaternions of a moment have their real part last, those of the server first."""
-    stage.show(built(NAME))
-    turn = Rotation.from_euler("xyz", [10.0, 20.0, 30.0], degrees=True)
-    moment = ShownMoment({BODY: np.array([0.1, 0.2, 0.3, *turn.as_quat()])}, {"motor_pinion": 0.4}, "drop", 0.0, 1.0)
-    stage.move(moment)
-    found = pose(stage.frames[f"/robot/{BODY}"])
-    assert found[:3, 3] == pytest.approx([0.1, 0.2, 0.3])
-    assert found[:3, :3] == pytest.approx(turn.as_matrix())
-    assert pose(stage.frames[f"/robot/{MAIN_LEG}"]) == pytest.approx(body_poses(built(NAME))[MAIN_LEG], abs=1e-9)
-    one, (x_m, z_m) = named("motor_pinion"), built(NAME).layout.motor_mm / 1000.0
-    about = Rotation.from_euler("y", 0.4)
-    placed = pose(stage.server.scene.nodes[f"/robot/{one.body}/motor_pinion"])
-    axis = np.array([x_m, 0.0, z_m])
-    assert placed[:3, 3] == pytest.approx(axis + about.apply(one.T_body_mesh[:3, 3] - axis), abs=1e-6)
-    assert placed[:3, :3] == pytest.approx(about.as_matrix() @ one.T_body_mesh[:3, :3], abs=1e-9)

@@ -69,14 +69,6 @@ def test_materials_of_ones_own_and_weighed_parts(written):
     assert (workshop.material_name("links"), workshop.mass.weighed_g) == ("ABS", {"foot": 11.2})
 
 
-@pytest.mark.parametrize("name", ["PLA", "PA12 CF15", "PETG (grey)", "机器人", "Ähnlich-1.75", "_x"])
-def test_names_of_materials_are_of_any_script(name, written):
-    text = f'[roles]\nlinks = "{name}"\n[materials."{name}"]\n' + to_toml(
-        load_workshop("default").material("links").model_dump(exclude_none=True)
-    )
-    assert load_workshop(written(text)).material_name("links") == name
-
-
 @each("section", Workshop.model_fields)
 def test_a_section_that_is_no_table_is_told_in_words(section, written):
     if section == "printer":  # alone it names a printer
@@ -172,15 +164,3 @@ def test_a_kit_brings_its_parts_and_the_file_may_choose_others(written):
 )
 def test_a_base_printer_or_material_that_is_not_there_is_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
-
-
-def test_a_material_of_ones_own_is_chosen_as_it_is_written(written):
-    """Shipped ones in letters of any size."""
-    figures = to_toml(
-        load_workshop("default").material("links").model_dump(exclude_none=True) | {"modulus_mpa": 1234.0}
-    )
-    path = written(f'[roles]\nbody = "Nylon"\n[materials.Nylon]\n{figures}')
-    shop = load_workshop(path, material="Nylon")
-    assert list(shop.materials) == ["Nylon"]
-    assert shop.material("gears").modulus_mpa == 1234.0
-    assert list(load_workshop(path, material="Petg").materials) == ["PETG"]

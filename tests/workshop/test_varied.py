@@ -5,16 +5,9 @@ from support.each import each
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.errors import JumpcadError
-from jumpcad.workshop import load_workshop, varied, workshop_value
+from jumpcad.workshop import load_workshop, varied
 
 DEFAULT = load_workshop()
-
-
-def test_values_change_and_nothing_else_does():
-    changed = varied(DEFAULT, {"body.plate_mm": 1.6, "process.perimeters": 2.0, "bought.spring": "9271K619"})
-    assert (changed.body.plate_mm, changed.process.perimeters) == (1.6, 2)
-    assert changed.stock_spring.name == "9271K619"
-    assert varied(changed, {"body.plate_mm": 2.4, "process.perimeters": 3.0, "bought.spring": ""}) == DEFAULT
 
 
 @pytest.mark.parametrize(("asked", "whole"), [(2.4, 2), (2.6, 3), (3.0, 3)])
@@ -70,8 +63,3 @@ def test_what_cannot_vary_is_said_in_one_line(values, message):
     with pytest.raises(JumpcadError, match=message) as refused:
         varied(DEFAULT, values)
     assert "\n" not in str(refused.value)
-
-
-def test_the_present_value_of_a_key():
-    assert workshop_value(DEFAULT, "body.plate_mm") == DEFAULT.body.plate_mm
-    assert workshop_value(DEFAULT, "materials.PETG.density_g_cm3") == DEFAULT.materials["PETG"].density_g_cm3

@@ -50,13 +50,6 @@ def test_values_that_do_not_go_together_are_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
 
 
-def test_without_a_pad_the_feet_are_bare(written):
-    ground = load_workshop().ground
-    assert ground.foot_friction == ground.friction <= 0.8
-    bare = load_workshop(written('[ground]\npad = ""')).ground
-    assert bare.foot_friction == bare.bare_friction < ground.friction
-
-
 def test_a_workshop_cannot_be_changed():
     workshop = jumpcad.load_workshop()
     assert isinstance(workshop, Workshop)
@@ -97,31 +90,6 @@ def test_values_that_do_not_go_together_are_refused(table: str, values: dict[str
         Workshop.model_validate(data | {table: data[table] | values})
 
 
-@pytest.mark.parametrize(
-    ("table", "values"),
-    [
-        ("process", {"line_width_mm": 0.33, "first_layer_mm": 0.32}),
-        ("process", {"line_width_mm": 0.8}),
-        ("fits", {"wall_mm": 1.2, "first_layer_chamfer_mm": 0.59}),
-        ("release", {"rotor_kg_m2": (1e-9, 1e-9)}),
-    ],
-)
-def test_values_at_the_limit_go_together(table: str, values: dict[str, object]) -> None:
-    data = load_workshop().model_dump(exclude_none=True)
-    if values.get("line_width_mm") == 0.8:
-        data["fits"] = data["fits"] | {"wall_mm": 1.6}
-    Workshop.model_validate(data | {table: data[table] | values})
-
-
-@pytest.mark.parametrize(("play_deg", "taken"), [(0.0, True), (0.5, False), (1.0, False), (11.9, False), (12.0, True)])
-def test_a_dogs_play_that_ends_on_the_corner_is_refused(play_deg: float, taken: bool) -> None:
-    """None at all is a rigid key; between that and 12° it is worse than none."""
-    shop = load_workshop()
-    release = shop.release.model_copy(update={"play_deg": play_deg})
-    found = [place for place, *_ in shop.model_copy(update={"release": release}).contradictions()]
-    assert (("release", "play_deg") in found) == (not taken)
-
-
 def test_a_material_is_weakest_between_its_layers_and_its_modulus_is_in_megapascals():
     """Data sheets give moduli in GPa: 2.5 of PLA, which is 2500 MPa."""
     shop = load_workshop()
@@ -140,9 +108,3 @@ def test_materials_whose_plates_would_be_one_file_are_refused(refusal):
         'modulus_mpa = 2000.0\nsource = "a test"\n'  # fmt: skip
     for text in ('[roles]\nlinks = "petg"', '[roles]\nlinks = "Öko"\nbody = "öko"\n' + own % "Öko" + own % "öko"):
         assert "write both alike, or choose another name" in refusal(text)
-
-
-def test_one_material_may_be_written_in_small_letters(written):
-    """Where no role writes it otherwise, there is one plate."""
-    roles = load_workshop(written('[roles]\nlinks = "petg"\ngears = "petg"')).roles
-    assert (roles.links, roles.body, roles.gears) == ("petg", "PLA", "petg")
