@@ -1,4 +1,4 @@
-"""A bundle is whole or not there, replaces nothing but a bundle, and is the same bytes for the same robot."""
+"""A bundle is whole or not there, and the same bytes for the same robot."""
 
 import hashlib
 import json
@@ -149,38 +149,6 @@ def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path, monke
     assert bytes_of(tmp_path / "here") == bytes_of(tmp_path / "there")
 
 
-def test_an_old_bundle_is_replaced_and_what_was_added_stays(small_robot: Robot, tmp_path: Path) -> None:
-    folder = tmp_path / "b"
-    exported(small_robot, folder)
-    before = bytes_of(folder)
-    (folder / "stl" / "my_own.stl").write_text("mine")
-    exported(small_robot, folder)
-    assert bytes_of(folder) == before | {"stl/my_own.stl": b"mine"}
-    assert [path.name for path in tmp_path.iterdir()] == ["b"]
-
-
-def test_what_a_user_edited_is_replaced_only_by_force(small_robot: Robot, tmp_path: Path) -> None:
-    bill = exported(small_robot, tmp_path / "b").folder / "bom.csv"
-    before = bytes_of(tmp_path)
-    bill.write_text("mine")
-    with pytest.raises(JumpcadError, match=r"bom\.csv: edited or added"):
-        exported(small_robot, tmp_path / "b")
-    assert bill.read_text() == "mine"
-    export(small_robot, tmp_path / "b", pictures=False, force=True)
-    assert bytes_of(tmp_path) == before
-
-
-def test_nothing_else_is_replaced(small_robot: Robot, tmp_path: Path) -> None:
-    (tmp_path / "thesis").mkdir()
-    (tmp_path / "thesis" / "chapter1.txt").write_text("years of work")
-    (tmp_path / "file").write_text("x")
-    with pytest.raises(JumpcadError, match=r"no manifest\.json, so it is not a bundle"):
-        exported(small_robot, tmp_path / "thesis")
-    with pytest.raises(JumpcadError, match="is a file"):
-        exported(small_robot, tmp_path / "file")
-    assert bytes_of(tmp_path) == {"thesis/chapter1.txt": b"years of work", "file": b"x"}
-
-
 def test_a_build_that_breaks_leaves_the_old_bundle(
     small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -199,13 +167,6 @@ def test_a_build_that_breaks_leaves_the_old_bundle(
         exported(small_robot, folder)
     monkeypatch.undo()
     assert bytes_of(tmp_path) == before
-
-
-def test_verify_names_changed_and_missing_files(small_robot: Robot, tmp_path: Path) -> None:
-    folder = exported(small_robot, tmp_path / "b").folder
-    (folder / "stl" / "foot.stl").unlink()
-    (folder / "bom.csv").write_text("1,2,3")
-    assert sorted(verify(folder)) == ["bom.csv: changed", "stl/foot.stl: missing"]
 
 
 @pytest.mark.parametrize("name", ["", "../up", "a/b", ".hidden", "a\nb"])
