@@ -18,7 +18,7 @@ import trimesh
 
 from jumpcad.catalogue import Pad
 from jumpcad.exporters.xml import allowed
-from jumpcad.files.markdown import plain
+from jumpcad.files.rendering import render
 from jumpcad.parts.pads import PrintedPad, printed_pads
 from jumpcad.printing.plates import PlacedCopy, Printable, PrintPlate, packed
 from jumpcad.printing.project import PADS_HOW, pad_settings, project_settings, settings_in_words, temperatures_in_words
@@ -95,8 +95,7 @@ def _files(
         else:
             settings = project_settings(printer, process, workshop.materials[plate.material], plate.material)
         yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
-    of_parts, of_pads = ([plate for plate in plates if (plate.kind == PADS) == pads] for pads in (False, True))
-    yield "print/README.md", _in_words(of_parts, workshop) + _pads_in_words(of_pads, kinds)
+    yield "print/README.md", _in_words(plates, workshop, kinds)
 
 
 def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes) -> bytes:
@@ -161,35 +160,19 @@ def _objects(plate: PrintPlate) -> str:
     return f"{XML}<config>\n{''.join(rows)}</config>\n"
 
 
-def _in_words(plates: Sequence[PrintPlate], workshop: Workshop) -> str:
-    """Return the text of `print/README.md`."""
-    lines = [
-        "# How to print the plates",
-        "",
-        "PrusaSlicer reads these settings from the 3MF files (File > Open Project); then choose your own printer, for",
-        "its speeds and its G-code at start and end, and keep the print settings. Other slicers, such as Bambu Studio,",
-        "OrcaSlicer and Cura, read the parts and their places alone: enter the settings there.",
-        "",
-        *(f"- {plain(line)}" for line in settings_in_words(workshop.printer, workshop.process)),
-        "",
-        "The masses of the robot hold for these settings; with others it is heavier or lighter, and its springs no",
-        "longer suit it as well.",
+def _in_words(plates: Iterable[PrintPlate], workshop: Workshop, kinds: Mapping[str, Pad]) -> str:
+    """Return the text of `print/README.md`; `kinds` are those of pads, by material."""
+    told = [
+        {
+            "name": plate.name,
+            "material": kinds[plate.material].description if plate.kind == PADS else plate.material,
+            "how": PADS_HOW if plate.kind == PADS else temperatures_in_words(workshop.materials[plate.material]),
+            "copies": Counter(placed.part.name for placed in plate.items),
+        }
+        for plate in plates
     ]
-    for plate in plates:
-        heat = temperatures_in_words(workshop.materials[plate.material])
-        lines += ["", f"## {plain(plate.name)}.3mf", "", f"{plain(plate.material)}: {plain(heat)}", ""]
-        copies = Counter(placed.part.name for placed in plate.items)
-        lines += [f"- {count} × {name}" for name, count in copies.items()]
-    return "\n".join(lines) + "\n"
-
-
-def _pads_in_words(plates: Sequence[PrintPlate], kinds: Mapping[str, Pad]) -> str:
-    """Return the end of `print/README.md`, on pads; empty without them."""
-    lines = []
-    for plate in plates:
-        lines += ["", f"## {plain(plate.name)}.3mf", "", f"{plain(kinds[plate.material].description)}: {PADS_HOW}", ""]
-        lines += [f"- 1 × {placed.part.name}" for placed in plate.items]
-    return "".join(f"{line}\n" for line in lines)
+    settings = settings_in_words(workshop.printer, workshop.process)
+    return render("print/README.md.j2", {"settings": settings, "bed_mm": workshop.printer.bed_mm, "plates": told})
 
 
 def _lines(line: str, rows: npt.NDArray[np.generic]) -> str:

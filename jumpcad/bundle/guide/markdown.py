@@ -14,6 +14,8 @@ from jumpcad.scene.step_views import label_of
 from jumpcad.scene.visuals import Visual
 
 GUIDE, BILL = "guides/assembly.md.j2", "guides/bill.md.j2"
+BY_ROLE = ("motor", "battery", "controller", "driver", "regulator", "switch", "sensor", "capacitor", "plug")
+"""What a step and its picture call by its part in the robot, not by its article."""
 
 
 def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
@@ -72,10 +74,10 @@ def put_on(step: Step) -> Counter[str]:
 
 def _name(thing: Visual) -> str:
     """Return what a thing is called, without what matters to its shop alone."""
-    source = thing.source
-    if isinstance(source, Part):
-        return label_of(thing)
-    short, kind = re.split(r",| \(| ISO| DIN", source.article)[0], re.search(r", cut .*|, \w+ hand", source.article)
+    source, label = thing.source, label_of(thing)
+    if isinstance(source, Part) or label in BY_ROLE:
+        return label
+    short, kind = re.split(r",| \(| ISO| DIN", source.article)[0], re.search(r", cut (.*)|, (\w+ hand)", source.article)
     if not re.search("screw|pin|standoff", short):
         short = re.sub(r" [\d.]+ (x|mm|V|W|uF)\b.*", "", short)
-    return short + (kind[0] if kind else "")
+    return f"{short} ({kind[kind.lastindex or 0]})" if kind else short
