@@ -21,7 +21,7 @@ from jumpcad.search.models import CapsuleModel, robot_model
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.pool import local_pool
-from jumpcad.search.study.request import Request
+from jumpcad.search.study.request import Request, Stage
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial
 
@@ -62,7 +62,6 @@ def write(path: Path, rows: int) -> None:
 def resume(path: Path, rows: int) -> None:
     """Go on: the evaluator reads all trials, and Bayesian optimisation proposes from them."""
     from jumpcad.search.propose.bayesian import run_bayesian
-    from jumpcad.search.propose.task import Task
     from jumpcad.search.study.evaluator import Evaluator
 
     request = request_of(rows)
@@ -71,7 +70,7 @@ def resume(path: Path, rows: int) -> None:
         points = SPACE.spread(rows, np.random.default_rng(0))
         for number, point in enumerate(points):  # as a method's steps, from the study
             evaluator.evaluate([SPACE.to_design(point)], "ga", number)
-        run_bayesian(evaluator, Task(2, 0))
+        run_bayesian(evaluator, Stage(request, "bo", 2))
 
 
 def use(name: str, path: Path, rows: int) -> None:

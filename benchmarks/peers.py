@@ -48,15 +48,15 @@ from search import bayesian, genetic
 from jumpcad.design import SEARCH_BOUNDS
 from jumpcad.search.models import robot_model
 from jumpcad.search.parameter import physical_limits
-from jumpcad.search.propose.bayesian import default_initial, incumbent
+from jumpcad.search.propose.bayesian import incumbent
 from jumpcad.search.propose.dry_run import DryRun
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.posterior import VERDICT, constraint_margins, forwards, warped
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import default_initial
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial
 from jumpcad.search.study.versions import versions
@@ -142,11 +142,11 @@ class Search:
         self.space = evaluator.space
         self.generator = np.random.default_rng([seed, 3])
         self._free: list[Trial] = []
-        task = Task(evaluations, seed, default_initial(self.space, evaluations, guessed=True))
-        dry_run = DryRun.of(evaluator, "bo", task)
+        initial = default_initial(self.space, evaluations, guessed=True)
+        dry_run = DryRun.of(evaluator, "bo", seed, 0)
         assert dry_run is not None
         generator = np.random.default_rng([seed, 1])  # as `bo` does
-        self.evaluate(first_points(self.space, task.initial, generator, dry_run.ranked, dry_run.starts_with))
+        self.evaluate(first_points(self.space, initial, generator, dry_run.ranked, dry_run.starts_with))
 
     @property
     def left(self) -> int:

@@ -23,13 +23,13 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.search.models import PrintedModel, RobotModel, robot_model
-from jumpcad.search.propose.bayesian import default_initial, run_bayesian
+from jumpcad.search.propose.bayesian import run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import Objective, find_objective
 from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request, Stage, default_initial
 from jumpcad.search.study.store import StudyStore
 
 MARKS = (40, 60, 100, 200, 250, 500, 1000)
@@ -44,21 +44,21 @@ def random_search(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     evaluator.evaluate([SPACE.to_design(point) for point in points], "sample", 0)
 
 
+def stage(evaluator: Evaluator, method: str, seed: int, evaluations: int, initial: int = 0, **options: str) -> Stage:
+    """Return what a method is asked for."""
+    asked = Request(SPACE, evaluator.model, evaluator.objective.name, method, evaluations, seed, **options)
+    return Stage(asked, method, evaluations, initial)
+
+
 def genetic(evaluator: Evaluator, seed: int, evaluations: int, preset: str = "recommended") -> None:
     """Run PyGAD."""
-    run_genetic(evaluator, Task(evaluations, seed, preset=preset))
+    run_genetic(evaluator, stage(evaluator, "ga", seed, evaluations, preset=preset))
 
 
 def bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run GP-EI."""
-    run_bayesian(
-        evaluator,
-        Task(
-            evaluations,
-            seed,
-            default_initial(SPACE, evaluations, guessed=evaluator.model.describe()["name"] == "printed"),
-        ),
-    )
+    initial = default_initial(SPACE, evaluations, guessed=isinstance(evaluator.model, PrintedModel))
+    run_bayesian(evaluator, stage(evaluator, "bo", seed, evaluations, initial))
 
 
 class Spread(PrintedModel):
@@ -71,8 +71,8 @@ class Spread(PrintedModel):
 
 def genetic_then_bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run PyGAD, then 50 evaluations of GP-EI on all that it saw."""
-    run_genetic(evaluator, Task(evaluations - 50, seed))
-    run_bayesian(evaluator, Task(50, seed, initial=0))
+    run_genetic(evaluator, stage(evaluator, "ga", seed, evaluations - 50))
+    run_bayesian(evaluator, stage(evaluator, "bo", seed, 50))
 
 
 def score_of(evaluator: Evaluator, step: int, point: npt.ArrayLike) -> float:

@@ -1,11 +1,20 @@
 """Names that all of a search shares: its methods, and the phases of a study, which say what proposed a trial."""
 
+import importlib
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from jumpcad.search.study.evaluator import Evaluator
+    from jumpcad.search.study.request import Stage
 
 
 @dataclass(frozen=True)
 class Method:
-    """An entry of the registry.
+    """An entry of the registry: a function of an `Evaluator` and a `Stage`, which returns when that is done.
+
+    All else follows from the entry: choices and help of `jumpcad optimize`, the plan of a study, what its file may
+    hold.
 
     Parameters
     ----------
@@ -21,7 +30,7 @@ class Method:
         Whether it fits a surrogate: it then starts with evenly spread designs, and each proposal carries the
         hyperparameters (`theta`) with which the next step starts.
     ends
-        Whether it ends where its proposals promise less than a task's `least_gain`.
+        Whether it ends where its proposals promise less than a stage's `least_gain`.
     shares
         Whether its parts have shares of the evaluations: a search with more of them is another one.
     least
@@ -36,6 +45,11 @@ class Method:
     ends: bool = False
     shares: bool = False
     least: int = 0
+
+    def run(self, evaluator: "Evaluator", stage: "Stage") -> bool:
+        """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
+        module, name = self.function.split(".")
+        return bool(getattr(importlib.import_module(f"jumpcad.search.propose.{module}"), name)(evaluator, stage))
 
 
 METHODS = {
@@ -62,6 +76,11 @@ EVALUATIONS, UNTIL_PERCENT = 250, 0.05
 """What a search may cost at most unless the user says something else, and the promised gain at which it ends."""
 NAMES = (*SEQUENCES, *METHODS)
 FRONTS = tuple(name for name, method in METHODS.items() if method.front)
+
+PRESETS = ("recommended", "published")
+"""Settings of the genetic algorithm."""
+MOST_PICK, LEAST_PICK = 200, 6
+"""Most evaluations of the robust pick; with fewer than the least it examines nothing."""
 
 EXPLORED = ("sample", "sweep")
 """Phases of a view; the random designs of `paper` are samples too."""

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.hills import FIXED, Hill
 from support.shops import HEIGHTS, PLATE_MM, SHOP, Shop
+from support.stages import stage
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
@@ -14,7 +15,6 @@ from jumpcad.search.explore import feasibility_map, sweep
 from jumpcad.search.models import PrintedModel, robot_model
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.propose.surrogate import Surrogate
-from jumpcad.search.propose.task import Task
 from jumpcad.search.report import plots
 from jumpcad.search.report.study_plots import plot_study
 from jumpcad.search.space import Space
@@ -130,7 +130,7 @@ def test_methods_find_the_best_values_of_the_workshop(method, evaluations, at_le
 
 def test_the_genetic_algorithm_keeps_trying_other_names(evaluator):
     one = evaluator(model=Shop(), space=SHOP)
-    run_genetic(one, Task(200, 3))
+    run_genetic(one, stage(200, 3))
     late = [trial.workshop["bought.battery"] for trial in one.trials[-60:]]
     assert set(late) == set(HEIGHTS)
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from jumpcad.design import PARAMETERS
 from jumpcad.search.parameter import active_sides
+from jumpcad.search.phases import MOST_PICK
 from jumpcad.search.pick.margin import propose_robust
 from jumpcad.search.pick.tolerances import PERCENT, SAMPLES, Tolerances, tenth
 from jumpcad.search.space import Space
@@ -23,8 +24,6 @@ from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.trial import Trial, feasible_trials
 from jumpcad.search.study.variant import Variant
 
-MOST_PICK, LEAST_PICK = 200, 6
-"""Most evaluations of the robust pick; with fewer than the least it examines nothing."""
 MOST_CANDIDATES = 16
 """Designs that the first round examines, at most."""
 JOINING = 3
@@ -99,12 +98,6 @@ class ActiveBound:
     def unknown(self) -> bool:
         """Whether the design beyond it was not evaluated; the reason says why."""
         return self.reason == NOT_EXAMINED
-
-
-def pick_share(evaluations: int) -> int:
-    """Return how many of a study's evaluations examine neighbours: a quarter, at most `MOST_PICK`; none of a few."""
-    share = min(evaluations // 4, MOST_PICK)
-    return share if share >= LEAST_PICK else 0
 
 
 def plan_rounds(evaluations: int) -> list[tuple[int, int]]:

@@ -5,7 +5,6 @@ resumed search therefore skips the steps that are in the study file and goes on 
 """
 
 import itertools
-import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
@@ -19,10 +18,10 @@ from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.local_search import FARTHEST, HOPELESS, STALLED, Progress
 from jumpcad.search.propose.proposal_loop import ProposalLoop
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED
+from jumpcad.search.study.request import Stage
 from jumpcad.search.study.trial import Trial, feasible_trials
 from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
@@ -44,24 +43,14 @@ Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], l
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
 
 
-def default_initial(space: Space, evaluations: int, prior: int = 0, guessed: bool = False) -> int:
-    """Return the number of first designs: three per free parameter, at most half of all, minus the prior trials.
-
-    Half as many where scores are `guessed`: measured, with eight parameters 12 gave better designs after 30
-    evaluations than 24 after 60.
-    """
-    each = 1.5 if guessed else 3.0
-    return max(0, min(math.ceil(each * space.dimension), evaluations // 2) - prior)
-
-
-def run_bayesian(evaluator: Evaluator, task: Task, polls: bool = True) -> bool:
+def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool:
     """Search for the highest score; return whether it ended because its last steps gained too little.
 
     Parameters
     ----------
     evaluator
         Its trials so far, and those of its prior study, are learned from.
-    task
+    stage
         `initial` designs are evaluated before the first fit; the proposals of a batch are made without each other's
         results. With a `least_gain`, the search ends where less is promised and gained.
     polls
@@ -72,7 +61,7 @@ def run_bayesian(evaluator: Evaluator, task: Task, polls: bool = True) -> bool:
     def progress() -> Progress:
         # what earlier searches in another space promised says nothing
         known = max((trial.score or 0.0 for trial in [*evaluator.prior, *evaluator.trials[:start]]), default=0.0)
-        return Progress.of(evaluator.trials[start:], known, task.least_gain)
+        return Progress.of(evaluator.trials[start:], known, stage.least_gain)
 
     def proposer(
         loop: ProposalLoop, trials: Sequence[Trial], count: int, generator: np.random.Generator
@@ -94,43 +83,43 @@ def run_bayesian(evaluator: Evaluator, task: Task, polls: bool = True) -> bool:
         return proposals
 
     def ended(dry_run: DryRun | None) -> bool:
-        if not task.least_gain:
+        if not stage.least_gain:
             return False
         idle, low = progress()
         guessed = polls and dry_run is not None and not evaluator.space.varies_workshop
         return idle >= IDLE if guessed else low >= PATIENCE
 
-    return run_steps(evaluator, "bo", task, proposer, ended)
+    return run_steps(evaluator, "bo", stage, proposer, ended)
 
 
 def run_steps(
-    evaluator: Evaluator, phase: str, task: Task, proposer: Proposer,
-    ended: Callable[[DryRun | None], bool] = lambda _dry_run: False,
+    evaluator: Evaluator, phase: str, stage: Stage, proposer: Proposer,
+    ended: Callable[[DryRun | None], bool] = lambda _dry_run: False, batch: int = 0,
 ) -> bool:  # fmt: skip
-    """Evaluate the initial designs, then what `proposer` proposes, one batch per step.
+    """Evaluate the initial designs, then what `proposer` proposes, one `batch` per step (0: that of the request).
 
     Return whether the search has `ended` before its evaluations, time or proposals were spent.
     """
-    space, start = evaluator.space, len(evaluator.trials)
-    dry_run = DryRun.of(evaluator, phase, task)
-    if task.initial:
-        generator = np.random.default_rng([task.seed, 1])
+    space, start, seed = evaluator.space, len(evaluator.trials), stage.request.seed
+    dry_run = DryRun.of(evaluator, phase, seed, stage.run)
+    if stage.initial:
+        generator = np.random.default_rng([seed, 1])
         if dry_run:
-            points = first_points(space, task.initial, generator, dry_run.ranked, dry_run.starts_with)
+            points = first_points(space, stage.initial, generator, dry_run.ranked, dry_run.starts_with)
         else:
-            points = first_points(space, task.initial, generator)
+            points = first_points(space, stage.initial, generator)
         evaluator.evaluate(
-            [space.to_variant(point) for point in points], phase, 0, limit=task.evaluations, run=task.run
+            [space.to_variant(point) for point in points], phase, 0, limit=stage.evaluations, run=stage.run
         )
-    left = task.evaluations - (len(evaluator.trials) - start)
+    left = stage.evaluations - (len(evaluator.trials) - start)
     thetas: Mapping[str, Any] = {}
     for step in itertools.count(1):
         if left <= 0 or evaluator.expired():
             return False
         if ended(dry_run):
             return True
-        count = min(task.batch, left)
-        finished = evaluator.finished(phase, step, count, task.run)
+        count = min(batch or stage.request.batch, left)
+        finished = evaluator.finished(phase, step, count, stage.run)
         if finished is not None:
             thetas = dict(finished[-1].proposal["theta"])
         else:
@@ -141,14 +130,14 @@ def run_steps(
                 if dry_run:
                     dry_run.learn(known)
                 loop = ProposalLoop(space, learned_trials(space, known), dry_run, thetas, refit)
-                proposals = proposer(
-                    loop, known, count, np.random.default_rng([task.seed, 2, RUN_SEED * task.run + step])
-                )
+                proposals = proposer(loop, known, count, np.random.default_rng([seed, 2, RUN_SEED * stage.run + step]))
             thetas = loop.thetas
             notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
             if notes and loop.tried:
                 notes[0] |= {TRIED: [point.tolist() for point in loop.tried]}
-            evaluator.evaluate([proposal.variant for proposal in proposals], phase, step, proposals=notes, run=task.run)
+            evaluator.evaluate(
+                [proposal.variant for proposal in proposals], phase, step, proposals=notes, run=stage.run
+            )
             count = len(proposals)
         if count == 0:
             found = len(evaluator.trials) - start

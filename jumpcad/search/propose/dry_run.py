@@ -15,7 +15,6 @@ from jumpcad.findings import bare
 from jumpcad.search.estimate.estimate import Estimator
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.initial_designs import ranked_points
-from jumpcad.search.propose.task import Task
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
@@ -38,13 +37,13 @@ class DryRun:
     ----------
     evaluator
         Of the search; its model is a `PrintedModel`.
-    phase, task
+    phase, seed, run
         Of the search too: what other searches tried is not looked at.
     """
 
-    def __init__(self, evaluator: Evaluator, phase: str, task: Task) -> None:
+    def __init__(self, evaluator: Evaluator, phase: str, seed: int, run: int) -> None:
         assert isinstance(evaluator.model, PrintedModel)
-        self._evaluator, self._phase, self._task = evaluator, phase, task
+        self._evaluator, self._phase, self._seed, self._run = evaluator, phase, seed, run
         self._space = evaluator.space
         self.estimator = Estimator(evaluator.space, evaluator.model, evaluator.objective)
         self._variants: dict[tuple[float, ...], Variant] = {}
@@ -52,15 +51,15 @@ class DryRun:
         self._passed_over: list[Variant] = []
 
     @classmethod
-    def of(cls, evaluator: Evaluator, phase: str, task: Task) -> Self | None:
+    def of(cls, evaluator: Evaluator, phase: str, seed: int, run: int) -> Self | None:
         """Return the dry run of a search of printed robots; None of others, which are simulated as quickly."""
         model = evaluator.model
-        return cls(evaluator, phase, task) if isinstance(model, PrintedModel) else None
+        return cls(evaluator, phase, seed, run) if isinstance(model, PrintedModel) else None
 
     @cached_property
     def ranked(self) -> list[Array]:
         """Points (d,) with which the capsule robot jumps, the farthest first."""
-        return ranked_points(self._evaluator, np.random.default_rng([self._task.seed, 5]))
+        return ranked_points(self._evaluator, np.random.default_rng([self._seed, 5]))
 
     def starts_with(self, variant: Variant) -> bool:
         """Whether a search may start with a variant: its parts have room. If not, that is learned."""
@@ -118,7 +117,7 @@ class DryRun:
         ours = (
             trial
             for trial in trials
-            if trial.position[:2] == (self._phase, self._task.run) and trial.step and trial.key not in self._prior
+            if trial.position[:2] == (self._phase, self._run) and trial.step and trial.key not in self._prior
         )
         kept = (point for trial in ours for point in trial.proposal.get(TRIED, ()))
         points = (point for point in (*kept, *tried) if len(point) == self._space.dimension)

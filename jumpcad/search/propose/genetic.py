@@ -12,15 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.errors import JumpcadError
-from jumpcad.files import did_you_mean
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.initial_designs import first_points, ranked_points
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.study.own_objective import LARGEST
+from jumpcad.search.study.request import Stage
 from jumpcad.search.study.trial import Trial, best_trial, feasible_trials, searched
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
@@ -37,7 +35,7 @@ class GeneticSettings:
     operators: Mapping[str, Any]
 
 
-PRESETS: dict[str, GeneticSettings] = {
+SETTINGS: dict[str, GeneticSettings] = {
     # Small steps around good parents: SBX and polynomial mutation (Deb), and a tournament of three.
     "recommended": GeneticSettings(
         20,
@@ -58,26 +56,20 @@ PRESETS: dict[str, GeneticSettings] = {
 }  # fmt: skip
 
 
-def find_preset(name: str) -> GeneticSettings:
-    """Return the settings of a preset."""
-    if name not in PRESETS:
-        raise JumpcadError(f"{name!r} is not one of the presets {', '.join(PRESETS)}{did_you_mean(name, PRESETS)}")
-    return PRESETS[name]
-
-
-def run_genetic(evaluator: Evaluator, task: Task) -> None:
+def run_genetic(evaluator: Evaluator, stage: Stage) -> None:
     """Search for the highest score; a rejected design has less than any other.
 
     With a prior study, its best designs make half of the first population.
     """
-    settings = find_preset(task.preset)
+    request = stage.request
+    settings = SETTINGS[request.preset]
     operators = dict(settings.operators)
     if "mutation_num_genes" in operators:
         operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
-    score = Fitness(evaluator, "ga", task.evaluations, rejected=-2.0 * LARGEST, run=task.run)
-    if task.screen:
-        score = ScreenedFitness(evaluator, "ga", task.evaluations, score.rejected, task.run)
-    evolve(score, _first_population(evaluator, settings.population, task.seed), operators, task.seed)
+    score = Fitness(evaluator, "ga", stage.evaluations, rejected=-2.0 * LARGEST, run=stage.run)
+    if request.screen:
+        score = ScreenedFitness(evaluator, "ga", stage.evaluations, score.rejected, stage.run)
+    evolve(score, _first_population(evaluator, settings.population, request.seed), operators, request.seed)
 
 
 class Fitness:

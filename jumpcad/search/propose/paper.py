@@ -13,11 +13,11 @@ from dataclasses import replace
 import numpy as np
 
 from jumpcad.search.fronts import energy_j
-from jumpcad.search.propose.bayesian import default_initial, run_bayesian
+from jumpcad.search.propose.bayesian import run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.request import Stage, default_initial
 from jumpcad.search.study.trial import Trial, best_trial
 
 RUNS = 3
@@ -32,29 +32,30 @@ NEAR_PERCENT = 10.0
 """Of each range, to either side, in the second mode."""
 
 
-def run_paper(evaluator: Evaluator, task: Task) -> None:
+def run_paper(evaluator: Evaluator, stage: Stage) -> None:
     """Run the stages; each ends with its share of the evaluations."""
     space, start = evaluator.space, len(evaluator.trials)
-    explored = int(EXPLORED * task.evaluations)
-    points = np.random.default_rng([task.seed, 8]).random((explored, space.dimension))
+    explored = int(EXPLORED * stage.evaluations)
+    points = np.random.default_rng([stage.request.seed, 8]).random((explored, space.dimension))
     evaluator.evaluate([space.to_variant(point) for point in space.drawn(points)], "sample", 0)
     best: list[Trial] = []
-    for run, seed in enumerate(seeds(task.seed)):
+    for run, seed in enumerate(seeds(stage.request.seed)):
         before = len(evaluator.trials)
-        share = int(EVOLVED * task.evaluations / RUNS)
-        run_genetic(evaluator, Task(share, seed, preset="published", run=run))
+        share = int(EVOLVED * stage.evaluations / RUNS)
+        genetic = replace(stage.request, method="ga", seed=seed, preset="published")
+        run_genetic(evaluator, Stage(genetic, "ga", share, run=run))
         found = best_trial(evaluator.trials[before:])
         best += [found] if found else []
     centre = max(best, key=_efficiency) if best else best_trial(evaluator.trials)
     if centre is None:
         return
     for mode, (names, percent) in enumerate(((FEW, None), ((), NEAR_PERCENT), (LINKS, None))):
-        left = task.evaluations - (len(evaluator.trials) - start)
+        left = stage.evaluations - (len(evaluator.trials) - start)
         share = left // (3 - mode)
         with _inside(evaluator, space.near(centre.variant, names, percent)) as inner:
             if inner is not None and share > 0:
                 initial = default_initial(inner, share)
-                run_bayesian(evaluator, replace(task, evaluations=share, initial=initial, run=mode), polls=False)
+                run_bayesian(evaluator, replace(stage, evaluations=share, initial=initial, run=mode), polls=False)
                 centre = best_trial([centre, *(one for one in evaluator.trials if inner.contains(one.variant))])
         assert centre is not None
 

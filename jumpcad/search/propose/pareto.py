@@ -7,23 +7,22 @@ any other cost is learned by a process of its own, and the improvement counts as
 
 import itertools
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 from scipy.special import log_ndtr
 
 from jumpcad.design import PARAMETERS
-from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, find_cost, front
+from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, front
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.bayesian import incumbent, learned_trials, run_steps, unproposed
 from jumpcad.search.propose.genetic import Fitness, begun_with, evolve
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.propose.surrogate import Surrogate
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.own_objective import LARGEST
+from jumpcad.search.study.request import Stage
 from jumpcad.search.study.trial import Trial, searched
 from jumpcad.transforms import Array
 
@@ -47,9 +46,9 @@ def energy_caps_j(space: Space) -> Array:
     return largest * np.arange(1, CAPS + 1) / CAPS
 
 
-def run_pareto(evaluator: Evaluator, task: Task) -> None:
+def run_pareto(evaluator: Evaluator, stage: Stage) -> None:
     """Search the front by constrained expected improvement; each step has one proposal per cap on the cost."""
-    space, cost = evaluator.space, find_cost(task.against)
+    space, cost = evaluator.space, stage.request.cost
 
     def proposer(
         loop: ProposalLoop, trials: Sequence[Trial], count: int, generator: np.random.Generator
@@ -66,7 +65,7 @@ def run_pareto(evaluator: Evaluator, task: Task) -> None:
                 proposals.append(proposal)
         return proposals
 
-    run_steps(evaluator, "pareto", replace(task, batch=CAPS), proposer)
+    run_steps(evaluator, "pareto", stage, proposer, batch=CAPS)
 
 
 Penalty = Callable[[Array], Array]
@@ -124,7 +123,7 @@ class ParetoFitness(Fitness):
         return [trial.score or 0.0, -self.cost.of(trial)]
 
 
-def run_nsga2(evaluator: Evaluator, task: Task) -> None:
+def run_nsga2(evaluator: Evaluator, stage: Stage) -> None:
     """Search the front by PyGAD's NSGA-II; a rejected design is dominated by every other one.
 
     With a prior study, designs of its front make half of the first population, evenly chosen if there are more.
@@ -135,8 +134,8 @@ def run_nsga2(evaluator: Evaluator, task: Task) -> None:
         "crossover_type": "sbx", "sbx_crossover_eta": 10,
         "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
     }  # fmt: skip
-    fitness = ParetoFitness(evaluator, "nsga2", task.evaluations, find_cost(task.against))
+    fitness = ParetoFitness(evaluator, "nsga2", stage.evaluations, stage.request.cost)
     space, best = evaluator.space, front(searched(evaluator.prior), fitness.cost)
     best = [best[round(place)] for place in np.linspace(0, len(best) - 1, min(len(best), half)).tolist()]
-    spread = space.spread(POPULATION, np.random.default_rng([task.seed, 0]))
-    evolve(fitness, begun_with(space, best, spread, POPULATION), operators, task.seed)
+    spread = space.spread(POPULATION, np.random.default_rng([stage.request.seed, 0]))
+    evolve(fitness, begun_with(space, best, spread, POPULATION), operators, stage.request.seed)

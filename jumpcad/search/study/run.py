@@ -6,7 +6,7 @@ The same request ends with the same trials, whether or not it was interrupted.
 import json
 import math
 import time
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,6 @@ from jumpcad.plural import counted
 from jumpcad.search.fronts import front
 from jumpcad.search.phases import METHODS, SEARCH_PHASES
 from jumpcad.search.pick.robust import ActiveBound, Candidate, active_bounds, rank_candidates
-from jumpcad.search.propose.task import Task, run_method
 from jumpcad.search.study.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.study.picks import keep_pick, pick_run
 from jumpcad.search.study.pool import Pool
@@ -112,18 +111,10 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
 
         evaluator = Evaluator(request.space, request.aim, request.model, store, pool, prior, watched, expired)
         converged = False
-        for number, stage in enumerate(stages):
+        for stage in stages:
             allowance += stage.evaluations
-            if expired():
-                continue
-            # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
-            may_end = number == len(stages) - 1 and METHODS[stage.method].ends
-            least_gain = request.until_percent / 100.0 if may_end else 0.0
-            task = Task(
-                stage.evaluations, request.seed, stage.initial, request.batch,
-                request.preset, least_gain, 0, request.screen, request.against,
-            )  # fmt: skip
-            converged = run_method(stage.method, evaluator, task)
+            if not expired():
+                converged = METHODS[stage.method].run(evaluator, stage)
         trials = evaluator.trials
         timed = clock.is_over(request.pick) and not converged and len(trials) < request.searched
         picking, best = True, best_trial(trials)
@@ -166,11 +157,10 @@ def _end(request: Request, designs: int, converged: bool, timed: bool) -> dict[s
 
 def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
     """Return the stages that the study has been planned with; a larger budget lengthens the last of them."""
-    planned = store.recall("stages")
-    if planned is None:
-        stages = plan_stages(request, prior)
-    else:
-        stages = [Stage(**stage) for stage in planned]
+    stages, planned = plan_stages(request, prior), store.recall("stages")
+    if planned is not None:
+        least_gain = stages[-1].least_gain
+        stages = [Stage(request, **stage) for stage in planned]
         held = sum(stage.evaluations for stage in stages)
         more = request.searched - held
         if more < 0:
@@ -183,8 +173,9 @@ def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
                 f"{store.path}: its search by {request.method} is planned for {counted(held, 'evaluation')} and does "
                 f"not go on with {request.searched}: name another file"
             )
-        stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more)
-    store.remember("stages", [asdict(stage) for stage in stages])
+        stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more, least_gain=least_gain)
+    shares = [{name: getattr(stage, name) for name in ("method", "evaluations", "initial")} for stage in stages]
+    store.remember("stages", shares)
     return stages
 
 

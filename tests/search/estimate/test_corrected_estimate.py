@@ -15,12 +15,11 @@ from jumpcad.search.estimate.estimated_robot import LAID
 from jumpcad.search.estimate.fitted_figures import MARK
 from jumpcad.search.models import robot_model
 from jumpcad.search.propose.genetic import run_genetic
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool
-from jumpcad.search.study.request import Request
+from jumpcad.search.study.request import Request, Stage
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial, best_trial
 from jumpcad.search.study.variant import Variant
@@ -43,7 +42,7 @@ def search(path, evaluations=105, workers=0):
     request = Request(SPACE, model, "body_lengths", "ga", evaluations, screen=True)
     with StudyStore.write(path, request.identity([])) as store, local_pool(workers) as pool:
         evaluator = Evaluator(SPACE, request.aim, model, store, pool)
-        run_genetic(evaluator, Task(evaluations, 0, screen=True))
+        run_genetic(evaluator, Stage(request, "ga", evaluations))
         return [replace(trial, duration_s=0.0) for trial in evaluator.trials]
 
 

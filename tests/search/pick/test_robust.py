@@ -21,7 +21,6 @@ from jumpcad.search.pick.robust import (
     _worth,
     active_bounds,
     best_apart,
-    pick_share,
     plan_rounds,
     rank_candidates,
 )
@@ -436,14 +435,6 @@ def test_who_was_not_examined_is_no_candidate(evaluator):
     one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.8)], "bo", 0)
     assert rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=1) == []
     assert len(one.trials) == 2
-
-
-@pytest.mark.parametrize(
-    ("evaluations", "share"), [(1, 0), (23, 0), (24, 6), (27, 6), (250, 62), (799, 199), (800, 200), (10_000, 200)]
-)
-def test_a_quarter_of_the_evaluations_examines_neighbours(evaluations, share):
-    """At most 200, and none where it would be fewer than six."""
-    assert pick_share(evaluations) == share
 
 
 def test_what_lies_beyond_a_bound_is_worth_its_gain_or_tells_why_not():

@@ -6,13 +6,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
+from support.stages import stage
 
 from jumpcad.search.propose import bayesian
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.propose.bayesian import (
     IDLE,
     PATIENCE,
-    default_initial,
     incumbent,
     known_trials,
     learned_trials,
@@ -22,9 +22,9 @@ from jumpcad.search.propose.bayesian import (
 )
 from jumpcad.search.propose.local_search import FARTHEST
 from jumpcad.search.propose.proposal_loop import ProposalLoop
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import SCREENED, Evaluation
+from jumpcad.search.study.request import default_initial
 from jumpcad.search.study.trial import Trial
 
 
@@ -36,7 +36,7 @@ def best(trials):
 def taught(kept_evaluator):
     """Return the trials of a search to learn from."""
     one = kept_evaluator()
-    run_bayesian(one, Task(24, 0, initial=9))
+    run_bayesian(one, stage(24, 0, initial=9))
     return one.trials
 
 
@@ -44,7 +44,7 @@ def taught(kept_evaluator):
 def test_the_top_is_found_in_few_evaluations(taught, evaluator):
     others = [evaluator() for _ in range(2)]
     for seed, one in enumerate(others, start=1):
-        run_bayesian(one, Task(24, seed, initial=9))
+        run_bayesian(one, stage(24, seed, initial=9))
     for trials in (taught, *(one.trials for one in others)):
         assert len(trials) == 24
         assert best(trials) > 9.99
@@ -53,7 +53,7 @@ def test_the_top_is_found_in_few_evaluations(taught, evaluator):
 @pytest.mark.thorough
 def test_batches_find_it_too_and_do_not_repeat_themselves(evaluator):
     one = evaluator()
-    run_bayesian(one, Task(41, 0, initial=9, batch=4))
+    run_bayesian(one, stage(41, 0, initial=9, batch=4))
     assert len({trial.key for trial in one.trials}) == 41
     assert best(one.trials) > 9.99
     assert [sum(trial.step == step for trial in one.trials) for step in range(9)] == [9, *[4] * 8]
@@ -63,7 +63,7 @@ def test_batches_find_it_too_and_do_not_repeat_themselves(evaluator):
 def test_few_of_the_proposals_are_refused(evaluator):
     # 14 % of the box are beyond the hill's limit on the ratio, right beside its top.
     one = evaluator()
-    run_bayesian(one, Task(44, 1, initial=12))
+    run_bayesian(one, stage(44, 1, initial=12))
     refused = [trial for trial in one.trials[12:] if trial.score is None]
     assert len(refused) <= 3
 
@@ -89,7 +89,7 @@ def test_where_a_proposal_promises_nothing_neighbours_near_and_far_are_looked_at
     monkeypatch.setattr(ProposalLoop, "propose", promising)
     monkeypatch.setattr(ProposalLoop, "beside", beside)
     one = evaluator()
-    run_bayesian(one, Task(8, 0, initial=5), polls)
+    run_bayesian(one, stage(8, 0, initial=5), polls)
     assert len(asked) == looks
     assert len(set(asked)) == looks
     assert all(1.0 <= wider <= FARTHEST for wider in asked)
@@ -109,7 +109,7 @@ def test_after_four_steps_without_a_gain_neighbours_are_looked_at_whatever_is_pr
     one = evaluator()
     monkeypatch.setattr(ProposalLoop, "propose", promising)
     monkeypatch.setattr(ProposalLoop, "beside", lambda *_: asked.append(len(one.trials)))
-    run_bayesian(one, Task(12, 0, initial=5, least_gain=50.0))
+    run_bayesian(one, stage(12, 0, initial=5, least_gain=50.0))
     assert asked == [9, 10, 11]
 
 
@@ -117,7 +117,7 @@ def test_after_four_steps_without_a_gain_neighbours_are_looked_at_whatever_is_pr
 @pytest.mark.usefixtures("quick_proposals_once")
 def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
     whole = evaluator()
-    run_bayesian(whole, Task(18, 3, initial=6, batch=2))
+    run_bayesian(whole, stage(18, 3, initial=6, batch=2))
     for cut in (3, 6, 11, 17):
         path = tmp_path / f"{cut}.db"
         begun = evaluator(path)
@@ -125,7 +125,7 @@ def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
         begun.store.close()
         log = tmp_path / f"{cut}.log"
         resumed = evaluator(path, Hill(log))
-        run_bayesian(resumed, Task(18, 3, initial=6, batch=2))
+        run_bayesian(resumed, stage(18, 3, initial=6, batch=2))
         assert [(trial.key, trial.score, trial.proposal) for trial in resumed.trials] == [
             (trial.key, trial.score, trial.proposal) for trial in whole.trials
         ]
@@ -134,7 +134,7 @@ def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
 
 def test_a_prior_study_saves_the_first_points(evaluator, taught):
     pupil = evaluator(prior=taught[:20])
-    run_bayesian(pupil, Task(4, 1, initial=default_initial(SMALL, 4, prior=20)))
+    run_bayesian(pupil, stage(4, 1, initial=default_initial(SMALL, 4, prior=20)))
     assert not {trial.key for trial in pupil.trials} & {trial.key for trial in taught[:20]}
     assert best(pupil.trials) > 9.9
 
@@ -151,7 +151,7 @@ def test_a_search_knows_what_a_prior_study_gained(evaluator, taught):
     """Its first step gains nothing over that study's best: seven such steps are enough."""
     assert best(taught[:20]) > 9.9
     pupil = evaluator(prior=taught[:20])
-    assert run_bayesian(pupil, Task(20, 1, least_gain=0.02)) is True
+    assert run_bayesian(pupil, stage(20, 1, least_gain=0.02)) is True
     assert len(pupil.trials) == 7
 
 
@@ -159,7 +159,7 @@ def test_an_exhausted_space_ends_the_search(evaluator):
     space = Space.parse(fix=[*FIXED, f"rest_angle_deg={TOP['rest_angle_deg']}", "compression_ratio=0.6"],
                         choose=["stiffness_nmm_per_deg=8,19,30"])  # fmt: skip
     one = evaluator(space=space)
-    run_bayesian(one, Task(20, 0, initial=2))
+    run_bayesian(one, stage(20, 0, initial=2))
     assert len(one.trials) == 3
     assert one.store.notes() == []  # as many as the space has
 
@@ -172,7 +172,7 @@ def test_a_search_that_finds_nothing_more_to_try_says_so(evaluator):
     space = Space.parse(fix=[*FIXED, "rest_angle_deg=50", "compression_ratio=0.6"],
                         choose=["stiffness_nmm_per_deg=8,10,19,20,21,22,23,30"])  # fmt: skip
     one = evaluator(model=Picky(), space=space)
-    run_bayesian(one, Task(20, 0, initial=2))
+    run_bayesian(one, stage(20, 0, initial=2))
     assert len(one.trials) < 8
     assert one.store.notes() == [f"ended after {len(one.trials)} designs: no other was found that is new and has room"]
 
@@ -259,7 +259,7 @@ def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as
         return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0 - n) for n, point in enumerate(points)]
 
     one = evaluator()
-    assert run_steps(one, "bo", Task(11, 6, initial=4, batch=3, run=5), proposer) is False
+    assert run_steps(one, "bo", stage(11, 6, initial=4, batch=3, run=5), proposer) is False
     assert [(trials, count) for trials, count, _ in asked] == [(4, 3), (7, 3), (10, 1)]
     assert [drawn for *_, drawn in asked] == [
         np.random.default_rng([6, 2, step]).random() for step in (5_000_001, 5_000_002, 5_000_003)
@@ -283,7 +283,7 @@ def test_what_was_evaluated_before_a_stage_costs_it_nothing(evaluator):
 
     one = evaluator()
     one.evaluate([SMALL.to_design([0.9, 0.1 * n, 0.5]) for n in range(6)], "ga", 0)
-    assert run_steps(one, "bo", Task(10, 0, initial=3, batch=4, run=2), proposer) is False
+    assert run_steps(one, "bo", stage(10, 0, initial=3, batch=4, run=2), proposer) is False
     assert [trial.phase for trial in one.trials] == ["ga"] * 6 + ["bo"] * 10
 
 
@@ -293,14 +293,14 @@ def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evalua
         return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0)]
 
     one = evaluator()
-    assert run_steps(one, "bo", Task(20, 0, initial=3), proposer, lambda dry_run: len(one.trials) >= 6) is True
+    assert run_steps(one, "bo", stage(20, 0, initial=3), proposer, lambda dry_run: len(one.trials) >= 6) is True
     assert len(one.trials) == 6
     late = evaluator()
     late.expired = lambda: len(late.trials) >= 5
-    assert run_steps(late, "bo", Task(20, 0, initial=3), proposer) is False
+    assert run_steps(late, "bo", stage(20, 0, initial=3), proposer) is False
     assert len(late.trials) == 5
     dry = evaluator()
-    assert run_steps(dry, "bo", Task(20, 0, initial=3), lambda *_: []) is False
+    assert run_steps(dry, "bo", stage(20, 0, initial=3), lambda *_: []) is False
     assert dry.store.notes() == ["ended after 3 designs: no other was found that is new and has room"]
 
 
@@ -322,13 +322,13 @@ def test_a_search_ends_after_so_many_steps_that_gained_too_little(
     note = {"log_improvement": promised, "log_feasible": 0.0, "theta": {"score": [0.1] * 5}}
     one = SimpleNamespace(trials=[first], prior=[], space=SMALL)
 
-    def steps_of(evaluator, phase, task, proposer, end):
+    def steps_of(evaluator, phase, stage, proposer, end):
         assert phase == "bo"
         evaluator.trials += [replace(first, phase="bo", step=n, score=1.0, proposal=note) for n in range(1, steps + 1)]
         return end(dry_run)
 
     monkeypatch.setattr(bayesian, "run_steps", steps_of)
-    assert run_bayesian(one, Task(40, 0, least_gain=least_gain), polls) is ended
+    assert run_bayesian(one, stage(40, 0, least_gain=least_gain), polls) is ended
 
 
 def test_the_best_are_learned_from_however_far_away_they_are(monkeypatch):

@@ -8,6 +8,7 @@ import pytest
 from support.kept import once
 from support.proposals import with_less_work
 from support.quick import LIKE, SPACE, Quick, quick
+from support.stages import stage
 
 from jumpcad.search.estimate.estimate import Estimate
 from jumpcad.search.estimate.estimated_robot import LAID
@@ -16,7 +17,6 @@ from jumpcad.search.propose.bayesian import IDLE, run_bayesian
 from jumpcad.search.propose.dry_run import ESTIMATED, FAILED, TRIED, DryRun
 from jumpcad.search.propose.local_search import STALLED, Progress
 from jumpcad.search.propose.proposal_loop import ProposalLoop
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import Evaluation
@@ -26,7 +26,7 @@ from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.variant import Variant
 from jumpcad.simulation import simulate
 
-TASK = Task(15, 0, initial=10)
+STAGE = stage(15, 0, initial=10)
 WHOLE = Space.default()
 HARD = [
     [0.0, 0.57, 0.12, 0.58, 0.9, 1.0, 1.0, 0.08],
@@ -53,12 +53,12 @@ def no_builds():
         yield
 
 
-def search(path, task=TASK, workers=0):
+def search(path, asked=STAGE, workers=0):
     model = quick()
-    request = Request(SPACE, model, "body_lengths", "bo", task.evaluations)
+    request = Request(SPACE, model, "body_lengths", "bo", asked.evaluations)
     with StudyStore.write(path, request.identity([])) as store, local_pool(workers) as pool:
         evaluator = Evaluator(SPACE, request.aim, model, store, pool)
-        run_bayesian(evaluator, task)
+        run_bayesian(evaluator, asked)
         return [replace(trial, duration_s=0.0) for trial in evaluator.trials]
 
 
@@ -67,43 +67,43 @@ def trials(tmp_path_factory):
     return search(tmp_path_factory.mktemp("dry_run") / "whole.db")
 
 
-def dry_run_of(model=None, space=SPACE, phase="bo", task=TASK, prior=()):
+def dry_run_of(model=None, space=SPACE, phase="bo", asked=STAGE, prior=()):
     model = model or quick()
     request = Request(space, model, "fitness", "bo", 20)
     store, pool = StudyStore.write(None, {}), local_pool(0)
-    return DryRun.of(Evaluator(space, request.aim, model, store, pool, prior), phase, task)
+    return DryRun.of(Evaluator(space, request.aim, model, store, pool, prior), phase, asked.request.seed, asked.run)
 
 
 @pytest.mark.thorough
 def test_a_search_that_ended_early_and_a_worker_give_the_same_rows(trials, tmp_path):
     path = tmp_path / "again.db"
-    search(path, replace(TASK, evaluations=12))
+    search(path, replace(STAGE, evaluations=12))
     assert search(path, workers=1) == trials
 
 
 @pytest.mark.thorough
 def test_a_search_with_estimates_ends_after_so_many_steps_in_a_row_without_a_gain(tmp_path, monkeypatch):
     """After four of them it looks beside the best."""
-    idle, beside, task = [], ProposalLoop.beside, replace(TASK, evaluations=60, least_gain=0.2)
+    idle, beside, longer = [], ProposalLoop.beside, replace(STAGE, evaluations=60, least_gain=0.2)
 
     def counted(loop, trials, *others):
         idle.append(Progress.of(trials, 0.0, 0.2).idle)
         return beside(loop, trials, *others)
 
     monkeypatch.setattr(ProposalLoop, "beside", counted)
-    trials = search(tmp_path / "end.db", task)
+    trials = search(tmp_path / "end.db", longer)
     assert len(trials) < 60
     assert Progress.of(trials, 0.0, 0.2).idle == IDLE
     assert idle[-(IDLE - STALLED) :] == list(range(STALLED, IDLE))
     assert min(idle) == STALLED
-    assert search(tmp_path / "end.db", task) == trials
+    assert search(tmp_path / "end.db", longer) == trials
 
 
 def test_what_was_tried_is_kept_and_the_proposals_have_short_numbers(trials):
     tried = [point for trial in trials for point in trial.proposal.get(TRIED, ())]
     assert tried
     assert all(number == round(number, 4) for point in tried for number in point)
-    for trial in trials[TASK.initial :]:
+    for trial in trials[STAGE.initial :]:
         unit = SPACE.to_unit(trial.variant)
         assert unit == pytest.approx(np.round(unit, 4), abs=1e-9)
 
@@ -146,7 +146,7 @@ def test_what_fails_is_learned_as_a_trial_and_estimates_follow_the_robots_that_w
     assert all(trial.score is None and not trial.evaluation.feasible for trial in failures)
     for other in (
         dry_run_of(phase="pareto"),
-        dry_run_of(task=replace(TASK, run=1)),
+        dry_run_of(asked=replace(STAGE, run=1)),
         dry_run_of(prior=trials),
     ):
         other.learn(trials)  # what other searches tried is not looked at

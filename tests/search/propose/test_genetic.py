@@ -6,21 +6,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
+from support.stages import stage
 
-from jumpcad.errors import JumpcadError
 from jumpcad.search.models import robot_model
 from jumpcad.search.propose import genetic
 from jumpcad.search.propose.genetic import (
     PATIENCE,
+    SETTINGS,
     Fitness,
     ScreenedFitness,
     _first_population,
     _gene_space,
     evolve,
-    find_preset,
     run_genetic,
 )
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.study.trial import Trial
@@ -34,7 +33,7 @@ def best(trials):
 @pytest.mark.parametrize("evaluations", [1, 7, 20, 53])
 def test_the_budget_is_met_exactly(evaluator, evaluations):
     one = evaluator()
-    run_genetic(one, Task(evaluations, seed=1))
+    run_genetic(one, stage(evaluations, seed=1))
     assert len(one.trials) == evaluations
     assert len({trial.key for trial in one.trials}) == evaluations
 
@@ -43,7 +42,7 @@ def test_a_rejected_design_is_worse_than_any_score_that_an_objective_may_give(ev
     """Own objectives give at least -1e12."""
     seen = []
     monkeypatch.setattr(genetic, "evolve", lambda score, *_others: seen.append(score))
-    run_genetic(evaluator(), Task(20, seed=1))
+    run_genetic(evaluator(), stage(20, seed=1))
     (score,) = seen
     design = SMALL.to_design([0.5, 0.5, 0.5])
     worst, refused = (
@@ -57,7 +56,7 @@ def test_it_climbs_where_chance_does_not(evaluator):
     # Of points within 0.05 of the top of a unit cube there are 0.05 %: chance meets one in 200 with p = 0.1.
     for seed in range(3):
         one = evaluator()
-        run_genetic(one, Task(200, seed))
+        run_genetic(one, stage(200, seed))
         assert best(one.trials) > 10.0 * np.exp(-2.0 * 0.05**2)
         assert all(trial.evaluation.verdict == "loop" for trial in one.trials if trial.score is None)
 
@@ -66,20 +65,20 @@ def test_seed_decides_everything(evaluator):
     runs = []
     for seed in (5, 5, 6):
         one = evaluator()
-        run_genetic(one, Task(80, seed))
+        run_genetic(one, stage(80, seed))
         runs.append([trial.key for trial in one.trials])
     assert runs[0] == runs[1] != runs[2]
 
 
 def test_published_preset_replaces_five_genes(evaluator):
-    settings = find_preset("published")
+    settings = SETTINGS["published"]
     assert settings.population == 10
     assert settings.operators["mutation_num_genes"] == 5
     assert settings.operators["keep_parents"] == 2
     assert settings.operators["num_parents_mating"] == 5
     assert settings.operators["keep_elitism"] == 0
     one = evaluator(space=Space.default())
-    run_genetic(one, Task(60, 0, preset="published"))
+    run_genetic(one, stage(60, 0, preset="published"))
     assert len(one.trials) == 60
 
 
@@ -90,7 +89,7 @@ def test_a_space_of_choices_runs_dry(evaluator):
     names = [parameter.name for parameter in SMALL.free[1:]]
     space = Space.parse(fix=[*rest, *fixed], choose=[f"{names[0]}=25,55,70", f"{names[1]}=10,20"])
     one = evaluator(space=space)
-    run_genetic(one, Task(100, 0))
+    run_genetic(one, stage(100, 0))
     assert space.size == len(one.trials) == 6
 
 
@@ -100,17 +99,17 @@ def test_one_free_parameter(evaluator):
     )
     for preset in ("recommended", "published"):
         one = evaluator(space=space)
-        run_genetic(one, Task(60, 0, preset=preset))
+        run_genetic(one, stage(60, 0, preset=preset))
         assert best(one.trials) > 9.9
 
 
 def test_a_prior_study_seeds_the_population_and_its_designs_cost_nothing(evaluator):
     """docs/searching.md: they are not proposed again. So the new ones are as many as were asked for."""
     teacher, alone = evaluator(), evaluator()
-    run_genetic(teacher, Task(300, 0))
-    run_genetic(alone, Task(60, 9))
+    run_genetic(teacher, stage(300, 0))
+    run_genetic(alone, stage(60, 9))
     pupil = evaluator(prior=teacher.trials)
-    run_genetic(pupil, Task(60, 9))
+    run_genetic(pupil, stage(60, 9))
     assert len(pupil.trials) == 60
     assert not {trial.key for trial in pupil.trials} & {trial.key for trial in teacher.trials}
     assert best(pupil.trials) > best(alone.trials)
@@ -145,11 +144,6 @@ def test_a_screen_looks_at_each_candidate_once(monkeypatch):
     again = SMALL.to_variant([0.8, 0.5, 0.5])
     held.add(again.key)
     assert fitness.left_out([again]) == {}
-
-
-def test_unknown_preset():
-    with pytest.raises(JumpcadError, match="did you mean published"):
-        find_preset("publishd")
 
 
 def test_what_a_screen_leaves_out_has_the_score_that_was_guessed():
@@ -218,7 +212,7 @@ def test_a_search_stops_after_so_many_generations_without_a_new_design_or_when_i
 def test_half_of_a_first_population_are_the_best_of_a_prior_study(evaluator):
     """The best first, then evenly spread ones; all within the space, each coordinate free or one of its choices."""
     teacher = evaluator()
-    run_genetic(teacher, Task(40, 0))
+    run_genetic(teacher, stage(40, 0))
     ranked = sorted((trial for trial in teacher.trials if trial.score is not None), key=lambda trial: -trial.score)
     found = _first_population(evaluator(prior=teacher.trials), 10, 3)
     assert found[:5] == pytest.approx(np.array([SMALL.to_unit(trial.variant) for trial in ranked[:5]]))

@@ -5,12 +5,12 @@ from dataclasses import replace
 import pytest
 from support.hills import SMALL, Hill
 from support.pictures import with_plain_figures
+from support.stages import stage
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.propose import paper
 from jumpcad.search.propose.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
-from jumpcad.search.propose.task import Task
 from jumpcad.search.report.study_plots import plot_study
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
@@ -27,7 +27,7 @@ pytestmark = pytest.mark.usefixtures("quick_proposals")
 def searched(quick_proposals, kept_evaluator):
     """Return the evaluator of a search with seed 3."""
     one = kept_evaluator(space=Space.default())
-    run_paper(one, Task(140, 3))
+    run_paper(one, stage(140, 3))
     return one
 
 
@@ -64,7 +64,7 @@ def test_the_sample_follows_from_the_seed(evaluator, monkeypatch):
         one = evaluator(space=Space.default())
         monkeypatch.setattr(one, "evaluate", evaluate)
         with pytest.raises(JumpcadError, match="enough"):
-            run_paper(one, Task(140, seed))
+            run_paper(one, stage(140, seed))
     assert len(drawn[0]) > 10
     assert drawn[0] == drawn[1]
     assert not set(drawn[1]) & set(drawn[2])
@@ -80,7 +80,7 @@ def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(sea
     """Else several searches are no independent repetitions; of the second only the genetic runs are made."""
     monkeypatch.setattr(paper, "run_bayesian", lambda *_, **__: False)
     one = evaluator(space=Space.default())
-    run_paper(one, Task(140, 4))
+    run_paper(one, stage(140, 4))
     keys = [{trial.key for trial in some if trial.phase == "ga"} for some in (searched.trials, one.trials)]
     assert min(map(len, keys)) > 30
     assert not keys[0] & keys[1]
@@ -88,7 +88,7 @@ def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(sea
 
 def test_it_takes_the_largest_seed(evaluator):
     one = evaluator(space=Space.default())
-    run_paper(one, Task(40, 2**32 - 1))
+    run_paper(one, stage(40, 2**32 - 1))
     assert {trial.run for trial in one.trials if trial.phase == "ga"} == set(range(RUNS))
 
 
@@ -172,8 +172,8 @@ def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_wh
     monkeypatch.setattr(paper, "run_genetic", genetic)
     monkeypatch.setattr(paper, "run_bayesian", bayesian)
     one = evaluator(space=Space.default())
-    run_paper(one, Task(100, 9))
-    assert [(task.evaluations, task.seed, task.run, task.preset) for task in runs] == [
+    run_paper(one, stage(100, 9))
+    assert [(one.evaluations, one.request.seed, one.run, one.request.preset) for one in runs] == [
         (17, seed, run, "published") for run, seed in enumerate(seeds(9))
     ]
     scores = [trial.score for trial in one.trials if trial.phase == "ga"]
@@ -193,4 +193,4 @@ def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_wh
     held = {one.name: one.lower for one in spaces[2].parameters if not one.free}
     assert held == {name: getattr(better, name) for name in held}
     # 100 less the sample of 15 and three designs: a third, then halves of what is left
-    assert [(task.evaluations, task.run) for task in tasks] == [(27, 0), (41, 1), (81, 2)]
+    assert [(one.evaluations, one.run) for one in tasks] == [(27, 0), (41, 1), (81, 2)]

@@ -6,11 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.hills import SMALL, Hill
+from support.stages import stage
 
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
 from jumpcad.search.propose import pareto
 from jumpcad.search.propose.pareto import ParetoFitness, energy_caps_j, run_nsga2, run_pareto
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
@@ -51,7 +51,7 @@ def dominated_share(evaluator):
 @pytest.mark.thorough
 def test_constrained_improvement_finds_the_front(evaluator):
     one = evaluator()
-    run_pareto(one, Task(41, 0, initial=9))
+    run_pareto(one, stage(41, 0, initial=9))
     assert len(one.trials) == 41
     assert dominated_share(one) > 0.99
 
@@ -66,7 +66,7 @@ def test_every_cap_asks_for_more_than_the_best_below_it(evaluator, monkeypatch):
     asked, look = [], pareto.propose
     monkeypatch.setattr(pareto, "propose", lambda *given, **more: asked.append(more) or look(*given, **more))
     one = evaluator(model=Strong())
-    run_pareto(one, Task(17, 0, initial=9))
+    run_pareto(one, stage(17, 0, initial=9))
     caps = energy_caps_j(SMALL)
     bests = [
         max((trial.score or 0.0 for trial in one.trials[:9] if trial.design.spring_energy_j <= cap), default=0.0)
@@ -85,7 +85,7 @@ def test_every_cap_asks_for_more_than_the_best_below_it(evaluator, monkeypatch):
 @pytest.mark.thorough
 def test_nsga2_finds_most_of_it(evaluator):
     one = evaluator()
-    run_nsga2(one, Task(300, 0))
+    run_nsga2(one, stage(300, 0))
     assert len(one.trials) == 300
     assert dominated_share(one) > 0.95
 
@@ -93,10 +93,10 @@ def test_nsga2_finds_most_of_it(evaluator):
 def test_nsga2_begins_with_the_front_of_a_prior_study(evaluator):
     """Its designs are not evaluated again."""
     teacher, alone = evaluator(), evaluator()
-    run_nsga2(teacher, Task(300, 0))
-    run_nsga2(alone, Task(60, 1))
+    run_nsga2(teacher, stage(300, 0))
+    run_nsga2(alone, stage(60, 1))
     pupil = evaluator(prior=teacher.trials)
-    run_nsga2(pupil, Task(60, 1))
+    run_nsga2(pupil, stage(60, 1))
     assert len(pupil.trials) == 60
     assert not {trial.key for trial in pupil.trials} & {trial.key for trial in teacher.trials}
     assert hypervolume(pupil.trials) > hypervolume(alone.trials)
@@ -128,11 +128,11 @@ def test_of_two_that_score_alike_the_one_with_less_energy_is_as_good_or_better()
 @pytest.mark.usefixtures("quick_proposals_once")
 def test_a_front_resumes(evaluator, tmp_path):
     whole, first = evaluator(), evaluator(tmp_path / "s.db")
-    run_pareto(whole, Task(21, 0, initial=9))
-    run_pareto(first, Task(13, 0, initial=9))
+    run_pareto(whole, stage(21, 0, initial=9))
+    run_pareto(first, stage(13, 0, initial=9))
     first.store.close()
     longer = evaluator(tmp_path / "s.db")
-    run_pareto(longer, Task(21, 0, initial=9))
+    run_pareto(longer, stage(21, 0, initial=9))
     assert [trial.key for trial in longer.trials] == [trial.key for trial in whole.trials]
 
 
@@ -150,7 +150,7 @@ class Weighed(Hill):
 def test_a_cost_that_is_not_known_before_is_learned(evaluator, against):
     """Two planes; much less of the true front's area is missed than by random designs."""
     one, cost = evaluator(model=Weighed()), find_cost(against)
-    run_pareto(one, Task(41, 0, initial=9, against=against))
+    run_pareto(one, stage(41, 0, initial=9, against=against))
     grid = np.array(np.meshgrid(*[np.linspace(0, 1, 21)] * 3)).reshape(3, -1).T
     true = [trial_of(Weighed(), SMALL.to_design(point), place) for place, point in enumerate(grid)]
     random = [trial_of(Weighed(), SMALL.to_design(point), 0) for point in SMALL.spread(41, np.random.default_rng(1))]
@@ -196,7 +196,7 @@ def test_nsga2_begins_with_the_prior_s_front_against_its_own_cost_and_spread_des
     prior = [trial_of(Weighed(), SMALL.to_design(point), n) for n, point in enumerate(points)]
     for seed, against in ((3, "mass"), (3, "mass"), (4, "mass"), (3, "spring-energy")):
         one = evaluator(model=Weighed(), prior=prior)
-        run_nsga2(one, Task(60, seed, against=against))
+        run_nsga2(one, stage(60, seed, against=against))
     (mass, seed), again, (other, another), (energy, _) = begun
     assert (seed, another) == (3, 4)
     assert again == (mass, seed)
@@ -212,9 +212,9 @@ def test_nsga2_begins_with_the_prior_s_front_against_its_own_cost_and_spread_des
 @pytest.mark.usefixtures("quick_proposals_once")
 def test_a_front_of_a_learned_cost_resumes(evaluator, tmp_path):
     whole, first = evaluator(model=Weighed()), evaluator(tmp_path / "s.db", model=Weighed())
-    run_pareto(whole, Task(21, 0, initial=9, against="mass"))
-    run_pareto(first, Task(13, 0, initial=9, against="mass"))
+    run_pareto(whole, stage(21, 0, initial=9, against="mass"))
+    run_pareto(first, stage(13, 0, initial=9, against="mass"))
     first.store.close()
     longer = evaluator(tmp_path / "s.db", model=Weighed())
-    run_pareto(longer, Task(21, 0, initial=9, against="mass"))
+    run_pareto(longer, stage(21, 0, initial=9, against="mass"))
     assert [trial.key for trial in longer.trials] == [trial.key for trial in whole.trials]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import typer
 from support.hills import SMALL, Hill
+from support.stages import stage
 
 from jumpcad.cli import optimize
 from jumpcad.search.phases import (
@@ -15,16 +16,15 @@ from jumpcad.search.phases import (
     SEQUENCES,
     Method,
 )
-from jumpcad.search.propose.task import Task, run_method
 from jumpcad.search.space import Space
 from jumpcad.search.study import request
-from jumpcad.search.study.request import Request, Stage, plan_stages
+from jumpcad.search.study.request import Request, plan_stages
 
 
 @pytest.mark.parametrize("name", [name for name in METHODS if name != "paper"])  # it runs others
 def test_every_method_spends_its_evaluations_in_a_phase_of_its_name(evaluator, name):
     one = evaluator()
-    assert run_method(name, one, Task(12, seed=0, initial=4, batch=2)) is False  # it did not end early
+    assert METHODS[name].run(one, stage(12, seed=0, initial=4, batch=2)) is False  # it did not end early
     assert len(one.trials) == 12
     assert {trial.phase for trial in one.trials} == {name}
     learned = [trial for trial in one.trials if "theta" in trial.proposal]
@@ -36,7 +36,7 @@ def test_the_first_designs_follow_from_the_seed(evaluator, name):
     runs = []
     for seed in (0, 0, 1):
         one = evaluator()
-        run_method(name, one, Task(4, seed=seed, initial=4))
+        METHODS[name].run(one, stage(4, seed=seed, initial=4))
         runs.append([trial.key for trial in one.trials])
     assert runs[0] == runs[1]
     assert not set(runs[1]) & set(runs[2])
@@ -50,7 +50,7 @@ def test_generations_follow_from_the_seed(evaluator, monkeypatch, name):
     runs = []
     for seed in (0, 0, 1):
         one = evaluator()
-        run_method(name, one, Task(60, seed=seed))
+        METHODS[name].run(one, stage(60, seed=seed))
         steps = [[trial.key for trial in one.trials if (trial.step == 0) == first] for first in (True, False)]
         runs.append(steps)
     assert runs[0] == runs[1]
@@ -67,7 +67,7 @@ def test_proposals_follow_from_the_seed(evaluator, name):
     for seed in (0, 0, 1):
         one = evaluator()
         one.evaluate([SMALL.to_variant(point) for point in points], "sample", 0)
-        run_method(name, one, Task(3, seed=seed))
+        METHODS[name].run(one, stage(3, seed=seed))
         runs.append([trial.key for trial in one.trials[8:]])
     assert len(runs[0]) == 3
     assert runs[0] == runs[1] != runs[2]
@@ -87,14 +87,15 @@ def test_what_follows_from_the_registry():
 def test_a_new_method_needs_one_line(evaluator, monkeypatch):
     """Random search, as one would add it."""
 
-    def run_random(one, task):
-        points = np.random.default_rng(task.seed).random((task.evaluations, one.space.dimension))
+    def run_random(one, stage):
+        points = np.random.default_rng(stage.request.seed).random((stage.evaluations, one.space.dimension))
         one.evaluate([one.space.to_design(point) for point in points], "sample", 0)
 
     monkeypatch.setattr("jumpcad.search.propose.genetic.run_random", run_random, raising=False)
     monkeypatch.setitem(METHODS, "random", Method("random", "genetic.run_random", "uniformly random designs"))
     monkeypatch.setattr(request, "NAMES", (*NAMES, "random"))
-    assert plan_stages(Request(SMALL, Hill(), method="random", evaluations=9)) == [Stage("random", 9)]
+    (planned,) = plan_stages(Request(SMALL, Hill(), method="random", evaluations=9, seed=1))
+    assert (planned.method, planned.evaluations, planned.initial) == ("random", 9, 0)
     one = evaluator()
-    run_method("random", one, Task(9, seed=1))
+    METHODS["random"].run(one, planned)
     assert len(one.trials) == 9

@@ -40,6 +40,12 @@ def test_split_of_the_budget(method, evaluations, split):
     assert evaluations - sum(split) == (0 if evaluations < 24 else min(evaluations // 4, 200))
 
 
+def test_a_quarter_of_the_evaluations_examines_neighbours():
+    """At most 200, and none where it would be fewer than six."""
+    for evaluations, share in ((1, 0), (23, 0), (24, 6), (27, 6), (250, 62), (799, 199), (800, 200), (10_000, 200)):
+        assert Request(SMALL, Hill(), evaluations=evaluations).pick == share
+
+
 def test_only_what_was_asked_for_is_in_a_studys_identity():
     plain = Request(SMALL, Hill(), method="ga", evaluations=40)
     known = plain.identity([])

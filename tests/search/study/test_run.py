@@ -15,14 +15,13 @@ from support.places import TESTS
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.models import robot_model
+from jumpcad.search.phases import Method
 from jumpcad.search.propose.local_search import gains
-from jumpcad.search.propose.task import Task
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool
-from jumpcad.search.study.request import Request
+from jumpcad.search.study.request import Request, Stage
 from jumpcad.search.study.run import _read_prior, run_study
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial
@@ -79,7 +78,7 @@ def test_a_search_that_ended_by_itself_was_not_cut_off(monkeypatch, converged):
         return converged
 
     monkeypatch.setattr(study.Clock, "is_over", lambda self, following=0: bool(over))
-    monkeypatch.setattr(study, "run_method", lambda _, *given: search(*given))
+    monkeypatch.setattr(Method, "run", lambda _, *given: search(*given))
     result = run(replace(REQUEST, method="bo", hours=2.0))
     assert result.converged == converged
     where = "during the robust pick" if converged else f"before {REQUEST.searched} designs"
@@ -520,19 +519,14 @@ def test_bounds_of_the_winner_are_examined_with_what_its_pick_leaves(monkeypatch
 def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
     """Its share of the evaluations, first designs where it learns; only the last one ends early, if it can."""
     asked = []
-    monkeypatch.setattr(study, "run_method", lambda name, evaluator, task: asked.append((name, task)) or False)
+    monkeypatch.setattr(Method, "run", lambda self, evaluator, stage: asked.append(stage) or False)
     given = {"seed": 7, "batch": 3, "until_percent": 2.0}
-    for request in (
-        Request(SMALL, Hill(), method="ga+bo", evaluations=90, preset="published", **given),
-        Request(SMALL, Hill(), method="bo", evaluations=90, **given),
-        Request(SMALL, robot_model(), "body_lengths", "ga", 20, seed=7, screen=True),
-    ):
-        with local_pool(0) as pool:
-            run_study(request, None, pool)
-    common = {"seed": 7, "batch": 3, "preset": "published"}
-    assert asked[:2] == [("ga", Task(22, **common)), ("bo", Task(46, **common, least_gain=0.02))]
-    assert asked[2] == ("bo", Task(68, 7, initial=9, batch=3, least_gain=0.02))
-    assert asked[3:] == [("ga", Task(20, 7, screen=True))]
+    two = Request(SMALL, Hill(), method="ga+bo", evaluations=90, preset="published", **given)
+    one = Request(SMALL, Hill(), method="bo", evaluations=90, **given)
+    for request in (two, one):
+        run(request)
+    assert asked[:2] == [Stage(two, "ga", 22), Stage(two, "bo", 46, least_gain=0.02)]
+    assert asked[2:] == [Stage(one, "bo", 68, initial=9, least_gain=0.02)]
 
 
 @pytest.mark.thorough
