@@ -32,8 +32,10 @@ from jumpcad.solids import finish
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop
 
-ALONE = ("test_contributing.py", "test_examples.py", "test_notebooks.py", "test_packaging.py")
-THOROUGH = [Path(__file__).parent / name for name in ("clients", "hostile", *ALONE)]
+THOROUGH = {
+    "clients", "hostile", "test_contributing.py", "test_examples.py", "test_notebooks.py", "test_packaging.py",
+    "test_in_browser.py", "test_page_in_browser.py", "test_report_in_browser.py",
+}  # fmt: skip
 """Folders and files whose tests are all thorough; a quick run does not even import them."""
 QUICK = "not thorough"
 
@@ -167,14 +169,14 @@ def pytest_report_header(config: pytest.Config) -> str | None:
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Pass over what a quick run has none of."""
-    return True if config.option.markexpr == QUICK and collection_path in THOROUGH else None
+    return True if config.option.markexpr == QUICK and collection_path.name in THOROUGH else None
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests of whole folders and files as thorough, before any are left out."""
     for item in items:
-        if any(item.path.is_relative_to(path) for path in THOROUGH):
+        if not THOROUGH.isdisjoint(item.path.relative_to(Path(__file__).parent).parts):
             item.add_marker(pytest.mark.thorough)
 
 

@@ -58,7 +58,6 @@ def box(driver: Any, page: Path) -> Any:
     return opened(driver, page)
 
 
-@pytest.mark.thorough
 def test_play_scrub_apart_assembly_and_toggles_change_what_is_seen(driver: Any, box: Any, tmp_path: Path) -> None:
     assert box.get_attribute("data-state") == "ready"
     shot = tmp_path / "shot.png"
@@ -86,7 +85,6 @@ def test_play_scrub_apart_assembly_and_toggles_change_what_is_seen(driver: Any, 
     put(driver, "scrub", 0.0)
 
 
-@pytest.mark.thorough
 def test_the_keyboard_turns_moves_zooms_and_plays(driver: Any, box: Any, tmp_path: Path) -> None:
     """Each key moves the camera, and 0 brings it back; the canvas says its keys, and shows that it has the focus."""
     shot = tmp_path / "shot.png"
@@ -127,7 +125,6 @@ def test_the_keyboard_turns_moves_zooms_and_plays(driver: Any, box: Any, tmp_pat
     put(driver, "scrub", 0.0)
 
 
-@pytest.mark.thorough
 def test_a_click_on_a_part_tells_what_it_is(driver: Any, box: Any) -> None:
     driver.execute_script("arguments[0].scrollIntoView()", box)
     canvas = driver.find_element("css selector", "#viewer canvas")
@@ -140,7 +137,6 @@ def test_a_click_on_a_part_tells_what_it_is(driver: Any, box: Any) -> None:
     assert " g, " in driver.find_element("id", "part").text
 
 
-@pytest.mark.thorough
 @pytest.mark.usefixtures("box")
 def test_nothing_is_asked_of_the_network_and_no_error_is_logged(driver: Any) -> None:
     require_quiet(driver)
@@ -154,7 +150,6 @@ def legs(box: Any, path: Path) -> tuple[np.ndarray, np.ndarray]:
     return right / red.shape[1], down / red.shape[0]
 
 
-@pytest.mark.thorough
 def test_the_camera_stands_still_and_shows_the_whole_jump(driver: Any, box: Any, tmp_path: Path) -> None:
     """The robot crosses the picture and stays inside; its shadow is palest at the top, and as at first on landing."""
     driver.execute_script("arguments[0].scrollIntoView()", box)
@@ -176,7 +171,6 @@ def test_the_camera_stands_still_and_shows_the_whole_jump(driver: Any, box: Any,
     put(driver, "scrub", 0.0)
 
 
-@pytest.mark.thorough
 def test_the_camera_follows_if_asked(driver: Any, box: Any) -> None:
     put(driver, "scrub", 0.0)
     follow = driver.find_element("id", "follow")
@@ -191,7 +185,6 @@ def test_the_camera_follows_if_asked(driver: Any, box: Any) -> None:
     assert box.get_attribute("data-camera") == still
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("follow", [False, True])
 def test_a_jump_of_half_a_metre_stays_in_view(driver: Any, page: Path, tmp_path: Path, follow: bool) -> None:
     """The same motion, lifted: the robot's orange links are in view there too."""
@@ -211,7 +204,6 @@ def test_a_jump_of_half_a_metre_stays_in_view(driver: Any, page: Path, tmp_path:
     legs(box, tmp_path / "shot.png")
 
 
-@pytest.mark.thorough
 def test_it_fits_a_phone(page: Path) -> None:
     made = browser(*THREE_D)
     try:
@@ -222,7 +214,6 @@ def test_it_fits_a_phone(page: Path) -> None:
         made.quit()
 
 
-@pytest.mark.thorough
 def test_without_webgl_a_sentence_stands_in_its_place(page: Path) -> None:
     made = browser("--disable-3d-apis", "--window-size=1400,1200")
     try:
@@ -234,7 +225,6 @@ def test_without_webgl_a_sentence_stands_in_its_place(page: Path) -> None:
         made.quit()
 
 
-@pytest.mark.thorough
 def test_in_the_frame_of_a_notebook_it_plays_too(driver: Any, page: Path, tmp_path: Path) -> None:
     cell = tmp_path / "cell.html"
     frame = ShownPage(page.read_text(encoding="utf-8"))._repr_html_()

@@ -41,7 +41,6 @@ def points(driver: Any) -> list[Any]:
     return found
 
 
-@pytest.mark.thorough
 def test_a_click_on_a_point_shows_its_robot(driver: Any, page: Path) -> None:
     driver.get(page.as_uri())
     (first,) = shown(driver)
@@ -64,7 +63,6 @@ def test_a_click_on_a_point_shows_its_robot(driver: Any, page: Path) -> None:
     assert shown(driver)[0].startswith("Design 2 (")
 
 
-@pytest.mark.thorough
 def test_the_keyboard_goes_from_point_to_point(driver: Any, page: Path) -> None:
     driver.get(page.as_uri())
     for _ in range(20):
@@ -78,14 +76,12 @@ def test_the_keyboard_goes_from_point_to_point(driver: Any, page: Path) -> None:
     assert shown(driver)[0].startswith("Design 2 (")
 
 
-@pytest.mark.thorough
 def test_nothing_is_asked_of_the_network_and_no_error_is_logged(driver: Any, page: Path) -> None:
     driver.get(page.as_uri())
     points(driver)[-1].find_element("css selector", "circle:last-child").click()
     require_quiet(driver)
 
 
-@pytest.mark.thorough
 def test_points_on_each_other_are_shown_by_one_click_after_the_other(driver: Any, page: Path) -> None:
     """So does `Next`; the pictures below mark what is chosen, and nothing else."""
     driver.get(page.as_uri())
@@ -106,7 +102,6 @@ def test_points_on_each_other_are_shown_by_one_click_after_the_other(driver: Any
     assert marked == ["3"] * 4  # in the chart and both slices, and its line
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_text_and_plots_stand_out_from_the_paper(driver: Any, page: Path, scheme: str) -> None:
     driver.execute_cdp_cmd(
@@ -135,7 +130,6 @@ def luminance(colour: str) -> float:
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-@pytest.mark.thorough
 def test_it_fits_a_phone(driver: Any, page: Path) -> None:
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
     driver.get(page.as_uri())
