@@ -23,7 +23,7 @@ import pybullet
 from manifold3d import CrossSection
 
 from jumpcad import evaluation, published
-from jumpcad.building import assembly, settle, weighing
+from jumpcad.building import assembly, bearing_and_drive, weighing
 from jumpcad.building import growth as building
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import CannotBuildError
@@ -35,8 +35,8 @@ REFERENCE = Path(__file__).parents[1] / "tests" / "data" / "reference_flights.cs
 RANDOM = 12
 STAGES: dict[str, tuple[ModuleType, str]] = {
     "gate": (building, "geometry_findings"),
-    "sections": (settle, "sections"),
-    "drive": (settle, "synthesise"),
+    "sections": (bearing_and_drive, "sections"),
+    "drive": (bearing_and_drive, "synthesise"),
     "plan": (assembly, "make_layout"),
     "drawings": (assembly, "drawings"),
     "printed masses": (weighing, "mass_properties"),
