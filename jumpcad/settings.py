@@ -38,6 +38,9 @@ class Settings(Record):
     """
 
     dt_s: Annotated[float, Field(ge=1e-6, le=1 / 240, description="time step")] = 1 / 2000
+    push_off_steps: Annotated[
+        int, Field(ge=0, le=10_000, description="time steps of a push-off at least, a shorter one has a finer step")
+    ] = 60
     solver_iterations: Annotated[int, Field(ge=1, le=10_000, description="at most, in each time step")] = 100
     solver_residual: Annotated[
         float, Field(ge=0, le=1e-2, description="PyBullet stops iterating when no constraint is off by more")

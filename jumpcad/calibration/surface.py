@@ -115,7 +115,7 @@ def surface_of(mechanism: Mechanism, settings: Settings | None = None, nodes: No
     JumpcadError
         If the robot jumps at no node.
     """
-    settings = (settings or Settings()).model_copy(update={"dt_s": DT_S})
+    settings = (settings or Settings()).model_copy(update={"dt_s": DT_S, "push_off_steps": 0})
     grid = np.full((len(FIGURES), *map(len, nodes)), np.nan)
     for i, energy in enumerate(nodes[0]):
         for j, pins in enumerate(nodes[1]):

@@ -128,7 +128,7 @@ class Spring:
         deflection = self.preload_rad - joint_rad
         if self.one_sided:
             deflection = max(deflection, 0.0)
-        return 0.5 * self.stiffness_nm_per_rad * (deflection**2 - self.preload_rad**2)
+        return 0.5 * self.stiffness_nm_per_rad * (deflection * deflection - self.preload_rad * self.preload_rad)
 
 
 @dataclass(frozen=True)

@@ -292,7 +292,7 @@ class PrintedModel(RobotModel):
     def guess_settings(self) -> Settings:
         """The settings of what is only guessed: those of the model with steps of `GUESS_STEP_S`, or longer ones."""
         settings = self.settings or Settings()
-        return settings.model_copy(update={"dt_s": max(settings.dt_s, GUESS_STEP_S)})
+        return settings.model_copy(update={"dt_s": max(settings.dt_s, GUESS_STEP_S), "push_off_steps": 0})
 
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""

@@ -266,8 +266,9 @@ class Run:
 
         A state that is not finite (a run that blew up) counts as infinitely bad, and is not recorded.
         """
-        gained_j = self.mechanics.energies(state).total_j - self.start_energy_j
-        ratio, gap_m = 1.0 + gained_j / self.mechanism.spring.energy_j, self.mechanics.loop_gap_m(state)
+        with np.errstate(over="ignore", invalid="ignore"):
+            gained_j = self.mechanics.energies(state).total_j - self.start_energy_j
+            ratio, gap_m = 1.0 + gained_j / self.mechanism.spring.energy_j, self.mechanics.loop_gap_m(state)
         finite = math.isfinite(ratio) and math.isfinite(gap_m)
         self.worst_energy_ratio = max(self.worst_energy_ratio, ratio if finite else math.inf)
         self.worst_gap_m = max(self.worst_gap_m, gap_m if finite else math.inf)
