@@ -47,7 +47,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
 
     for place in ("jumpcad.search.study.pool", "jumpcad.search.optimization"):
         monkeypatch.setattr(f"{place}.open_pool", pool)
-    for place in ("jumpcad.search.study", "jumpcad.search.optimization"):
+    for place in ("jumpcad.search.study.run", "jumpcad.search.optimization"):
         monkeypatch.setattr(f"{place}.run_study", run_study)
     return found
 
