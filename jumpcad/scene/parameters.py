@@ -32,7 +32,7 @@ def parameter_drawing(design: Design) -> str:
         If the design has no assembled pose, or its loop does not close with loaded springs.
     """
     linkage = Linkage(design)
-    rest, loaded = _standing(linkage, 0.0), _standing(linkage, -design.compression_rad)
+    rest, loaded = standing_joints(linkage, 0.0), standing_joints(linkage, -design.compression_rad)
     scale = PANEL_PX / max(_width(rest), _width(loaded), design.l4_mm + design.l5_mm)
     panels = [
         _panel(80, "At rest", _at_rest(design, rest, scale)),
@@ -48,7 +48,7 @@ def parameter_drawing(design: Design) -> str:
     return "\n".join([head, title, background, *panels, "</svg>"]) + "\n"
 
 
-def _standing(linkage: Linkage, leg_rad: float) -> Points:
+def standing_joints(linkage: Linkage, leg_rad: float) -> Points:
     """Return the joints in the frame of the ankle with the foot flat, as x + iz (mm); the toes' tip from the side."""
     pose = linkage.pose([leg_rad])
     turn = cmath.exp(1j * float(pose.foot_rad[0]))

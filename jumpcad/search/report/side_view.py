@@ -9,8 +9,8 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.mechanism.planar import points
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.scene.parameters import standing_joints
 from jumpcad.search.report.text import escape_html
 from jumpcad.transforms import Array
 
@@ -39,16 +39,11 @@ def joints_mm(design: Design) -> dict[str, Array]:
     CannotBuildError
         If the design has no assembled pose, or its loop does not close when loaded.
     """
-    linkage = Linkage(design)
-    pose = linkage.pose([-design.compression_rad, 0.0])
-    flat = np.exp(1j * pose.foot_rad)
     found = {}
-    for index, name in enumerate(POSES):
-        ankle = points(pose.ankle_mm)[index]
-        # The line of the foot lies in x; toes spread sideways, so that from the side they look shorter.
-        seen = [points(linkage.front_pivot_mm), points(linkage.back_pivot_mm)]
-        front, back = ((complex(point) - ankle) * flat[index] for point in seen)
-        corners = (complex(toe_tip_mm(design)[0]), 0j, complex(design.l4_mm), front, back)
+    for name, leg_rad in zip(POSES, (-design.compression_rad, 0.0), strict=True):
+        # Toes spread sideways, so that from the side they look shorter.
+        at = standing_joints(Linkage(design), leg_rad)
+        corners = (at[one] for one in ("toe", "ankle", "eye", "front", "back"))
         found[name] = np.round([(point.real, point.imag) for point in corners], 1) + 0.0
     return found
 
