@@ -1,8 +1,6 @@
 """A bundle's manifest: reads it, and compares the bundle's files with it. No link is followed."""
 
 import hashlib
-import json
-import math
 import os
 import re
 import stat
@@ -14,6 +12,7 @@ from typing import Annotated, Any, Literal, NoReturn
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from jumpcad.errors import JumpcadError, without_controls
+from jumpcad.files import read_json
 from jumpcad.files.names import Text
 from jumpcad.plural import counted
 
@@ -24,8 +23,6 @@ KEEP_LINE_ENDS = (
     "Git writes such line ends with core.autocrlf: put `* -text` into .gitattributes and check out again, "
     "or build again with --force"
 )
-LARGEST_BYTES = 16_000_000
-"""A manifest has some 30 kB; a file that is far larger is not read."""
 NAMED = 3
 """Files that an error names; the others are counted."""
 SUFFIXES = (
@@ -151,20 +148,15 @@ def open_bundle(folder: str | Path) -> Bundle:
     path = Path(folder) / MANIFEST
     if wrong := trouble(Path(folder), MANIFEST):
         raise JumpcadError(f"{path}: {wrong}; a bundle has one: jumpcad build makes it")
+    manifest = read_json(path)
+    form = manifest.get("format") if isinstance(manifest, dict) else None
+    if isinstance(form, int) and form != FORMAT:
+        raise JumpcadError(f"{path}: format {form}; this version reads {FORMAT}: build it again")
     try:
-        with path.open("rb") as stream:
-            text = stream.read(LARGEST_BYTES + 1)
-        small = len(text) <= LARGEST_BYTES
-        manifest: Any = json.loads(text, parse_constant=_refuse, parse_float=_finite) if small else None
-        if manifest["format"] != FORMAT and isinstance(manifest["format"], int):
-            raise JumpcadError(f"{path}: format {manifest['format']}; this version reads {FORMAT}: build it again")
         _Manifest.model_validate(manifest)
-        json.dumps(manifest, ensure_ascii=False).encode()  # half of a character cannot be
-        return Bundle(Path(os.path.realpath(folder)), manifest)
-    except OSError as error:
-        raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
-    except (ValueError, KeyError, TypeError, RecursionError):
+    except ValueError:
         raise JumpcadError(f"{path}: is not the manifest of a bundle: build it again with jumpcad build") from None
+    return Bundle(Path(os.path.realpath(folder)), manifest)
 
 
 def verify(folder: str | Path) -> list[str]:
@@ -239,14 +231,3 @@ def few(paths: Sequence[str]) -> str:
 def sha256(data: bytes) -> str:
     """Return a digest in hexadecimal."""
     return hashlib.sha256(data).hexdigest()
-
-
-def _finite(number: str) -> float:
-    """Return a number; one that is too large for a double, as 1e999, raises `ValueError`."""
-    if not math.isfinite(value := float(number)):
-        raise ValueError(number)
-    return value
-
-
-def _refuse(constant: str) -> NoReturn:
-    raise ValueError(f"{constant} is no number")

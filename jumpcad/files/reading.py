@@ -61,7 +61,7 @@ def read_json(path: Path) -> Any:
     except RecursionError:
         raise JumpcadError(f"{path}: {NESTED}") from None
     _require_shallow(data, path)
-    _require_characters(data, path)
+    _require_writable_again(data, path)
     return data
 
 
@@ -123,12 +123,14 @@ def _no_constant(name: str) -> None:
     raise ValueError(f"{name} is no number")
 
 
-def _require_characters(data: Any, path: Path) -> None:
-    """Raise `JumpcadError` for texts with lone surrogates: JSON allows them, but they cannot be written or printed."""
+def _require_writable_again(data: Any, path: Path) -> None:
+    """Raise `JumpcadError` for what JSON allows, but cannot be written again: lone surrogates, numbers like 1e999."""
     try:
-        json.dumps(data, ensure_ascii=False).encode()
+        json.dumps(data, ensure_ascii=False, allow_nan=False).encode()
     except UnicodeEncodeError:
         raise JumpcadError(f"{path}: not valid JSON: half of a character (a lone surrogate)") from None
+    except ValueError:
+        raise JumpcadError(f"{path}: not valid JSON: a number is too large") from None
 
 
 def _require_shallow(data: Any, path: Path) -> None:
