@@ -16,6 +16,7 @@ import json
 import math
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -143,6 +144,7 @@ def main() -> None:
     for name in chosen:
         method, evaluations = METHODS[name][0], min(METHODS[name][1], arguments.evaluations)
         model = robot_model(arguments.model)
+        model = replace(model, stand_in=model.name == "printed")  # as a search by `bo` asks for
         if "spread" in name:
             model = Spread(model.workshop, model.settings, model.engine)
         climbs = [climb(method, seed, evaluations, model) for seed in range(arguments.seeds)]

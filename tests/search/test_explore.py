@@ -1,19 +1,13 @@
 """Views of the space show the known facts of the hill."""
 
-from dataclasses import replace
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-from support.hills import FIXED, SMALL, TOP, Hill
-from support.shops import SHOP, Shop
+from support.hills import FIXED, SMALL, TOP
+from support.shops import Shop
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search import explore
 from jumpcad.search.explore import (
     _grid,
-    _r_squared,
-    _shuffled,
     _start,
     _with,
     components,
@@ -85,26 +79,6 @@ def test_equal_scores_do_not_say_what_is_important(evaluator):
         importance(evaluator(), scored(np.ones(20)), 0)
 
 
-@pytest.mark.parametrize(("count", "enough"), [(9, False), (10, True)])
-def test_two_designs_for_each_fifth_say_what_is_important(evaluator, monkeypatch, count, enough):
-    monkeypatch.setattr(explore, "Surrogate", lambda x, y, *_, **__: SimpleNamespace(
-        theta=None, predict=lambda points: (np.full(len(points), y.mean()), None)
-    ))  # fmt: skip
-    trials = [*scored(np.arange(1.0, 1.0 + count)), replace(scored([1.0])[0], score=None)]
-    if enough:
-        assert importance(evaluator(), trials, 0).designs == 10
-    else:
-        with pytest.raises(JumpcadError, match=r"^9 of 10 designs jump, which is too few .*; raise --samples$"):
-            importance(evaluator(), trials, 0)
-
-
-@pytest.mark.filterwarnings("error::RuntimeWarning")
-def test_a_fold_of_equal_scores_is_left_out(evaluator):
-    """One design differs from the others, so four of five folds have no variance."""
-    found = importance(evaluator(), scored([2.0, *np.ones(19)]), 0)
-    assert np.isfinite([found.r_squared, *found.mean, *found.deviation]).all()
-
-
 def test_what_a_name_matters_does_not_depend_on_the_order_of_the_names(evaluator):
     """They have none: the score of each is its own."""
     names, generator = "abcde", np.random.default_rng(1)
@@ -167,17 +141,6 @@ def test_too_little_to_look_at(evaluator):
         importance(blind, sample(blind, 32, 0), 0)
 
 
-def test_hill_is_what_these_tests_say():
-    top = CENTRE.model_copy(update=TOP)
-    assert Hill()(top).metrics["fitness"] == 10.0
-
-
-def test_twenty_samples_are_the_least(evaluator):
-    assert len(sample(evaluator(), 20, 0)) == 20
-    with pytest.raises(JumpcadError, match="samples = 19 must be at least 20"):
-        sample(evaluator(), 19, 0)
-
-
 def test_shares_are_those_of_the_correlations(evaluator):
     """Of standardised parameters: the eigenvalues of their correlation matrix over its trace, however wide each is."""
     one = evaluator(space=Space.default())
@@ -227,28 +190,6 @@ def test_what_is_fixed_has_its_value_in_every_view(evaluator):
     assert all(fixed.contains(trial.design) for trial in seen)
 
 
-def test_a_map_varies_the_first_along_its_lines_and_the_second_from_line_to_line(evaluator):
-    found = feasibility_map(evaluator(), CENTRE, "rest_angle_deg", "stiffness_nmm_per_deg", 3)
-    assert (found.x_name, found.y_name) == ("rest_angle_deg", "stiffness_nmm_per_deg")
-    for y, line in zip(found.y, found.trials, strict=True):
-        for x, trial in zip(found.x, line, strict=True):
-            assert trial.design == CENTRE.model_copy(update={"rest_angle_deg": x, "stiffness_nmm_per_deg": y})
-
-
-def test_a_map_has_the_names_of_its_axes_and_as_many_lines_as_the_second_has_values(evaluator):
-    """Two batteries along, three thicknesses of plates up, and the other way round; after sweeps of the same search."""
-    one = evaluator(model=Shop(), space=SHOP)
-    sweep(one, CENTRE, 2)
-    batteries, plates = ("lipo-2s-180", "lipo-1s-300"), np.linspace(1.2, 2.4, 3).tolist()
-    over = feasibility_map(one, CENTRE, "bought.battery", "body.plate_mm", 3)
-    turned = feasibility_map(evaluator(model=Shop(), space=SHOP), CENTRE, "body.plate_mm", "bought.battery", 3)
-    assert (over.x_names, over.y_names, turned.x_names, turned.y_names) == (batteries, (), (), batteries)
-    found = [[trial.workshop for trial in line] for line in over.trials]
-    assert found == [[{"body.plate_mm": y, "bought.battery": x} for x in batteries] for y in plates]
-    found = [[trial.workshop for trial in line] for line in turned.trials]
-    assert found == [[{"body.plate_mm": x, "bought.battery": y} for x in plates] for y in batteries]
-
-
 def test_the_elite_are_a_tenth_or_twenty(evaluator):
     one = evaluator(space=Space.default())
     trials = sample(one, 300, 0)
@@ -257,20 +198,3 @@ def test_the_elite_are_a_tenth_or_twenty(evaluator):
     some = [trial for trial in trials if trial.score is not None][:150]
     assert len(elite(some)) == 20
     assert len(elite(some[:7])) == 7
-
-
-def test_predictions_explain_the_share_of_the_variance_that_is_left_out_of_their_errors():
-    """Errors of 1, -1 and 0 about values 1, 2 and 6: 1 - 2/14; the mean explains nothing."""
-    y = np.array([1.0, 2.0, 6.0])
-    for predicted, share in (([0.0, 3.0, 6.0], 1.0 - 2.0 / 14.0), ([3.0, 3.0, 3.0], 0.0), ([1.0, 2.0, 6.0], 1.0)):
-        known = SimpleNamespace(predict=lambda _, told=predicted: (np.array(told), None))
-        assert _r_squared(known, np.zeros((3, 1)), y) == pytest.approx(share)
-
-
-def test_what_is_shuffled_is_one_column_alone():
-    x = np.arange(30.0).reshape(10, 3)
-    found = _shuffled(x, 1, np.random.default_rng(0))
-    assert found[:, [0, 2]].tolist() == x[:, [0, 2]].tolist()
-    assert sorted(found[:, 1]) == sorted(x[:, 1])
-    assert found[:, 1].tolist() != x[:, 1].tolist()
-    assert x.tolist() == np.arange(30.0).reshape(10, 3).tolist()

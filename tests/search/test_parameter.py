@@ -167,15 +167,6 @@ def test_a_bound_is_active_within_a_thousandth_of_the_range_and_no_design_lies_b
     assert active_sides(plate, 2.4, 0.5) == [("upper", 2.4, pytest.approx(2.8))]
 
 
-@pytest.mark.parametrize("percent", [0.0, -1.0, 100.5, math.nan])
-def test_a_range_is_narrowed_to_a_share_of_itself(percent: float) -> None:
-    ratio = SearchParameter("c_coef", 0.8, 1.2)
-    assert narrowed(ratio, 1.0, 25.0).width == pytest.approx(0.2)  # a quarter on either side
-    assert narrowed(ratio, 1.0, 100.0).width == pytest.approx(0.8)
-    with pytest.raises(JumpcadError, match="is outside 0…100 %: a share of each parameter's range"):
-        narrowed(ratio, 1.0, percent)
-
-
 @pytest.mark.parametrize(
     ("change", "said"),
     [

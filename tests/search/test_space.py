@@ -124,29 +124,6 @@ def test_contains_knows_ranges_fixed_values_and_choices():
         assert not space.contains(design.model_copy(update=change))
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "contained"),
-    [
-        ("d_coef", 0.9 + 1e-11, True),
-        ("d_coef", 0.9 + 1e-8, False),
-        ("d_coef", 0.5 - 1e-11, True),
-        ("d_coef", 0.5 - 1e-8, False),
-        ("stiffness_nmm_per_deg", 20.0 + 1e-9, True),
-        ("stiffness_nmm_per_deg", 20.0 - 1e-6, False),
-        ("stiffness_nmm_per_deg", 15.0, False),
-        ("ground_link_angle_deg", 30.0 + 1e-9, True),
-        ("ground_link_angle_deg", 30.0 + 1e-6, False),
-        ("ground_link_angle_deg", 30.0 - 1e-6, False),
-    ],
-)
-def test_a_space_ends_at_its_bounds_choices_and_fixed_values(name, value, contained):
-    """To a thousand-millionth of the range, or of a value that is fixed: rounding, not another design."""
-    space = Space.parse(fix=["ground_link_angle_deg=30"], choose=["stiffness_nmm_per_deg=10,20"])
-    inside = space.to_design(np.full(space.dimension, 0.5))
-    assert space.contains(inside)
-    assert space.contains(inside.model_copy(update={name: value})) == contained
-
-
 def test_a_variant_of_other_values_of_the_workshop_is_not_in_the_space():
     """As many as there are, of other keys or in another order, are not those that are searched."""
     space = Space.parse(bound=["body.plate_mm=1.2:2.4", "process.infill=0.1:0.5"], workshop=load_workshop())
@@ -225,27 +202,6 @@ def test_a_part_of_the_space_is_as_wide_as_asked_and_not_wider_than_the_whole():
     assert held.to_design([0.5]) == middle.design
 
 
-def test_what_is_fixed_bounded_or_chosen_is_that_in_numbers_as_in_words():
-    numbers = Space.make(fixed={"c_coef": 1.1}, bounds={"rest_angle_deg": (50.0, 60.0)}, choices={"d_coef": (0.7, 0.8)})
-    assert numbers == Space.parse(["c_coef=1.1"], ["rest_angle_deg=50:60"], ["d_coef=0.7,0.8"])
-    found = numbers.describe()
-    assert found["c_coef"] == {"fixed": 1.1}
-    assert found["rest_angle_deg"] == {"lower": 50.0, "upper": 60.0}
-    assert found["d_coef"] == {"choices": [0.7, 0.8]}
-
-
-def test_a_point_has_a_coordinate_and_a_number_of_names_for_every_free_parameter():
-    """What is fixed, be it a number or a name, has none."""
-    space = Space.parse(
-        fix=["c_coef=1", "bought.leg_bearing="], choose=["bought.battery=lipo-2s-180,lipo-1s-300", "d_coef=0.6,0.7"],
-        workshop=load_workshop(),
-    )  # fmt: skip
-    assert space.dimension == len(space.free) == len(space.categories) == 8
-    assert space.categories == (0,) * 7 + (2,)
-    assert [one.name for one in space.parameters if not one.free] == ["c_coef", "bought.leg_bearing"]
-    assert space.spread(4, np.random.default_rng(0)).shape == (4, 8)
-
-
 def test_a_space_is_the_same_by_texts_and_by_values():
     """Names keep the order in which they are given, which numbers them."""
     by_text = Space.parse(
@@ -262,15 +218,6 @@ def test_a_space_is_the_same_by_texts_and_by_values():
     assert named.names == ("lipo-2s-180", "lipo-1s-300")
     near = {"around": load_design("best-ga"), "only": ["d_coef", "e_coef"], "within_percent": 10.0}
     assert Space.make(**near) == Space.parse(**near) != Space.default()
-
-
-def test_bounds_are_given_from_the_lower_to_the_upper():
-    """The other way round is a mistake, not a range."""
-    for text, ends in (("c_coef=1.1:0.9", (1.1, 0.9)), ("c_coef=1:1", (1, 1))):
-        with pytest.raises(JumpcadError, match="is an empty range: the first must be less than the second"):
-            Space.make(bounds={"c_coef": ends})
-        with pytest.raises(JumpcadError, match="is an empty range"):
-            Space.parse(bound=[text])
 
 
 def test_a_part_of_the_space_keeps_what_is_fixed_and_all_choices():
@@ -292,10 +239,3 @@ def test_a_part_of_the_space_keeps_what_is_fixed_and_all_choices():
     assert held.to_variant([0.5]) == centre
     assert held.to_variant([0.5]).workshop["bought.battery"] == "lipo-1s-300"
     assert space.near(centre, ("c_coef",), None) is None
-
-
-def test_a_space_is_made_of_parameters():
-    for parameters in ("c_coef", ("c_coef",), [SearchParameter("c_coef", 0.9, 1.1)]):
-        with pytest.raises(JumpcadError, match=r"parameters"):
-            Space(parameters)
-    assert Space((SearchParameter("c_coef", 0.9, 1.1),)).dimension == 1

@@ -1,16 +1,15 @@
 """Proposals at a distance from a constraint."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.design import SEARCH_BOUNDS
-from jumpcad.search.pick.margin import STEEPNESS, _missed, propose_robust
+from jumpcad.search.pick.margin import _missed, propose_robust
 from jumpcad.search.pick.robust import rank_candidates
 from jumpcad.search.pick.tolerances import LENGTHS_ALONE
-from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.variant import Variant
@@ -83,14 +82,6 @@ def test_neighbours_scatter_by_a_share_of_each_parameter() -> None:
         assert spread == pytest.approx([0.01 * value / width for value, width in zip(values, widths, strict=True)])
 
 
-def test_only_what_misses_its_confidence_costs() -> None:
-    point = np.full((1, 8), 0.5)
-    sure = _missed(Space.default(), Level(0.96), 0.95, 0.01)  # type: ignore[arg-type]
-    unsure = _missed(Space.default(), Level(0.90), 0.95, 0.01)  # type: ignore[arg-type]
-    assert sure(point) == pytest.approx([0.0])
-    assert unsure(point) == pytest.approx([STEEPNESS * np.log(0.95 / 0.90)])
-
-
 def test_only_what_was_made_as_the_space_says_is_learned_from(evaluator):
     """Not designs of other values of what is fixed, above or below, nor ones that were made otherwise than designed."""
     points = SMALL.spread(16, np.random.default_rng(1))
@@ -108,45 +99,3 @@ def test_only_what_was_made_as_the_space_says_is_learned_from(evaluator):
         runs.append([trial.key for trial in propose_robust(one, own, 2, 0, 0.01)])
     assert len(runs[0]) == 3
     assert runs[0] == runs[1]
-
-
-def test_it_learns_with_the_newest_hyperparameters_of_its_space(evaluator, monkeypatch):
-    """Of the search so far: those of a space of other size are passed over."""
-    one, asked = evaluator(model=Cliff()), []
-    trials = one.evaluate([SMALL.to_design(point) for point in SMALL.spread(16, np.random.default_rng(1))], "bo", 0)
-    notes = {3: [0.1] * 5, 9: [0.2] * 5, 12: [0.3] * 6}
-    trials = [replace(trial, proposal={"theta": {"score": notes[n]}}) if n in notes else trial
-              for n, trial in enumerate(trials)]  # fmt: skip
-    monkeypatch.setattr(
-        "jumpcad.search.pick.margin.SearchPosterior.from_trials", lambda space, known, thetas, fit: asked.append(thetas)
-    )
-    monkeypatch.setattr("jumpcad.search.pick.margin.propose", lambda *_: None)
-    monkeypatch.setattr("jumpcad.search.pick.margin._missed", lambda *_: None)
-    assert propose_robust(one, trials, 3, 0, 0.01) == []
-    assert asked == [{"score": [0.2] * 5}]
-
-
-def test_for_each_confidence_another_design_is_proposed(evaluator, monkeypatch):
-    """Near the best, of what is new; its score is to be the highest of all, so it must beat nothing."""
-    one, asked = evaluator(model=Cliff()), []
-    trials = one.evaluate([SMALL.to_design(point) for point in SMALL.spread(16, np.random.default_rng(1))], "bo", 0)
-    points = [np.array([0.1 * n, 0.5, 0.5]) for n in range(5)]
-    known = one.evaluate([SMALL.to_design(points[0])], "bo", 1)
-
-    def proposed(space, posterior, best, elite, admits, generator, penalty):
-        asked.append((best, elite.tolist(), penalty(np.full((1, 3), 0.99))[0]))
-        point = next(point for point in points if admits(space.to_variant(point)))
-        return Proposal(space.to_variant(point), point, -1.0, -2.0)
-
-    monkeypatch.setattr("jumpcad.search.pick.margin.propose", proposed)
-    found = propose_robust(one, trials, 3, 0, 0.01)
-    assert len(known) == 1
-    assert [trial.design for trial in found] == [SMALL.to_design(point) for point in points[1:4]]
-    assert [(trial.phase, trial.run, trial.place) for trial in found] == [("margin", 3, place) for place in range(3)]
-    assert [trial.proposal["log_feasible"] for trial in found] == [-2.0] * 3
-    assert "theta" in found[0].proposal
-    best = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: -trial.score)[:4]
-    assert asked[0][:2] == (0.0, [pytest.approx(SMALL.to_unit(trial.variant)) for trial in best])
-    assert [cost for *_, cost in asked] == sorted(cost for *_, cost in asked)  # the more confidence, the more it costs
-    monkeypatch.setattr("jumpcad.search.pick.margin.propose", lambda *_: None)
-    assert propose_robust(one, trials, 4, 0, 0.01) == []

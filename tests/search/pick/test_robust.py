@@ -1,7 +1,6 @@
 """The robust pick: the scores of the neighbours decide."""
 
 from dataclasses import dataclass, replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,14 +10,9 @@ from jumpcad.building import build
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search.models import robot_model
-from jumpcad.search.pick import robust
 from jumpcad.search.pick.robust import (
     NOT_EXAMINED,
-    ActiveBound,
-    Candidate,
-    _examine,
     _Examined,
-    _worth,
     active_bounds,
     best_apart,
     plan_rounds,
@@ -80,27 +74,6 @@ def test_neighbours_follow_from_the_seed(evaluator):
     assert not set(runs[1]) & set(runs[2])
 
 
-def test_a_candidate_of_which_no_neighbour_is_known_is_as_robust_as_itself(evaluator):
-    one = evaluator(model=Spiked())
-    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
-    (trial,) = one.trials
-    candidate = _Examined(0, trial).candidate()
-    assert trial.score > 4.0
-    assert candidate.robust_score == candidate.parameters_score == candidate.print_score == trial.score
-
-
-def test_neighbours_follow_from_the_seed_and_are_each_candidates_own(evaluator):
-    one = evaluator()
-    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
-    asked = [(0, 0), (0, 0), (1, 0), (0, 1)]
-    found = [_Examined(index, one.trials[0]).neighbours(4, seed, LENGTHS_ALONE) for seed, index in asked]
-    keys = [{variant.key for _, variant in variants} for variants in found]
-    assert len(keys[0]) == 4
-    assert keys[0] == keys[1]
-    assert not keys[0] & keys[2]
-    assert not keys[0] & keys[3]
-
-
 def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
     one = evaluator(model=Needles())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
@@ -150,15 +123,6 @@ def test_every_round_costs_as_much_and_nobody_has_more_than_his_32_neighbours(ev
     assert plan_rounds(evaluations) == rounds
 
 
-def test_where_no_neighbour_is_rejected_the_last_candidate_gets_what_is_left(evaluator):
-    one = evaluator(model=Spiked())
-    one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.4, 0.6, 0.8)], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=40)
-    spent = [candidate.neighbours for candidate in ranked]
-    assert 40 - len(spent) <= sum(spent) <= 40
-    assert spent[0] == max(spent) > 20
-
-
 @dataclass(frozen=True)
 class Late(Hill):
     """9 above a rest angle of 45°, with stiffnesses off 20 by the share `kept` at most, and 5 below."""
@@ -190,17 +154,6 @@ def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below
     assert ranked[1].neighbours > ranked[0].neighbours == 2
 
 
-def test_one_rejected_neighbour_of_many_is_no_failure():
-    """Also where scores are negative: of twenty at -2 and one rejected at -9 the lower percentile is -2."""
-    one = _Examined(0, Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), -1.0, "m", 0.0))
-    assert not one.fails
-    one.scores = {"parameters": [-2.0] * 20 + [-9.0], "print": [-2.0] * 20}
-    one.rejections["loop"], one.rejected_score = 1, -9.0
-    assert not one.fails
-    one.scores["parameters"] = [-2.0] * 10 + [-9.0] * 11
-    assert one.fails
-
-
 def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
@@ -209,26 +162,6 @@ def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     one.evaluate([edge, inside], "bo", 0)
     ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [inside, edge]
-
-
-@pytest.mark.parametrize(("scores", "rejected"), [((-1.0, -3.0), -5.0), ((2.0, -3.0), 0.0), ((0.6, 0.2), 0.0)])
-def test_a_rejected_neighbour_is_as_far_below_the_worst_as_the_best_is_above_it(scores, rejected):
-    """Where all scores are negative; else it counts 0."""
-    design = SMALL.to_design([0.5, 0.5, 0.5])
-    trials = [Trial("bo", 0, 0, design, Evaluation("jump"), score, "m", 0.0) for score in scores]
-    refused = Trial("robust", 0, 0, design, Evaluation("loop"), None, "m", 0.0)
-    known = SimpleNamespace(
-        trials=trials, expired=lambda: False, evaluate=lambda variants, *_, **__: [refused] * len(variants)
-    )
-    one = _Examined(0, trials[0])
-    _examine(known, [one], 2, (0, 0), 0, LENGTHS_ALONE)
-    assert (one.scores, one.rejected_score) == ({"parameters": [rejected], "print": [rejected]}, rejected)
-
-
-def test_the_best_differ_from_one_another(evaluator):
-    one = evaluator()
-    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5 + shift]) for shift in (0.0, 0.001, 0.05, 0.2)], "bo", 0)
-    assert len(best_apart(SMALL, one.trials, 10)) == 3
 
 
 def test_variation_stays_within_its_limits():
@@ -291,13 +224,6 @@ def test_what_lies_beyond_a_bound_is_a_design_and_bounds_of_designs_are_left_out
         assert found == pytest.approx(named)
 
 
-@pytest.mark.parametrize(("off", "named"), [(0.0009, 3), (0.0011, 0)])
-def test_a_design_within_a_thousandth_of_the_range_lies_on_its_bound(evaluator, off, named):
-    one = evaluator(model=Slope())
-    (trial,) = one.evaluate([SMALL.to_design([1.0 - off, off, 1.0 - off])], "bo", 0)
-    assert len(active_bounds(one, trial, run=1)) == named
-
-
 def test_making_varies_rate_mass_and_floor_as_a_single_jump_does():
     """Their deviations are those that were asked for; rate over mass is one factor of the springs."""
     design = load_design("kenan-2.0")
@@ -346,26 +272,6 @@ def test_lengths_as_made_are_those_of_the_built_robot():
     assert made.spring.energy_j == pytest.approx(1.01 * robot.spring.energy_j)
 
 
-def test_what_joins_off_an_edge_stands_in_the_order_of_its_robustness(evaluator):
-    """16 evaluations have one round: the best, on the edge, and what is tried away from it."""
-    one = evaluator()
-    points = [
-        point for point in SMALL.spread(24, np.random.default_rng(0)) if SMALL.to_design(point).compression_ratio < 0.45
-    ]
-    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(
-        update={"compression_ratio": 0.6999, "rest_angle_deg": 55.0, "stiffness_nmm_per_deg": 20.0}
-    )
-    one.evaluate([*map(SMALL.to_design, points), edge], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=16)
-    scores = [candidate.robust_score for candidate in ranked]
-    assert len({*scores}) > 1
-    assert scores == sorted(scores, reverse=True)
-    assert ranked[-1].trial.design == edge
-    assert ranked[-1].rejections["loop"] > 0
-    rounds = plan_rounds(16 - 9)  # nine evaluations are kept for those that join, in a step of their own
-    assert {trial.step for trial in one.trials if trial.phase == "robust"} == {0, len(rounds)}
-
-
 def test_designs_off_an_edge_do_not_join_a_front_whose_candidates_have_all_of_the_pick(evaluator):
     """The same edge as above: whatever is not of the front is no candidate, and nothing is kept for it."""
     one = evaluator()
@@ -376,39 +282,6 @@ def test_designs_off_an_edge_do_not_join_a_front_whose_candidates_have_all_of_th
     assert [candidate.trial for candidate in ranked] == searched[:1]
     assert ranked[0].rejections["loop"] > 0
     assert {trial.phase for trial in one.trials} == {"nsga2", "robust"}
-
-
-@pytest.mark.parametrize("evaluations", [24, 40])
-def test_what_is_kept_for_those_who_join_is_spent_once(evaluator, monkeypatch, evaluations):
-    """By three designs and two neighbours of each where the best lies on an edge; else by the last candidate."""
-    designs = [SMALL.to_design([0.5, 0.5, place]) for place in (0.1, 0.5, 0.9)]
-    monkeypatch.setattr(robust, "propose_robust", lambda one, _, run, *__: one.evaluate(designs, "margin", 0, run=run))
-    spent = []
-    for ratio in (0.6999, 0.5):
-        one = evaluator()
-        edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": ratio})
-        edge = edge.model_copy(update={"rest_angle_deg": 55.0, "stiffness_nmm_per_deg": 20.0})
-        inside = [SMALL.to_design([0.3, 0.5, place]) for place in (0.2, 0.4, 0.6, 0.8)]
-        one.evaluate([edge, *inside], "bo", 0)
-        rank_candidates(one, one.trials, 0, LENGTHS_ALONE, evaluations)
-        spent.append(len(one.trials) - 5)
-        assert ("margin" in {trial.phase for trial in one.trials}) == (ratio > 0.69)
-    assert evaluations - 4 <= spent[0] <= evaluations
-    assert evaluations - 4 <= spent[1] <= evaluations
-
-
-def test_what_joins_is_proposed_for_neighbours_that_vary_evenly_within_a_per_cent(evaluator, monkeypatch):
-    """Their standard deviation is that of an even distribution: its half width over the root of 3."""
-    asked = []
-    monkeypatch.setattr(robust, "propose_robust", lambda *given: asked.append(given) or [])
-    one = evaluator()
-    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
-    one.evaluate([edge], "bo", 0)
-    (trial,) = one.trials
-    rank_candidates(one, [trial], 5, LENGTHS_ALONE, 16)
-    ((_, trials, _, seed, scatter),) = asked
-    assert (trials, seed[0]) == ([trial], 5)
-    assert scatter == pytest.approx(np.linspace(-0.01, 0.01, 100_001).std(), rel=1e-4)
 
 
 def test_the_last_of_a_design_s_choices_is_a_bound_and_that_of_a_workshop_s_is_none(evaluator):
@@ -427,57 +300,6 @@ class InAnyWorkshop(Hill):
 
     def __call__(self, design, workshop=None):
         return super().__call__(design)
-
-
-def test_who_was_not_examined_is_no_candidate(evaluator):
-    """One evaluation is no pair of neighbours: nothing is known of any, and none is evaluated."""
-    one = evaluator(model=Spiked())
-    one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.8)], "bo", 0)
-    assert rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=1) == []
-    assert len(one.trials) == 2
-
-
-def test_what_lies_beyond_a_bound_is_worth_its_gain_or_tells_why_not():
-    bound = ActiveBound("c_coef", "upper", 1.2, 1.25, None, NOT_EXAMINED)
-    one = Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), 2.0, "m", 0.0)
-    tips = replace(one, score=None, evaluation=Evaluation("tips"))
-    assert _worth(bound, one, replace(one, score=2.5)) == replace(bound, worth=0.5, reason="")
-    assert _worth(bound, one, replace(one, score=-1.0)) == replace(bound, worth=-3.0, reason="")
-    assert _worth(bound, one, tips) == replace(bound, reason="tips")
-    unknown = _worth(bound, one, None)
-    assert (unknown.worth, unknown.unknown, _worth(bound, one, tips).unknown) == (None, True, False)
-
-
-def test_a_candidate_tells_how_well_its_neighbours_jump():
-    """Of each kind the lowest of ten or fewer; its own score where none of a kind is known."""
-    trial = Trial("bo", 0, 0, load_design("best-ga"), Evaluation("jump"), 4.0, "m", 0.0, {}, {"body.plate_mm": 2.0})
-    one = _Examined(3, trial)
-    assert (one.examined, one.robust_score) == (0, 4.0)
-    one.scores = {"parameters": [3.0, 2.5], "print": []}
-    assert (one.examined, one.robust_score, one.candidate().print_score) == (2, 2.5, 4.0)
-    one.scores["print"] = [1.5, 3.5]
-    one.rejections.update(["tips", "loop", "tips"])
-    found = one.candidate()
-    assert found == Candidate(trial, 2.5, 1.5, {"loop": 1, "tips": 2}, 4)
-    assert repr(found) == "<Candidate: score 4, neighbours 1.5, 3 of 4 rejected>"
-    assert found.to_dict()["workshop"] == {"body.plate_mm": 2.0}
-
-
-def test_each_neighbour_s_score_goes_to_its_candidate_and_kind(evaluator):
-    """The hill rejects above a compression ratio of 0.7: of the neighbours that vary by 1 %, not those of lengths."""
-    one = evaluator()
-    edge, inside = (SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": r}) for r in (0.6999, 0.4))
-    field = [_Examined(n, trial) for n, trial in enumerate(one.evaluate([edge, inside], "bo", 0))]
-    _examine(one, field, 8, (0, 1), 0, LENGTHS_ALONE)
-    assert [[len(scores) for scores in each.scores.values()] for each in field] == [[4, 4], [4, 4]]
-    assert field[0].rejections.keys() == {"loop"}
-    assert field[0].scores["parameters"].count(0.0) == field[0].rejections["loop"] > 0
-    assert min(field[0].scores["print"] + field[1].scores["parameters"] + field[1].scores["print"]) > 0.0
-    for each in field:
-        known = {kind: [] for kind in each.scores}
-        for kind, variant in _Examined(each.index, each.trial).neighbours(8, 0, LENGTHS_ALONE):
-            known[kind].append(Hill()(variant.design).metrics.get("fitness", 0.0))
-        assert each.scores == known
 
 
 def test_the_best_are_apart_by_a_fiftieth_of_some_range_the_best_first():

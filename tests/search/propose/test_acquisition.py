@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from support.hills import FIXED, SMALL
 
-from jumpcad.search.propose import acquisition
-from jumpcad.search.propose.acquisition import Proposal, _apart, _climb, promised_gain, propose
+from jumpcad.search.propose.acquisition import Proposal, promised_gain, propose
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
@@ -45,15 +44,6 @@ def test_choices_and_refusals_are_respected():
     )
     assert other.variant.design.stiffness_nmm_per_deg == 8.0
     assert propose(space, posterior, 0.0, np.empty((0, 3)), lambda d: False, np.random.default_rng(1)) is None
-
-
-def test_climbs_begin_at_points_that_are_apart_the_best_first():
-    """By more than a twentieth along some axis; as many as asked for."""
-    points = np.array([[0.5, 0.5], [0.54, 0.46], [0.5, 0.56], [0.9, 0.9], [0.86, 0.94], [0.1, 0.5]])
-    assert _apart(points, np.arange(6), 6) == [0, 2, 3, 5]
-    assert _apart(points, np.arange(6)[::-1], 2) == [5, 4]
-    crowd = np.vstack([np.tile([0.5, 0.5], (99, 1)), [[0.2, 0.5]]])  # behind many that are near the best
-    assert _apart(crowd, np.arange(100), 2) == [0, 99]
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -136,50 +126,3 @@ def test_a_promise_is_twice_the_gain_of_the_root_as_a_share_of_the_best():
     ) == pytest.approx(0.1)
     assert promised_gain(0.0, 0.0) == promised_gain(-5.0, -1.0) == math.inf
     assert math.isfinite(promised_gain(1e9, 1.0))
-
-
-def test_a_climb_ends_on_the_top_or_on_a_bound_and_leaves_choices_alone():
-    top = np.array([0.3, 1.4, -0.2])
-    start = np.array([0.6, 0.5, 0.5])
-
-    def hill(points):
-        return -((points - top) ** 2).sum(axis=1)
-
-    assert _climb(SMALL, hill, start, 40) == pytest.approx([0.3, 1.0, 0.0], abs=1e-4)
-    space = Space.parse(fix=FIXED, choose=["stiffness_nmm_per_deg=8,19,30"])
-    assert [one.name for one in space.free][2] == STIFFNESS
-    assert _climb(space, hill, start, 40) == pytest.approx([0.3, 1.0, 0.5], abs=1e-4)
-    chosen = Space.parse(fix=FIXED, choose=[f"{one.name}={one.lower},{one.upper}" for one in SMALL.free])
-    assert _climb(chosen, hill, start, 40) is start
-    assert start.tolist() == [0.6, 0.5, 0.5]
-
-
-def test_a_climb_takes_as_many_steps_as_it_may():
-    """Along a bent valley (Rosenbrock's) from (0.1, 0.9) to (0.8, 0.64) it takes more than two, and less than forty."""
-
-    def valley(points):
-        x, y = points[:, 0], points[:, 2]
-        return -((x - 0.8) ** 2) - 100.0 * (y - x**2) ** 2
-
-    start = np.array([0.1, 0.5, 0.9])
-    few, many = (_climb(SMALL, valley, start, steps) for steps in (2, 40))
-    assert many[[0, 2]] == pytest.approx([0.8, 0.64], abs=1e-3)
-    assert np.abs(few - many).max() > 0.1
-    assert valley(few[None]) > valley(start[None])
-
-
-def test_the_highest_of_six_short_climbs_goes_on_to_the_top(monkeypatch):
-    """Short ones go a tenth of the way from their starts, which are apart; the long one ends where the top is."""
-    top, climbs = np.array([0.37, 0.5, 0.71]), []
-
-    def climb(space, function, start, steps):
-        end = top if climbs and steps > climbs[0][0] else start + 0.1 * (top - start)
-        climbs.append((steps, start, end, function(end[None])[0]))
-        return end
-
-    monkeypatch.setattr(acquisition, "_climb", climb)
-    assert ask().unit.tolist() == top.tolist()
-    *short, (steps, start, _, _) = climbs
-    assert [few for few, *_ in short] == [short[0][0]] * 6
-    assert steps > short[0][0] > 1
-    assert start.tolist() == max(short, key=lambda one: one[3])[2].tolist()

@@ -14,16 +14,13 @@ from jumpcad.search.propose.bayesian import (
     IDLE,
     PATIENCE,
     incumbent,
-    known_trials,
     learned_trials,
     run_bayesian,
     run_steps,
     unproposed,
 )
-from jumpcad.search.propose.local_search import FARTHEST
-from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import SCREENED, Evaluation
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.request import default_initial
 from jumpcad.search.study.trial import Trial
 
@@ -66,51 +63,6 @@ def test_few_of_the_proposals_are_refused(evaluator):
     run_bayesian(one, stage(44, 1, initial=12))
     refused = [trial for trial in one.trials[12:] if trial.score is None]
     assert len(refused) <= 3
-
-
-@pytest.mark.parametrize(("promise", "polls", "looks"), [(-30.0, True, 3), (-30.0, False, 0), (-1.0, True, 0)])
-def test_where_a_proposal_promises_nothing_neighbours_near_and_far_are_looked_at(
-    evaluator, monkeypatch, promise, polls, looks
-):
-    """What is found there is evaluated in place of the proposal."""
-    proposed, asked, propose = [], [], ProposalLoop.propose
-
-    def promising(loop, ask, best):
-        proposed.append(replace(propose(loop, ask, best), log_improvement=promise, log_feasible=0.0))
-        return proposed[-1]
-
-    def beside(loop, trials, admits, generator, wider=1.0):
-        asked.append(wider)
-        if len(asked) < 3:
-            return None
-        point = np.full(3, 0.5)
-        return replace(proposed[-1], variant=SMALL.to_variant(point), unit=point)
-
-    monkeypatch.setattr(ProposalLoop, "propose", promising)
-    monkeypatch.setattr(ProposalLoop, "beside", beside)
-    one = evaluator()
-    run_bayesian(one, stage(8, 0, initial=5), polls)
-    assert len(asked) == looks
-    assert len(set(asked)) == looks
-    assert all(1.0 <= wider <= FARTHEST for wider in asked)
-    expected = [proposal.variant.key for proposal in proposed]
-    assert [trial.key for trial in one.trials[5:7]] == expected[:2]
-    assert (one.trials[7].key == SMALL.to_variant(np.full(3, 0.5)).key) == (looks == 3)
-
-
-@pytest.mark.usefixtures("quick_proposals_once")
-def test_after_four_steps_without_a_gain_neighbours_are_looked_at_whatever_is_promised(evaluator, monkeypatch):
-    """Each step promises more than asked for, and gains less."""
-    asked, propose = [], ProposalLoop.propose
-
-    def promising(loop, ask, best):
-        return replace(propose(loop, ask, best), log_improvement=9.0, log_feasible=0.0)
-
-    one = evaluator()
-    monkeypatch.setattr(ProposalLoop, "propose", promising)
-    monkeypatch.setattr(ProposalLoop, "beside", lambda *_: asked.append(len(one.trials)))
-    run_bayesian(one, stage(12, 0, initial=5, least_gain=50.0))
-    assert asked == [9, 10, 11]
 
 
 @pytest.mark.thorough
@@ -177,10 +129,6 @@ def test_a_search_that_finds_nothing_more_to_try_says_so(evaluator):
     assert one.store.notes() == [f"ended after {len(one.trials)} designs: no other was found that is new and has room"]
 
 
-def test_incumbent():
-    assert incumbent(SMALL, [])[0] == 0.0
-
-
 def test_the_processes_learn_from_the_best_and_the_nearest(evaluator):
     one = evaluator()
     points = SMALL.spread(1000, np.random.default_rng(0))
@@ -214,13 +162,6 @@ def test_the_incumbent_is_the_best_and_the_elite_are_the_best_four():
     assert incumbent(SMALL, scored(None))[1].shape == (0, 3)
 
 
-def test_half_as_many_first_designs_where_scores_are_guessed():
-    """Eight parameters: 24, or 12 (rounded up), at most half of all evaluations."""
-    assert [default_initial(Space.default(), 100, guessed=guessed) for guessed in (False, True)] == [24, 12]
-    assert default_initial(SMALL, 100, guessed=True) == 5
-    assert default_initial(Space.default(), 20, guessed=True) == 10
-
-
 def test_what_is_proposed_is_new_fits_and_is_not_in_the_batch_already(evaluator):
     """Not evaluated before, by this search or its prior; admitted by the model; with room for its parts."""
     one = evaluator(prior=evaluator().evaluate([SMALL.to_design([0.1, 0.1, 0.1])], "bo", 0))
@@ -231,20 +172,6 @@ def test_what_is_proposed_is_new_fits_and_is_not_in_the_batch_already(evaluator)
     assert [admits(variant) for variant in (prior, done, taken, tight, free)] == [False] * 4 + [True]
     assert unproposed(one, [])(tight)
     assert unproposed(one, [])(taken)
-
-
-def test_what_is_learned_from_are_exact_designs_of_the_space_each_once(evaluator):
-    """Those of a prior study too; of one that both have, this search's. Guessed ones are no measurements."""
-    one = evaluator()
-    one.evaluate([SMALL.to_design([0.5, 0.5, place]) for place in (0.1, 0.3, 0.5)], "ga", 0)
-    first, second, third = one.trials
-    guessed = replace(first, design=SMALL.to_design([0.4] * 3), evaluation=Evaluation(SCREENED), score=None, place=3)
-    earlier = replace(first, phase="bo", design=SMALL.to_design([0.2] * 3), place=4)
-    outside = replace(first, design=second.design.model_copy(update={"c_coef": 1.15}), place=5)
-    same = replace(second, score=99.0, place=6)
-    one.prior = [earlier, outside, same]
-    one._seen[guessed.key] = guessed
-    assert known_trials(one) == [earlier, second, first, third]
 
 
 def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as_asked(evaluator):
@@ -272,19 +199,6 @@ def test_a_first_step_is_spread_and_later_ones_are_proposed_as_many_at_a_time_as
     assert notes[4] == {"log_improvement": -1.0, "log_feasible": -2.0, "tried": [[0.25] * 3]} | theta
     assert notes[5] == {"log_improvement": -1.0, "log_feasible": -3.0} | theta
     assert notes[10]["theta"] == {"score": pytest.approx([0.3] * 5)}
-
-
-def test_what_was_evaluated_before_a_stage_costs_it_nothing(evaluator):
-    """Six designs of an earlier stage, then ten of this one."""
-
-    def proposer(loop, trials, count, generator):
-        points = [np.array([0.01 * (len(trials) + n), 0.5, 0.5]) for n in range(count)]
-        return [Proposal(SMALL.to_variant(point), point, -1.0, -2.0) for point in points]
-
-    one = evaluator()
-    one.evaluate([SMALL.to_design([0.9, 0.1 * n, 0.5]) for n in range(6)], "ga", 0)
-    assert run_steps(one, "bo", stage(10, 0, initial=3, batch=4, run=2), proposer) is False
-    assert [trial.phase for trial in one.trials] == ["ga"] * 6 + ["bo"] * 10
 
 
 def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evaluator):
@@ -329,17 +243,3 @@ def test_a_search_ends_after_so_many_steps_that_gained_too_little(
 
     monkeypatch.setattr(bayesian, "run_steps", steps_of)
     assert run_bayesian(one, stage(40, 0, least_gain=least_gain), polls) is ended
-
-
-def test_the_best_are_learned_from_however_far_away_they_are(monkeypatch):
-    """Of seven on a line four: the two best, at 0.1 and 0.9, and the two nearest to the very best, at 0.1."""
-    monkeypatch.setattr(bayesian, "LEARNED", 4)
-    places = (0.1, 0.2, 0.4, 0.5, 0.3, 0.7, 0.9)
-    trials = [
-        replace(one, design=SMALL.to_design([place, 0.5, 0.5]))
-        for one, place in zip(scored(9.0, 1.0, 4.0, None, 2.0, 3.0, 8.0), places, strict=True)
-    ]
-    assert learned_trials(SMALL, trials, 2) == [trials[n] for n in (0, 1, 4, 6)]
-    assert learned_trials(SMALL, trials, 0) == [trials[n] for n in (0, 1, 2, 4)]
-    rejected = [replace(trial, score=None) for trial in trials]  # from the middle
-    assert learned_trials(SMALL, rejected, 2) == [rejected[n] for n in (2, 3, 4, 5)]

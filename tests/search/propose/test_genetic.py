@@ -8,15 +8,11 @@ import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 from support.stages import stage
 
-from jumpcad.search.models import robot_model
 from jumpcad.search.propose import genetic
 from jumpcad.search.propose.genetic import (
     PATIENCE,
     SETTINGS,
     Fitness,
-    ScreenedFitness,
-    _first_population,
-    _gene_space,
     evolve,
     run_genetic,
 )
@@ -126,43 +122,6 @@ def test_what_a_prior_study_screened_is_no_measurement(evaluator):
     assert [trial.key for trial in one.trials] == [screened.key]
 
 
-def test_a_screen_looks_at_each_candidate_once(monkeypatch):
-    """A study that holds all of a generation says what was left out: nothing is guessed or learned again."""
-    variants, asked, held = [SMALL.to_variant([share, 0.5, 0.5]) for share in (0.2, 0.4, 0.6)], [], set()
-    fitness = object.__new__(ScreenedFitness)
-    fitness._seen = set()
-    fitness.evaluator = SimpleNamespace(
-        holds=lambda one: one.key in held, trials=[], store=SimpleNamespace(recall=lambda _: None)
-    )
-    fitness._screen = SimpleNamespace(
-        learn=lambda *_: False, outcomes=lambda fresh, best: asked.append(([*fresh], best)) or {"some": "outcome"}
-    )
-    assert fitness.left_out(variants[:2]) == {"some": "outcome"}
-    assert fitness.left_out(variants) == {"some": "outcome"}
-    assert fitness.left_out(variants) == {}
-    assert asked == [(variants[:2], 0.0), (variants[2:], 0.0)]
-    again = SMALL.to_variant([0.8, 0.5, 0.5])
-    held.add(again.key)
-    assert fitness.left_out([again]) == {}
-
-
-def test_what_a_screen_leaves_out_has_the_score_that_was_guessed():
-    fitness = object.__new__(ScreenedFitness)
-    fitness.rejected = -1.0
-    design = SMALL.to_design([0.5, 0.5, 0.5])
-    for metrics, score in (({GUESSED: 2.5}, 2.5), ({}, -1.0)):
-        trial = Trial("ga", 0, 0, design, Evaluation(SCREENED, metrics), None, "m", 0.0)
-        assert fitness.fitness(trial) == score
-    assert fitness.fitness(Trial("ga", 0, 0, design, Evaluation("jump"), 3.5, "m", 0.0)) == 3.5
-
-
-def test_a_search_with_a_screen_begins_at_its_own_step(monkeypatch):
-    monkeypatch.setattr("jumpcad.search.estimate.corrected_estimate.Screen", lambda *given: given)
-    evaluator = SimpleNamespace(model=robot_model(), space="space", objective="objective", prior=[])
-    fitness = ScreenedFitness(evaluator, "ga", 9, -2.0, 40)
-    assert (fitness.phase, fitness.left, fitness.rejected, fitness.run) == ("ga", 9, -2.0, 40)
-
-
 @pytest.mark.parametrize("batteries", ["lipo-2s-180,lipo-1s-300", "lipo-1s-300"])
 def test_names_have_no_order_for_the_genetic_algorithm_however_few_they_are(monkeypatch, batteries):
     """Two are as little on a scale as many; numbers, choices of them too, are on one."""
@@ -181,20 +140,6 @@ def test_names_have_no_order_for_the_genetic_algorithm_however_few_they_are(monk
     assert np.shape(asked["initial_population"]) == (4, space.dimension) == (4, len(asked["gene_space"]))
 
 
-def test_a_population_has_the_scores_of_its_designs_in_their_order(evaluator):
-    """What is rejected, or beyond the evaluations, has the same fitness; steps are counted on from the first."""
-    one = evaluator()
-    fitness = Fitness(one, "ga", 3, rejected=-5.0, run=40)
-    points = [[0.5, 0.5, 0.5], [1.0, 0.5, 0.5], [0.2, 0.5, 0.5], [0.3, 0.5, 0.5]]
-    found = fitness(SimpleNamespace(generations_completed=2), points, None)
-    exact = [Hill()(SMALL.to_design(point)).metrics.get("fitness") for point in points]
-    assert found == [exact[0], -5.0, exact[2], -5.0]
-    assert exact[1] is None
-    assert [trial.position for trial in one.trials] == [("ga", 40, 2, n) for n in range(3)]
-    assert fitness.left == 0
-    assert fitness.on_generation(None) == "stop"
-
-
 def test_a_search_stops_after_so_many_generations_without_a_new_design_or_when_its_time_is_over(evaluator):
     fitness = Fitness(evaluator(), "ga", 99, rejected=-5.0)
     points = [[0.5, 0.5, 0.5]]
@@ -207,17 +152,3 @@ def test_a_search_stops_after_so_many_generations_without_a_new_design_or_when_i
     assert fitness.on_generation(None) is None
     fitness.evaluator.expired = lambda: True
     assert fitness.on_generation(None) == "stop"
-
-
-def test_half_of_a_first_population_are_the_best_of_a_prior_study(evaluator):
-    """The best first, then evenly spread ones; all within the space, each coordinate free or one of its choices."""
-    teacher = evaluator()
-    run_genetic(teacher, stage(40, 0))
-    ranked = sorted((trial for trial in teacher.trials if trial.score is not None), key=lambda trial: -trial.score)
-    found = _first_population(evaluator(prior=teacher.trials), 10, 3)
-    assert found[:5] == pytest.approx(np.array([SMALL.to_unit(trial.variant) for trial in ranked[:5]]))
-    assert found[5:] == pytest.approx(_first_population(evaluator(), 10, 3)[:5])
-    space = Space.parse(fix=FIXED[:-1], choose=["stiffness_nmm_per_deg=10,20,30"])
-    genes = dict(zip([one.name for one in space.free], _gene_space(space), strict=True))
-    assert genes["stiffness_nmm_per_deg"] == [0.0, 0.5, 1.0]
-    assert genes["rest_angle_deg"] == {"low": 0.0, "high": 1.0}

@@ -9,8 +9,7 @@ from support.stages import stage
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.propose import paper
-from jumpcad.search.propose.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper, seeds
+from jumpcad.search.propose.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper
 from jumpcad.search.report.study_plots import plot_study
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
@@ -51,39 +50,6 @@ def test_each_stage_moves_what_it_should(searched):
     last, names = moved(2)
     assert names <= set(LINKS)
     assert min(len(few), len(near), len(last)) >= 10
-
-
-def test_the_sample_follows_from_the_seed(evaluator, monkeypatch):
-    drawn = []
-
-    def evaluate(designs, phase, step):
-        drawn.append([design.key for design in designs])
-        raise JumpcadError("enough")
-
-    for seed in (3, 3, 4):
-        one = evaluator(space=Space.default())
-        monkeypatch.setattr(one, "evaluate", evaluate)
-        with pytest.raises(JumpcadError, match="enough"):
-            run_paper(one, stage(140, seed))
-    assert len(drawn[0]) > 10
-    assert drawn[0] == drawn[1]
-    assert not set(drawn[1]) & set(drawn[2])
-
-
-def test_every_run_begins_with_designs_of_its_own(searched):
-    """Ten each, of the published preset; the same ones would be evaluated once."""
-    first = [trial for trial in searched.trials if trial.phase == "ga" and trial.step == 0]
-    assert [sum(trial.run == run for trial in first) for run in range(RUNS)] == [10] * RUNS
-
-
-def test_searches_with_seeds_that_follow_each_other_have_no_design_in_common(searched, evaluator, monkeypatch):
-    """Else several searches are no independent repetitions; of the second only the genetic runs are made."""
-    monkeypatch.setattr(paper, "run_bayesian", lambda *_, **__: False)
-    one = evaluator(space=Space.default())
-    run_paper(one, stage(140, 4))
-    keys = [{trial.key for trial in some if trial.phase == "ga"} for some in (searched.trials, one.trials)]
-    assert min(map(len, keys)) > 30
-    assert not keys[0] & keys[1]
 
 
 def test_it_takes_the_largest_seed(evaluator):
@@ -146,51 +112,3 @@ def test_the_most_efficient_jumper_has_the_most_score_for_a_joule():
     )
     assert _efficiency(jumper) == pytest.approx(20.0, rel=0.01)
     assert _efficiency(other) == 0.0
-
-
-def test_the_searches_go_on_from_the_most_efficient_of_the_runs_best_and_from_what_they_find(evaluator, monkeypatch):
-    """Not from the best: springs of half the stiffness give the same hill's score with half the energy."""
-    centre = Space.default().to_design([0.5] * 8).model_copy(update={"compression_ratio": 0.5})
-    designs = [
-        centre.model_copy(update={"stiffness_nmm_per_deg": stiffness, "c_coef": 1.0 + 0.01 * n})
-        for n, stiffness in enumerate((12.0, 20.0, 25.0))
-    ]
-    nearby = {"rest_angle_deg": 49.0, "compression_ratio": 0.55, "stiffness_nmm_per_deg": 14.0}
-    better = designs[0].model_copy(update=nearby)  # within a tenth of each range
-    runs, spaces, tasks = [], [], []
-
-    def genetic(one, task):
-        runs.append(task)
-        one.evaluate([designs[len(runs) - 1]], "ga", 0, run=task.run)
-
-    def bayesian(one, task, polls):
-        spaces.append(one.space)
-        tasks.append(task)
-        if len(spaces) == 2:
-            one.evaluate([better], "bo", 0, run=task.run)
-
-    monkeypatch.setattr(paper, "run_genetic", genetic)
-    monkeypatch.setattr(paper, "run_bayesian", bayesian)
-    one = evaluator(space=Space.default())
-    run_paper(one, stage(100, 9))
-    assert [(one.evaluations, one.request.seed, one.run, one.request.preset) for one in runs] == [
-        (17, seed, run, "published") for run, seed in enumerate(seeds(9))
-    ]
-    scores = [trial.score for trial in one.trials if trial.phase == "ga"]
-    energies = [design.spring_energy_j for design in designs]
-    assert scores[0] < scores[1]
-    assert scores[0] / energies[0] > scores[1] / energies[1]
-    assert [[one.name for one in space.free] for space in (spaces[0], spaces[2])] == [
-        sorted(FEW, reverse=False), [name for name in PARAMETERS if name in LINKS]
-    ]  # fmt: skip
-    fixed = {one.name: one.lower for one in spaces[0].parameters if not one.free}
-    assert fixed == {name: getattr(designs[0], name) for name in fixed}
-    middle = {one.name: (one.lower + one.upper) / 2.0 for one in spaces[1].free if one.name == "stiffness_nmm_per_deg"}
-    assert middle == {"stiffness_nmm_per_deg": pytest.approx(12.0)}
-    whole = {one.name: one.width for one in Space.default().free}
-    near = {one.name: one.width / whole[one.name] for one in spaces[1].free}
-    assert near == pytest.approx(dict.fromkeys(PARAMETERS, 0.2))  # docs/searching.md: within ±10 %
-    held = {one.name: one.lower for one in spaces[2].parameters if not one.free}
-    assert held == {name: getattr(better, name) for name in held}
-    # 100 less the sample of 15 and three designs: a third, then halves of what is left
-    assert [(one.evaluations, one.run) for one in tasks] == [(27, 0), (41, 1), (81, 2)]

@@ -9,12 +9,10 @@ from support.hills import SMALL, Hill
 from support.stages import stage
 
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
-from jumpcad.search.propose import pareto
 from jumpcad.search.propose.pareto import ParetoFitness, energy_caps_j, run_nsga2, run_pareto
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
-from jumpcad.workshop import load_workshop
 
 
 def test_caps_end_at_the_largest_energy():
@@ -23,18 +21,6 @@ def test_caps_end_at_the_largest_energy():
     largest = 0.5 * 30e-3 * np.degrees(1.0) * np.radians(0.8 * 70.0) ** 2
     assert energy_caps_j(plain)[-1] == pytest.approx(largest, rel=1e-12)
     assert energy_caps_j(Space.default())[-1] > 1.1 * largest
-
-
-def test_values_of_the_workshop_add_no_corners(monkeypatch):
-    """Of eleven free parameters, 2⁸ corners, and the same caps."""
-    bounds = {"body.plate_mm": (1.6, 2.4), "body.stop_deg": (4.0, 6.0), "process.infill": (0.1, 0.5)}
-    wide = Space.make(bounds=bounds, workshop=load_workshop())
-    assert wide.dimension == 11
-    rows = []
-    energies = pareto.energies_j
-    monkeypatch.setattr(pareto, "energies_j", lambda values: rows.append(len(values)) or energies(values))
-    assert energy_caps_j(wide) == pytest.approx(energy_caps_j(Space.default()))
-    assert rows == [256, 256]
 
 
 def dominated_share(evaluator):
@@ -54,32 +40,6 @@ def test_constrained_improvement_finds_the_front(evaluator):
     run_pareto(one, stage(41, 0, initial=9))
     assert len(one.trials) == 41
     assert dominated_share(one) > 0.99
-
-
-def test_every_cap_asks_for_more_than_the_best_below_it(evaluator, monkeypatch):
-    """Where energy is all that counts; more than the cap is penalised by 1 at a hundredth above it, and less is not."""
-
-    class Strong(Hill):
-        def __call__(self, design):
-            return Evaluation("jump", {"fitness": design.spring_energy_j})
-
-    asked, look = [], pareto.propose
-    monkeypatch.setattr(pareto, "propose", lambda *given, **more: asked.append(more) or look(*given, **more))
-    one = evaluator(model=Strong())
-    run_pareto(one, stage(17, 0, initial=9))
-    caps = energy_caps_j(SMALL)
-    bests = [
-        max((trial.score or 0.0 for trial in one.trials[:9] if trial.design.spring_energy_j <= cap), default=0.0)
-        for cap in caps
-    ]
-    assert [given["best"] for given in asked] == bests
-    assert len(set(bests)) > 1
-    for cap, given in zip(caps, asked, strict=True):
-        points = np.array([SMALL.to_unit(trial.variant) for trial in one.trials])
-        over = np.array([trial.design.spring_energy_j for trial in one.trials]) / cap - 1.0
-        expected = np.where(over > 0.0, (100.0 * over) ** 2, 0.0)
-        np.testing.assert_allclose(given["penalty"](points), expected, rtol=1e-6, atol=1e-12)
-        assert all(SMALL.to_design(point).spring_energy_j <= cap for point in given["elite"])
 
 
 @pytest.mark.thorough
@@ -164,57 +124,3 @@ def trial_of(model, design, place):
     """Return the trial of a design."""
     found = model(design)
     return Trial("pareto", 0, place, design, found, found.metrics.get("fitness"), "m", 0.0)
-
-
-def test_a_cap_is_kept_as_probably_as_the_process_of_the_cost_says(evaluator):
-    """Far below the cap there is no penalty; at a cost of the cap it is ln 2; and the last cap is none."""
-    trials = [trial_of(Weighed(), SMALL.to_design(p), 0) for p in SMALL.spread(40, np.random.default_rng(0))]
-    cost = find_cost("mass")
-    caps = pareto._caps(SMALL, cost, trials)
-    jumped = [cost.of(trial) for trial in trials if trial.score is not None]
-    assert [cap for cap, _ in caps] == pytest.approx([*np.linspace(min(jumped), max(jumped), 8)[:-1], np.inf])
-    assert caps[-1][1] is None
-    cap, penalty = caps[3]
-    stiffness = (cap - 0.05) / 0.002
-    at = SMALL.to_unit(SMALL.to_design([0.4, 0.4, 0.4]))[None].repeat(3, axis=0)
-    stiff = next(i for i, one in enumerate(SMALL.free) if one.name == "stiffness_nmm_per_deg")
-    at[:, stiff] = [0.0, (stiffness - 5.0) / 25.0, 1.0]
-    light, middle, heavy = penalty(at)
-    assert light == pytest.approx(0.0, abs=1e-6)
-    assert middle == pytest.approx(np.log(2.0), rel=0.2)
-    assert heavy > 10.0
-    assert pareto._caps(SMALL, cost, []) == [(np.inf, None)] * 8
-
-
-def test_nsga2_begins_with_the_prior_s_front_against_its_own_cost_and_spread_designs_of_its_seed(
-    evaluator, monkeypatch
-):
-    """Of designs that jump, fewer are on a front against the mass, which is the stiffness, than against the energy."""
-    begun = []
-    monkeypatch.setattr(pareto, "evolve", lambda fitness, first, operators, seed: begun.append((first.tolist(), seed)))
-    points = SMALL.spread(32, np.random.default_rng(5))
-    prior = [trial_of(Weighed(), SMALL.to_design(point), n) for n, point in enumerate(points)]
-    for seed, against in ((3, "mass"), (3, "mass"), (4, "mass"), (3, "spring-energy")):
-        one = evaluator(model=Weighed(), prior=prior)
-        run_nsga2(one, stage(60, seed, against=against))
-    (mass, seed), again, (other, another), (energy, _) = begun
-    assert (seed, another) == (3, 4)
-    assert again == (mass, seed)
-    fronts = [front(prior, find_cost(name)) for name in ("mass", "spring-energy")]
-    assert 1 < len(fronts[0]) < len(fronts[1]) < 20
-    for found, best in ((mass, fronts[0]), (other, fronts[0]), (energy, fronts[1])):
-        assert len(found) == 40
-        assert found[: len(best)] == [SMALL.to_unit(trial.variant).tolist() for trial in best]
-    count = len(fronts[0])
-    assert not any(point in mass[count:] for point in other[count:])
-
-
-@pytest.mark.usefixtures("quick_proposals_once")
-def test_a_front_of_a_learned_cost_resumes(evaluator, tmp_path):
-    whole, first = evaluator(model=Weighed()), evaluator(tmp_path / "s.db", model=Weighed())
-    run_pareto(whole, stage(21, 0, initial=9, against="mass"))
-    run_pareto(first, stage(13, 0, initial=9, against="mass"))
-    first.store.close()
-    longer = evaluator(tmp_path / "s.db", model=Weighed())
-    run_pareto(longer, stage(21, 0, initial=9, against="mass"))
-    assert [trial.key for trial in longer.trials] == [trial.key for trial in whole.trials]

@@ -1,7 +1,6 @@
 """What is learned of score and limits: improvement against numerical integration, feasibility against drawing."""
 
 import math
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,7 +15,6 @@ from jumpcad.search.propose.posterior import (
     VERDICT,
     SearchPosterior,
     _log_h,
-    _scaled,
     constraint_margins,
     forwards,
     unwarped,
@@ -150,21 +148,6 @@ def test_a_neighbour_is_as_probably_feasible_as_by_drawing_neighbours():
         assert chance == pytest.approx(drawn.mean(), abs=0.004)
 
 
-@pytest.mark.parametrize("z", [-5.0, -50.0, -900.0, -1100.0, -1e5])
-def test_improvement_far_below_the_mean_keeps_its_logarithm(z):
-    """φ(z) + z·Φ(z) is φ(z)/z²·(1 - 3/z² + 15/z⁴ - …) for large -z (Abramowitz and Stegun, 26.2.12)."""
-    series = math.log1p(-3.0 / z**2 + 15.0 / z**4 - 105.0 / z**6) if z < -20.0 else None
-    found = float(_log_h(np.array([z]))[0])
-    if series is None:
-        grid = np.linspace(z - 12.0, z, 400001)
-        integral = np.trapezoid(ndtr(grid), grid)  # its derivative is Φ
-        assert found == pytest.approx(math.log(integral), abs=1e-6)
-    else:
-        assert found == pytest.approx(
-            series - 0.5 * z**2 - 0.5 * math.log(2.0 * math.pi) - 2.0 * math.log(-z), abs=1e-5
-        )
-
-
 def test_improvement_near_the_mean_is_the_integral_of_the_distribution():
     for z in (-0.5, 0.0, 1.5):
         grid = np.linspace(-12.0, z, 400001)
@@ -211,27 +194,6 @@ def test_what_guess_and_steps_leave_open_adds_to_what_may_be_gained():
     assert SearchPosterior(more, {}, guess).log_improvement(point, 9.0) == pytest.approx(math.log(gain))
 
 
-def test_a_measured_score_without_a_guess_is_learned_too():
-    trials = [trial for trial in rows_of(48) if trial.score is not None]
-    guesses = {one.key: (SMALL.to_unit(one.variant), one.score) for one in trials[:12]}
-    best = max(trials[12:], key=lambda trial: trial.score)
-    point = SMALL.to_unit(best.variant)[None]
-    posterior = SearchPosterior.from_trials(SMALL, [*trials[:6], best], {}, None, guesses)
-    assert len(posterior.score.x) == 7
-    mean = posterior.score.predict(point)[0] + posterior.guess.predict(point)[0]
-    assert mean == pytest.approx(np.sqrt(best.score), abs=0.02)
-
-
-def test_a_believed_proposal_is_believed_of_the_guess_too():
-    trials = [trial for trial in rows_of(32) if trial.score is not None]
-    guesses = {one.key: (SMALL.to_unit(one.variant), one.score + 0.1) for one in trials}
-    posterior = SearchPosterior.from_trials(SMALL, trials[:6], {}, None, guesses)
-    point = np.array([0.31, 0.42, 0.53])
-    after = posterior.condition_on(point)
-    for before, then in ((posterior.score, after.score), (posterior.guess, after.guess)):
-        assert then.predict(point[None])[1] < before.predict(point[None])[1]
-
-
 def test_a_believed_proposal_is_believed_of_every_limit_and_of_the_score():
     x, theta = SMALL.spread(12, np.random.default_rng(0)), [0.0, -1.0, -1.0, -1.0, -6.0]
     score, limit, other = (Surrogate(x, x[:, axis], theta, fit=False) for axis in range(3))
@@ -269,81 +231,3 @@ def test_a_name_is_no_place_between_others():
     slope = score.slope(points)
     assert (slope[:, -1] == 0.0).all()
     assert np.abs(slope[:, 0]).min() > 0.0
-
-
-def test_what_scores_are_more_is_learned_over_their_own_guesses():
-    """Roots of scores less roots of guesses, however far a guess is from those beside it."""
-    trials = [trial for trial in rows_of(24) if trial.score is not None][:8]
-    guesses = {
-        one.key: (SMALL.to_unit(one.variant), one.score * (4.0 if n == 3 else 0.81)) for n, one in enumerate(trials)
-    }
-    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None, guesses)
-    roots = np.sqrt([one.score for one in trials])
-    shares = np.array([-1.0 if n == 3 else 0.1 for n in range(len(trials))])
-    assert posterior.score.y == pytest.approx(roots * shares)
-    assert posterior.guess.y == pytest.approx(roots * (1.0 - shares))
-    assert posterior.guess.x == pytest.approx(np.array([SMALL.to_unit(one.variant) for one in trials]))
-
-
-def test_margins_count_in_their_typical_size_and_large_ones_less():
-    """Of -1, 2, 4 mm and 2000 mm the middle size is 3 mm; half of them all 0 are as they are."""
-    margins = np.array([-1.0, 2.0, 4.0, 2000.0])
-    assert _scaled(margins) == pytest.approx(np.arcsinh(margins / 3.0))
-    assert _scaled(np.array([0.0, 0.0, -0.5])) == pytest.approx(np.arcsinh([0.0, 0.0, -0.5]))
-
-
-def test_the_limits_that_reject_most_have_processes_with_the_verdict():
-    """Eight in all, of equals the first by name; only limits that some robot meets. The verdict has no take-off too."""
-
-    def trial(*names):
-        failed = tuple(Finding(name, "error", -1.0, "mm", "", "") for name in names)
-        met = tuple(Finding(f"limit_{n}", "info", 0.5, "mm", "", "") for n in range(9)) if not names else ()
-        found = Evaluation("jump", {}, (*failed, *met))
-        return Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), found, None, "m", 0.0)
-
-    every = [f"limit_{n}" for n in range(9)]
-    never = ("a_limit_that_none_meets", "no_takeoff")
-    trials = [trial(), trial(*every, *never), trial(*every[:7], *never), trial("limit_8")]
-    margins = constraint_margins(trials)
-    assert list(margins) == [*every[:6], "limit_6", VERDICT]
-    assert margins["limit_0"][:3].tolist() == [0.5, -1.0, -1.0]
-    assert np.isnan(margins["limit_0"][3])
-    assert margins[VERDICT].tolist() == [1.0, -1.0, -1.0, -1.0]
-    assert next(iter(constraint_margins([*trials, *[trial("limit_8")] * 3]))) == "limit_8"
-
-
-def test_hyperparameters_are_kept_to_three_decimals_and_taken_up_again():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
-    thetas = posterior.thetas
-    assert list(thetas) == ["score", "loop", VERDICT]
-    assert thetas["score"] == [round(value, 3) for value in posterior.score.theta] != posterior.score.theta
-    again = SearchPosterior.from_trials(SMALL, rows_of(24), thetas, ())
-    assert again.thetas == thetas
-    other = SearchPosterior.from_trials(SMALL, rows_of(40), thetas, ("loop",))
-    assert other.thetas["score"] == thetas["score"]
-    assert other.thetas["loop"] != thetas["loop"]
-
-
-def test_hyperparameters_of_guesses_and_of_what_scores_are_more_have_their_own_names():
-    trials = [trial for trial in rows_of(24) if trial.score is not None]
-    guesses = {one.key: (SMALL.to_unit(one.variant), 0.5 * one.score) for one in trials}
-    posterior = SearchPosterior.from_trials(SMALL, trials[:6], {}, None, guesses)
-    thetas = posterior.thetas
-    assert list(thetas) == ["guess", "more"]
-    assert thetas["guess"] == pytest.approx(posterior.guess.theta, abs=6e-4)
-    assert thetas["more"] == pytest.approx(posterior.score.theta, abs=6e-4)
-    assert thetas["guess"] != thetas["more"]
-    again = SearchPosterior.from_trials(SMALL, trials[:6], thetas, (), guesses)
-    assert (again.guess.theta, again.score.theta) == (pytest.approx(thetas["guess"]), pytest.approx(thetas["more"]))
-
-
-def test_backward_jumps_are_learned_as_none_where_some_go_forwards():
-    """The roots of 4, 0 in place of -9, and 16; of guesses too."""
-    trials = [replace(trial, score=score) for trial, score in zip(rows_of(3), (4.0, -9.0, 16.0), strict=True)]
-    assert SearchPosterior.from_trials(SMALL, trials, {}, None).score.y.tolist() == [2.0, 0.0, 4.0]
-    guesses = {one.key: (SMALL.to_unit(one.variant), one.score) for one in trials}
-    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None, guesses)
-    assert posterior.guess.y.tolist() == [2.0, 0.0, 4.0]
-    assert posterior.score.y.tolist() == [0.0] * 3
-    backwards = [replace(trial, score=-abs(trial.score)) for trial in trials]
-    assert SearchPosterior.from_trials(SMALL, backwards, {}, None).score.y.tolist() == [-2.0, -3.0, -4.0]

@@ -1,6 +1,5 @@
 """What a step learns, with dry runs that are known."""
 
-import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -10,8 +9,7 @@ from support.hills import SMALL, Hill
 
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.propose.local_search import DRAWN, STEP, WITHIN
-from jumpcad.search.propose.posterior import SearchPosterior
-from jumpcad.search.propose.proposal_loop import HELD, ROUNDS, ProposalLoop, _best_of, _last_leap
+from jumpcad.search.propose.proposal_loop import HELD, ROUNDS, ProposalLoop
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
 
@@ -97,14 +95,6 @@ def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
     assert after.log_feasible(unit) < before.log_feasible(unit)
 
 
-def test_what_failed_where_all_seemed_well_is_believed_to_fail():
-    """Compression ratio 0.59, of up to 0.7: there the trials know of nothing wrong."""
-    loop, unit = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=True), np.array([[0.7, 0.3, 0.3]])
-    assert math.exp(loop._learned().log_feasible(unit)[0]) > 0.99
-    loop.tried.append(unit[0])
-    assert math.exp(loop._learned().log_feasible(unit)[0]) < 0.5
-
-
 def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
     many = [[0.01 * number, 0.5, 0.5] for number in range(40)]
     loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False)
@@ -115,13 +105,6 @@ def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
     assert len(hopeless.tried) == ROUNDS
 
 
-def test_of_many_rounds_the_one_that_held_is_taken_not_the_last_which_nobody_tried():
-    many = [[0.2, 0.5, 0.5], *([0.6 + 0.01 * number, 0.5, 0.5] for number in range(ROUNDS + 1))]
-    loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False)
-    assert loop.propose(Asked(*many), 1.0).unit.tolist() == many[0]
-    assert len(loop.tried) == ROUNDS
-
-
 def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
     ask = Asked([0.3, 0.3, 0.3], [0.6, 0.6, 0.6])
     loop = ProposalLoop(SMALL, TRIALS, None, {}, refit=True)
@@ -130,22 +113,6 @@ def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
     unit = np.array([[0.3, 0.3, 0.3]])
     (_, before), (_, after) = (posterior.score.predict(unit) for posterior in ask.posteriors)
     assert after < 0.5 * before
-
-
-def test_none_is_passed_on():
-    assert ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False).propose(lambda *_, **__: None, 1.0) is None
-
-
-def test_the_best_of_many_proposals_is_the_one_with_the_most_to_gain_that_is_likely_to_be_built():
-    units = ([0.1, 0.1, 0.1], [0.5, 0.5, 0.5], [0.9, 0.9, 0.9])
-    proposals = [Proposal(SMALL.to_variant(unit), np.array(unit), 0.0, 0.0) for unit in units]
-    posterior = SimpleNamespace(
-        log_improvement=lambda points, best: best - 3.0 * np.abs(points[:, 0] - 0.8),
-        log_feasible=lambda points: -3.0 * points[:, 0] ** 3,
-    )
-    chosen = _best_of(proposals, posterior, 2.0)
-    assert chosen.unit.tolist() == units[1]
-    assert (chosen.log_improvement, chosen.log_feasible) == pytest.approx((1.1, -0.375))
 
 
 def found_in(*steps):
@@ -177,29 +144,6 @@ def test_beside_a_leap_all_axes_are_rehearsed(trials, looks):
     beside = [[0.3, 0.9, 1.0], [0.5, 0.7, 1.0], [0.5, 0.9, 0.8], [0.7, 0.9, 1.0]]
     expected = [*(beside if looks else []), [0.2, 0.2, 0.2]]
     assert np.array(loop.tried) == pytest.approx(np.array(expected))
-
-
-def test_what_promises_little_is_not_rehearsed_once_one_holds():
-    """A large gain, then one of 0.08 %: the second is not tried."""
-
-    class Little(Asked):
-        def __call__(self, posterior, rehearsed):
-            found = super().__call__(posterior, rehearsed)
-            return replace(found, log_improvement=math.log(0.0004)) if rehearsed else found
-
-    loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False)
-    found = loop.propose(Little([0.1, 0.5, 0.5], [0.9, 0.5, 0.5], [0.3, 0.5, 0.5]), 1.0)
-    assert found.unit.tolist() == [0.1, 0.5, 0.5]  # not the second, of which nobody knows whether it holds
-    assert len(loop.tried) == 1
-
-
-def test_the_promised_gain_is_a_share_of_the_score():
-    """√s grows by 0.002 of 1: s by 0.4 %; of 4, by 0.002/2·2 = 0.2 %."""
-    unit = np.array([0.1, 0.5, 0.5])
-    proposal = Proposal(SMALL.to_variant(unit), unit, math.log(0.004), math.log(0.5))
-    assert proposal.promised_gain(1.0) == pytest.approx(0.004)
-    assert proposal.promised_gain(4.0) == pytest.approx(0.002)
-    assert proposal.promised_gain(0.0) == math.inf
 
 
 def test_what_failed_is_not_asked_for_again_and_what_held_is_taken_where_nothing_else_is_left():
@@ -243,14 +187,6 @@ def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as
     assert loop.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
 
 
-def test_a_neighbour_that_was_proposed_is_believed_in_the_rest_of_the_step():
-    best, dry_run = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), DryRun(1.0)
-    dry_run.estimator.ready = True
-    before, after = (ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False) for _ in range(2))
-    unit = after.beside([best], lambda _: True, np.random.default_rng(0)).unit[None]
-    assert after._learned().score.predict(unit)[1] < 0.5 * before._learned().score.predict(unit)[1]
-
-
 @pytest.mark.parametrize("refused", [True, False])
 def test_what_has_no_room_may_not_be_proposed(refused):
     variant = SMALL.to_variant([0.5, 0.5, 0.5])
@@ -260,52 +196,5 @@ def test_what_has_no_room_may_not_be_proposed(refused):
     assert ProposalLoop(SMALL, TRIALS, None, {}, refit=False).may_hold(variant)
 
 
-@pytest.mark.parametrize(("less", "proposed"), [(-1.0, True), (0.9, True), (1.1, False)])
-def test_a_neighbour_may_be_a_little_worse_than_the_best(less, proposed):
-    """By half a hundredth of its guess."""
-    best, dry_run = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), DryRun()
-    dry_run.estimator.ready = True
-    dry_run.score = lambda variant: 3.0 if variant.key == best.key else 3.0 * (1.0 - 0.005 * less)
-    found = ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False).beside(
-        [best], lambda _: True, np.random.default_rng(0)
-    )
-    assert (found is not None) == proposed
-
-
-def test_a_neighbour_without_a_guess_is_not_proposed_however_small_scores_are():
-    """Ranges in metres are less than one."""
-    best, dry_run = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=0.2), DryRun()
-    dry_run.estimator.ready = True
-    dry_run.score = lambda variant: 0.2 if variant.key == best.key else None
-    loop = ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False)
-    assert loop.beside([best], lambda _: True, np.random.default_rng(0)) is None
-
-
 def variant_of(loop, key):
     return next(one for one in map(SMALL.to_variant, loop.tried) if one.key == key)
-
-
-def test_hyperparameters_are_those_of_the_newest_fit():
-    """What is not fitted keeps those of the step before; what has none is fitted. Other processes' are kept too."""
-    other = {"slope": [0.1] * 5}
-    fitted = SearchPosterior.from_trials(SMALL, TRIALS, {}, None).thetas
-    old = {"score": [1.0, -1.0, -1.0, -1.0, -4.0]}
-    refit, kept = (ProposalLoop(SMALL, TRIALS, None, old | other, refit) for refit in (True, False))
-    again = SearchPosterior.from_trials(SMALL, TRIALS, old, None).thetas
-    posteriors = [one._learned() for one in (refit, kept)]
-    assert refit.thetas == other | again
-    assert refit.thetas["score"] != old["score"]
-    assert kept.thetas["score"] == old["score"]
-    assert [one.thetas["score"] for one in posteriors] == [again["score"], old["score"]]
-    assert kept.thetas.keys() == fitted.keys() | other.keys()
-    refit._learned()
-    assert refit.thetas == other | again  # once in a step
-
-
-def test_a_leap_is_two_per_cent_better_than_the_leap_before_it():
-    """1 is one; 1.01 is none, and 1.019 neither, though both are better than what was before; 1.03 is."""
-    scores = [None, 1.0, 1.01, 1.019, 0.5, 1.03, 1.04, None]
-    trials = [replace(TRIALS[0], place=place, score=score) for place, score in enumerate(scores)]
-    assert [getattr(_last_leap(trials[:count]), "place", None) for count in range(9)] == [
-        None, None, 1, 1, 1, 1, 5, 5, 5
-    ]  # fmt: skip
