@@ -233,8 +233,8 @@ def _replace(target: Path, files: Mapping[str, bytes], gone: Mapping[str, Stamp]
     try:
         if target.exists():
             shutil.copytree(target, fresh, symlinks=True, copy_function=_link)
-        for path in gone:
-            (fresh / path).unlink()
+        for path in {*gone, *files}:  # what is written through a link would change the target
+            (fresh / path).unlink(missing_ok=True)
         for path, data in files.items():
             (fresh / path).parent.mkdir(parents=True, exist_ok=True)
             (fresh / path).write_bytes(data)

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.folders import add_mine, has_mine, listed, old
@@ -172,6 +173,20 @@ def test_what_appears_during_the_write_is_not_lost(target: Path, monkeypatch: py
     left = Path(str(error.value).split(" is in ")[1])
     assert (left / "late.txt").read_text() == "mine"
     assert (left / "a.md").read_text() == "mew"
+
+
+def test_what_appears_under_a_name_that_is_written_is_not_lost(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = atomic_write._replaceable
+
+    def late(*arguments: Any) -> dict[str, atomic_write.Stamp]:
+        found = whole(*arguments)
+        (target / "c.md").write_text("mine")
+        return found
+
+    monkeypatch.setattr(atomic_write, "_replaceable", late)
+    with pytest.raises(JumpcadError, match="was changed in it meanwhile is in") as error:
+        write_folder(target, "robot", {}, {"c.md": "new"}.items())
+    assert Path(str(error.value).split(" is in ")[1], "c.md").read_text() == "mine"
 
 
 def test_what_would_be_lost_is_named_and_replaced_only_by_force(tmp_path: Path) -> None:
