@@ -58,42 +58,6 @@ def test_what_is_no_file_is_no_study(tmp_path, name):
 WAYS = ["mode=rw", "mode=ro", "mode=ro&immutable=1"]
 
 
-@pytest.mark.parametrize("log", [None, b"", b"log"], ids=["without a log", "with an empty log", "with a log"])
-@pytest.mark.parametrize("name", ["SQLITE_CANTOPEN", "SQLITE_READONLY_DIRECTORY", "SQLITE_BUSY"])
-@pytest.mark.parametrize("fails", [0, 1, 2, 3])
-def test_a_file_is_opened_in_the_first_way_that_is_permitted(tmp_path, monkeypatch, fails, name, log):
-    """For writing, for reading, and, without a log beside it, as one that does not change; other errors are raised."""
-    path, tried, connect = tmp_path / "s.db", [], database.connect
-    StudyStore.write(path, IDENTITY).close()
-    if log is not None:
-        (tmp_path / "s.db-wal").write_bytes(log)
-
-    class Refused:
-        def execute(self, _):
-            error = sqlite3.OperationalError("refused")
-            error.sqlite_errorname = name
-            raise error
-
-        def close(self):
-            tried.append("closed")
-
-    def connected(uri):
-        tried.append(uri.partition("?")[2])
-        return Refused() if tried.count("closed") < fails else connect(f"{path.as_uri()}?mode=rw")
-
-    monkeypatch.setattr(database, "connect", connected)
-    ways = WAYS[:2] if log else WAYS
-    more = len(ways) if name != "SQLITE_BUSY" else 1
-    if fails < more or not fails:
-        (tmp_path / "s.db-wal").unlink(missing_ok=True)
-        database.open_to_read(path).close()
-    else:
-        with pytest.raises(sqlite3.OperationalError, match="refused"):
-            database.open_to_read(path)
-    expected = ways[: min(fails + 1, more)]
-    assert [way for way in tried if way != "closed"] == expected
-
-
 @pytest.mark.parametrize(
     ("name", "said"),
     [

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support import needs
-from support.hills import SMALL, Hill, Trap
+from support.hills import Hill, Trap
 from support.places import TESTS
 
 from jumpcad import interrupts
@@ -92,15 +92,6 @@ def test_what_fails_once_is_repeated(tmp_path):
     assert found == [Hill()(design) for design in DESIGNS]
     assert notes
     assert not any("quarantined" in note for note in notes)
-
-
-def test_without_processes_an_error_is_no_result():
-    """As of any executor: it is raised where the result is asked for."""
-    assert InProcess().submit(divmod, 7, 3).result() == (2, 1)
-    failed = InProcess().submit(divmod, 7, 0)
-    assert isinstance(failed.exception(), ZeroDivisionError)
-    with pytest.raises(ZeroDivisionError):
-        failed.result()
 
 
 def test_a_closed_pool_starts_again_and_ends_once():
@@ -199,21 +190,6 @@ def test_dask_that_does_not_answer(monkeypatch):
         dask_pool("tcp://127.0.0.1:1")
 
 
-@pytest.mark.parametrize(
-    ("workers", "limit_s", "message"),
-    [
-        (-1, 1.0, "workers = -1"),
-        (100_000, 1.0, "workers = 100000 must be at most 256"),
-        (1, 0.0, "limit = 0.0 s"),
-        (1, float("nan"), "limit = nan s"),
-        (1, float("inf"), "limit = inf s"),
-    ],
-)
-def test_wrong_pools(workers, limit_s, message):
-    with pytest.raises(JumpcadError, match=message):
-        local_pool(workers, limit_s)
-
-
 def test_a_pool_has_a_worker_for_each_core_that_it_may_use(monkeypatch):
     """A machine that does not tell has as many as it has cores."""
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 2, 5}, raising=False)
@@ -261,36 +237,6 @@ def test_a_command_that_was_interrupted_evaluates_no_more(tmp_path, monkeypatch)
         interrupts.seen.clear()
 
 
-@pytest.mark.parametrize("workers", [1, 3, 8])
-@pytest.mark.parametrize(("count", "mean_s"), [(1, 0.001), (50, 0.001), (1000, 0.001), (60, 0.03), (7, 5.0)])
-def test_a_batch_is_cut_into_tasks_of_a_tenth_of_a_second_and_ends_together(workers, count, mean_s):
-    """Every design once; no task longer than the one before; one design at least; the last task has one."""
-    pool = local_pool(workers)
-    pool._mean_s = mean_s
-    tasks = pool._tasks(count)
-    assert [index for task in tasks for index in task] == list(range(count))
-    sizes = [len(task) for task in tasks]
-    assert max(sizes) <= max(1.0, 0.1 / mean_s)
-    assert sizes == sorted(sizes, reverse=True)
-    assert sizes[-1] == 1
-    if count * mean_s > 0.3 * workers and mean_s < 0.05:
-        assert sizes[0] == int(0.1 / mean_s)
-    if count >= 2 * workers:
-        assert len(tasks) > workers  # nobody waits at the beginning
-
-
-@pytest.mark.parametrize(
-    ("workers", "limit_s", "message"),
-    [(257, 60.0, "at most 256"), (1, 0.099, "at least 0.1 and at most 86400"), (1, 86401.0, "at most 86400")],
-)
-def test_workers_and_timeouts_have_ends_that_are_told(workers, limit_s, message):
-    """A day at most; a tenth of a second, below which nothing ends."""
-    with pytest.raises(JumpcadError, match=message):
-        local_pool(workers, limit_s)
-    for limit in (0.1, 86400.0):
-        assert local_pool(256, limit).workers == 256
-
-
 class Wavering(Hill):
     """A hill that fails otherwise every time."""
 
@@ -326,33 +272,6 @@ def test_after_its_processes_were_lost_a_task_goes_to_new_ones_with_the_same_lim
     assert len(opened) == 2
 
 
-@pytest.mark.parametrize(
-    ("error", "said"),
-    [
-        (BrokenExecutor("a worker ended by SIGALRM(14)"), "it ran past its limit of 12.5 s"),
-        (BrokenExecutor("exit codes {SIGKILL(-9)}"),
-         "its worker was ended by SIGKILL (killed, perhaps because memory ran out)"),
-        (BrokenExecutor("exit codes {SIGSEGV(-11)}"), "its worker was ended by SIGSEGV"),
-        (OSError("the line broke\nand more"), "its worker was lost: OSError: the line broke"),
-        (OSError(), "its worker was lost: OSError: "),
-    ],
-)  # fmt: skip
-def test_how_a_worker_was_lost_is_one_line(error, said):
-    assert Pool(InProcess, InProcess.shutdown, 1, 12.5)._loss(error) == said
-
-
-def test_tasks_are_as_long_as_evaluations_took_of_late():
-    """Each moves the mean by a tenth of its difference; the first tasks are of one design."""
-    with Pool(InProcess, InProcess.shutdown, 1) as pool:
-        assert [len(task) for task in pool._tasks(3)] == [1, 1, 1]
-        mean_s = pool._mean_s
-        found = list(pool.evaluate(Hill(), [SMALL.to_design([0.5, 0.01 * n, 0.5]) for n in range(60)]))
-        for outcome in found:
-            mean_s += 0.1 * (outcome.duration_s - mean_s)
-        assert pool._mean_s == pytest.approx(mean_s)
-        assert len(pool._tasks(60)) < 10
-
-
 def test_what_a_call_without_processes_raises_comes_with_its_result():
     """An interrupt is nobody's result."""
     executor = InProcess()
@@ -364,3 +283,40 @@ def test_what_a_call_without_processes_raises_comes_with_its_result():
 
     with pytest.raises(KeyboardInterrupt):
         executor.submit(interrupted)
+
+
+def test_workers_and_timeouts_have_ends_that_are_told():
+    """A day at most; a tenth of a second, below which nothing ends."""
+    for workers, limit_s, message in (
+        (-1, 1.0, "workers = -1"), (257, 1.0, "workers = 257 must be at most 256"), (1, 0.0, "limit = 0.0 s"),
+        (1, float("nan"), "limit = nan s"), (1, float("inf"), "limit = inf s"), (1, 0.099, "at least 0.1 and at most"),
+        (1, 86401.0, "at most 86400"),
+    ):  # fmt: skip
+        with pytest.raises(JumpcadError, match=message):
+            local_pool(workers, limit_s)
+    for limit in (0.1, 86400.0):
+        assert local_pool(256, limit).workers == 256
+
+
+def test_a_batch_is_cut_into_tasks_of_a_tenth_of_a_second_and_ends_together():
+    """Every design once; no task longer than the one before; the last one has one."""
+    for workers, count, mean_s in ((1, 1, 0.001), (3, 50, 0.001), (8, 1000, 0.001), (3, 60, 0.03), (8, 7, 5.0)):
+        pool = local_pool(workers)
+        pool._mean_s = mean_s
+        sizes = [len(task) for task in pool._tasks(count)]
+        assert sum(sizes) == count, (workers, count, mean_s)
+        assert sizes == sorted(sizes, reverse=True), (workers, count, mean_s)
+        assert sizes[-1] == 1, (workers, count, mean_s)
+        assert max(sizes) <= max(1.0, 0.1 / mean_s), (workers, count, mean_s)
+
+
+def test_how_a_worker_was_lost_is_one_line():
+    for error, said in (
+        (BrokenExecutor("a worker ended by SIGALRM(14)"), "it ran past its limit of 12.5 s"),
+        (BrokenExecutor("exit codes {SIGKILL(-9)}"),
+         "its worker was ended by SIGKILL (killed, perhaps because memory ran out)"),
+        (BrokenExecutor("exit codes {SIGSEGV(-11)}"), "its worker was ended by SIGSEGV"),
+        (OSError("the line broke\nand more"), "its worker was lost: OSError: the line broke"),
+        (OSError(), "its worker was lost: OSError: "),
+    ):  # fmt: skip
+        assert Pool(InProcess, InProcess.shutdown, 1, 12.5)._loss(error) == said

@@ -6,7 +6,6 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -420,20 +419,6 @@ def test_a_prior_study_may_lack_the_figures_of_stand_ins(tmp_path):
     assert len(learned.trials) == 12
 
 
-def test_a_step_promises_the_most_that_one_of_its_proposals_does():
-    """log gain 0 of the root of a best score of 4 is 2·1/2 = 1 of the score; what its own step found counts not."""
-    note = {"theta": {}, "log_feasible": 0.0}
-    first, second, third = (trial for trial in run(replace(REQUEST, method="ga", evaluations=3)).trials)
-    trials = [
-        replace(first, phase="ga", step=1, score=4.0, proposal={}),
-        replace(second, phase="bo", step=1, score=100.0, proposal=note | {"log_improvement": -3.0}),
-        replace(third, phase="bo", step=1, score=1.0, proposal=note | {"log_improvement": 0.0}),
-        replace(first, phase="bo", step=2, score=1.0, proposal=note | {"log_improvement": 0.0}),
-    ]
-    assert [promise for promise, _ in gains(trials)] == pytest.approx([1.0, 0.2])
-    assert [promise for promise, _ in gains(trials[1:], best=4.0)] == pytest.approx([1.0, 0.2])
-
-
 def test_a_prior_study_of_another_program_is_said_to_be_one(tmp_path):
     class Newer(Hill):
         digest = "newer"
@@ -460,28 +445,6 @@ def test_a_prior_study_whose_model_had_other_values_in_another_program_is_said_t
         run(replace(REQUEST, prior=tmp_path / "old.db"))
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
-        ({"batch": 0}, "batch = 0"),
-        ({"method": "ga", "batch": 4}, "batch = 4: does not apply to ga, only to ga[+]bo, bo"),
-        ({"seed": -1}, "seed = -1"),
-        ({"seed": 2**32}, "must be at most 4294967295"),
-        ({"until_percent": -1.0}, "until_percent = -1.0 must be at least 0"),
-        ({"method": "ga", "until_percent": 1.0}, r"until_percent = 1.0: does not apply to ga, only to ga\+bo, bo$"),
-        ({"hours": float("nan")}, "hours = nan must be at least 0"),
-        ({"method": "gaa"}, "did you mean ga"),
-        ({"objective": "height"}, "not one of the objectives"),
-        ({"preset": "fast"}, "not one of the presets"),
-        ({"prior": Path("none.db")}, "no such study file"),
-    ],
-)
-def test_wrong_requests(change, message):
-    with pytest.raises(JumpcadError, match=message):
-        run(replace(REQUEST, **change))
-
-
 @pytest.mark.parametrize(("evaluations", "kept"), [(240, 8), (80, 5)])
 def test_a_pick_leaves_a_quarter_for_bounds_or_one_evaluation_a_parameter(monkeypatch, evaluations, kept):
     """Of 60 evaluations eight for the eight parameters, of 20 five."""
@@ -489,18 +452,6 @@ def test_a_pick_leaves_a_quarter_for_bounds_or_one_evaluation_a_parameter(monkey
     monkeypatch.setattr(study, "rank_candidates", lambda *given: shares.append(given[4]) or [])
     run(Request(Space.default(), Hill(), method="ga", evaluations=evaluations))
     assert shares == [evaluations // 4 - kept]
-
-
-def test_bounds_get_what_the_neighbours_leave_of_the_pick(monkeypatch):
-    given, look = [], study.active_bounds
-    monkeypatch.setattr(study, "active_bounds", lambda *asked: given.append(asked) or look(*asked))
-    request = replace(REQUEST, method="ga", evaluations=80)
-    result = run(request)
-    ((evaluator, winner, left, _),) = given
-    around = [trial for trial in evaluator.trials if trial.phase == "robust"]
-    assert winner is result.winner
-    assert left == request.pick - len(around) > 0
-    assert result.evaluations <= 80
 
 
 def test_bounds_of_the_winner_are_examined_with_what_its_pick_leaves(monkeypatch):

@@ -360,26 +360,6 @@ def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path):
             StudyStore.write(path, IDENTITY | mine)
 
 
-def test_a_file_of_which_it_cannot_be_read_whether_it_is_empty_is_not_removed(tmp_path, monkeypatch):
-    """Neither when it is made nor when its request turns out wrong."""
-    store = StudyStore.write(tmp_path / "a.db", IDENTITY)
-    store._connection.execute("DROP TABLE trials")
-    store.__exit__(JumpcadError, JumpcadError("wrong"), None)
-    assert (tmp_path / "a.db").exists()
-
-    class Unreadable:
-        def execute(self, _):
-            raise sqlite3.DatabaseError("unreadable")
-
-        def close(self):
-            pass
-
-    monkeypatch.setattr("jumpcad.search.study.store.connect", lambda _: Unreadable())
-    with pytest.raises(JumpcadError, match="unreadable"):
-        StudyStore.write(tmp_path / "b.db", IDENTITY)
-    assert (tmp_path / "b.db").exists()
-
-
 def test_a_study_is_written_ahead_and_no_batch_waits_for_the_disk(tmp_path):
     """Others read it meanwhile; only a power cut can lose the last batches."""
     for _ in range(2):
