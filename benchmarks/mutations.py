@@ -1,19 +1,15 @@
-"""Which one-line changes of the package do the nearest tests not see?
+"""Which one-line changes of the package do the tests not see?
 
-    python benchmarks/mutations.py [--seed 1] [--count 30] [--only REGEX] [--mixed] [--files 3] [--whole] [--log FILE]
+    python benchmarks/mutations.py [--seed 1] [--count 30] [--only REGEX] [--whole]
 
-A mutant is the package with one expression changed: a number × 1.3, ÷ 4 or ± 1, an operator, a function or a truth for
-its opposite, a sign or a `not` dropped, one side of a returned sum or product gone; or, with `--mixed`, two arguments
-exchanged, one left to its default, or a field taken for another of its class and unit. It is made in a copy of the
-checkout, and the tests nearest to its module run there: its namesakes, and those that import it most often. With
-`--whole` all tests run for those that these do not see, which takes about eight minutes each.
-Left out is what says nothing of the machine: words for people, types, and the modules that draw (`DRAWING`).
-
-A survivor is one of three: equivalent (no result changes), a judgement (another number would do as well), or a hole in
-the tests. The exit status is 0; it is a report.
+A mutant is a copy of the checkout in which one expression is changed: a number × 1.3, an operator or a function for its
+opposite, a sign or a `not` dropped. The quick tests of its module's folder and those that import the module run there;
+with `--whole` all quick tests run for those that these do not see. A survivor is one of three: equivalent (no
+result changes), a judgement (another number would do as well), or a hole in the tests.
 """
 
 import argparse
+import ast
 import os
 import random
 import re
@@ -22,50 +18,90 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
-from mutants import PACKAGE, Mutant, drawn
-
 ROOT = Path(__file__).parents[1]
-LIMIT_S, WHOLE_LIMIT_S = 150.0, 1800.0
+LIMIT_S, WHOLE_LIMIT_S = 150.0, 900.0
 """Time of one mutant's tests, the nearest or all: an endless loop ends here."""
+OPPOSITES = {
+    ast.Add: ("+", "-"), ast.Sub: ("-", "+"), ast.Mult: ("*", "/"), ast.Div: ("/", "*"), ast.Lt: ("<", ">"),
+    ast.LtE: ("<=", ">="), ast.Gt: (">", "<"), ast.GtE: (">=", "<="), ast.Eq: ("==", "!="), ast.NotEq: ("!=", "=="),
+    ast.And: ("and", "or"), ast.Or: ("or", "and"),
+}  # fmt: skip
+PAIRS = [("min", "max"), ("sin", "cos"), ("any", "all"), ("floor", "ceil"), ("minimum", "maximum")]
+NAMES = dict(PAIRS) | {right: left for left, right in PAIRS}
 
 
-def chosen(root: Path, seed: int, count: int, only: str, mixed: bool) -> list[Mutant]:
-    """Return mutants in random order, no two of a line."""
-    mutants = list(drawn(root, only, mixed))
-    random.Random(seed).shuffle(mutants)
-    of_line: dict[tuple[str, int], Mutant] = {}
-    for mutant in mutants:
-        of_line.setdefault((mutant.path, mutant.line((root / mutant.path).read_bytes())), mutant)
-    return list(of_line.values())[:count]
+@dataclass(frozen=True)
+class Mutant:
+    """Bytes `start` to `end` of a file, and what takes their place."""
+
+    path: str
+    line: int
+    start: int
+    end: int
+    text: str
+
+    def applied(self, source: bytes) -> bytes:
+        """Return the file's new content."""
+        return source[: self.start] + self.text.encode() + source[self.end :]
 
 
-def nearest(root: Path, module: str, files: int) -> list[str]:
-    """Return the test files nearest to a module: its namesake, then importers and namesakes, its folder's first.
+def mutants(path: str, source: bytes) -> Iterator[Mutant]:
+    """Yield the mutants of a file, without those in messages."""
+    starts = [0]
+    for line in source.splitlines(keepends=True):
+        starts.append(starts[-1] + len(line))
 
-    Of a module that no test imports, those of its package.
-    """
-    inner = Path(module).relative_to(PACKAGE)
-    stem, folder = inner.parent.name if inner.stem == "__init__" else inner.stem, Path("tests") / inner.parent
-    dotted = ".".join(inner.with_suffix("").parts).removesuffix(".__init__")
-    package, _, name = f"{PACKAGE}.{dotted}".rpartition(".")
-    named = re.compile(rf"\b{re.escape(package)}\.{name}\b|\bfrom {re.escape(package)} import [^\n]*\b{name}\b")
-    ranks = {}
-    for path in sorted((root / "tests").rglob("test_*.py")):
-        file = path.relative_to(root)
-        imports = len(named.findall(path.read_text(encoding="utf-8")))
-        namesake, beside = file.name == f"test_{stem}.py", file.parent == folder
-        if imports or namesake:
-            ranks[file.as_posix()] = (not (namesake and beside), not beside, -imports)
-    if not ranks and inner.stem != "__init__":
-        return nearest(root, Path(module).with_name("__init__.py").as_posix(), files)
-    return sorted(ranks, key=lambda file: ranks[file])[:files] or [folder.as_posix()]
+    def span(node: ast.expr) -> tuple[int, int]:
+        return starts[node.lineno - 1] + node.col_offset, starts[node.end_lineno - 1] + node.end_col_offset
+
+    def swapped(node: ast.expr, op: ast.AST, left: ast.expr, right: ast.expr) -> Iterator[Mutant]:
+        old, new = OPPOSITES.get(type(op), ("", ""))
+        begin, end = span(left)[1], span(right)[0]
+        if old and old.encode() in source[begin:end]:
+            start = begin + source[begin:end].index(old.encode())
+            yield Mutant(path, node.lineno, start, start + len(old), new)
+
+    def below(node: ast.AST) -> Iterator[Mutant]:
+        if isinstance(node, ast.JoinedStr | ast.Raise | ast.Assert):
+            return
+        match node:
+            case ast.Constant(value=float(value)):
+                yield Mutant(path, node.lineno, *span(node), f"({value!r} * 1.3)" if value else "1.0")
+            case ast.UnaryOp(op=ast.USub() | ast.Not(), operand=operand):
+                start, end = span(operand)
+                yield Mutant(path, node.lineno, *span(node), source[start:end].decode())
+            case ast.BinOp(op=op, left=left, right=right) | ast.Compare(ops=[op], left=left, comparators=[right]):
+                yield from swapped(node, op, left, right)
+            case ast.BoolOp(op=op, values=[left, right, *_]):
+                yield from swapped(node, op, left, right)
+            case ast.Name(id=name) | ast.Attribute(attr=name) if name in NAMES:
+                end = span(node)[1]
+                yield Mutant(path, node.end_lineno, end - len(name), end, NAMES[name])
+        for field, value in ast.iter_fields(node):
+            if field not in ("annotation", "returns", "decorator_list"):
+                for one in value if isinstance(value, list) else [value]:
+                    if isinstance(one, ast.AST):
+                        yield from below(one)
+
+    yield from below(ast.parse(source))
 
 
-def outcome(root: Path, tests: list[str], limit_s: float = LIMIT_S) -> str:
-    """Run tests in a copy; return `survived`, `timeout`, or `killed` and the first test that failed."""
+def nearest(root: Path, module: str) -> list[str]:
+    """Return the tests of a module's folder, and the files that import the module."""
+    inner = Path(module).relative_to("jumpcad")
+    dotted = ".".join(Path(module).with_suffix("").parts)
+    importers = [path for path in (root / "tests").rglob("test_*.py") if dotted in path.read_text(encoding="utf-8")]
+    folder = root / "tests" / inner.parent
+    beside = [folder] if len(inner.parts) > 1 and folder.is_dir() else []
+    return sorted({path.relative_to(root).as_posix() for path in (*beside, *importers)}) or ["tests"]
+
+
+def outcome(root: Path, tests: list[str], limit_s: float) -> str:
+    """Run tests in a copy; return `survived`, or what failed."""
     environment = os.environ | {"PYTHONPATH": str(root), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests]
     with subprocess.Popen(
@@ -75,48 +111,41 @@ def outcome(root: Path, tests: list[str], limit_s: float = LIMIT_S) -> str:
             said, _ = process.communicate(timeout=limit_s)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
-            process.communicate()
             return "timeout"
-    failed = re.findall(r"^(?:FAILED|ERROR) (.*?)(?: - .*)?$", said.decode(errors="replace"), re.M)
-    if process.returncode == 0 and not failed:
+    failed = re.search(r"^(?:FAILED|ERROR) (.*?)(?: - .*)?$", said.decode(errors="replace"), re.M)
+    if process.returncode == 0:
         return "survived"
-    return "killed by " + (failed[0] if failed else f"pytest itself, exit status {process.returncode}")
+    return f"killed by {failed[1] if failed else f'pytest itself, exit status {process.returncode}'}"
 
 
 def main() -> None:
     """Make the mutants one after the other, and say of each what became of it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    option = parser.add_argument
-    option("--seed", type=int, default=1)
-    option("--count", type=int, default=30)
-    option("--only", default="", metavar="REGEX", help="modules whose path matches")
-    option("--mixed", action="store_true", help="mix up arguments, defaults and fields instead")
-    option("--files", type=int, default=3, help="test files that run for a module at most")
-    option("--whole", action="store_true", help="run all tests for what the nearest do not see")
-    option("--log", type=Path, help="write the lines to this file too")
-    arguments = parser.parse_args()
-
-    def say(line: str) -> None:
-        print(line, flush=True)
-        if arguments.log:
-            with arguments.log.open("a", encoding="utf-8") as log:
-                log.write(line + "\n")
-
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=30)
+    parser.add_argument("--only", default="", metavar="REGEX", help="modules whose path matches")
+    parser.add_argument("--whole", action="store_true", help="run all quick tests for what the nearest do not see")
+    options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "copy"
-        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", ".*_cache", "__pycache__", "build"))
-        counts = {"killed": 0, "elsewhere": 0, "timeout": 0, "survived": 0}
-        for mutant in chosen(copy, arguments.seed, arguments.count, arguments.only, arguments.mixed):
-            path, began = copy / mutant.path, time.monotonic()
+        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", ".*_cache", "__pycache__", "build"))
+        paths = [path.relative_to(copy).as_posix() for path in sorted((copy / "jumpcad").rglob("*.py"))]
+        found = [
+            one for path in paths if re.search(options.only, path) for one in mutants(path, (copy / path).read_bytes())
+        ]
+        random.Random(options.seed).shuffle(found)
+        for mutant in found[: options.count]:
+            path = copy / mutant.path
             source = path.read_bytes()
             path.write_bytes(mutant.applied(source))
-            result = outcome(copy, nearest(copy, mutant.path, arguments.files))
-            if arguments.whole and result == "survived":
-                result = outcome(copy, ["tests"], WHOLE_LIMIT_S).replace("killed by", "elsewhere killed by")
+            result = outcome(copy, nearest(copy, mutant.path), LIMIT_S)
+            if options.whole and result == "survived":
+                result = outcome(copy, ["tests"], WHOLE_LIMIT_S)
+            before, after = (
+                text.decode().splitlines()[mutant.line - 1].strip() for text in (source, path.read_bytes())
+            )
             path.write_bytes(source)
-            counts[result.split()[0]] += 1
-            say(f"{mutant.said(source)}  {result}  ({time.monotonic() - began:.0f} s)")
-        say(", ".join(f"{count} {what}" for what, count in counts.items() if count))
+            print(f"{mutant.path}:{mutant.line}  {before}  →  {after}  {result}", flush=True)
 
 
 if __name__ == "__main__":
