@@ -40,29 +40,3 @@ def test_a_coupon_is_printed_tried_and_built_with(run: Run, tmp_path: Path) -> N
     robot = build(load_design("kenan-2.0"), workshop)
     found = measured(robot, "main_leg", 0.0, np.array([robot.layout.leg_pin_mm, 0.0]))
     assert found == pytest.approx(3.0 + 2.0 * 0.15, abs=0.01)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "exit_code", "complaint"),
-    [
-        (["--measured", "none.toml"], 2, "none.toml: no such file"),
-        (["--measured", "r.toml", "-o", "r.toml"], 2, "is --measured itself"),
-        (["--measured", "r.toml", "--workshop", "tiny.toml", "-o", "tiny.toml", "--force"], 2, "is --workshop itself"),
-        (["--measured", "r.toml", "-o", "w.json"], 2, "w.json: must end in .toml"),
-        (["--measured", "r.toml", "--workshop", "kitchen"], 2, "'kitchen' is neither a TOML file nor"),
-        (["-o", "thesis"], 2, "thesis: holds files but no manifest.json"),
-        (["--workshop", "tiny.toml"], 1, "part gauge_PETG of"),
-    ],
-    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
-)
-def test_a_wrong_request_is_one_line(run: Run, arguments: list[str], exit_code: int, complaint: str) -> None:
-    Path("r.toml").write_text("[gears]\nturns_freely_mm = 0.2")
-    Path("tiny.toml").write_text("[printer]\nbed_mm = [60, 60, 60]")
-    Path("thesis").mkdir()
-    Path("thesis/chapter.md").write_text("years of work")
-    before = sorted(Path().rglob("*"))
-    code, out, err = run("coupon", *arguments)
-    assert (code, out) == (exit_code, "")
-    assert complaint in err
-    assert err.count("\n") == 1
-    assert sorted(Path().rglob("*")) == before

@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
 
-from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 
 
@@ -53,17 +52,3 @@ def test_counts_have_ends_that_are_told(folder, option, least, most):
         assert "did you mean sweep" in refusal("explore", "sweeps", *QUICK, option, count)
     for count, words in ((least - 1, f"greater than or equal to {least}"), (most + 1, f"less than or equal to {most}")):
         assert words in refusal("explore", "sweeps", *QUICK, option, count)
-
-
-def test_what_cannot_be_written_is_told_before_anything_is_evaluated(folder, monkeypatch):
-    """Nor is a file replaced that is read, or that somebody made."""
-    monkeypatch.setattr("jumpcad.search.study.store.StudyStore.write", lambda *_: pytest.fail("begun"))
-    (folder / "own.toml").write_text(load_design("best-ga").to_toml())
-    (folder / "pics").mkdir()
-    (folder / "pics" / "pca.svg").write_text("<svg/>")
-    for words, said in (
-        (("sweep", "--around", "own.toml", "--study", "own.toml"), "--study own.toml: is --around itself"),
-        (("sweep", "--study", "s.sqlite"), "a study file must end in .db"),
-        (("pca", "--plots", "pics"), "pics/pca.svg: exists already"),
-    ):
-        assert said in refusal("explore", *words, *QUICK)

@@ -167,27 +167,3 @@ def test_a_design_that_is_edited_while_the_search_runs_is_kept_unless_it_is_to_b
     assert Path("best.toml").read_text() == "# mine\n"
     assert "next: jumpcad build best.toml" in run(*asked, "--force")
     assert load_design("best.toml").c_coef == 1.0
-
-
-def test_what_cannot_be_written_is_told_before_anything_is_evaluated(folder, monkeypatch):
-    """Nor is a file replaced that is read, or that somebody made."""
-    monkeypatch.setattr(study, "run_study", lambda *_: pytest.fail("begun"))
-    (folder / "pics").mkdir()
-    for name in ("pics/history.svg", "w.toml", "x-workshop.toml"):
-        (folder / name).write_text("mine")
-    (folder / "own.toml").write_text(load_design("best-ga").to_toml())
-    (folder / "s.db").touch()
-    varied = ("--bound", "body.plate_mm=1.6:2.4")
-    for words, said in (
-        (("--study", "s.sqlite", *QUICK), "a study file must end in .db"),
-        (("-o", "w.toml", *QUICK), "w.toml: exists already"),
-        (("-o", "w.txt", *QUICK), "w.txt: must end in .toml"),
-        (("-o", "pics", *QUICK), "file 'pics' is a directory"),
-        (("--plots", "pics", *QUICK), "pics/history.svg: exists already"),
-        (("--from-study", "s.db", "--study", "s.db", *QUICK), "--study s.db: is --from-study itself"),
-        (("--around", "own.toml", "-o", "own.toml", *QUICK), "own.toml: is --around itself"),
-        (("-o", "x.toml", *varied), "x-workshop.toml: exists already"),
-        (("--plots", "y-workshop.toml", "-o", "y.toml", *varied), "is --plots itself"),
-    ):
-        told = refusal("optimize", *words)
-        assert said in told.replace("the study s.db: is", "--study s.db: is")

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
-from unittest.mock import ANY
 
 import pytest
 from support.commands import Run
@@ -138,30 +137,6 @@ def test_every_option_of_explore_arrives(
         {"fixed": 1.0}, {"lower": 50.0, "upper": 60.0}, {"choices": [0.7, 0.8]},
     ]  # fmt: skip
     assert (asked["path"], asked["pool"]) == (Path("mine.db"), (3, None, 33.0))
-
-
-@pytest.mark.parametrize(
-    ("command", "more"),
-    [
-        ("build", ("--printer", "ender-3", "--material", "PLA")), ("check", ("--printer", "ender-3")),
-        ("check", ("--material", "PLA")), ("render", ()), ("report", ()), ("simulate", ()),
-    ],
-)  # fmt: skip
-def test_every_command_builds_in_the_workshop_that_is_named(
-    run: Run, monkeypatch: pytest.MonkeyPatch, command: str, more: tuple[str, ...]
-) -> None:
-    """With another printer or in another material, where these are named."""
-    built = []
-
-    def build(*given: object) -> None:
-        built.append(given[:2])
-        raise JumpcadError("enough")
-
-    monkeypatch.setattr("jumpcad.building.build", build)
-    assert run(command, "kenan-1.0", "--workshop", "light", *more)[::2] == (2, ANY)
-    named = dict(zip(more[::2], more[1::2], strict=True))
-    shop = load_workshop("light", named.get("--printer"), named.get("--material"))
-    assert built == [(load_design("kenan-1.0"), shop)]
 
 
 def test_no_design_or_workshop_of_one_s_own_is_replaced_unasked(run: Run, asked: dict[str, Any]) -> None:

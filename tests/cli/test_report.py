@@ -61,23 +61,6 @@ def test_the_page_of_a_study_is_a_file_of_its_own_and_is_renewed(run: Run, tmp_p
     assert "--force" in err
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("no.db",), "no such study file"),
-        (("text.db",), "not a study"),
-        (("text.db", "--workshop", "default"), "--workshop"),
-        (("text.db", "-o", "page.txt"), ".html"),
-    ],
-)
-def test_what_is_no_study_is_refused(run: Run, tmp_path: Path, arguments: tuple[str, ...], said: str) -> None:
-    (tmp_path / "text.db").write_text("a text")
-    code, out, err = run("report", *arguments)
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert said in err
-    assert [path.name for path in tmp_path.iterdir()] == ["text.db"]
-
-
 @pytest.mark.usefixtures("inputs")
 def test_a_page_is_not_written_over_what_it_tells_of(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Told before the robot is built; a bare name beside a bundle of that name is noted."""

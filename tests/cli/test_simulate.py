@@ -73,17 +73,6 @@ def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
     assert read == {name: values.tolist() for name, values in expected.trajectory.columns().items()}
 
 
-def test_a_trajectory_replaces_nothing_unasked(command: Run, tmp_path: Path) -> None:
-    path = tmp_path / "path.csv"
-    path.write_text("mine")
-    code, out, err = command("kenan-2.0", "--capsule", "--trajectory", path)
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert "path.csv: exists already; choose another name, or replace it with --force" in err
-    assert path.read_text() == "mine"
-    assert command("kenan-2.0", "--capsule", "--trajectory", path, "--force")[0] == 0
-    assert path.read_text().startswith("time_s,")
-
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -110,13 +99,6 @@ def test_wrong_requests(command: Run, arguments: list[str], message: str) -> Non
     assert len(err.splitlines()) == 1
 
 
-def test_published_is_named_so(command: Run) -> None:
-    code, out, _ = command("kenan-1.0", "--published")
-    assert code == 0
-    assert "0.257138" in out
-    assert "published distance" in out
-
-
 def test_the_other_engine_steps_in_with_one_line(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     needs.package("mujoco")
     monkeypatch.setitem(__import__("sys").modules, "pybullet", None)
@@ -124,25 +106,6 @@ def test_the_other_engine_steps_in_with_one_line(command: Run, monkeypatch: pyte
     assert code == 0
     assert json.loads(out)["engine"] == "mujoco"
     assert err == "jumpcad: pybullet is not installed; simulated with mujoco\n"
-
-
-def test_the_uncertain_robot_is_built_in_the_workshop_that_is_named(
-    command: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """As the one that jumps, and with the same settings."""
-    built, uncertain = [], []
-
-    def asked(_: object, *given: object) -> None:
-        uncertain.append(given)
-        raise JumpcadError("enough")
-
-    monkeypatch.setattr(module, "printed_robot", lambda *given: built.append(given))
-    monkeypatch.setattr(module, "_jumps", lambda *_: [])
-    monkeypatch.setattr(module, "_uncertain", asked)
-    words = ("--workshop", "light", "--settings", "fine", "--engine", "planar", "--uncertain")
-    assert command("kenan-2.0", *words)[::2] == (2, "jumpcad: enough\n")
-    assert built == [("kenan-2.0", "light")] * 2
-    assert uncertain == [("fine", "planar", 0)]
 
 
 def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(

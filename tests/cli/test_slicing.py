@@ -15,7 +15,6 @@ from support.slicers import OBEDIENT, pretend_slicer, three_parts, with_seams_be
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle, verify
-from jumpcad.printing.prusaslicer import slicer_program
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -80,69 +79,6 @@ def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, prete
     changed = {path for path in after["files"] if after["files"][path] != before["files"][path]}
     assert changed == {"bom.csv", "assembly.md"}
     assert after["versions"] == before["versions"] | {"PrusaSlicer": "2.9.1"}
-
-
-@pytest.mark.parametrize(
-    ("program", "exit_code", "complaint"),
-    [
-        (None, 2, "prusa-slicer is not installed: install PrusaSlicer"),
-        ("print('PrusaSlicer-1.42.0 based on Slic3r')", 2, "prusa-slicer is of version 1.42.0, whose settings"),
-        ("print('PrusaSlicer-3.0.0-alpha1')", 2, "prusa-slicer is of version 3.0.0-alpha1, whose settings"),
-        ("print('Cura 5')", 2, "prusa-slicer does not say that it is PrusaSlicer"),
-        (
-            OBEDIENT.replace("TAMPER", "import os; os.abort()"),
-            2,
-            "prusa-slicer crashed on body_plate_left.stl with exit code -6: it printed no message",
-        ),
-        (
-            OBEDIENT.replace("TAMPER", "sys.exit(print('out of memory') or 137)"),
-            2,
-            "prusa-slicer crashed on body_plate_left.stl with exit code 137: out of memory",
-        ),
-        (
-            OBEDIENT.replace("TAMPER", "sys.exit('Object too large')"),
-            1,
-            "prusa-slicer refused body_plate_left.stl: Object too large",
-        ),
-        (OBEDIENT.replace("TAMPER", "sys.exit()"), 2, "crashed on body_plate_left.stl with exit code 0"),
-        (OBEDIENT.replace("TAMPER", "settings.clear()"), 2, "wrote G-code without its usual remarks"),
-        (
-            OBEDIENT.replace("TAMPER", "").replace("E100", ""),
-            1,
-            "body_plate_left.stl: the slicer found nothing to print",
-        ),
-    ],
-    ids=["missing", "older", "newer", "other", "abort", "killed", "refused", "silent", "remarks", "nothing"],
-)
-def test_a_slicer_that_fails_is_one_line(
-    run: Run,
-    bundle: Path,
-    pretend: Callable[[str], None],
-    monkeypatch: pytest.MonkeyPatch,
-    program: str | None,
-    exit_code: int,
-    complaint: str,
-) -> None:
-    if program is None:
-        monkeypatch.setenv("PATH", "")
-    else:
-        pretend(program)
-    code, out, err = run("slice", str(bundle), "--write-masses", "weighed.toml")
-    assert (code, out) == (exit_code, "")
-    assert err.startswith("jumpcad: ")
-    assert complaint in err
-    assert err.count("\n") == 1
-    assert not Path("weighed.toml").exists()
-
-
-def test_a_program_that_cannot_be_run_is_one_line(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
-    pretend("")
-    program = Path(slicer_program() or "")
-    program.write_bytes(b"\x7fELF is not all it takes")
-    code, _, err = run("slice", str(bundle))
-    assert code == 2
-    assert "cannot be run: Exec format error" in err
-    assert err.count("\n") == 1
 
 
 def test_changed_and_missing_files_are_named(run: Run, bundle: Path, tmp_path: Path) -> None:

@@ -76,38 +76,3 @@ def summary(**changes: object) -> dict[str, object]:
         "top": top, "notes": ["a note"],
     }  # fmt: skip
     return plain | changes
-
-
-@pytest.mark.parametrize(
-    ("ended", "told"),
-    [
-        (
-            {"by": "until", "until_percent": 0.5},
-            "ended: its last steps gained less than 0.5 % of the best score (--until); --until 0 goes on",
-        ),
-        ({"by": "hours", "hours": 8.0}, "ended: its time is over (--hours 8); the same command goes on"),
-        ({"by": "space"}, "ended: it has all designs of the space"),
-        ({"by": "proposals"}, "ended: ga+bo proposed no other designs that are new"),
-        ({"by": "evaluations"}, "ended: all evaluations that it was to take are spent; more --evaluations go on"),
-    ],
-    ids=lambda one: one["by"] if isinstance(one, dict) else "",
-)
-def test_a_study_says_what_ended_its_search(
-    capsys: pytest.CaptureFixture[str], ended: dict[str, object], told: str
-) -> None:
-    study._print_one(summary(ended=ended))
-    assert capsys.readouterr().out.splitlines()[2].strip() == told
-
-
-def test_what_cannot_be_written_is_told_before_a_study_is_read(folder, monkeypatch):
-    monkeypatch.setattr(StudyStore, "read", lambda *_: pytest.fail("begun"))
-    (folder / "s.db").touch()
-    (folder / "pics").mkdir()
-    for name in ("pics/history.svg", "all.csv"):
-        (folder / name).write_text("mine")
-    for words, said in (
-        (("--export", "s.db"), "--export s.db: is the study s.db itself"),
-        (("--plots", "pics"), "pics/history.svg: exists already"), (("--export", "all.csv"), "all.csv: exists already"),
-        (("--export", "all.txt"), "all.txt: must end in .csv or .parquet"),
-    ):  # fmt: skip
-        assert said in refusal("study", "s.db", *words)

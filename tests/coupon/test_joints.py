@@ -1,8 +1,5 @@
 """Plates with openings side by side: evenly apart, with a margin all around, each with its label in front."""
 
-import itertools
-import math
-
 import numpy as np
 import pytest
 from manifold3d import CrossSection
@@ -11,10 +8,8 @@ from support.fits import with_fits_apart
 from jumpcad.coupon import joints
 from jumpcad.coupon.export import _guide
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
-from jumpcad.coupon.pieces import MARGIN_MM, Piece, coupon_holes
-from jumpcad.solids.outline import hole, rectangle
+from jumpcad.coupon.pieces import Piece, coupon_holes
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.text import text
 from jumpcad.workshop import load_workshop
 
 
@@ -24,38 +19,6 @@ def openings(stack: Stack) -> tuple[np.ndarray, list[np.ndarray]]:
     boxes = [np.array([contour.min(axis=0), contour.max(axis=0)]) for contour in region.to_polygons()]
     plate = max(boxes, key=lambda box: np.ptp(box, axis=0).prod())
     return plate, sorted((box for box in boxes if box is not plate), key=lambda box: box[0, 0])
-
-
-@pytest.mark.parametrize(
-    "cuts",
-    [
-        [hole(2.0), hole(3.0), hole(4.0)],
-        [hole(0.8), hole(0.9), hole(1.0)],
-        [rectangle((8.0, 3.0)), rectangle((9.0, 4.0))],
-        [rectangle((8.0, 3.0), (2.0, 1.0)), rectangle((9.0, 4.0), (-3.0, 0.5))],
-    ],
-    ids=["round", "small", "square", "off their origins"],
-)
-def test_openings_are_evenly_apart_with_a_margin(cuts: list) -> None:
-    plate, found = openings(joints._row(cuts, ["a"] * len(cuts), 5.0))
-    assert len(found) == len(cuts)
-    sizes = [np.ptp(np.array(cut.bounds()).reshape(2, 2), axis=0) for cut in cuts]
-    middles = np.array([box.mean(axis=0) for box in found])
-    for box, size in zip(found, sizes, strict=True):
-        assert np.ptp(box, axis=0) == pytest.approx(size, abs=2e-3)
-    assert np.ptp(middles[:, 1]) < 2e-3
-    pitch = np.diff(middles[:, 0])
-    assert pitch == pytest.approx(pitch[0], abs=2e-3)
-    assert pitch[0] >= max(size[0] for size in sizes) + 2.0 * MARGIN_MM - 2e-3
-    for box, other in itertools.pairwise(found):
-        assert other[0, 0] - box[1, 0] >= 2.0 * MARGIN_MM - 2e-3
-    assert plate[1, 1] - max(box[1, 1] for box in found) == pytest.approx(MARGIN_MM, abs=2e-3)
-    assert middles[0, 0] - plate[0, 0] == pytest.approx(plate[1, 0] - middles[-1, 0], abs=2e-3)
-    assert middles[0, 0] - plate[0, 0] == pytest.approx(pitch[0] / 2.0, abs=2e-3)
-    label = text("-.15", 3.5).bounds()
-    assert pitch[0] > label[2] - label[0] + 1.0  # labels are apart too
-    front = min(box[0, 1] for box in found) - plate[0, 1]
-    assert MARGIN_MM + 3.5 < front < 2.0 * MARGIN_MM + 3.5  # letters of 3.5 mm, nearer to the opening than to the edge
 
 
 def test_steps_lie_on_both_sides_of_a_fit_and_ribs_are_never_negative() -> None:
@@ -105,25 +68,6 @@ def test_openings_are_what_they_hold_with_the_engraved_offset_on_every_side(piec
         assert seat.bounds_mm[:, 2].tolist() == [0.0, max(3.0, one.width_mm)]
     assert np.ptp(pieces["tray_tab"].mesh.bounds, axis=0) == pytest.approx([10.0, 30.0, 1.6])
     assert holes_of(pieces["axle_floor"].shape.solid().slice(0.75)) == []  # 0.8 mm close a plate's bore
-
-
-def test_jaws_slide_in_pockets_that_are_15_degrees_longer(pieces: dict[str, Piece]) -> None:
-    """Two jaws of 40°, from 8 to 14 mm across, on a disc of 18 mm; pockets a step wider inside and outside."""
-    jaws, base = (pieces["dog_jaws"].shape.solid().slice(height) for height in (3.0, 1.5))
-    assert jaws.area() == pytest.approx(math.pi / 4.0 * (14.0**2 - 8.0**2) * 80.0 / 360.0, rel=0.01)
-    assert base.bounds() == pytest.approx((-9.0, -9.0, 9.0, 9.0), abs=0.01)
-    assert (jaws - base).area() == pytest.approx(0.0, abs=1e-3)
-    assert (jaws.rotate(180.0) - jaws).area() == pytest.approx(0.0, abs=1e-3)  # one opposite to the other
-    running = 3.0 + 2.0 * load_workshop().fits.sliding_mm
-    for step in steps_mm(load_workshop().fits.sliding_mm):
-        disc = pieces[f"dog_pockets_{joints._number(step)}"].shape.solid().slice(2.0)
-        wide = math.pi / 4.0 * ((14.0 + 2.0 * step) ** 2 - (8.0 - 2.0 * step) ** 2)
-        outer = disc.bounds()[2]
-        free = math.pi * outer**2 - math.pi / 4.0 * running**2 - disc.area()
-        assert free == pytest.approx(wide * 110.0 / 360.0, rel=0.03)
-        assert (jaws ^ disc).area() == pytest.approx(0.0, abs=1e-6)
-        assert (jaws.rotate(7.0) ^ disc).area() == pytest.approx(0.0, abs=1e-6)  # of 7.5° to either side
-        assert (jaws.rotate(8.0) ^ disc).area() > 0.01
 
 
 def test_lying_holes_get_larger_towards_the_cut_corner(pieces: dict[str, Piece]) -> None:

@@ -4,10 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from manifold3d import Manifold, OpType
 
 from jumpcad.building import build
-from jumpcad.checks.interference import interference_findings, pieces_of
+from jumpcad.checks.interference import interference_findings
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.parts.purchased import BoughtPart
@@ -19,8 +18,6 @@ CHOICES = {
     "clips": {"retention": "clips", "axle": "silver-steel"},
     "nuts": {"retention": "nuts"},
 }
-PUSHED_MM = np.arange(0.5, 6.1, 0.5)
-"""Clevis pins have lengths 2 mm apart; those of the springs stand out beside the leg and hold their arms."""
 
 
 def workshop(**bought: object) -> Workshop:
@@ -36,25 +33,6 @@ def robot(request: pytest.FixtureRequest) -> Robot:
 @pytest.mark.thorough
 def test_nothing_meets(robot: Robot) -> None:
     assert [found.message for found in interference_findings(robot) if found.severity == "error"] == []
-
-
-def test_what_is_pushed_along_y_is_stopped(robot: Robot) -> None:
-    pieces = pieces_of(robot)
-    placed = {(piece.name, piece.body, id(piece)): piece.solid.transform(piece.T_body_part[:3]) for piece in pieces}
-    names = [p.name for p in pieces if p.name.endswith(("_axle", "_eye_pin", "ankle_pin", "spring_pin"))]
-    assert len(names) == 7
-    for name in names:
-        body = next(piece.body for piece in pieces if piece.name == name)
-        on_it = [solid for (own, _, _), solid in placed.items() if own == name or own.startswith(f"{name}_")]
-        beside = [
-            solid
-            for (other, of, _), solid in placed.items()
-            if of == body and other != name and not other.startswith((f"{name}_", "spring_left", "spring_right"))
-        ]
-        for way in (-1.0, 1.0):
-            whole = Manifold.batch_boolean(on_it, OpType.Add)
-            moved = [whole.translate([0.0, way * by, 0.0]) for by in PUSHED_MM]
-            assert any((solid ^ other).volume() > 1.0 for solid in moved for other in beside), (name, way)
 
 
 def test_a_nut_is_full_of_its_screw(robot: Robot) -> None:

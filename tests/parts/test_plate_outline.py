@@ -1,7 +1,6 @@
 """Outlines of body plates: material around what they hold, ribs, and pockets that leave printable walls."""
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +9,7 @@ from support.built import built, cut, placed, region
 
 from jumpcad.building import build
 from jumpcad.design import Design
-from jumpcad.parts.plate_outline import _pads, tray_slots
+from jumpcad.parts.plate_outline import tray_slots
 from jumpcad.workshop import load_workshop
 
 
@@ -73,12 +72,3 @@ def test_a_printable_wall_is_between_all_openings_of_a_plate(workshop: str, side
     least = min(one.distance(other) for one, other in itertools.combinations(openings, 2))
     assert len(openings) > 12
     assert shop.fits.wall_min_mm - 0.02 < least < shop.fits.wall_mm - 0.1  # and no recommended one
-
-
-@pytest.mark.parametrize("axle_mm", [2.0, 3.0, 4.0])
-def test_plates_have_three_millimetres_around_axles_of_any_size(axle_mm: float) -> None:
-    layout = replace(built("kenan-2.0").layout, axle_mm=axle_mm)
-    boxes = [np.array(pad.bounds()).reshape(2, 2) for pad in _pads(layout)]
-    for place in layout.axles.values():
-        sizes = [np.ptp(box, axis=0) for box in boxes if np.allclose(box.mean(axis=0), place, atol=0.01)]
-        assert any(size == pytest.approx([axle_mm + 6.0] * 2, abs=0.01) for size in sizes)

@@ -5,17 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import shapely
-import trimesh
 from support.built import LONG_TOES, built, placed
 
-from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.toes import (
     lying_hole,
     on_the_foot,
     toes,
-    toes_apart,
 )
 from jumpcad.solids.outline import hole
 
@@ -57,33 +53,3 @@ def test_screws_of_toes_cut_their_thread_into_the_stubs() -> None:
         assert (x0, x1) == pytest.approx((16.0 - 1.35, 30.0 + 1.35), abs=0.01)
         assert y0 == -y1 < -robot.layout.sections.toe_width_mm / 2.0
         assert (stub.angle_rad, stub.place_mm) == (toe.angle_rad, pytest.approx(toe.root_mm))  # type: ignore[attr-defined]
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
-def test_bare_toes_have_two_grooves_across_the_sole_at_their_tips(name: str) -> None:
-    """Two layers of 0.2 mm deep, two lines of 0.4 mm wide, 2.4 mm apart about the tip's middle, closed at both ends."""
-    robot = built(name)
-    layout = replace(robot.layout, sections=replace(robot.layout.sections, pad_mm=0.0))
-    for toe in toes(layout):
-        if layout.toes_apart:
-            (mesh,) = (one.mesh for one in toes_apart(layout, robot.workshop) if one.name == toe.name)
-        else:
-            turn = np.linalg.inv(toe.pose_mm)
-            mesh = foot(layout, robot.workshop).mesh.copy().apply_transform(turn)
-        slits = [
-            shapely.Polygon(ring)
-            for polygon in trimesh.load_path(
-                trimesh.intersections.mesh_plane(mesh, [0.0, 0.0, 1.0], [0.0, 0.0, 0.39])[:, :, :2]
-            ).polygons_full
-            for ring in polygon.interiors
-            if shapely.Polygon(ring).distance(shapely.Point(toe.length_mm, 0.0)) < 3.0
-        ]
-        expected = [toe.length_mm - 1.2, toe.length_mm + 1.2]
-        assert sorted(slit.centroid.x for slit in slits) == pytest.approx(expected, abs=0.01)
-        for slit in slits:
-            low_x, low_y, high_x, high_y = slit.bounds
-            assert (high_x - low_x, low_y, high_y) == pytest.approx((0.8, -1.5, 1.5), abs=0.01)
-        above = trimesh.intersections.mesh_plane(mesh, [0.0, 0.0, 1.0], [0.0, 0.0, 0.41])[:, :, :2]
-        assert (
-            shapely.Point(expected[0], 0.0).distance(shapely.multilinestrings(list(shapely.linestrings(above)))) > 1.0
-        )

@@ -1,7 +1,6 @@
 """The trays measured on their meshes: what carries battery and boards, and what holds them."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,9 +8,7 @@ import shapely
 import trimesh
 from support.built import built, geared, placed
 
-from jumpcad.parts.trays import trays
 from jumpcad.robot import Robot
-from jumpcad.workshop import load_workshop
 
 
 def level(mesh: trimesh.Trimesh, z_mm: float) -> shapely.Geometry:
@@ -88,68 +85,3 @@ def test_the_battery_lies_between_two_stops_on_a_ledge(robot: Robot) -> None:
         assert strap.centroid.x == pytest.approx((x0 + x1) / 2.0, abs=2e-3)
         beside = max(y0 - strap.bounds[3], strap.bounds[1] - y1)
         assert beside == pytest.approx(1.0, abs=2e-3)
-
-
-def test_every_board_lies_under_its_tie_before_its_rim(robot: Robot) -> None:
-    """Slots of 1.8 x 4 mm on both sides; a rim of 1.2 mm, 0.2 mm beside its end, 0.6 of its width; 4 mm of ledge."""
-    floor, rims, bounds = shapes(robot, "electronics_tray_upper")
-    holes = [shapely.Polygon(ring) for one in getattr(floor, "geoms", [floor]) for ring in one.interiors]
-    boards = robot.layout.electronics.boards
-    assert len(getattr(rims, "geoms", [rims])) == len(boards)
-    for role in boards:
-        low, high = box_of(robot, role)
-        assert low[2] == pytest.approx(bounds[0, 2] + 1.6 + 1.0)  # on foam tape
-        board = shapely.box(low[0], low[1], high[0], high[1])
-        (rim,) = (one for one in getattr(rims, "geoms", [rims]) if one.centroid.distance(board) < 1.5)
-        assert rim.distance(board) == pytest.approx(0.2, abs=2e-3)
-        assert np.ptp(np.array(rim.bounds)[[1, 3]]) == pytest.approx(1.2, abs=2e-3)
-        assert np.ptp(np.array(rim.bounds)[[0, 2]]) == pytest.approx(0.6 * (high[0] - low[0]), abs=0.01)
-        assert rim.centroid.x == pytest.approx(board.centroid.x, abs=2e-3)
-        window = [one for one in holes if one.contains(board.centroid)]
-        assert len(window) == (min(high[0] - low[0], high[1] - low[1]) - 8.0 >= 4.0)
-        for one in window:
-            assert np.array(one.bounds) == pytest.approx(
-                np.array(board.bounds) + np.array([4.0, 4.0, -4.0, -4.0]), abs=2e-3
-            )
-        ties = [one for one in holes if one.distance(board) < 0.25 and one not in window]
-        assert {one.centroid.x > board.centroid.x for one in ties} == {False, True}
-        for one in ties:
-            assert one.bounds[2] - one.bounds[0] == pytest.approx(1.8, abs=2e-3)
-            assert one.bounds[3] - one.bounds[1] == pytest.approx(4.0, abs=2e-3)
-            assert one.distance(board) == pytest.approx(0.2, abs=2e-3)
-
-
-@pytest.mark.parametrize("length_mm", [16.0, 24.0, 30.0])
-def test_the_window_under_a_short_battery_ends_a_millimetre_before_its_stops(length_mm: float) -> None:
-    layout, shop = built("kenan-2.0").layout, load_workshop()
-    battery = layout.electronics.battery.model_copy(update={"length_mm": length_mm})
-    electronics = replace(layout.electronics, battery=battery)
-    lower = trays(replace(layout, electronics=electronics), shop)[0]
-    floor, stops = (shapely.union_all([shapely.Polygon(ring) for ring in region.to_polygons() if len(ring) > 3])
-                    for region in lower.shape.regions_at(np.array([0.8, 2.6])))  # fmt: skip
-    low, high = sorted(stops.geoms, key=lambda one: one.centroid.x)
-    middle = (low.centroid.x + high.centroid.x) / 2.0
-    rings = [shapely.Polygon(ring) for ring in lower.shape.regions_at(np.array([0.8]))[0].to_polygons()]
-    window = min(
-        (one for one in rings if one.contains(shapely.Point(middle, stops.centroid.y))), key=lambda one: one.area
-    )
-    assert window.area < 0.8 * floor.area
-    assert window.bounds[0] - low.bounds[2] == pytest.approx(1.0, abs=2e-3)
-    assert high.bounds[0] - window.bounds[2] == pytest.approx(1.0, abs=2e-3)
-
-
-@pytest.mark.parametrize("battery", ["lipo-2s-180", "lipo-1s-300"])
-@pytest.mark.parametrize("length_mm", [60.0, 90.0])
-def test_the_window_under_a_long_battery_ends_5_mm_before_the_trays_end(battery: str, length_mm: float) -> None:
-    """In the middle under the battery; with a balance lead ahead of it, the tray ends nearer behind it."""
-    layout, catalogue = built("kenan-2.0").layout, load_workshop().catalogue
-    long = catalogue.batteries[battery].model_copy(update={"length_mm": length_mm})
-    electronics = replace(layout.electronics, battery=long)
-    lower = trays(replace(layout, electronics=electronics), load_workshop())[0]
-    rings = [shapely.Polygon(ring) for ring in lower.shape.regions_at(np.array([0.8]))[0].to_polygons()]
-    floor, *openings = sorted(rings, key=lambda one: -one.area)
-    middle = electronics.seats(layout.lateral.inside)["battery"].x_mm
-    assert (middle < -1.0) == electronics.balanced
-    ahead, behind = openings[0].bounds[2] - middle, middle - openings[0].bounds[0]
-    assert ahead == pytest.approx(behind, abs=2e-3)
-    assert openings[0].bounds[0] - floor.bounds[0] == pytest.approx(5.0, abs=2e-3)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from jumpcad.printing.project import pad_settings, project_settings, settings_in_words, temperatures_in_words
+from jumpcad.printing.project import pad_settings, project_settings, temperatures_in_words
 from jumpcad.workshop import load_workshop
 
 
@@ -18,30 +18,6 @@ from jumpcad.workshop import load_workshop
 def test_temperatures_that_are_known_are_said(nozzle_c: float | None, bed_c: float | None, words: str) -> None:
     material = load_workshop().material("links").model_copy(update={"nozzle_c": nozzle_c, "bed_c": bed_c})
     assert temperatures_in_words(material) == words
-
-
-def test_instructions_have_the_numbers_of_the_process() -> None:
-    shop = load_workshop()
-    figures = {
-        "infill": 0.35, "perimeters": 5, "solid_below_area_mm2": 12.0, "top_layers": 6, "bottom_layers": 3,
-        "layer_height_mm": 0.15, "first_layer_mm": 0.25, "line_width_mm": 0.44,
-    }  # fmt: skip
-    process = shop.process.model_copy(update=figures)
-    lines = settings_in_words(shop.printer.model_copy(update={"name": "mine", "nozzle_mm": 0.6}), process)
-    assert "printer: mine, nozzle 0.6 mm" in lines
-    assert "layers: 0.15 mm, the first 0.25 mm" in lines
-    assert "width of every line: 0.44 mm" in lines
-    assert "solid layers: 6 at the top, 3 at the bottom" in lines
-    assert "perimeters (walls): 5" in lines
-    assert any(line.startswith("infill: 35 %") for line in lines)
-    assert any("areas below 12 mm² filled solid" in line for line in lines)
-    solid = settings_in_words(shop.printer, process.model_copy(update={"infill": 1.0, "solid_below_area_mm2": 0.0}))
-    assert "infill: 100 %, rectilinear" in solid
-    assert any("filled like the others" in line for line in solid)
-    tiny = settings_in_words(shop.printer, process.model_copy(update={"solid_below_area_mm2": 0.5}))
-    assert any("areas below 0.5 mm² filled solid" in line for line in tiny)
-    hollow = settings_in_words(shop.printer, process.model_copy(update={"infill": 0.0}))
-    assert any(line.startswith("infill: none but solid layers") for line in hollow)
 
 
 @pytest.mark.parametrize("name", ["PETG", "PLA"])

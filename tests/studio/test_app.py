@@ -4,9 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 from support import needs
 
 from jumpcad.design import load_design
@@ -39,28 +37,6 @@ def test_it_shows_every_part_and_says_what_evaluate_says(studio: Studio) -> None
     told = found.figures()["range"][0]
     assert told == pytest.approx(1000.0 * jump.ballistic_range_m, rel=0.005)  # planar against PyBullet
     assert f"{told:.1f} mm" in studio.figures.content
-
-
-def test_a_motion_moves_nodes_and_sends_no_mesh(studio: Studio) -> None:
-    """The cam turns about its axis, which stays where it is in the body; another design stands at rest again."""
-    robot = studio.answer(studio.design).robot
-    assert robot is not None
-    studio.player.show(0.5)
-    moment, sent = studio.player._motion.at(1.5), []
-    studio.server.scene.add_mesh_simple = lambda name, *_, **__: sent.append(name)
-    studio.player.show(1.5)
-    del studio.server.scene.add_mesh_simple
-    assert sent == []
-    handle = studio.stage.meshes["/robot/body/cam"][1]
-    (rest,) = [one.T_body_mesh for one in visuals(robot) if one.name == "cam"]
-    turned = Rotation.from_quat(handle.wxyz, scalar_first=True) * Rotation.from_matrix(rest[:3, :3]).inv()
-    assert turned.as_rotvec() == pytest.approx([0.0, moment.turned_rad["cam"], 0.0], abs=1e-6)
-    axis = np.array([robot.layout.cam_axis_mm[0], 0.0, robot.layout.cam_axis_mm[1]]) / 1000.0
-    assert turned.apply(rest[:3, 3] - axis) + axis == pytest.approx(handle.position, abs=1e-6)
-    studio.player.time.value = 1.5
-    studio.answer(studio.design)
-    assert handle.position == pytest.approx(rest[:3, 3], abs=1e-9)
-    assert studio.player.time.value == 0.0
 
 
 def test_a_point_of_a_study_brings_its_design_and_workshop(study: Path, tmp_path: Path) -> None:

@@ -111,25 +111,6 @@ def test_a_part_of_ones_own_is_whole_or_like_a_shipped_one(written):
     assert found["whole"].model_dump(exclude={"name"}) == found["like"].model_dump(exclude={"name"}) == whole
 
 
-@each(
-    ("kind", "like", "key", "figures", "said"),
-    [
-        ("motors", "n20-298-hpcb12", "article", {"ratio": 150.0}, ""),
-        ("motors", "n20-298-hpcb12", "article", {"shaft_length_mm": 10.0}, ""),
-        ("motors", "n20-298-hpcb12", "article", {"stall_torque_nm": 0.25}, None),  # the same article, measured
-        ("motors", "n20-298-hpcb12", "article", {"ratio": 150.0, "article": "mine"}, "mine"),
-        ("batteries", "lipo-2s-180", "description", {"length_mm": 42}, "own, at most 42 x 20 x 11.5 mm"),
-        ("batteries", "lipo-2s-180", "description", {"mass_g": 13.4}, None),
-        ("boards", "drv8833", "description", {"width_mm": 16.0}, "own, at most 20.3 x 16 x 4 mm"),
-        ("boards", "drv8833", "description", {"output_a": 0.6}, None),
-    ],
-)
-def test_a_part_of_other_size_or_ratio_is_not_ordered_as_the_shipped_article(written, kind, like, key, figures, said):
-    shipped = getattr(load_catalogue(), kind)[like]
-    shop = load_workshop(written(to_toml({kind: {"own": {"like": like, "source": "x", **figures}}})))
-    assert getattr(getattr(shop.catalogue, kind)["own"], key) == (getattr(shipped, key) if said is None else said)
-
-
 def test_a_kit_brings_its_parts_and_the_file_may_choose_others(written):
     kit = load_catalogue().kits["strong-2s"]
     bought = load_workshop(written('[bought]\nkit = "strong-2s"\n')).bought
