@@ -3,7 +3,7 @@
 import hashlib
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Self
@@ -26,6 +26,7 @@ from jumpcad.search.phases import (
     PRESETS,
     SEQUENCES,
     UNTIL_PERCENT,
+    Method,
 )
 from jumpcad.search.pick.tolerances import LENGTHS_ALONE, Tolerances
 from jumpcad.search.space import Space
@@ -43,39 +44,18 @@ LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 
 @dataclass(frozen=True, repr=False)
 class Request:
-    """What a study is asked for.
+    """What a study is asked for: one object from the command line to the method.
 
     Parameters
     ----------
     space, model, objective
         The space that is searched, the robot's model, and the name of the objective.
-    method
-        One of `jumpcad.search.phases.NAMES`.
-    evaluations
-        How many designs are evaluated at most, those of the robust pick included.
-    seed
-        Random seed.
-    preset
-        Settings of the genetic algorithm.
-    batch
-        Bayesian proposals that are evaluated together; 1 learns the most from each.
-    prior
-        A study file to learn from.
     making
         Tolerances of making, for the robust pick.
     own
         An own objective, which has the name `objective`; none if None.
-    until_percent
-        Bayesian optimisation, if it comes last, ends when `PATIENCE` proposals in a row promised and gained less than
-        this share of the best score, where robots are guessed when `IDLE` steps gained less; 0 spends all evaluations.
-    hours
-        The search ends in time for the robust pick, and this ends after this time (h); 0 for no limit. The same request
-        goes on later.
-    screen
-        Whether a quick guess leaves out candidates of the genetic algorithm; see `Screen`. They count as evaluations.
-    against
-        What a front weighs the objective against: a name of `jumpcad.search.COSTS`, of which less is better, or of
-        another objective.
+    method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against
+        See `jumpcad.optimize`.
     """
 
     space: Space
@@ -145,31 +125,25 @@ class Request:
                 self._require_cost(self.model)
         if self.is_front and self.against == self.objective and not self.own:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
-        if self.screen:
-            self._require_screen()
         if (
             self.is_front
             and self.cost is SPRING_ENERGY
             and any(one.name == "bought.spring" for one in self.space.of_workshop)
         ):
             raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
-        stages = _methods(self.method)
-        if self.until_percent not in (0.0, UNTIL_PERCENT) and not METHODS[stages[-1]].ends:
-            ending = _named(lambda methods: METHODS[methods[-1]].ends)
-            percent = shown(self.until_percent)
-            raise JumpcadError(f"until_percent = {percent}: does not apply to {self.method}, only to {ending}")
+        for name, takes in TAKE.items():
+            value = getattr(self, name)
+            if value not in (getattr(Request, name), 0.0) and not takes(_methods(self.method)):
+                takers = ", ".join(other for other in NAMES if takes(_methods(other)))
+                raise JumpcadError(f"{name} = {shown(value)}: does not apply to {self.method}, only to {takers}")
+        if self.screen:
+            self._require_screen()
         for stage in plan_stages(self):
             if stage.evaluations < (least := METHODS[stage.method].least):
                 raise JumpcadError(
                     f"evaluations = {self.evaluations} leave {stage.evaluations} for {stage.method}, whose parts take "
                     f"{least} at least: ask for more"
                 )
-        if self.preset != Request.preset and "ga" not in stages:
-            genetic = _named(lambda methods: "ga" in methods)
-            raise JumpcadError(f"preset = {self.preset!r}: does not apply to {self.method}, only to {genetic}")
-        if self.batch > 1 and not any(METHODS[name].learns for name in stages):
-            learning = _named(lambda methods: any(METHODS[one].learns for one in methods))
-            raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
 
     def _require_cost(self, model: RobotModel) -> None:
         try:
@@ -181,12 +155,9 @@ class Request:
             ) from None
 
     def _require_screen(self) -> None:
-        if self.method != "ga":
-            raise JumpcadError(f"screen: does not apply to {self.method}, only to ga; leave it out")
-        robot = self.model.describe()
-        if robot["name"] != "printed":
+        if not isinstance(self.model, PrintedModel):
             raise JumpcadError("screen: applies to the printed robot; leave it out")
-        if self.space.of_workshop or (robot["workshop"] and robot["workshop"]["bought"]["spring"]):
+        if self.space.of_workshop or (self.model.workshop and self.model.workshop.bought.spring):
             raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
 
     def __repr__(self) -> str:
@@ -216,7 +187,7 @@ class Request:
     @property
     def guessed(self) -> bool:
         """Whether proposals are tried on stand-ins: of printed robots, in one workshop."""
-        return self.model.describe()["name"] == "printed" and not self.space.varies_workshop
+        return isinstance(self.model, PrintedModel) and not self.space.varies_workshop
 
     @property
     def aim(self) -> Objective:
@@ -287,14 +258,18 @@ class Stage:
     least_gain: float = 0.0
 
 
-def _methods(name: str) -> tuple[str, ...]:
+def _methods(name: str) -> tuple[Method, ...]:
     """Return the methods that run one after the other under a name."""
-    return SEQUENCES.get(name, (name,))
+    return tuple(METHODS[one] for one in SEQUENCES.get(name, (name,)))
 
 
-def _named(allows: Callable[[tuple[str, ...]], bool]) -> str:
-    """Return the names under which such methods run."""
-    return ", ".join(name for name in NAMES if allows(_methods(name)))
+TAKE: Mapping[str, Callable[[Sequence[Method]], bool]] = {
+    "preset": lambda methods: any(method.name == "ga" for method in methods),
+    "batch": lambda methods: any(method.learns for method in methods),
+    "until_percent": lambda methods: methods[-1].ends,
+    "screen": lambda methods: [method.name for method in methods] == ["ga"],
+}
+"""Options that some methods take alone, and which."""
 
 
 def default_initial(space: Space, evaluations: int, prior: int = 0, guessed: bool = False) -> int:
@@ -317,8 +292,8 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     total, methods = request.searched, _methods(request.method)
     shares = [min(total // 3, MOST_FIRST)] if len(methods) > 1 else []
     shares.append(total - sum(shares))
-    learns = len(methods) == 1 and METHODS[request.method].learns
+    learns = len(methods) == 1 and methods[0].learns
     initial = default_initial(request.space, total, prior, request.guessed) if learns else 0
-    stages = [Stage(request, method, share, initial) for method, share in zip(methods, shares, strict=True)]
-    least_gain = request.until_percent / 100.0 if METHODS[methods[-1]].ends else 0.0
+    stages = [Stage(request, method.name, share, initial) for method, share in zip(methods, shares, strict=True)]
+    least_gain = request.until_percent / 100.0 if methods[-1].ends else 0.0
     return [*stages[:-1], replace(stages[-1], least_gain=least_gain)]
