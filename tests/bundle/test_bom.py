@@ -11,7 +11,7 @@ from support.built import built
 
 from jumpcad.building import build
 from jumpcad.bundle.bom import BilledPlate, bill_of_facts, bill_of_materials, mass_facts, write_bom
-from jumpcad.bundle.guide.markdown import write_guide
+from jumpcad.bundle.guide.markdown import bill_text
 from jumpcad.design import load_design
 from jumpcad.files.csv_text import BOM
 from jumpcad.robot import Robot
@@ -58,7 +58,7 @@ def test_nothing_costs_anything_unless_the_workshop_says_so(robot: Robot) -> Non
     lines = table(write_bom(bill_of_materials(robot)))
     assert {line["eur_each"] + line["eur"] + line["print_time_s"] for line in lines} == {""}
     assert lines[-1]["item"] == f"prices known for 0 of {len(lines) - 1} lines"
-    assert "€" not in write_guide(robot)
+    assert "€" not in bill_text(bill_of_materials(robot))
 
 
 def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
@@ -84,7 +84,7 @@ def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
     known = [line for line in lines[:-1] if line["eur"]]
     assert lines[-1]["item"] == f"prices known for {len(known)} of {len(lines) - 1} lines"
     assert float(lines[-1]["eur"]) == pytest.approx(sum(float(line["eur"]) for line in known), abs=0.005 * len(known))
-    assert f"{lines[-1]['eur']} € together" in write_guide(robot)
+    assert f"{lines[-1]['eur']} € together" in bill_text(bill_of_materials(robot))
 
 
 def test_springs_cost_what_is_ordered_of_them(robot: Robot) -> None:
@@ -99,7 +99,7 @@ def test_springs_cost_what_is_ordered_of_them(robot: Robot) -> None:
     assert all("order 2" in line["item"] for line in springs)
     assert all(line["ordered"] == line["quantity"] for line in lines if line not in springs)
     assert total["eur"] == "40.00"
-    guide = write_guide(dear)
+    guide = bill_text(bill_of_materials(dear))
     assert "40.00 € together" in guide
     assert guide.count(": 20.00 €\n") == 2
 

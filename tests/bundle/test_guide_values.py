@@ -107,6 +107,7 @@ def test_state_is_off_by_resistors_and_converter() -> None:
         assert state_off_v(Wiring((), {}, upper), volts) == pytest.approx(max(off), rel=0.02), upper
 
 
+@pytest.mark.thorough
 def test_one_pair_of_gears_turns_the_cam_against_the_motor_and_two_with_it() -> None:
     one, two = values(built("kenan-2.0")), values(geared())
     assert one["cam_turn"] == two["cam_turn"] == two["motor_turn"] == "counter-clockwise"
@@ -178,6 +179,7 @@ def test_the_block_stops_half_a_millimetre_before_what_stands_beside_the_window(
             assert _prong_mm(replace(robot, hardware=(thing,))) == prong, (across, along, out, sign)
 
 
+@pytest.mark.thorough
 def test_sizes_are_those_of_the_parts() -> None:
     """A rod of 3 mm in a bore reamed 0.1 mm wider; a rod may be 0.3 mm short, and then has as much more play."""
     robot = built("kenan-2.0")

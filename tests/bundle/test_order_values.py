@@ -96,6 +96,7 @@ def test_bearings_have_their_norms_sizes() -> None:
     assert found == {"623": (3.0, 10.0, 4.0), "MR63": (3.0, 6.0, 2.5)}
 
 
+@pytest.mark.thorough
 def test_the_grooves_of_clips_are_ordered_where_the_rods_have_them() -> None:
     """Between the inner edges as on the rods' meshes; seven pieces of four lengths are cut from one rod."""
     robot = bought(retention="clips", axle="silver-steel")
@@ -115,6 +116,7 @@ def test_the_grooves_of_clips_are_ordered_where_the_rods_have_them() -> None:
     assert not order(built("kenan-2.0"))["rods"][0]["grooves"]
 
 
+@pytest.mark.thorough
 def test_bars_of_legs_are_glued_to_the_designs_lengths() -> None:
     """Two pieces and two cuts of 2 mm; a bar that is too long fills the play at an end, and fits."""
     robot = built("kenan-2.0", leg="carbon-strip-3x6")

@@ -44,6 +44,7 @@ def soled() -> Robot:
     return build(load_design("kenan-2.0"), shop.model_copy(update={"ground": ground}), "kenan-2.0")
 
 
+@pytest.mark.thorough
 def test_printed_pads_have_a_plate_of_their_own() -> None:
     """As heavy as the robot's, of TPU of 1.22 g/cm³, filled solid; the plates of the parts are as without them."""
     robot = soled()
@@ -96,6 +97,7 @@ def test_each_soft_material_is_ordered_by_its_own_weight(monkeypatch: pytest.Mon
     assert order_values(robot, bill_of_materials(robot))["pads"] == pytest.approx(grams)
 
 
+@pytest.mark.thorough
 def test_pads_that_are_cut_have_none() -> None:
     files = dict(stl_files(build(load_design("kenan-2.0"))))
     assert not [name for name in files if "_pad" in name]

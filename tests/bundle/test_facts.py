@@ -1,4 +1,4 @@
-"""The manifest's entries on release and stop, against the robot's own figures in degrees."""
+"""The manifest's entries on release, stop and joints, against the robot's own figures in degrees."""
 
 import math
 from typing import Any
@@ -7,7 +7,9 @@ import pytest
 from support.built import built
 from support.decimals import decimals
 
-from jumpcad.bundle.facts import release_facts, stop_facts
+from jumpcad.bundle.facts import joint_facts, release_facts, stop_facts
+from jumpcad.checks.sideways import play_rad, rolls
+from jumpcad.parts.holes import HoleSizes
 
 DEGREES = 180.0 / math.pi
 
@@ -48,3 +50,21 @@ def test_the_stop_is_said_with_its_pad() -> None:
     assert facts["give_mm"] == pytest.approx(facts["radius_mm"] * facts["give_deg"] / DEGREES, rel=0.02)
     assert facts["pad"] == robot.workshop.body.stop_pad
     assert (facts["blow_j"], facts["torque_nm"]) == (robot.stop_blow.energy_j, robot.stop_blow.torque_nm)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_manifest_has_the_roll_in_degrees(name: str) -> None:
+    """Standing, the body rolls by its play; the foot stands up to the stance."""
+    robot = built(name)
+    facts = joint_facts(robot)
+    play = math.degrees(play_rad(robot.layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)))
+    assert facts["play_deg"] == pytest.approx(play, abs=6e-4)
+    assert facts["play_deg"] == facts["roll_deg"]["at rest"]["play"]
+    for roll in rolls(robot):
+        assert facts["roll_deg"][roll.state] == pytest.approx(
+            {"stance": roll.stance_deg, "play": roll.play_deg}, abs=6e-4
+        )
+    assert facts["axle_mm"] == robot.workshop.bought.axle_mm
+    assert facts["pinion_rib_mm"] == robot.workshop.fits.rib_mm
+    assert facts["toe_half_width_mm"] == pytest.approx(robot.layout.toe_half_width_mm, abs=6e-4)
+    assert (facts["retention"], facts["axle"]) == (robot.workshop.bought.retention, robot.workshop.bought.axle)
