@@ -72,6 +72,8 @@ def run(arguments: Sequence[str]) -> int:
     0: done. A user's error is one line on standard error: 2 for a wrong request, 1 if the answer is no. Any other
     exception is a bug: 3, with its traceback. 141: the reader closed the output (`| head`).
     """
+    if os.path.expanduser("~") == "~":  # a user without a home, as in containers, of whom ezdxf asks for one
+        os.environ["HOME"] = os.devnull
     for name in ("matplotlib", "ezdxf"):
         logging.getLogger(name).setLevel(logging.ERROR)  # they warn where they cannot write a cache
     try:

@@ -67,6 +67,14 @@ def test_a_cache_that_cannot_be_written_is_no_message(tmp_path: Path) -> None:
     assert done.stderr == ""
 
 
+def test_a_user_without_a_home_has_one_in_which_nothing_can_be_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a container's whose number the system does not know: ezdxf cannot be imported without a home."""
+    monkeypatch.setenv("HOME", "~")
+    monkeypatch.setattr(os.path, "expanduser", lambda path: path)
+    assert commands.run(["--version"]) == 0
+    assert os.environ["HOME"] == os.devnull
+
+
 LONG_WORK = (
     "jumpcad.search.study.run_study",
     "jumpcad.search.explore.sweep",
