@@ -12,7 +12,7 @@ from jumpcad.search.study.objective import QUARANTINED, Evaluation, Model, Objec
 from jumpcad.search.study.pool import Pool
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Position, Trial, in_order
-from jumpcad.search.study.variant import Key, Variant
+from jumpcad.search.study.variant import NOTHING, Key, Variant
 
 Watch = Callable[[Trial, bool], None]
 """Called with every trial, and whether it was computed now (or read from the study file)."""
@@ -102,7 +102,7 @@ class Evaluator:
         step: int,
         limit: int | None = None,
         proposals: Sequence[Mapping[str, Any]] | None = None,
-        left_out: Mapping[Key, Evaluation] | None = None,
+        left_out: Mapping[Key, Evaluation] = NOTHING,
         run: int = 0,
     ) -> list[Trial | None]:
         """Return the trials of designs, computing those that are not finished; at most `limit` new ones.
@@ -126,34 +126,25 @@ class Evaluator:
             raise JumpcadError(
                 f"{self.store.path}: this search proposes other designs than the study holds; start a new study"
             )
-        notes = {key: {} if proposals is None else proposals[index] for key, index in fresh.items()}
-        self._evaluate({key: variants[index] for key, index in fresh.items()}, places, notes, left_out or {})
-        return [self._seen.get(variant.key) for variant in variants]
-
-    def _evaluate(
-        self,
-        variants: Mapping[Key, Variant],
-        places: Mapping[Key, Position],
-        proposals: Mapping[Key, Mapping[str, Any]],
-        left_out: Mapping[Key, Evaluation],
-    ) -> None:
-        """Add the trials of variants, computing those that are neither finished nor left out."""
-        new = [key for key in variants if key not in self._finished]
-        missing = [key for key in new if key not in left_out]
-        computed = [self._trial(places[key], variants[key], left_out[key], None) for key in new if key in left_out]
+        new = [key for key in fresh if key not in self._finished]
+        given = {key: left_out[key] for key in new if key in left_out}
+        missing = [key for key in new if key not in given]
+        done = [self._trial(places[key], variants[fresh[key]], outcome, None) for key, outcome in given.items()]
         try:
-            for outcome in self._pool.evaluate(self.model, [variants[key] for key in missing]):
+            for outcome in self._pool.evaluate(self.model, [variants[fresh[key]] for key in missing]):
                 key = missing[outcome.index]
                 score = self.objective.score(outcome.evaluation)
-                trial = self._trial(places[key], variants[key], outcome.evaluation, score)
-                computed.append(replace(trial, duration_s=outcome.duration_s, proposal=proposals[key]))
+                trial = self._trial(places[key], variants[fresh[key]], outcome.evaluation, score)
+                note = {} if proposals is None else proposals[fresh[key]]
+                done.append(replace(trial, duration_s=outcome.duration_s, proposal=note))
         except BaseException:
-            self._commit(computed)
+            self._commit(done)
             raise
-        self._require_a_working_model(computed)
-        self._commit(computed)
-        for key in variants:
+        self._require_a_working_model(done)
+        self._commit(done)
+        for key in fresh:
             self._add(self._finished[key], computed=key in new)
+        return [self._seen.get(variant.key) for variant in variants]
 
     def _trial(self, at: Position, variant: Variant, evaluation: Evaluation, score: float | None) -> Trial:
         phase, run, step, place = at

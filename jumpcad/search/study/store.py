@@ -230,28 +230,24 @@ class StudyStore:
         self._check_format()
         # A commit does not wait for the disk: the file stays valid, and only a power cut can lose the last batches.
         self._connection.execute("PRAGMA synchronous = NORMAL")
-        differs = difference(self.identity, json.loads(json.dumps(identity)))
+        held = self.identity
+        differs = difference(held, json.loads(json.dumps(identity)))
+        said = f"holds another study ({differs}); repeat its own request or name another file"
         if differs.startswith("versions."):
-            raise JumpcadError(
-                f"{self.path}: was made by another program ({differs}), whose trials do not mix with this one's; "
-                f"go on with that program, or name another file (`--from-study {self.path}` learns from this one)"
+            said = (
+                f"was made by another program ({differs}), whose trials do not mix with this one's; go on with that "
+                f"program, or name another file (`--from-study {self.path}` learns from this one)"
             )
-        if differs.startswith("objective_code: ") and self.identity.get("objective_code"):
-            raise JumpcadError(
-                f"{self.path}: holds another study (the code of {identity['objective']}, or of what it uses, was "
-                "changed): put it back, or name another file "
-                f"(`--from-study {self.path}` scores its designs by the new code)"
+        elif differs.startswith("objective_code: ") and held.get("objective_code"):
+            said = (
+                f"holds another study (the code of {identity['objective']}, or of what it uses, was changed): put it "
+                f"back, or name another file (`--from-study {self.path}` scores its designs by the new code)"
             )
-        if differs.startswith("against: "):
-            theirs = str(self.identity.get("against", SPRING_ENERGY.name))
-            raise JumpcadError(
-                f"{self.path}: holds a front against {theirs}, not "
-                f"{identity.get('against', SPRING_ENERGY.name)}: say --against {theirs}, or name another file"
-            )
+        elif differs.startswith("against: "):
+            theirs, ours = (one.get("against", SPRING_ENERGY.name) for one in (held, identity))
+            said = f"holds a front against {theirs}, not {ours}: say --against {theirs}, or name another file"
         if differs:
-            raise JumpcadError(
-                f"{self.path}: holds another study ({differs}); repeat its own request or name another file"
-            )
+            raise JumpcadError(f"{self.path}: {said}")
 
     def _check_format(self) -> None:
         application, version = (

@@ -9,7 +9,7 @@ from typing import Any
 from jumpcad.design import Design
 from jumpcad.workshop.varied import Value
 
-NOTHING: Mapping[str, Any] = MappingProxyType({})
+NOTHING: Mapping[Any, Any] = MappingProxyType({})
 
 Key = tuple[Value, ...]
 

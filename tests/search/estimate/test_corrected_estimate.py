@@ -71,7 +71,7 @@ def test_a_search_that_was_interrupted_and_a_worker_give_the_same_rows(trials, t
 
 def test_where_it_does_not_apply_it_is_refused():
     for name, method in (("printed", "bo"), ("capsule", "ga")):
-        with pytest.raises(JumpcadError, match="screen: "):
+        with pytest.raises(JumpcadError, match="screen"):
             Request.make(SPACE, robot_model(name), method, screen=True)
 
 
