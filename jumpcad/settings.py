@@ -60,7 +60,9 @@ class Settings(Record):
         float, Field(ge=0.1, le=1.5, description="energy that the springs give over that of their rate and angle")
     ] = 1.0
     joint_friction_nm: Annotated[float, Field(ge=0, le=100, description="dry friction of each joint (its motor)")] = 0.0
-    drag_per_s: Annotated[float, Field(ge=0, le=1e3, description="rate at which drag reduces velocity")] = 0.0
+    drag_area_m2: Annotated[
+        float, Field(ge=0, le=1, description="drag coefficient times area of the flying robot, in air of 1.2 kg/m³")
+    ] = 0.0
     takeoff_clearance_m: (
         Annotated[float, Field(ge=0, le=0.1, description="a flight in which no contact gets lower is a jump")] | None
     ) = None

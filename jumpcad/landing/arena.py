@@ -16,6 +16,7 @@ from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
+from jumpcad.simulation.ballistics import drag_m_s2, drag_per_m
 from jumpcad.simulation.engines import import_mujoco
 from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
 
@@ -68,6 +69,7 @@ class Arena:
         self._mujoco = mujoco = import_mujoco()
         settings = settings or Settings()
         self.robot, self.gravity_m_s2 = robot, settings.gravity_m_s2
+        self._drag_per_m = drag_per_m(settings.drag_area_m2, robot.mass_kg)
         self.model = model = mujoco.MjModel.from_xml_string(write_robot(robot, visuals(robot), looks=False, floor=True))
         self.data = mujoco.MjData(model)
         model.opt.gravity[2] = -settings.gravity_m_s2
@@ -103,7 +105,10 @@ class Arena:
         self._mujoco.mj_forward(self.model, data)
 
     def step(self, time_s: float, quiet: bool = False) -> None:
-        """Go on for a time; `quiet` where nothing is fast."""
+        """Go on for a time; `quiet` where nothing is fast. Air brakes with the speed at its beginning."""
+        if self._drag_per_m:
+            air = drag_m_s2(self.velocity_m_s, self._drag_per_m)
+            self.model.opt.gravity[:] = air - np.array([0.0, 0.0, self.gravity_m_s2])
         self.model.opt.timestep = QUIET_STEP_S if quiet else STEP_S
         self._mujoco.mj_step(self.model, self.data, nstep=max(1, round(time_s / self.model.opt.timestep)))
 

@@ -18,6 +18,7 @@ from jumpcad.simulation.bullet_robot import FOOT_LINK, JOINTS, LEG, BulletRobot
 from jumpcad.simulation.engines import import_pybullet
 from jumpcad.simulation.mechanics import State, StopPad
 from jumpcad.simulation.run import Run
+from jumpcad.transforms import Array
 
 RESET_EVERY = 500
 BODY_ORDER = [0, 1, 3, 2]
@@ -137,6 +138,10 @@ class BulletWorld:
         """Return centre of mass, velocity and spin of the foot."""
         state = self._bullet.getLinkState(self.robot_id, FOOT_LINK, computeLinkVelocity=1, physicsClientId=self._client)
         return state[0], state[6], state[7]
+
+    def pull(self, acceleration_m_s2: Array) -> None:
+        """Take another gravity (3,); the engine sets that of the next robot."""
+        self._bullet.setGravity(*acceleration_m_s2.tolist(), physicsClientId=self._client)
 
     def loaded(self) -> bool:
         """Tell whether the ground carries any of the robot (Bullet also lists contacts that are only near)."""

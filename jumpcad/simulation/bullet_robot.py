@@ -130,9 +130,7 @@ class BulletRobot:
                 jointDamping=rubs.joint_damping_nms_per_rad,
                 physicsClientId=client,
             )
-        bullet.changeDynamics(
-            mechanism, -1, linearDamping=settings.drag_per_s, angularDamping=settings.drag_per_s, physicsClientId=client
-        )
+        bullet.changeDynamics(mechanism, -1, linearDamping=0.0, angularDamping=0.0, physicsClientId=client)
         bullet.changeDynamics(mechanism, -1, maxJointVelocity=UNCLAMPED_RAD_S, physicsClientId=client)
         # Bullet gives every joint a motor that holds it.
         bullet.setJointMotorControlArray(

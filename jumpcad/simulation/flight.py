@@ -13,6 +13,7 @@ import numpy as np
 from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, Mechanism
 from jumpcad.mechanism.planar import about_common_centre, frames, points, seen_from_body
 from jumpcad.mechanism.reflected import flying_inertias
+from jumpcad.simulation.ballistics import Ballistics
 from jumpcad.simulation.mechanics import Mechanics, State
 from jumpcad.transforms import Array
 
@@ -39,7 +40,7 @@ class Flight:
     air_time_s: float
 
 
-def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: State, gravity_m_s2: float) -> Flight:
+def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: State, path: Ballistics) -> Flight:
     """Return the flight that follows from the state at take-off.
 
     Parameters
@@ -48,6 +49,8 @@ def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: S
         The robot as it stands with its springs loaded, against which the pitch counts.
     takeoff
         Its state when the last contact ends, rising.
+    path
+        Of its centre of mass.
     """
     about_y = mechanics.inertia_kg_m2[:, 1, 1]
     velocity, rate = points(takeoff.velocity_m_s[:, [0, 2]]), takeoff.angular_rad_s[:, 1]
@@ -56,14 +59,9 @@ def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: S
     leg_rad_s = float(rate[BODY_NAMES.index(MAIN_LEG)] - rate[BODY_NAMES.index(BODY)])
     swing = _swing(mechanism, takeoff.leg_rad, leg_rad_s, momentum)
     pitch = _pitch_rad(takeoff)
-    centre, up_m_s = mechanics.centre_of_mass_m(takeoff), float(mechanics.velocity_m_s(takeoff)[2])
-    # down to where not even an arm as long as the robot reaches the ground from above
-    lowest = float(centre[2]) + 2.0 * mechanism.design.l_max_mm / 1000.0
-    longest = (up_m_s + math.sqrt(up_m_s**2 + 2.0 * gravity_m_s2 * lowest)) / gravity_m_s2
-    time = np.linspace(swing.time_s, max(longest, swing.time_s), MOMENTS)
+    time = np.linspace(swing.time_s, max(path.deepest_s, swing.time_s), MOMENTS)
     turn = swing.turn_rad + swing.rate_rad_s * (time - swing.time_s)
-    height = float(centre[2]) + up_m_s * time - 0.5 * gravity_m_s2 * time**2
-    clearance = height + _lowest_m(mechanism, mechanics, swing.leg_rad, pitch + turn)
+    clearance = path.height_m(time) + _lowest_m(mechanism, mechanics, swing.leg_rad, pitch + turn)
     air = _first_touch_s(time, clearance)
     turned = swing.turn_rad + swing.rate_rad_s * (air - swing.time_s)
     arrived = math.degrees(pitch + turned - _pitch_rad(loaded))

@@ -115,44 +115,6 @@ class Mechanics:
         return origins
 
 
-@dataclass(frozen=True)
-class Ballistics:
-    """The flight of a centre of mass from its place at release, through take-off, back to the height of release."""
-
-    range_m: float
-    rise_m: float
-    speed_m_s: float
-    angle_deg: float
-
-
-def ballistics(start_m: Array, takeoff_m: Array, velocity_m_s: Array, gravity_m_s2: float) -> Ballistics:
-    """Return the ballistic flight of a centre of mass.
-
-    Parameters
-    ----------
-    start_m, takeoff_m
-        Where the centre of mass is at release and at take-off, each (3,).
-    velocity_m_s
-        Its velocity (3,) at take-off, rising.
-
-    Notes
-    -----
-    The range runs along x from release to where the centre of mass falls through its height at release; the rise is
-    that of the apex above that height. A centre of mass that leaves lower than it started and too slowly does not come
-    back to that height: it lands at its apex.
-    """
-    forward, up = float(velocity_m_s[0]), float(velocity_m_s[2])
-    lift = float(takeoff_m[2] - start_m[2])
-    rise = lift + up**2 / (2 * gravity_m_s2)
-    time = (up + math.sqrt(max(2 * gravity_m_s2 * rise, 0.0))) / gravity_m_s2
-    return Ballistics(
-        range_m=float(takeoff_m[0] - start_m[0]) + forward * time,
-        rise_m=rise,
-        speed_m_s=float(np.linalg.norm(velocity_m_s)),
-        angle_deg=math.degrees(math.atan2(up, forward)),
-    )
-
-
 class StopPad:
     """The torque of a mechanism's stop on its leg joint, step by step; of one without a stop, none.
 

@@ -15,7 +15,7 @@ from jumpcad.simulation.engines import import_mujoco
 from jumpcad.simulation.mechanics import State, StopPad
 from jumpcad.simulation.run import Run
 from jumpcad.strength.loads import pin_torque_nm
-from jumpcad.transforms import quaternion_about_y
+from jumpcad.transforms import Array, quaternion_about_y
 
 CARRIED_SHARE = 0.02
 """Of the weight: with less than this the robot has left the ground. MuJoCo's contacts are soft where they begin, and a
@@ -44,11 +44,10 @@ class MujocoEngine:
         JumpcadError
             If the settings ask for what MuJoCo does not have.
         """
-        for key in ("restitution", "drag_per_s"):
-            if getattr(settings, key):
-                raise JumpcadError(
-                    f"{key} = {getattr(settings, key):g}: MuJoCo has none; set it to 0 or use --engine pybullet"
-                )
+        if settings.restitution:
+            raise JumpcadError(
+                f"restitution = {settings.restitution:g}: MuJoCo has none; set it to 0 or use --engine pybullet"
+            )
         yield MujocoWorld(self._mujoco, mechanism, settings)
 
 
@@ -91,6 +90,10 @@ class MujocoWorld:
                 self._touch()
         self.joint_damping_j += self._dt_s * lost_w
         return leg_rad
+
+    def pull(self, acceleration_m_s2: Array) -> None:
+        """Take another gravity (3,)."""
+        self.model.opt.gravity[:] = acceleration_m_s2
 
     def loaded(self) -> bool:
         """Tell whether the ground carried any of the robot during the last time step."""

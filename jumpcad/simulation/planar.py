@@ -24,7 +24,7 @@ from jumpcad.simulation.planar_state import PushOff, StepState
 from jumpcad.simulation.run import AIRBORNE_S, AUDIT_EVERY_S, TAKEOFF_WITHIN_S, Run, Takeoff
 from jumpcad.transforms import Array
 
-LACKING = ("restitution", "rolling_friction_m", "drag_per_s", "published_quantities")
+LACKING = ("restitution", "rolling_friction_m", "published_quantities")
 """Settings that a planar engine, or a run that ends at touchdown, does not support."""
 BASIS = {
     **run.BASIS,
@@ -78,6 +78,10 @@ class PlanarWorld:
                 'flight = "ballistic"'
             )
         return before.leg_rad
+
+    def pull(self, acceleration_m_s2: Array) -> None:
+        """Take another gravity (3,)."""
+        self.model = self.model._replace(pull_m_s2=complex(acceleration_m_s2[0], acceleration_m_s2[2]))
 
     def loaded(self) -> bool:
         """Tell whether the ground carries the foot, or the body touches it."""

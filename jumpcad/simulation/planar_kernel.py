@@ -186,13 +186,13 @@ def forces(
         ankle -= mass * own
         foot -= mass * (place.conjugate() * (1j * own)).real + spin * turn2 * squared
         leg -= mass * (place1.conjugate() * own).real + spin * turn1 * turn2 * squared
-    weight = model.gravity_m_s2
+    pull = model.pull_m_s2
     damped = 1.0 + links.pin1[1] * links.pin1[1] + links.pin1[2] * links.pin1[2]
     return (
-        ankle * turn - 1j * weight * inertia.mass,
-        foot - weight * inertia.by_foot.imag,
+        ankle * turn + pull * inertia.mass,
+        foot + (pull.conjugate() * inertia.by_foot).real,
         leg
-        - weight * inertia.by_leg.imag
+        + (pull.conjugate() * inertia.by_leg).real
         + spring_torque(model, leg_rad)
         - model.damping_nms_per_rad * damped * speed.leg,
     )
@@ -217,7 +217,7 @@ def pin_torque(
         place, place1, place2 = links.place[index], links.place1[index], links.place2[index]
         own = place2 * squared - 2j * place1 * mixed - place * (speed.foot * speed.foot)
         own += (place1 * change.leg - 1j * place * change.foot) / dt
-        force[index] = model.mass_kg[index] * (change.ankle / dt + own * turn + 1j * model.gravity_m_s2)
+        force[index] = model.mass_kg[index] * (change.ankle / dt + own * turn - model.pull_m_s2)
         spin = (change.foot + links.turn1[index] * change.leg) / dt + links.turn2[index] * squared
         torque[index] = model.inertia_kg_m2[index] * spin
     push = complex(contact.along_ns, contact.first_ns + contact.second_ns) / dt

@@ -20,8 +20,9 @@ NO_PINS_M = 0.0, 0.0, 0.0, 0.0
 class PlanarModel(NamedTuple):
     """A robot in the plane, SI units; tuples of four follow `BODY_NAMES`, those of the pins leg, front, ankle, eye.
 
-    `com_m` are the centres of mass in the bodies' frames; `sole_m` and `belly_m` are the centres of the spheres of
-    foot and body that may touch the ground, with their radii. Without a stop its angle is infinite.
+    `com_m` are the centres of mass in the bodies' frames, `pull_m_s2` is gravity as x + iz, with the air's braking;
+    `sole_m` and `belly_m` are the centres of the spheres of foot and body that may touch the ground, with their radii.
+    Without a stop its angle is infinite.
     """
 
     l1_m: float
@@ -34,6 +35,7 @@ class PlanarModel(NamedTuple):
     com_m: tuple[complex, ...]
     inertia_kg_m2: tuple[float, ...]
     gravity_m_s2: float
+    pull_m_s2: complex
     stiffness_nm_per_rad: float
     preload_rad: float
     one_sided_spring: bool
@@ -75,6 +77,7 @@ def planar_model(mechanism: Mechanism, settings: Settings, pin_forces: bool = Fa
         com_m=tuple(complex(body.com_m[0], body.com_m[2]) for body in bodies),
         inertia_kg_m2=tuple(float(body.inertia_kg_m2[1, 1]) for body in bodies),
         gravity_m_s2=settings.gravity_m_s2,
+        pull_m_s2=complex(0.0, -settings.gravity_m_s2),
         stiffness_nm_per_rad=spring.stiffness_nm_per_rad,
         preload_rad=spring.preload_rad,
         one_sided_spring=spring.one_sided,

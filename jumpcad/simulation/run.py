@@ -14,9 +14,10 @@ from scipy.spatial.transform import Rotation
 from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.settings import Settings, takeoff_clearance_m
+from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_m_s2, drag_per_m
 from jumpcad.simulation.flight import Flight, flight
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
-from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics, loaded_state
+from jumpcad.simulation.mechanics import Mechanics, State, loaded_state
 from jumpcad.transforms import Array
 
 AUDIT_EVERY_S = 0.008
@@ -61,6 +62,9 @@ class World(Protocol):
         Return the coordinate of the leg joint before the last of them, which needs no extra work.
         """
 
+    def pull(self, acceleration_m_s2: Array) -> None:
+        """Take another gravity (3,)."""
+
     def loaded(self) -> bool:
         """Tell whether the ground carries any of the robot's weight."""
 
@@ -95,6 +99,7 @@ class Run:
         self.world, self.mechanism, self.settings = world, mechanism, settings
         self.mechanics = Mechanics(mechanism, settings.gravity_m_s2)
         self.clearance_m = takeoff_clearance_m(mechanism, settings)
+        self.drag_per_m = drag_per_m(settings.drag_area_m2, mechanism.mass_kg)
         self.steps = 0
         self.takeoff: Takeoff | None = None
         self.touchdown_distance_m: float | None = None
@@ -230,6 +235,8 @@ class Run:
         distance: float | None = None
         height = self._body_position_m(self.start)[2]
         while self.time_s < settings.max_time_s and self.sound:
+            if self.drag_per_m:
+                self._brake()
             self._advance(1)
             if settings.published_quantities:
                 height = max(height, self._body_position_m(world.state())[2])
@@ -245,6 +252,11 @@ class Run:
                 break
         if settings.published_quantities:
             self.published = PublishedQuantities(distance, float(height))
+
+    def _brake(self) -> None:
+        """Let air act on all bodies alike, as a part of gravity: it turns nothing."""
+        air = drag_m_s2(self.mechanics.velocity_m_s(self.world.state()), self.drag_per_m)
+        self.world.pull(air - np.array([0.0, 0.0, self.settings.gravity_m_s2]))
 
     def _advance(self, steps: int) -> float:
         """Like `World.advance`, but stop wherever the audit or the trajectory needs a state."""
@@ -295,11 +307,9 @@ class Run:
             slip_j=slip_j,
             contact_j=wound - left - release_j - joint_damping_j - slip_j,
         )
-        gravity = self.settings.gravity_m_s2
-        path = ballistics(start, here, velocity, gravity)
-        return Takeoff(
-            time_s, path, flight(self.mechanism, mechanics, self.loaded, state, gravity), budget, left / wound
-        )
+        reach = 2.0 * self.mechanism.design.l_max_mm / 1000.0  # farther than any contact is from the centre
+        path = ballistics(start, here, velocity, self.settings.gravity_m_s2, self.drag_per_m, reach)
+        return Takeoff(time_s, path, flight(self.mechanism, mechanics, self.loaded, state, path), budget, left / wound)
 
     def _body_position_m(self, state: State) -> Array:
         position: Array = self.mechanics.frame_positions_m(state)[BODY_INDEX]

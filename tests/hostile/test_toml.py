@@ -41,7 +41,7 @@ KEYS = {
                  "[safety]\njumps", "[mass]\nmodel", "[mass.weighed_g]\nfoot", "[prices_eur]\nscrew", "fits",
                  "motors", "[motors]\na", "[motors.a]\nlike", "[bearings.a]\nbore_mm", "[boards.a]\nsource"],
     "settings": ["dt_s", "solver_iterations", "gravity_m_s2", "ground_friction", "flight", "max_time_s",
-                 "trajectory_rate_hz", "trajectory", "drag_per_s"],
+                 "trajectory_rate_hz", "trajectory", "drag_area_m2"],
     "readings": ["[gauge.PETG]\naxle_press_mm", "[gauge.PETG]\npegs_mm", "[gauge]\nPETG", "gauge", "gears",
                  "[gears]\nturns_freely_mm"],
 }  # fmt: skip

@@ -264,8 +264,8 @@ def test_guesses_and_quick_scores_have_settings_of_their_own():
     plain = robot_model("printed", None, "fine", "mujoco")
     assert (plain.guess_engine, plain.guess_settings.dt_s) == ("planar", 0.002)
     assert plain.guess_settings.model_copy(update={"dt_s": plain.settings.dt_s, "push_off_steps": 60}) == plain.settings
-    dragged = replace(plain, settings=plain.settings.model_copy(update={"drag_per_s": 0.1}))
-    assert (dragged.guess_engine, dragged.guess_settings.dt_s) == ("mujoco", 0.002)
+    rolling = replace(plain, settings=plain.settings.model_copy(update={"rolling_friction_m": 0.1}))
+    assert (rolling.guess_engine, rolling.guess_settings.dt_s) == ("mujoco", 0.002)
     slow = replace(plain, settings=plain.settings.model_copy(update={"dt_s": 0.004}))
     assert slow.guess_settings.dt_s == 0.004
 

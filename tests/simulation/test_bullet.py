@@ -200,7 +200,7 @@ def test_bullet_runs_alike_in_another_client_and_leaves_the_first_alone(kenan: R
     """A robot that slips on the way: friction, bounce, drag, damping and contacts all have a part."""
     bullet, robot = needs.package("pybullet"), let_go(kenan)
     settings = Settings(
-        ground_friction=0.35, restitution=0.3, drag_per_s=0.5, joint_damping_nms_per_rad=1e-4, joint_friction_nm=0.002,
+        ground_friction=0.35, restitution=0.3, joint_damping_nms_per_rad=1e-4, joint_friction_nm=0.002,
         gravity_m_s2=8.0, dt_s=0.0005,
     )  # fmt: skip
 

@@ -298,22 +298,3 @@ def test_pybullet_has_every_contact_sphere_where_it_is_and_as_large(lopsided: Ro
                 np.testing.assert_allclose(turn @ shape[5], contact.centre_m - body.com_m, atol=1e-7)
                 seen += 1
     assert seen == 5
-
-
-def test_drag_slows_travel_and_turning() -> None:
-    """In the air, about the upright axis, about which nothing of the robot pushes."""
-    robot = capsule_robot(load_design("kenan-2.0"))
-    left = []
-    for drag in (0.0, 20.0):
-        with engine_named("pybullet").world(robot, Settings(drag_per_s=drag)) as world:
-            client = world._client
-            bullet.resetBasePositionAndOrientation(world.robot_id, [0, 0, 1], [0, 0, 0, 1], physicsClientId=client)
-            bullet.resetBaseVelocity(world.robot_id, [0, 1, 0], [0, 0, 5], physicsClientId=client)
-            world.advance(round(0.005 / Settings().dt_s))
-            velocity, spin = bullet.getBaseVelocity(world.robot_id, physicsClientId=client)
-            left.append((velocity[1], spin[2] / 5.0))
-    (free_m_s, free_spin), (slowed_m_s, slowed_spin) = left
-    assert free_m_s == pytest.approx(1.0, abs=0.02)
-    assert free_spin == pytest.approx(1.0, abs=0.02)
-    assert slowed_m_s < math.exp(-0.1) + 0.02  # 20/s for 5 ms
-    assert slowed_spin < math.exp(-0.1)

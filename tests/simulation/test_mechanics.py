@@ -1,11 +1,9 @@
-"""Poses, energies and ballistics against independent facts."""
+"""Poses and energies against independent facts."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from support import needs
 from support.flights import Flight
@@ -17,7 +15,7 @@ from jumpcad.mechanism.poses import release_pose
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.engines import engine_named
-from jumpcad.simulation.mechanics import Mechanics, State, ballistics, loaded_state
+from jumpcad.simulation.mechanics import Mechanics, State, loaded_state
 from jumpcad.transforms import Array
 
 
@@ -84,52 +82,6 @@ def test_energy_of_a_known_motion(lopsided: Robot) -> None:
     height = sum(lopsided.bodies[name].mass_kg * place[2] for name, place in zip(BODY_NAMES, com, strict=True))
     assert energies.potential_j == pytest.approx(9.81 * height, rel=1e-12)
     assert energies.spring_j == pytest.approx(0.5 * lopsided.spring.stiffness_nm_per_rad * 0.04, rel=1e-12)
-
-
-def test_ballistics_against_integration() -> None:
-    """The flight integrated numerically until it falls through its height at release."""
-    start, takeoff, velocity, gravity = (
-        np.array([0.1, 0, 0.05]),
-        np.array([0.13, 0, 0.08]),
-        np.array([1.4, 0, 2.1]),
-        9.81,
-    )
-
-    def landed(_: float, y: Array) -> float:
-        return float(y[1] - start[2])
-
-    landed.terminal, landed.direction = True, -1  # type: ignore[attr-defined]
-    path = solve_ivp(
-        lambda _, y: [y[2], y[3], 0.0, -gravity], (0, 5), [takeoff[0], takeoff[2], velocity[0], velocity[2]],
-        events=landed, rtol=1e-10, atol=1e-12, max_step=0.01, dense_output=True,
-    )  # fmt: skip
-    flight = ballistics(start, takeoff, velocity, gravity)
-    assert flight.range_m == pytest.approx(path.y_events[0][0][0] - start[0], rel=1e-8)
-    heights = path.sol(np.linspace(0, path.t[-1], 100_001))[1]
-    assert flight.rise_m == pytest.approx(heights.max() - start[2], rel=1e-8)
-    assert flight.angle_deg == pytest.approx(math.degrees(math.atan(1.5)))
-
-
-def test_ballistics_from_level_ground_is_the_textbook_range() -> None:
-    """v²·sin(2θ)/g."""
-    speed, angle = 3.0, math.radians(40)
-    velocity = speed * np.array([math.cos(angle), 0.0, math.sin(angle)])
-    flight = ballistics(np.zeros(3), np.zeros(3), velocity, 9.81)
-    assert flight.range_m == pytest.approx(speed**2 * math.sin(2 * angle) / 9.81)
-
-
-@pytest.mark.parametrize(("up_m_s", "lift_m"), [(0.5, -0.1), (1.4, -0.1), (1.4007142, -0.1), (0.5, -0.02), (2.0, -0.1)])
-def test_who_leaves_lower_than_it_started_flies_to_that_height_or_to_its_highest_point(
-    up_m_s: float, lift_m: float
-) -> None:
-    """√(2·g·0.1 m) = 1.4007 m/s are needed to come back to it."""
-    gravity, start = 9.81, np.array([0.1, 0.2, 0.3])
-    flight = ballistics(start, start + np.array([0.05, 0.0, lift_m]), np.array([1.2, 0.0, up_m_s]), gravity)
-    apex_s, fallen_m = up_m_s / gravity, lift_m + up_m_s**2 / (2.0 * gravity)
-    assert flight.rise_m == pytest.approx(fallen_m)
-    falls_s = math.sqrt(2.0 * fallen_m / gravity) if fallen_m > 0.0 else 0.0
-    assert flight.range_m == pytest.approx(0.05 + 1.2 * (apex_s + falls_s))
-    assert flight.speed_m_s == pytest.approx(math.hypot(1.2, up_m_s))
 
 
 def test_principal_axes_are_proper_and_give_the_tensor_back(lopsided: Robot) -> None:

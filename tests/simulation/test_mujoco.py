@@ -16,7 +16,7 @@ from jumpcad.simulation.mujoco import MujocoWorld
 from jumpcad.strength.loads import pin_torque_nm
 
 
-@pytest.mark.parametrize("key", ["restitution", "drag_per_s"])
+@pytest.mark.parametrize("key", ["restitution"])
 def test_mujoco_refuses_what_it_does_not_have(kenan: Robot, key: str) -> None:
     needs.package("mujoco")
     with pytest.raises(JumpcadError, match=f"{key} = 0.5.*pybullet"):

@@ -4,6 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 from support import needs
 
@@ -14,9 +15,10 @@ from jumpcad.mechanism.model import RollerOff
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, run, simulate
+from jumpcad.simulation.ballistics import Ballistics
 from jumpcad.simulation.flight import Flight
 from jumpcad.simulation.jump import EnergyBudget
-from jumpcad.simulation.mechanics import Ballistics, Mechanics, loaded_state
+from jumpcad.simulation.mechanics import Mechanics, loaded_state
 from jumpcad.simulation.simulator import _jump
 
 needs.package("pybullet")
@@ -138,8 +140,8 @@ def test_every_figure_of_a_run_comes_under_its_own_name(kenan: Robot) -> None:
     """Fitness is range over the longest link; release and take-off are shares of the springs' energy."""
     budget = EnergyBudget(0.1, 0.2, 0.3, 0.4, 0.5, 0.25 * kenan.spring.energy_j, 0.7, 0.8, 0.9)
     takeoff = SimpleNamespace(
-        ballistics=Ballistics(1.5, 0.25, 3.5, 62.0), flight=Flight(-20.0, 340.0, 400.0, 0.85), energy=budget,
-        energy_ratio=0.875, time_s=0.0625,
+        ballistics=Ballistics(1.5, 0.25, 3.5, 62.0, np.zeros_like, 1.0), flight=Flight(-20.0, 340.0, 400.0, 0.85),
+        energy=budget, energy_ratio=0.875, time_s=0.0625,
     )  # fmt: skip
     told, kept = Finding("audit_loop", "info", 1.0, "mm", "", ""), Finding("loop", "info", 2.0, "°", "", "")
     made: Any = SimpleNamespace(
