@@ -14,8 +14,6 @@ from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.drawings.spring_sheet import requirements, scale_in_words, spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
 from jumpcad.bundle.springs import arms_off_deg, torque_shares
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import wiring_of
 from jumpcad.parts.lead_ways import plate_of
 from jumpcad.robot import Robot
 
@@ -79,32 +77,6 @@ def test_words_of_wiring_and_soldering_are_apart(drawings: dict[str, ET.Element]
         for (one, a, b, c, d), (other, e, f, g, h) in itertools.combinations(words(drawings[name]), 2):
             overlap = min(c, g) - max(a, e) > 0.3 and min(d, h) - max(b, f) > 0.3
             assert not overlap, (name, one, other)
-
-
-def test_terminals_are_in_the_boxes_of_their_parts_and_nets_end_at_them(
-    robot: Robot, drawings: dict[str, ET.Element]
-) -> None:
-    """A box a part, boxes apart; every terminal has its word inside its box, where a line begins at the right edge."""
-    root = drawings["wiring.svg"]
-    wiring = wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)
-    _, *boxes = (np.array(points_of(one)) for one in root.iter(f"{SPACE}rect"))
-    for one, other in itertools.combinations(boxes, 2):
-        assert ((one[0] >= other[1]) | (other[0] >= one[1])).any()
-    texts = [(one.text, float(one.get("x")), float(one.get("y"))) for one in root.iter(f"{SPACE}text")]
-    titles = [one.text for one in root.iter(f"{SPACE}text") if one.get("font-weight") == "bold"]
-    terminals = {terminal for net in wiring.nets for terminal in net.terminals}
-    assert len(boxes) == len(titles) == len({terminal.part for terminal in terminals})
-    lines = [points_of(one) for one in root.iter(f"{SPACE}polyline")]
-    starts = [line[0] for line in lines if len(line) == 3]
-    assert len(starts) == len(terminals)
-    for box in boxes:
-        inside = [text for text, x, y in texts if (box[0] <= [x, y]).all() and ([x, y] <= box[1]).all()]
-        own = [start for start in starts if start[0] == box[1][0] and box[0][1] < start[1] < box[1][1]]
-        title, *pins = inside
-        part = [terminal.part for terminal in terminals if title == title and title.startswith(terminal.part)]
-        assert len(pins) == len(own)
-        assert set(pins) <= {terminal.pin for terminal in terminals if terminal.part in part}
-        assert box[1][1] - max(y for _, y in own) < 6.0  # no empty rows
 
 
 def test_a_spring_is_drawn_three_times_as_large(robot: Robot, drawings: dict[str, ET.Element]) -> None:
@@ -216,72 +188,6 @@ def test_plates_are_drawn_to_scale_seen_from_outside(robot: Robot, drawings: dic
             assert any(
                 text == "sensor" and math.dist((x, y), drawn(layout.sensor.place_mm)) < 40.0 for text, x, y in texts
             )
-
-
-def test_words_of_wiring_are_inside_their_boxes(drawings: dict[str, ET.Element]) -> None:
-    """With room for their letters; names of terminals end at the edge where their lines begin."""
-    root = drawings["wiring.svg"]
-    page, *boxes = (np.array(points_of(one)) for one in root.iter(f"{SPACE}rect"))
-    nets = {one.text for one in root.iter(f"{SPACE}text") if one.get("fill")}
-    for text, left, top, right, bottom in words(root):
-        if text not in nets:
-            (box,) = (box for box in boxes if (box[0] <= [left, top]).all() and ([left, top] <= box[1]).all())
-            assert (box[1] >= [right, bottom]).all(), text
-    for one in root.iter(f"{SPACE}text"):
-        if one.get("text-anchor") == "end":
-            x, y = float(one.get("x")), float(one.get("y"))
-            (box,) = (box for box in boxes if (box[0] <= [x, y]).all() and ([x, y] <= box[1]).all())
-            assert 0.0 < box[1][0] - x < 4.0
-    assert (page[1] == np.array(root.get("viewBox").split()[2:], dtype=float)).all()
-    assert float(root.get("width")) == 4.0 * page[1][0]
-
-
-def test_a_net_is_one_piece_and_no_net_runs_in_another_or_through_a_box(
-    robot: Robot, drawings: dict[str, ET.Element]
-) -> None:
-    """Lines of one net meet; those of two nets cross square; at a turn or a crossing there is no doubt."""
-    root = drawings["wiring.svg"]
-    wiring = wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)
-    _, *boxes = (np.array(points_of(one)) for one in root.iter(f"{SPACE}rect"))
-    lines = iter([np.array(points_of(one)) for one in root.iter(f"{SPACE}polyline")])
-    nets: list[list[tuple[np.ndarray, np.ndarray]]] = []
-    for net in wiring.nets:
-        ways = [next(lines) for _ in net.terminals]
-        columns = {way[1][0] for way in ways}
-        ways += [next(lines)] if len(columns) > 1 else []
-        assert len({way[-1][1] for way in ways}) == 1  # all go down to one lane, or to the last terminal
-        if len(columns) > 1:
-            assert {x for x, _ in ways[-1]} == {min(columns), max(columns)}
-            assert ways[-1][0][1] > max(box[1][1] for box in boxes)
-        nets.append([
-            (np.minimum(a, b), np.maximum(a, b)) for way in ways for a, b in itertools.pairwise(way)
-        ])  # fmt: skip
-    assert next(lines, None) is None
-    for pieces in nets:
-        for low, high in pieces:
-            assert (low == high).any()
-            assert not any(((low < box[1] - 1e-6) & (high > box[0] + 1e-6)).all() for box in boxes)
-    for one, other in itertools.combinations(nets, 2):
-        for (low, high), (least, most) in itertools.product(one, other):
-            same = (low == high) & (least == most) & (low == least)
-            overlap = np.minimum(high, most) - np.maximum(low, least)
-            assert not (same[0] and overlap[1] >= 0.0)
-            assert not (same[1] and overlap[0] >= 0.0)
-
-
-def test_a_net_s_name_stands_on_its_lane(robot: Robot, drawings: dict[str, ET.Element]) -> None:
-    """In the net's colour, at the lane's beginning, and dots where terminals meet their tracks."""
-    root = drawings["wiring.svg"]
-    lanes = [points_of(one) for one in root.iter(f"{SPACE}polyline") if len(points_of(one)) == 2]
-    names = [one for one in root.iter(f"{SPACE}text") if one.get("fill")]
-    assert len(lanes) == len(names)
-    for lane, name in zip(lanes, names, strict=True):
-        x, y = float(name.get("x")), float(name.get("y"))
-        assert 0.0 < x - lane[0][0] < 3.0
-        assert 0.0 < lane[0][1] - y < 2.0
-    dots = [(float(one.get("cx")), float(one.get("cy"))) for one in root.iter(f"{SPACE}circle")]
-    turns = [points_of(one)[1] for one in root.iter(f"{SPACE}polyline") if len(points_of(one)) == 3]
-    assert dots == turns
 
 
 def test_leads_leave_the_view_from_above_at_its_ends_alone(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
