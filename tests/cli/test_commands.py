@@ -76,7 +76,7 @@ def test_a_user_without_a_home_has_one_in_which_nothing_can_be_written(monkeypat
 
 
 LONG_WORK = (
-    "jumpcad.search.study.run_study",
+    "jumpcad.search.study.run.run_study",
     "jumpcad.search.explore.sweep",
     "jumpcad.calibration.calibrate",
     "jumpcad.cli.bundle.printed_robot",
