@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.each import each
 from support.sandbox import Sandbox
 
 from jumpcad.errors import JumpcadError
@@ -96,28 +97,28 @@ def refusal(call: object) -> str:
     return said
 
 
-@pytest.mark.parametrize("case", FAILING)
+@each("case", FAILING)
 def test_a_function_that_fails_is_a_line(sandbox: Sandbox, case: str) -> None:
     sandbox.write("o.py", f"def f(m):\n {FAILING[case]}\n")
     with sandbox.untouched():
         refusal(lambda: find_objective("o.py:f").score(JUMP))
 
 
-@pytest.mark.parametrize("case", REFUSED)
+@each("case", REFUSED)
 def test_a_file_without_a_usable_function_is_a_line(sandbox: Sandbox, case: str) -> None:
     sandbox.write("o.py", REFUSED[case])
     with sandbox.untouched():
         refusal(lambda: find_objective("o.py:f"))
 
 
-@pytest.mark.parametrize("case", BORNE)
+@each("case", BORNE)
 def test_a_function_may_use_anything(sandbox: Sandbox, case: str) -> None:
     sandbox.write("o.py", BORNE[case])
     with sandbox.untouched():
         assert find_objective("o.py:f").score(JUMP) == 1.0
 
 
-@pytest.mark.parametrize(
+@each(
     ("model", "objective", "lacking"),
     [
         ("capsule", "range-per-joule", "electrical_energy_j"),
@@ -223,7 +224,7 @@ PLACES = ["o.py:", ":f", "o.py:f:g", "o.txt:f", "o.py:1", "folder.py:f", "pipe.p
           "no.py:f", "\0.py:f", f"{'x' * 5000}.py:f", "a\n\x1b.py:f", "\ud800.py:f", "o.py:__name__"]  # fmt: skip
 
 
-@pytest.mark.parametrize("place", PLACES, ids=ascii)
+@each("place", PLACES)
 def test_a_place_without_a_function_is_a_line(sandbox: Sandbox, place: str) -> None:
     sandbox.write("o.py", "def f(m): return 1.0\n")
     (sandbox.work / "folder.py").mkdir()

@@ -8,7 +8,7 @@ from contextlib import closing
 from pathlib import Path
 
 import numpy as np
-import pytest
+from support.each import each
 from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
 from support.sandbox import ANY, Sandbox
 
@@ -67,7 +67,7 @@ def ask(sandbox: Sandbox, exits: tuple[int, ...] = ANY) -> None:
     sandbox.run("study", "study.db", "--export", "rows.csv", "--json", exits=exits, writes=["rows.csv"])
 
 
-@pytest.mark.parametrize("name", [*COLUMNS, *FIELDS])
+@each("name", [*COLUMNS, *FIELDS])
 def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, study: Path, name: str) -> None:
     good = study.read_bytes()
     with closing(sqlite3.connect(study)) as connection:
@@ -82,8 +82,8 @@ def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, study: Path, name
         ask(sandbox)
 
 
-@pytest.mark.parametrize("number", range(30))
-@pytest.mark.parametrize("key", ["identity", "stages"])
+@each("number", range(30))
+@each("key", ["identity", "stages"])
 def test_a_strange_description_is_borne_or_refused(sandbox: Sandbox, study: Path, key: str, number: int) -> None:
     with closing(sqlite3.connect(study)) as connection:
         good = json.loads(connection.execute("SELECT value FROM study WHERE key = ?", (key,)).fetchone()[0])
@@ -98,20 +98,20 @@ def test_a_strange_description_is_borne_or_refused(sandbox: Sandbox, study: Path
     ask(sandbox)
 
 
-@pytest.mark.parametrize("case", SCHEMES)
+@each("case", SCHEMES)
 def test_a_strange_scheme_is_borne_or_refused(sandbox: Sandbox, study: Path, case: str) -> None:
     spoil(study, SCHEMES[case])
     ask(sandbox)
 
 
-@pytest.mark.parametrize("case", [*DOCUMENTS, *accidents(60, 10)])
+@each("case", [*DOCUMENTS, *accidents(60, 10)])
 def test_an_accident_is_borne_or_refused(sandbox: Sandbox, study: Path, case: str) -> None:
     spoils: dict[str, Spoil] = DOCUMENTS | accidents(60, 10)
     study.write_bytes(spoils[case](study.read_bytes()))
     ask(sandbox)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@each("seed", range(12))
 def test_an_accident_in_the_last_page_is_borne_or_refused(sandbox: Sandbox, study: Path, seed: int) -> None:
     """Texts fill the last pages, and SQLite does not check them."""
     data = study.read_bytes()
@@ -126,8 +126,8 @@ def test_a_view_without_end_is_refused(sandbox: Sandbox, study: Path) -> None:
     sandbox.process("study", "study.db", "--json", exits=(2,))
 
 
-@pytest.mark.parametrize("command", ["study", "from", "continue"])
-@pytest.mark.parametrize("kind", ["folder", "pipe", "loop", "dangling", "device", "nothing", "empty", "foreign"])
+@each("command", ["study", "from", "continue"])
+@each("kind", ["folder", "pipe", "loop", "dangling", "device", "nothing", "empty", "foreign"])
 def test_what_is_no_study_is_refused_and_kept(sandbox: Sandbox, kind: str, command: str) -> None:
     path = sandbox.work / "study.db"
     if kind == "folder":
@@ -152,7 +152,7 @@ def test_what_is_no_study_is_refused_and_kept(sandbox: Sandbox, kind: str, comma
         sandbox.run(*search, "--study", "study.db", exits=(2,))
 
 
-@pytest.mark.parametrize("name", ["a?mode=memory.db", "a#b.db", "a%00b.db", "file:x.db", "機械.db", "a b.db", "-a.db"])
+@each("name", ["a?mode=memory.db", "a#b.db", "a%00b.db", "file:x.db", "機械.db", "a b.db", "-a.db"])
 def test_a_study_may_have_any_name(sandbox: Sandbox, study: Path, name: str) -> None:
     shutil.move(study, sandbox.work / name)
     sandbox.run("study", "--json", "--", name, exits=(0,))
