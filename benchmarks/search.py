@@ -28,7 +28,7 @@ from jumpcad.search.propose.bayesian import run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
-from jumpcad.search.study.objective import Objective, find_objective
+from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request, Stage, default_initial
 from jumpcad.search.study.store import StudyStore
@@ -124,7 +124,7 @@ METHODS: dict[str, tuple[Callable[..., None], int]] = {
 def climb(method: Callable[..., None], seed: int, evaluations: int, model: RobotModel) -> Scores:
     """Return the best score so far after each evaluation."""
     with StudyStore.write(None, {}) as store, local_pool(0) as pool:
-        evaluator = Evaluator(SPACE, find_objective(model.default_objective), model, store, pool)
+        evaluator = Evaluator(Request(SPACE, model, model.default_objective), store, pool)
         method(evaluator, seed, evaluations)
         return np.maximum.accumulate([trial.score or 0.0 for trial in evaluator.trials][:evaluations]).tolist()
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import jumpcad
 from jumpcad.search import (
     Evaluator,
+    Request,
     Space,
     StudyStore,
     find_objective,
@@ -34,7 +35,7 @@ def main() -> None:
     # One parameter at a time, about the design that the study ended with.
     objective = find_objective("fitness")
     with local_pool() as pool, StudyStore.write(None, {}) as store:
-        evaluator = Evaluator(Space.default(), objective, robot_model(arguments.model), store, pool)
+        evaluator = Evaluator(Request(Space.default(), robot_model(arguments.model)), store, pool)
         swept = sweep(evaluator, jumpcad.load_design("best-bo"), arguments.points)
     save_figure(plots.sweeps(swept, objective), arguments.folder, "sweeps")
 

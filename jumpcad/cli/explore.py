@@ -89,6 +89,7 @@ def explore(
     from jumpcad.search.space import Space
     from jumpcad.search.study.database import require_study
     from jumpcad.search.study.evaluator import Evaluator
+    from jumpcad.search.study.request import Request
     from jumpcad.search.study.store import StudyStore
 
     if view not in VIEWS:
@@ -103,6 +104,7 @@ def explore(
     robot = options.robot_model()
     space = Space.parse(options.fix or (), options.bound or (), options.choose or (), workshop=robot.workshop)
     objective = robot.aiming_at(options.objective)
+    request = Request(space, robot, objective.name, own=objective if objective.code else None)
     centre = load_design(AROUND if around is None else around)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),
@@ -120,7 +122,7 @@ def explore(
         StudyStore.write(options.study, identity) as store,
         watching(total, as_json) as watch,
     ):
-        data, lines, figures = run(Evaluator(space, objective, robot, store, pool, watch=watch))
+        data, lines, figures = run(Evaluator(request, store, pool, watch=watch))
     if plots is not None:
         from jumpcad.search.report.figures import save_figure
 

@@ -9,8 +9,8 @@ from support.hills import SMALL, Hill
 from support.proposals import with_less_work
 
 from jumpcad.search.study.evaluator import Evaluator
-from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.pool import local_pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
 
 
@@ -42,7 +42,7 @@ def _evaluators() -> Iterator[Callable[..., Evaluator]]:
         }
         store = StudyStore.write(path, study)
         stores.append(store)
-        return Evaluator(space, find_objective("fitness"), model or Hill(), store, pool or local_pool(0), prior)
+        return Evaluator(Request(space, model or Hill()), store, pool or local_pool(0), prior)
 
     yield make
     for store in stores:

@@ -73,9 +73,9 @@ def _efficiency(trial: Trial) -> float:
 @contextmanager
 def _inside(evaluator: Evaluator, inner: Space | None) -> Iterator[Space | None]:
     """Let methods search a part of the evaluator's space."""
-    whole = evaluator.space
-    evaluator.space = inner or whole
+    whole = evaluator.request
+    evaluator.request = replace(whole, space=inner or whole.space)
     try:
         yield inner
     finally:
-        evaluator.space = whole
+        evaluator.request = whole

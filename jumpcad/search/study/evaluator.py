@@ -10,6 +10,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import QUARANTINED, Evaluation, Model, Objective
 from jumpcad.search.study.pool import Pool
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Position, Trial, in_order
 from jumpcad.search.study.variant import NOTHING, Key, Variant
@@ -30,10 +31,8 @@ class Evaluator:
 
     Parameters
     ----------
-    space, objective
-        The space that is searched, and the objective.
-    model
-        Evaluates a design; sent to the workers.
+    request
+        What is asked for: its space is searched, its model evaluates designs, its objective scores them.
     store, pool
         Where trials are kept, and what computes them.
     prior
@@ -47,19 +46,15 @@ class Evaluator:
     @check_arguments
     def __init__(
         self,
-        space: Space,
-        objective: Objective,
-        model: Model,
+        request: Request,
         store: StudyStore,
         pool: Pool,
         prior: Sequence[Trial] = (),
         watch: Watch = ignore,
         expired: Callable[[], bool] = lambda: False,
     ) -> None:
-        self.space = space
-        self.objective = objective
+        self.request = request
         self.store = store
-        self.model = model
         self.expired = expired
         self._pool = pool
         self._watch = watch
@@ -70,6 +65,21 @@ class Evaluator:
         self.prior = list(prior)
         self._known = {trial.key for trial in self.prior}
         pool.notice = store.note
+
+    @property
+    def space(self) -> Space:
+        """The space that is searched."""
+        return self.request.space
+
+    @property
+    def objective(self) -> Objective:
+        """The objective that scores designs."""
+        return self.request.aim
+
+    @property
+    def model(self) -> Model:
+        """What evaluates designs."""
+        return self.request.model
 
     @property
     def trials(self) -> list[Trial]:

@@ -109,7 +109,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 return cut
             return clock.is_over(request.pick) or len(evaluator.trials) >= allowance
 
-        evaluator = Evaluator(request.space, request.aim, request.model, store, pool, prior, watched, expired)
+        evaluator = Evaluator(request, store, pool, prior, watched, expired)
         converged = False
         for stage in stages:
             allowance += stage.evaluations

@@ -41,7 +41,7 @@ def search(path, evaluations=105, workers=0):
     model = quick()
     request = Request(SPACE, model, "body_lengths", "ga", evaluations, screen=True)
     with StudyStore.write(path, request.identity([])) as store, local_pool(workers) as pool:
-        evaluator = Evaluator(SPACE, request.aim, model, store, pool)
+        evaluator = Evaluator(request, store, pool)
         run_genetic(evaluator, Stage(request, "ga", evaluations))
         return [replace(trial, duration_s=0.0) for trial in evaluator.trials]
 

@@ -147,7 +147,8 @@ def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below
     examined = _Examined(0, Trial("bo", 0, 0, edge, Evaluation("jump"), 9.0, "m", 0.0))
     first = [variant.design for _, variant in examined.neighbours(2, 0, LENGTHS_ALONE)]
     one = evaluator(model=Late(kept=max(abs(design.stiffness_nmm_per_deg / 20.0 - 1.0) for design in first)))
-    one.objective = replace(one.objective, figure=lambda metrics: metrics["fitness"] - below)
+    aim = replace(one.objective, figure=lambda metrics: metrics["fitness"] - below)
+    one.request = replace(one.request, own=aim)
     one.evaluate([edge, fine], "bo", 0)
     ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [fine, edge]
@@ -158,7 +159,8 @@ def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
     inside = edge.model_copy(update={"compression_ratio": 0.4})
-    one.objective = replace(one.objective, figure=lambda metrics: metrics["fitness"] - 100.0)
+    aim = replace(one.objective, figure=lambda metrics: metrics["fitness"] - 100.0)
+    one.request = replace(one.request, own=aim)
     one.evaluate([edge, inside], "bo", 0)
     ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [inside, edge]

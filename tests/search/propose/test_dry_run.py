@@ -57,7 +57,7 @@ def search(path, asked=STAGE, workers=0):
     model = quick()
     request = Request(SPACE, model, "body_lengths", "bo", asked.evaluations)
     with StudyStore.write(path, request.identity([])) as store, local_pool(workers) as pool:
-        evaluator = Evaluator(SPACE, request.aim, model, store, pool)
+        evaluator = Evaluator(request, store, pool)
         run_bayesian(evaluator, asked)
         return [replace(trial, duration_s=0.0) for trial in evaluator.trials]
 
@@ -71,7 +71,7 @@ def dry_run_of(model=None, space=SPACE, phase="bo", asked=STAGE, prior=()):
     model = model or quick()
     request = Request(space, model, "fitness", "bo", 20)
     store, pool = StudyStore.write(None, {}), local_pool(0)
-    return DryRun.of(Evaluator(space, request.aim, model, store, pool, prior), phase, asked.request.seed, asked.run)
+    return DryRun.of(Evaluator(request, store, pool, prior), phase, asked.request.seed, asked.run)
 
 
 @pytest.mark.thorough
