@@ -19,7 +19,7 @@ table { border-collapse: collapse; margin: 0.5em 0 1.5em; }
 th, td { text-align: left; padding: 0.15em 1.2em 0.15em 0; border-bottom: 1px solid #8884; vertical-align: top; }
 th:last-child, td:last-child { padding-right: 0; }
 img { max-width: 100%; background: #fff; }
-li:has(> input) { list-style: none; text-indent: -1.5em; }
+li:has(input) { list-style: none; text-indent: -1.5em; }
 input { margin: 0 0.5em 0 0; width: 1em; height: 1em; }
 blockquote { margin: 0.8em 0; padding: 0.1em 1em; border-left: 5px solid #b3322b; background: #b3322b18; }
 pre { background: #8882; padding: 0.6em 1em; overflow-x: auto; }
@@ -33,6 +33,8 @@ nav { columns: 2; }
 TYPES = {"png": "image/png", "svg": "image/svg+xml"}
 BOX, TICK = "☐ ", '<input type="checkbox" />'
 """How a line of the guide begins that is to be ticked, and what it becomes."""
+BESIDE = 2
+"""Pictures beside the words of a step: with more it would not fit one view. The others stay where they are."""
 
 
 def write_page(guide: str, name: str, pictures: Mapping[str, bytes]) -> str:
@@ -77,10 +79,8 @@ def _section(tokens: list[Token], reader: MarkdownIt, heads: dict[str, str], pic
     heads[anchor] = tokens[1].content
     if not re.match(r"\d+\. ", tokens[1].content):
         return f"<section>{_html(reader, tokens)}</section>"
-    # a paragraph of its own: opening, content, closing
-    drawn = {
-        at + by for at, one in enumerate(tokens) if re.fullmatch(r"!\[.*\]\(.*\)", one.content) for by in (-1, 0, 1)
-    }
+    alone = [at for at, token in enumerate(tokens) if re.fullmatch(r"!\[.*\]\(.*\)", token.content)]
+    drawn = {at + by for at in alone[:BESIDE] for by in (-1, 0, 1)}  # a paragraph: its opening, content and closing
     shown = [token for at, token in enumerate(tokens) if at in drawn]
     told = [token for at, token in enumerate(tokens) if at > 2 and at not in drawn]
     return (
