@@ -2,7 +2,7 @@
 
 import base64
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -29,36 +29,17 @@ KEYS = (
     "Arrow keys turn the robot, with Shift they move it; + and − zoom, 0 shows it as at first; space plays and "
     "pauses, comma and full stop go back and forth in the motion."
 )
-CONTROLS = """<div id="viewer-controls" hidden="hidden">
-<p><button type="button" id="play">Play</button>
-<label>motion <input type="range" id="scrub" min="0" max="1" step="0.02" value="0" /></label>
-<output id="moment"></output></p>
-<p><label>apart <input type="range" id="explode" min="0" max="1" step="0.01" value="0" /></label>
-<label>assembly <input type="range" id="step" min="1" max="1" step="1" value="1" /></label>
-<output id="step-title"></output>
-<button type="button" id="home">View</button></p>
-<p id="shown"><span>show</span>
-<label><input type="checkbox" id="show-plates" checked="checked" /> body plates</label>
-<label><input type="checkbox" id="show-printed" checked="checked" /> other printed parts</label>
-<label><input type="checkbox" id="show-bought" checked="checked" /> bought parts</label>
-<label><input type="checkbox" id="show-path" checked="checked" /> path of the centre of mass</label>
-<label><input type="checkbox" id="follow" /> follow the robot</label></p>
-<p><label>part <select id="choose"><option value="">none</option></select></label>
-<output id="part" aria-live="polite"></output></p>
-</div>"""
 
 
-def viewer(robot: Robot, jump: Jump, glb: bytes) -> Iterator[str]:
-    """Yield the viewer's elements: a box, controls, and scripts with data, GLB file and program."""
-    yield f'<div id="viewer" data-keys="{KEYS}"></div>'
-    yield '<p id="viewer-message">The robot is shown here in 3-D where the browser runs scripts and WebGL.</p>'
-    hint = f"Drag to turn, scroll or pinch to zoom. Lines of the ground {CELL_MM} mm apart. <span>{KEYS}</span>"
-    yield f'<p id="viewer-keys" hidden="hidden"><small>{hint}</small></p>'
-    yield CONTROLS
-    yield f'<script type="application/json" id="viewer-data">{_embedded(viewer_data(robot, jump))}</script>'
-    yield f'<script type="text/plain" id="viewer-glb">{base64.b64encode(glb).decode()}</script>'
-    program = (templates_folder() / "report" / "viewer.min.js").read_text(encoding="ascii")
-    yield f"<script>//<![CDATA[\n{program}\n//]]></script>"
+def viewer_values(robot: Robot, jump: Jump, glb: bytes) -> dict[str, Any]:
+    """Return what `templates/report/viewer.html.j2` needs: data, GLB file and program, and words on the keys."""
+    return {
+        "help": KEYS,
+        "cell_mm": CELL_MM,
+        "data": _embedded(viewer_data(robot, jump)),
+        "glb": base64.b64encode(glb).decode(),
+        "program": (templates_folder() / "report" / "viewer.min.js").read_text(encoding="ascii"),
+    }
 
 
 def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from functools import cache
+from html import escape
 from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -16,7 +17,7 @@ def environment() -> Environment:
     """Return the environment of all templates of texts.
 
     Its filters: `n(digits)` rounds to so many decimals, `g` writes a number as short as possible, `plain` escapes text
-    for Markdown, `capital` and `small` change a sentence's first letter alone.
+    for Markdown, `html` for HTML, `capital` and `small` change a sentence's first letter alone.
     """
     found = Environment(
         loader=FileSystemLoader(templates_folder()),
@@ -24,9 +25,10 @@ def environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        autoescape=False,  # Markdown; names of users are escaped by `plain`
+        autoescape=False,  # names of users are escaped by `plain` in Markdown, by `html` in HTML
     )
-    found.filters |= {"n": _rounded, "g": _shortest, "plain": plain, "capital": _capital, "small": _small}
+    found.filters |= {"n": _rounded, "g": _shortest, "plain": plain, "html": escape}
+    found.filters |= {"capital": _capital, "small": _small}
     return found
 
 
@@ -40,6 +42,11 @@ def render(template: str, values: Mapping[str, Any]) -> str:
     """
     text = environment().get_template(template).render(values)
     return _numbered(re.sub(r"\n{3,}", "\n\n", text).strip()) + "\n"
+
+
+def fill(template: str, values: Mapping[str, Any]) -> str:
+    """Return a template with values in it, line by line as it is; errors are those of `render`."""
+    return environment().get_template(template).render(values)
 
 
 def _rounded(value: float, digits: int = 0) -> str:

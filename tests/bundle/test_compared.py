@@ -4,7 +4,8 @@ import re
 
 import pytest
 
-from jumpcad.bundle.compared import Beside, Compared, _percent, _value, compared
+from jumpcad.bundle.compared import READINGS, Beside, Compared
+from jumpcad.files.rendering import fill
 
 
 def row(what: str, reading: str, measured: float, predicted: tuple[float, float, float], below: float = 0.4) -> Beside:
@@ -13,7 +14,7 @@ def row(what: str, reading: str, measured: float, predicted: tuple[float, float,
 
 def verdict(*rows: Beside) -> str:
     found = Compared.model_construct(design="a", calibrated_on="b", rows=rows)
-    return "".join(compared(found))
+    return fill("report/compared.html.j2", {"beside": found, "readings": READINGS})
 
 
 @pytest.mark.parametrize(("measured", "holds"), [(0.19, False), (0.2, True), (0.3, True), (0.4, True), (0.41, False)])
@@ -31,9 +32,9 @@ def test_one_reading_that_holds_is_enough_and_each_quantity_is_named_once() -> N
 
 
 def test_values_are_in_millimetres_or_joules() -> None:
-    assert _value([0.2, 0.314], "distance") == "200…314 mm"
-    assert _value([1.234], "battery") == "1.23 J"
-    assert [_percent(share) for share in (0.0, 0.404, 1.0)] == ["1 %", "40 %", "99 %"]
+    assert ">314 mm<" in verdict(row("distance", "first-touchdown", 0.314, (0.2, 0.3, 0.4)))
+    for share, shown in ((0.0, "1 %"), (0.404, "40 %"), (1.0, "99 %")):
+        assert f">{shown}<" in verdict(row("height", "rise", 0.1, (0.1, 0.2, 0.3), share))
     cells = re.findall(r'number">([^<]*)</td>', verdict(row("battery", "battery", 1.5, (1.0, 1.6, 2.0), 0.25)))
     assert cells == ["1.50 J", "1.00…1.60…2.00 J", "25 %"]
 

@@ -1,15 +1,27 @@
 """Bars of use: words and widths at their ends, and the order in which limits stand."""
 
 import re
+from collections.abc import Sequence
 
 import pytest
+from support.built import built
 
-from jumpcad.bundle.limits import limits, ordered, verdict_on, violation
+from jumpcad.bundle.limits import limit_values, ordered, violation
+from jumpcad.bundle.page import robot_values
+from jumpcad.files.rendering import fill
 from jumpcad.findings import Finding, at_least, at_most, bare, limit
+from jumpcad.robot import Robot
+from jumpcad.simulation import simulate
 
 
 def page(*findings: Finding) -> str:
-    return "\n".join(limits(findings))
+    return fill("report/limits.html.j2", limit_values(findings))
+
+
+def top(robot: Robot, findings: Sequence[Finding]) -> str:
+    """Return what the page of a robot that jumps says at its top."""
+    values = robot_values(robot) | limit_values(findings)
+    return fill("report/verdict.html.j2", values | {"jump": simulate(robot), "broken": [], "sure": None})
 
 
 def used(finding: Finding) -> str:
@@ -98,13 +110,14 @@ def test_the_worst_limit_stands_first() -> None:
 
 
 def test_three_limits_are_named_at_the_top() -> None:
+    robot = built("kenan-2.0")
     violated = [at_most(name, 2.0 - number / 10.0, 1.0, "mm", "", "") for number, name in enumerate("abcd")]
     for count, words in ((3, "Violated;"), (4, "The worst of 4 violated limits;")):
-        _, named = (" ".join(lines) for lines in verdict_on(violated[:count]))
-        assert words in named
-        assert re.findall(r">(\w)<", named) == ["a", "b", "c"]
-    sentence, named = (" ".join(lines) for lines in verdict_on([at_most("e", 0.1, 1.0, "mm", "", "")]))
-    assert sentence == ""
-    assert "All 1 limits are kept" in named
-    assert '<p class="error">' in " ".join(verdict_on(violated)[0])
-    assert '<p class="warning">' in " ".join(verdict_on([at_most("a", 2.0, 1.0, "", "", "", violated="warning")])[0])
+        said = top(robot, violated[:count])
+        assert f'{words} <a href="#limits">' in said
+        assert re.findall(r">(\w)</b>", said) == ["a", "b", "c"]
+        assert f'<p class="error">{count} of its {count} limits are violated: do not build it as it is.' in said
+    said = top(robot, [at_most("e", 0.1, 1.0, "mm", "", "")])
+    assert "All 1 limits are kept" in said
+    assert "violated" not in said
+    assert '<p class="warning">' in top(robot, [at_most("a", 2.0, 1.0, "", "", "", violated="warning")])

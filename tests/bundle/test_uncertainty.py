@@ -8,11 +8,12 @@ import pytest
 from support.built import built
 
 from jumpcad.bundle import uncertainty as module
-from jumpcad.bundle.uncertainty import GROUPS, JUMPS, _bar, uncertainty, uncertainty_of
+from jumpcad.bundle.uncertainty import GROUPS, JUMPS, uncertainty_of
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files.rendering import fill
 from jumpcad.settings import Settings
 from jumpcad.simulation.engines import ENGINES
-from jumpcad.simulation.uncertain import Uncertainty, _groups
+from jumpcad.simulation.uncertain import FIGURES, Uncertainty, _groups
 
 SHARES = {
     "mass": {"ballistic_range_m": 0.25, "com_rise_m": 0.5},
@@ -26,7 +27,8 @@ FOUND = Uncertainty(
 
 def section(found: Uncertainty) -> ET.Element:
     """Return the section's tree; any tag that is not closed is an error."""
-    return ET.fromstring(f"<section>{''.join(uncertainty(found))}</section>")
+    values = {"sure": found, "sure_figures": FIGURES, "uncertain_inputs": GROUPS}
+    return ET.fromstring(f"<section>{fill('report/uncertainty.html.j2', values)}</section>")
 
 
 def cells(row: ET.Element) -> list[str]:
@@ -59,7 +61,9 @@ def test_what_explains_most_of_the_range_comes_first() -> None:
 
 @pytest.mark.parametrize(("share", "percent"), [(0.0, "0"), (0.004, "0"), (0.25, "25"), (0.996, "100"), (1.0, "100")])
 def test_a_bar_is_as_long_as_its_share(share: float, percent: str) -> None:
-    bar = ET.fromstring(f"<td>{_bar(share)}</td>")
+    shares = {"mass": {"ballistic_range_m": share, "com_rise_m": 0.5}}
+    _, second = section(replace(FOUND, first_order=shares)).iter("table")
+    bar = list(second.iter("td"))[1]
     (outer,) = bar
     (inner,) = outer
     assert outer.get("class") == "bar"

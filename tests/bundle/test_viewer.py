@@ -9,7 +9,8 @@ import pytest
 from support.built import built, geared, placed
 
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.bundle.viewer import _embedded, parts_facts, turning_parts, viewer, viewer_data
+from jumpcad.bundle.viewer import _embedded, parts_facts, turning_parts, viewer_data, viewer_values
+from jumpcad.files.rendering import fill
 from jumpcad.robot import Robot
 from jumpcad.simulation import simulate
 
@@ -43,7 +44,7 @@ def test_a_printed_part_is_shown_with_its_material_file_and_mass() -> None:
 def test_the_ground_is_ruled_as_the_page_says() -> None:
     robot = built("kenan-2.0")
     jump = simulate(robot, engine="planar")
-    page = "".join(viewer(robot, jump, b"glb"))
+    page = fill("report/viewer.html.j2", {"viewer": viewer_values(robot, jump, b"glb")})
     said = re.search(r"Lines of the ground ([\d.]+) mm apart", page)
     assert said is not None
     assert viewer_data(robot, jump)["cell_m"] == float(said[1]) / 1000.0 == 0.05
