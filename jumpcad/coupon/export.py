@@ -13,7 +13,7 @@ from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
 from jumpcad.coupon.readings import JOINT_KEYS, floor_breaks_n
 from jumpcad.exporters.threemf import plate_files
-from jumpcad.files import templates_folder
+from jumpcad.files.rendering import render
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.solids.finish import require_part
@@ -21,7 +21,6 @@ from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Workshop
 
 READINGS = "readings.toml"
-GUIDE = "guides/coupon.md"
 
 
 def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -> Bundle:
@@ -73,49 +72,25 @@ def _mass_kg(piece: Piece, workshop: Workshop) -> float:
 
 def _guide(workshop: Workshop, holes: HoleSizes) -> str:
     """Return the instructions."""
-    bearing = (
-        f"the bearing {holes.bearing.name}" if holes.bearing else "left out: the legs of this robot have no bearing"
+    stronger = [one.name for one in seats(workshop)]
+    return render(
+        "guides/coupon.md.j2",
+        {
+            "materials": list(workshop.materials),
+            "gears": workshop.material_name("gears"),
+            "body": workshop.material_name("body"),
+            "links": workshop.material_name("links"),
+            "screws": workshop.bought.retention == "nuts",
+            "axle_mm": workshop.bought.axle_mm,
+            "hole_mm": holes.axle_mm,
+            "bearing": holes.bearing and holes.bearing.name,
+            "bearings": [*([holes.bearing.name] if holes.bearing else []), *stronger],
+            "seats": stronger,
+            "lying": [engraved(step) for step in steps_mm(workshop.fits.lying_mm)],
+            "readings": READINGS,
+            "floor_n": math.ceil(floor_breaks_n(workshop)),
+        },
     )
-    return (
-        (templates_folder() / GUIDE)
-        .read_text(encoding="utf-8")
-        .format(
-            materials=" and ".join(workshop.materials),
-            gears=workshop.material_name("gears"),
-            rods=_rods(workshop),
-            example=f"{holes.axle_mm + 0.2:g}",
-            bearing=bearing,
-            needs_bearings=_bearings(workshop, holes),
-            body=workshop.material_name("body"),
-            links=workshop.material_name("links"),
-            lying=" ".join(engraved(step) for step in steps_mm(workshop.fits.lying_mm)),
-            seat=_seat(workshop),
-            readings=READINGS,
-            floor_n=math.ceil(floor_breaks_n(workshop)),
-        )
-    )
-
-
-def _rods(workshop: Workshop) -> str:
-    """Return the rods that the holes are tried with, as part of a list."""
-    screws = workshop.bought.retention == "nuts"
-    rods = f"two pieces of {'' if screws else 'its '}{workshop.bought.axle_mm:g} mm rod, 30 mm long or longer"
-    own = "those of its order that try the fits; its axles are screws" if screws else "its own axles will do"
-    return f"{rods}, square and free of burrs ({own})"
-
-
-def _bearings(workshop: Workshop, holes: HoleSizes) -> str:
-    """Return the bearings that are tried, as part of a list."""
-    names = [one.name for one in (holes.bearing, *seats(workshop)) if one is not None]
-    if not names:
-        return ""
-    return f"the bearing{'s' * (len(names) > 1)} {' and '.join(names)} (the robot has one kind of them), "
-
-
-def _seat(workshop: Workshop) -> str:
-    """Return the bearing for the separate seats, in words."""
-    names = [bearing.name for bearing in seats(workshop)]
-    return f"the bearing {names[0]}, for stronger designs" if names else "left out: there is no larger bearing"
 
 
 def _template(workshop: Workshop, holes: HoleSizes) -> str:
