@@ -110,6 +110,7 @@ def test_a_module_of_ones_own_counts_and_a_library_counts_by_its_name(
     assert hashes[0] == hashes[1] != hashes[2]
 
 
+@pytest.mark.thorough
 def test_a_hash_is_the_same_in_every_run() -> None:
     """Python orders sets otherwise in each."""
     code = (

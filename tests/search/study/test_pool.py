@@ -45,6 +45,7 @@ def test_results_do_not_depend_on_who_computes_them(workers):
     assert notes == []
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("workers", [0, 1])
 def test_an_outcome_says_how_long_it_took(workers):
     with local_pool(workers) as pool:
@@ -146,6 +147,7 @@ def _wait_for_the_end_of(pid):
         os.close(process)
 
 
+@pytest.mark.thorough
 def test_dask_loses_nothing_when_a_worker_is_killed(tmp_path):
     distributed = needs.package("distributed")
     with distributed.LocalCluster(

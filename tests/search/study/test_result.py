@@ -49,6 +49,7 @@ def test_what_a_search_found_can_come_from_another_process(objective):
     assert copied.to_dict() == found.to_dict()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("method", ["pareto", "nsga2"])
 def test_a_front_without_a_score_above_0_is_what_nothing_dominates_too(method):
     """Of a mass that is to be small; its robust pick examines designs of the front."""

@@ -173,9 +173,9 @@ def start(path, method, evaluations, workers, pause):
     return subprocess.Popen(command, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
 
 
-@pytest.mark.parametrize(("method", "batch"), [("ga+bo", 3), ("pareto", 3)])
-def test_same_rows_for_any_number_of_workers(tmp_path, two_workers, method, batch):
-    request = replace(REQUEST, method=method, batch=batch, evaluations=18)
+@pytest.mark.parametrize("method", ["ga+bo", pytest.param("pareto", marks=pytest.mark.thorough)])
+def test_same_rows_for_any_number_of_workers(tmp_path, two_workers, method):
+    request = replace(REQUEST, method=method, batch=3, evaluations=18)
     run(request, tmp_path / "0.db")
     run_study(request, tmp_path / "2.db", two_workers)
     assert contents(tmp_path / "0.db") == contents(tmp_path / "2.db")
@@ -288,6 +288,7 @@ def test_it_ends_where_proposals_promise_too_little_and_goes_on_where_less_is_as
     assert longer.trials[: len(first.trials)] == first.trials
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("changes", "ended"),
     [
@@ -366,6 +367,7 @@ def test_everything_refused_has_no_best():
     assert result.candidates == []
 
 
+@pytest.mark.thorough
 def test_a_prior_study_of_the_same_model_is_learned_from(tmp_path):
     run(replace(REQUEST, method="ga", evaluations=120), tmp_path / "old.db")
     learned = run(replace(REQUEST, method="bo", evaluations=6, prior=tmp_path / "old.db"))
@@ -413,6 +415,7 @@ def test_a_prior_study_from_which_nothing_can_be_learned_is_said_to_be_one(tmp_p
     assert result.notes == [said]
 
 
+@pytest.mark.thorough
 def test_a_prior_study_may_lack_the_figures_of_stand_ins(tmp_path):
     run(replace(REQUEST, model=Marked(), method="ga", evaluations=20), tmp_path / "old.db")
     learned = run(replace(REQUEST, model=Marking(), method="bo", evaluations=12, prior=tmp_path / "old.db"))

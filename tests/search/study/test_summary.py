@@ -33,9 +33,25 @@ def test_candidates_and_bounds_are_those_of_the_run(tmp_path, top):
     assert [trial.key for trial in found.trials] == [trial.key for trial in result.trials]
 
 
-def test_what_a_bound_costs_is_the_fall_of_the_bump(tmp_path):
-    space = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"])
-    with studied(tmp_path / "s.db", space, "bo", 40) as store:
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """Return the study of a search whose winner lies on a bound."""
+    path = tmp_path_factory.mktemp("study") / "s.db"
+    studied(path, Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"]), "bo", 40).close()
+    return path
+
+
+def changed(finished, tmp_path, *statements):
+    """Return a copy of a study that another program has changed."""
+    copy = shutil.copy(finished, tmp_path / "copy.db")
+    with contextlib.closing(sqlite3.connect(copy)) as connection, connection:
+        for statement in statements:
+            assert connection.execute(statement).rowcount > 0
+    return copy
+
+
+def test_what_a_bound_costs_is_the_fall_of_the_bump(finished):
+    with StudyStore.read(finished) as store:
         found = summary(store)
     (bound,) = found.bounds
     assert (bound.name, bound.side, bound.value) == ("compression_ratio", "upper", 0.4)
@@ -44,29 +60,21 @@ def test_what_a_bound_costs_is_the_fall_of_the_bump(tmp_path):
     assert bound.worth == pytest.approx(20.0 * ((0.5 - at) ** 2 - (0.5 - bound.beyond) ** 2), abs=1e-9)
 
 
-def test_a_pick_that_has_not_ended_or_belongs_to_a_shorter_search_is_none(tmp_path):
+def test_a_pick_that_has_not_ended_or_belongs_to_a_shorter_search_is_none(finished, tmp_path):
     """The winner is the best then, and its bounds are named alone."""
-    space = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"])
-    studied(tmp_path / "s.db", space, "bo", 40).close()
     for change in (
         "UPDATE study SET value = '[{\"designs\": 30, \"evaluations\": 10}]' WHERE key = 'picks'",
         "UPDATE study SET value = replace(value, '\"designs\": 30', '\"designs\": 29') WHERE key = 'picks'",
         "DELETE FROM study WHERE key = 'picks'",
     ):
-        copy = tmp_path / "copy.db"
-        shutil.copy(tmp_path / "s.db", copy)
-        with contextlib.closing(sqlite3.connect(copy)) as connection, connection:
-            assert connection.execute(change).rowcount == 1
-        with StudyStore.read(copy) as store:
+        with StudyStore.read(changed(finished, tmp_path, change)) as store:
             found = summary(store)
         assert (found.candidates, found.winner) == ([], best_trial(found.trials))
         assert [(bound.name, bound.unknown) for bound in found.bounds] == [("compression_ratio", True)]
 
 
-def test_a_candidate_that_is_none_of_the_trials_is_damage(tmp_path):
-    studied(tmp_path / "s.db", Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"]), "bo", 40).close()
-    with contextlib.closing(sqlite3.connect(tmp_path / "s.db")) as connection, connection:
-        connection.execute("DELETE FROM trials WHERE phase = 'bo'")
-        connection.execute("UPDATE study SET value = replace(value, ': 30', ': 0') WHERE key = 'picks'")
-    with StudyStore.read(tmp_path / "s.db") as store, pytest.raises(JumpcadError, match="damaged: a candidate"):
+def test_a_candidate_that_is_none_of_the_trials_is_damage(finished, tmp_path):
+    moved = "UPDATE study SET value = replace(value, ': 30', ': 0') WHERE key = 'picks'"
+    path = changed(finished, tmp_path, "DELETE FROM trials WHERE phase = 'bo'", moved)
+    with StudyStore.read(path) as store, pytest.raises(JumpcadError, match="damaged: a candidate"):
         summary(store)

@@ -1,7 +1,6 @@
 """Trials as a table."""
 
 import csv
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -67,16 +66,6 @@ def test_of_several_findings_of_a_name_the_worst_margin_counts(tmp_path):
 def test_a_table_of_nothing_has_a_head_alone(tmp_path):
     write_table([], tmp_path / "t.csv")
     assert (tmp_path / "t.csv").read_text() == "phase\n"
-
-
-def test_values_that_only_a_later_trial_has_have_columns_too(tmp_path):
-    """As neighbours, which are made otherwise than designed."""
-    one = Trial("ga", 0, 0, load_design("kenan-2.0"), Evaluation("jump"), 1.0, "m", 0.0, {}, {"body.plate_mm": 2.0})
-    made = replace(one, phase="robust", workshop={"body.plate_mm": 2.0, "made.spring_factor": 0.975})
-    write_table([one, made], tmp_path / "t.csv")
-    with (tmp_path / "t.csv").open(newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    assert [(row["body.plate_mm"], row["made.spring_factor"]) for row in rows] == [("2.0", ""), ("2.0", "0.975")]
 
 
 def test_a_row_has_every_column_of_any_trial_each_with_its_own_value(tmp_path):

@@ -35,6 +35,7 @@ def test_a_worker_with_another_program_computes_nothing():
         list(pool.evaluate(Elsewhere(), [design]))
 
 
+@pytest.mark.thorough
 def test_a_worker_that_starts_after_its_parent_was_killed_ends():
     """Its parent is then another process: here, this test's child is told that it is its own parent."""
     start = "from jumpcad.search.study.worker import start_worker; start_worker(os.getpid())"
