@@ -1,13 +1,16 @@
-"""Interrupts, by Ctrl-C or SIGTERM: held back while processes start, asked for where a library took one for an error.
+"""Interrupts, by Ctrl-C or SIGTERM: deferred while processes start, asked for where a library took one for an error.
 
 The command line counts them and decides what follows; programs that use jumpcad as a library have their own handler.
 """
 
-# It imports nothing at first: the command line needs it before an interrupt can be handled.
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 seen: list[int] = []
 """Interrupts of the command so far, by the numbers of their signals."""
-holding: list[object] = []
-"""The blocks in which an interrupt waits for their end."""
+deferring: list[None] = []
+"""One entry for each block under way in which an interrupt waits for the end."""
 
 
 def raise_if_seen() -> None:
@@ -16,25 +19,20 @@ def raise_if_seen() -> None:
         raise KeyboardInterrupt
 
 
-class Held:
-    """A context in which interrupts wait for its end; processes that start in it never get any.
+@contextmanager
+def deferred_interrupts() -> Iterator[None]:
+    """Let interrupts wait for the end of a block; processes that start in it never get any.
 
     Ctrl-C is sent to the whole process group, and a process inherits which signals are blocked: one that has just
     started would otherwise print a traceback before it can ignore the signal.
     """
-
-    def __enter__(self) -> None:
-        import signal
-
-        holding.append(self)  # another thread may get the signal, and its handler runs in spite of the mask
-        if hasattr(signal, "pthread_sigmask"):  # not on Windows
-            self._before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-
-    def __exit__(self, kind: object, *_: object) -> None:
-        import signal
-
-        holding.remove(self)
-        if hasattr(signal, "pthread_sigmask"):
-            signal.pthread_sigmask(signal.SIG_SETMASK, self._before)
-        if kind is None:
-            raise_if_seen()
+    masks = hasattr(signal, "pthread_sigmask")  # not on Windows
+    deferring.append(None)  # another thread may get the signal, and its handler runs in spite of the mask
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if masks else set()
+    try:
+        yield
+    finally:
+        deferring.pop()
+        if masks:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    raise_if_seen()

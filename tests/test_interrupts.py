@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 
 from jumpcad import interrupts
-from jumpcad.interrupts import Held, raise_if_seen
+from jumpcad.interrupts import deferred_interrupts, raise_if_seen
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="no masks of signals on Windows")
 
@@ -28,31 +28,31 @@ def test_an_interrupt_in_a_block_comes_at_its_end() -> None:
     """Ctrl-C waits, also in a block within it, and is there when the outer one has ended."""
     steps = []
     with pytest.raises(KeyboardInterrupt):  # noqa: PT012  what is reached is the point
-        with Held():
-            assert (blocked(), len(interrupts.holding)) == (True, 1)
-            with Held():
+        with deferred_interrupts():
+            assert (blocked(), len(interrupts.deferring)) == (True, 1)
+            with deferred_interrupts():
                 signal.raise_signal(signal.SIGINT)  # to this thread
                 steps.append("inner")
-            assert (blocked(), len(interrupts.holding)) == (True, 1)
+            assert (blocked(), len(interrupts.deferring)) == (True, 1)
             steps.append("outer")
         steps.append("after it")
     assert steps == ["inner", "outer"]
-    assert (blocked(), interrupts.holding) == (False, [])
+    assert (blocked(), interrupts.deferring) == (False, [])
 
 
 def test_what_the_command_has_seen_is_raised_at_the_end_of_a_block() -> None:
     """Its handler only writes it down meanwhile."""
-    with pytest.raises(KeyboardInterrupt), Held():
+    with pytest.raises(KeyboardInterrupt), deferred_interrupts():
         interrupts.seen.append(signal.SIGINT)
-    with Held():
+    with deferred_interrupts():
         interrupts.seen.clear()
 
 
 def test_an_error_in_a_block_is_not_hidden_by_an_interrupt() -> None:
-    with pytest.raises(ZeroDivisionError), Held():  # noqa: PT012  the interrupt comes first
+    with pytest.raises(ZeroDivisionError), deferred_interrupts():  # noqa: PT012  the interrupt comes first
         interrupts.seen.append(signal.SIGINT)
         _ = 1 / 0
-    assert (blocked(), interrupts.holding) == (False, [])
+    assert (blocked(), interrupts.deferring) == (False, [])
 
 
 def test_a_command_that_was_interrupted_ends_where_it_is_asked() -> None:

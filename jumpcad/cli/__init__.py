@@ -1,51 +1,47 @@
-"""Entry points of the command line; they handle interrupts before any other module is imported."""
+"""Entry points of the command line."""
 
-# Python has these modules at its start. `signal` would import many more before an interrupt could be handled, and a
-# handler that imports a module during another import breaks that import.
-import _signal as signal  # type: ignore[import-not-found]
+import atexit
+import os
+import signal
 import sys
+from typing import TYPE_CHECKING, NoReturn
 
-from jumpcad.interrupts import holding, seen
+from jumpcad.interrupts import deferring, seen
 
-TYPE_CHECKING = False  # as in `jumpcad`
 if TYPE_CHECKING:
     from types import FrameType, TracebackType
-    from typing import NoReturn
 
 SIGNALLED = 128
 """Exit code of a command that a signal ended, with the signal's number: 130 for Ctrl-C, 143 for SIGTERM."""
-IMPORTING = "<frozen importlib._bootstrap>"
-"""File name of the code of Python's import system."""
 
 
-def program() -> "NoReturn":
-    """Run the command line as a process, which ends as soon as all is written and its threads are done.
+def program() -> NoReturn:
+    """Run the command line as a process, which ends as soon as threads and functions for its end are done.
 
     To take hundreds of modules apart costs a fifth of the time of a short command, and libraries that count leaks then
-    print what a lost worker left behind. A process that is profiled ends as others do.
+    print what a lost worker left behind.
     """
+    codes: list[int] = []
+
+    def end() -> None:
+        try:
+            for stream in (sys.stdout, sys.stderr):
+                if stream is not None:
+                    stream.flush()
+        except (OSError, ValueError):
+            return  # Python says what became of the stream
+        if codes:
+            os._exit(codes[0])
+
+    atexit.register(end)  # the first that is registered runs last
     try:
         main()
-    except SystemExit as end:
-        code = int(end.code or 0)
-    if sys.getprofile() or sys.gettrace():
-        sys.exit(code)
-    import atexit
-    import os
-    import threading
-
-    threading._shutdown()  # type: ignore[attr-defined]  # in Python's own order
-    atexit._run_exitfuncs()
-    try:
-        for stream in (sys.stdout, sys.stderr):
-            if stream is not None:
-                stream.flush()
-    except (OSError, ValueError):
-        sys.exit(code)  # Python says what became of the stream
-    os._exit(code)
+    except SystemExit as done:
+        codes.append(int(done.code or 0))
+        raise
 
 
-def main() -> "NoReturn":
+def main() -> NoReturn:
     """Run the command line; exit codes are those of `jumpcad.cli.commands.run`, and `SIGNALLED` ones.
 
     SIGTERM, by which queues of shared machines end a program, is taken as Ctrl-C is.
@@ -56,8 +52,8 @@ def main() -> "NoReturn":
     hooks = sys.excepthook, sys.unraisablehook
     for one in listening:
         signal.signal(one, _interrupt)
-    if listening:
-        sys.excepthook, sys.unraisablehook = _unhandled, _unraisable
+    sys.excepthook, sys.unraisablehook = _unhandled, _unraisable
+    interrupted, code = False, 0
     try:
         from jumpcad.gc_tuning import collect_seldom
 
@@ -65,12 +61,13 @@ def main() -> "NoReturn":
         from jumpcad.cli.commands import run
 
         code = run(sys.argv[1:])
-        _listen_no_more(listening)  # the command is done: an interrupt would only print a traceback
-        interrupted = bool(seen)  # a library may have caught the KeyboardInterrupt
-    except KeyboardInterrupt:
-        _listen_no_more(listening)
-        interrupted = True
-    if interrupted:
+    except BaseException as error:
+        if not (seen or isinstance(error, KeyboardInterrupt)):
+            raise
+        interrupted = True  # modules that load take it for a failure of theirs
+    for one in listening:  # the command is done: an interrupt would only print a traceback
+        signal.signal(one, signal.SIG_IGN if one == signal.SIGINT else signal.SIG_DFL)
+    if interrupted or seen:  # a library may have caught the KeyboardInterrupt
         from jumpcad.cli.output import complain
 
         code = complain("interrupted", SIGNALLED + (seen[0] if seen else signal.SIGINT))
@@ -79,58 +76,20 @@ def main() -> "NoReturn":
     sys.exit(code)
 
 
-def _listen_no_more(listening: "list[int]") -> None:
-    """Ignore Ctrl-C from now on; another SIGTERM ends the process."""
-    for one in listening:
-        signal.signal(one, signal.SIG_IGN if one == signal.SIGINT else signal.SIG_DFL)
-
-
-def _interrupt(number: int, frame: "FrameType | None") -> None:
-    """Raise KeyboardInterrupt; during an import, after it, in the code that imports; while it is held, not yet.
-
-    Raised while a compiled module is imported it would abort the process, or look like a failure of the module.
-    """
+def _interrupt(number: int, _: "FrameType | None") -> None:
+    """Raise KeyboardInterrupt; while interrupts are deferred, not yet."""
     seen.append(number)
-    if holding:
-        return
-    asking = _asking(frame)
-    if asking is None:
+    if not deferring:
         raise KeyboardInterrupt
-    _raise_in(asking)
 
 
-def _unraisable(ignored: "sys.UnraisableHookArgs") -> None:
-    """Raise an interrupt that compiled code or a finalizer ignored in the code that called it; show other errors."""
-    if ignored.exc_type is not KeyboardInterrupt:
-        sys.__unraisablehook__(ignored)
-        return
-    calling = sys._getframe().f_back
-    if calling is not None:
-        _raise_in(_asking(calling) or calling)
-
-
-def _unhandled(kind: "type[BaseException]", error: BaseException, trace: "TracebackType | None") -> None:
-    """Print nothing of an interrupt: Cython prints what it ignores here too."""
+def _unhandled(kind: type[BaseException], error: BaseException, trace: "TracebackType | None") -> None:
+    """Print nothing of an interrupt that compiled code ignored: the command ends at its next step."""
     if kind is not KeyboardInterrupt:
         sys.__excepthook__(kind, error, trace)
 
 
-def _asking(frame: "FrameType | None") -> "FrameType | None":
-    """Return the frame of the command that asks for the outermost import under way; None if none is."""
-    outermost = None
-    while frame is not None and frame.f_code is not main.__code__:
-        if frame.f_code.co_filename == IMPORTING:
-            outermost = frame
-        frame = frame.f_back
-    return outermost and outermost.f_back
-
-
-def _raise_in(frame: "FrameType") -> None:
-    """Raise KeyboardInterrupt in a frame before its next step."""
-    frame.f_trace, frame.f_trace_opcodes = _raise, True
-    sys.settrace(lambda *_: None)
-
-
-def _raise(*_: object) -> None:
-    sys.settrace(None)
-    raise KeyboardInterrupt
+def _unraisable(ignored: "sys.UnraisableHookArgs") -> None:
+    """Print nothing of an interrupt that a finalizer ignored."""
+    if ignored.exc_type is not KeyboardInterrupt:
+        sys.__unraisablehook__(ignored)

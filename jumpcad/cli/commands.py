@@ -29,6 +29,7 @@ from jumpcad.cli import (
 )
 from jumpcad.cli.output import OutputClosed, complain, print_json, standard_output
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.interrupts import raise_if_seen
 
 WRONG_REQUEST, BUG = 2, 3
 OUTPUT_CLOSED = 141
@@ -89,6 +90,7 @@ def run(arguments: Sequence[str]) -> int:
     except KeyboardInterrupt:
         raise
     except BaseException:  # exceptions of compiled libraries may not be derived from Exception
+        raise_if_seen()  # else it is no bug
         print(traceback.format_exc(), end="", file=sys.stderr)
         return BUG
 

@@ -379,26 +379,3 @@ def test_odd_surroundings_are_borne(sandbox: Sandbox, monkeypatch: pytest.Monkey
     if "terminal" in case:
         sandbox.run("check", "kenan-2.0", exits=(0,))
     sandbox.run("study", "study.db", exits=(0,))
-
-
-BEFORE = (
-    "import sys; before = set(sys.modules); from jumpcad.cli import main; print(*sorted(set(sys.modules) - before))"
-)
-
-
-def test_ctrl_c_is_answered_before_anything_is_loaded() -> None:
-    """What a program imports until it answers is its own: some 300 lines, less than a millisecond.
-
-    Before that Python itself starts, for 10 ms to 100 ms: what an interrupt does then is Python's, a traceback of its
-    `site` or nothing at all, and cannot be changed from here.
-    """
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
-    done = subprocess.run([sys.executable, "-c", BEFORE], capture_output=True, text=True, env=environment, check=True)
-    assert set(done.stdout.split()) <= {
-        "atexit",
-        "jumpcad",
-        "jumpcad.cli",
-        "jumpcad.lazy_exports",
-        "jumpcad.interrupts",
-        "jumpcad.version",
-    }

@@ -8,7 +8,7 @@ from typing import Any
 
 import loky
 
-from jumpcad.interrupts import Held
+from jumpcad.interrupts import deferred_interrupts
 from jumpcad.search.study.worker import start_worker
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
@@ -20,12 +20,12 @@ class LocalWorkers(loky.ProcessPoolExecutor):  # type: ignore[misc]  # loky has 
 
     def __init__(self, workers: int) -> None:
         resource_tracker.ensure_running()  # of Python 3.11, it unblocks interrupts when it starts
-        with Held():
+        with deferred_interrupts():
             super().__init__(workers, initializer=start_worker, initargs=(os.getpid(),), env=ONE_THREAD)
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Send a task; the first one starts the processes, and the thread that starts others in place of lost ones."""
-        with Held():
+        with deferred_interrupts():
             future: Future[Any] = super().submit(fn, *args, **kwargs)
         return future
 
