@@ -1,9 +1,10 @@
 """Hashes of own objectives: a study goes on only with the one that it was made with."""
 
-import ast
 import hashlib
 import sysconfig
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from modulefinder import ModuleFinder
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
@@ -16,13 +17,12 @@ PLAIN = (type(None), bool, int, float, complex, str, bytes)
 def file_hash(file: Path, name: str) -> str:
     """Return a SHA-256 of a function's name, of its file, and of the modules beside it that this imports."""
     file = file.resolve()
-    beside, waiting, texts = file.parent, [file], {}
-    while waiting:
-        one = waiting.pop()
-        if one not in texts:
-            texts[one] = one.read_bytes()
-            waiting += _imported(one, texts[one], beside)
-    return _sha256([name, *(f"{path.relative_to(beside)} {texts[path].hex()}" for path in sorted(texts))])
+    finder = ModuleFinder([str(file.parent)])
+    with suppress(SyntaxError, ValueError):  # of a module that has been changed since it was imported
+        finder.run_script(str(file))
+    found = (getattr(module, "__file__", None) for module in finder.modules.values())
+    files = {file, *(Path(one) for one in found if one)}
+    return _sha256([name, *(f"{one.relative_to(file.parent)} {one.read_bytes().hex()}" for one in sorted(files))])
 
 
 def function_hash(function: FunctionType) -> str:
@@ -47,28 +47,6 @@ def _sha256(parts: Iterable[str]) -> str:
     for part in parts:
         found.update(f"{len(part)} {part}".encode("utf-8", "backslashreplace"))
     return found.hexdigest()
-
-
-def _imported(file: Path, text: bytes, beside: Path) -> Iterator[Path]:
-    """Yield the files of the modules in a folder, or in one below it, that a file's statements import."""
-    try:
-        nodes = list(ast.walk(ast.parse(text)))
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return
-    for node in nodes:
-        names: list[str] = []
-        folder = beside
-        if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            names = [f"{node.module or ''}.{alias.name}".strip(".") for alias in node.names]
-            folder = [beside, *file.parents][min(node.level, len(file.parents))]
-        for name in names:
-            steps = name.split(".")
-            for count in range(1, len(steps) + 1):
-                module = folder.joinpath(*steps[:count])
-                files = module.with_suffix(".py"), module / "__init__.py"
-                yield from (path for path in files if path.is_file() and path.is_relative_to(beside))
 
 
 def _code(code: CodeType) -> str:
