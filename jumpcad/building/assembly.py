@@ -5,7 +5,7 @@ import pickle
 from dataclasses import replace
 
 from jumpcad.building.bearing_and_drive import solve_bearing_and_drive
-from jumpcad.building.bodies import bodies_of, friction_of
+from jumpcad.building.bodies import bodies_of, friction_of, outlines_m
 from jumpcad.building.releasing import release_of
 from jumpcad.building.weighing import require_parts, weighed_part
 from jumpcad.design import Design
@@ -71,6 +71,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
         spring=spring,
         foot_depth_m=layout.sections.ground_mm / 1000.0,
         friction=friction_of(layout, workshop),
+        outline_m=outlines_m(parts, hardware),
         parts=parts,
         hardware=hardware,
         workshop=workshop,

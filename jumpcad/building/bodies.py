@@ -1,5 +1,6 @@
 """The rigid bodies of a robot: what they carry, where they touch the ground, and the friction there and at the pins."""
 
+import itertools
 from collections import defaultdict
 from collections.abc import Iterable
 
@@ -7,13 +8,17 @@ import numpy as np
 
 from jumpcad.dimensions import PAD_WALL_MM
 from jumpcad.layout.layout import Layout
-from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.mechanism.linkage import Complex, toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface
+from jumpcad.mechanism.planar import points
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.transforms import in_metres
+from jumpcad.transforms import Array, in_metres
 from jumpcad.workshop import Workshop
+
+CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
+"""Which bound a corner of a box has along each axis."""
 
 
 def bodies_of(layout: Layout, parts: Iterable[Part], hardware: Iterable[BoughtPart]) -> dict[str, Body]:
@@ -30,6 +35,19 @@ def bodies_of(layout: Layout, parts: Iterable[Part], hardware: Iterable[BoughtPa
         mass = combined(carried[name])
         bodies[name] = Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts.get(name, ()))
     return bodies
+
+
+def outlines_m(parts: Iterable[Part], hardware: Iterable[BoughtPart]) -> dict[str, Complex]:
+    """Return the corners x + iz (k,) of the convex outline of what each body carries, by the parts' bounding boxes."""
+    from scipy.spatial import ConvexHull
+
+    corners: dict[str, list[Array]] = defaultdict(list)
+    placed = [(one.drawing.shape.bounds_mm, place.body, place.T_body_part) for one in parts for place in one.placements]
+    for bounds, body, pose in (*placed, *((item.shape.bounds_mm, item.body, item.T_body_part) for item in hardware)):
+        box = np.asarray(bounds)[CORNERS, [0, 1, 2]]
+        corners[body].append((box @ pose[:3, :3].T + pose[:3, 3])[:, [0, 2]] / 1000.0)
+    joined = {body: np.concatenate(found) for body, found in corners.items()}
+    return {body: points(found[ConvexHull(found).vertices]) for body, found in joined.items()}
 
 
 def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:

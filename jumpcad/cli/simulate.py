@@ -33,6 +33,8 @@ LINES = (
     ("air time", "air_time_s", "{:.3f} s"),
     ("turn in flight, forwards", "turn_deg", "{:.0f}°"),
     ("pitch at touchdown", "touchdown_pitch_deg", "{:.0f}°"),
+    ("highest bar that it passes over", "clears_bar_mm", "{:.0f} mm"),
+    ("highest step that it lands on", "lands_on_mm", "{:.0f} mm"),
     ("centre of mass beside the leg, left", "lateral_offset_mm", "{:.1f} mm"),
     ("energy released / spring energy", "release_energy_ratio", "{:.4f}"),
     ("energy at take-off / spring energy", "takeoff_energy_ratio", "{:.4f}"),

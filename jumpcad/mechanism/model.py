@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
@@ -172,7 +173,8 @@ class Mechanism(ByValue):
 
     `foot_depth_m` is the distance from the line through ankle and front eye down to the ground on a flat foot.
     A printed robot has a `stop`, starts with `roller_off`, and has its own `friction`; the capsules of the study have
-    none of them, and take friction from the study's settings.
+    none of them, and take friction from the study's settings. `outline_m` are the corners x + iz (k,) of the convex
+    outline of each body's parts in its frame's x-z plane; without parts there is none.
     """
 
     name: str
@@ -185,6 +187,7 @@ class Mechanism(ByValue):
     stop: Stop | None = field(default=None, kw_only=True)
     roller_off: RollerOff | None = field(default=None, kw_only=True)
     friction: Friction | None = field(default=None, kw_only=True)
+    outline_m: Mapping[str, npt.NDArray[np.complex128]] = field(default_factory=dict, kw_only=True, compare=False)
 
     @property
     def mass_kg(self) -> float:

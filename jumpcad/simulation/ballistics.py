@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from jumpcad.mechanism.linkage import Complex
 from jumpcad.transforms import Array
 
 AIR_KG_M3 = 1.2
@@ -18,15 +19,15 @@ TOLERANCE = 1e-9
 class Ballistics:
     """The flight of a centre of mass from its place at release, through take-off, back to the height of release.
 
-    `height_m` gives its height above the ground (n,) at times (n,) after take-off, `deepest_s` the time until which it
-    does, at which the centre is far below the ground.
+    `place_m` gives where it is, x + iz (n,), at times (n,) after take-off, until `deepest_s`, when it is far below the
+    ground.
     """
 
     range_m: float
     rise_m: float
     speed_m_s: float
     angle_deg: float
-    height_m: Callable[[Array], Array] = field(compare=False)
+    place_m: Callable[[Array], Complex] = field(compare=False)
     deepest_s: float
 
 
@@ -64,7 +65,7 @@ def ballistics(
     """
     forward, up = float(velocity_m_s[0]), float(velocity_m_s[2])
     before, lift = float(takeoff_m[0] - start_m[0]), float(takeoff_m[2] - start_m[2])
-    height = float(takeoff_m[2])
+    height, place = float(takeoff_m[2]), complex(takeoff_m[0], takeoff_m[2])
     speed, angle = float(np.linalg.norm(velocity_m_s)), math.degrees(math.atan2(up, forward))
 
     def fall_s(drop_m: float) -> float:
@@ -76,7 +77,7 @@ def ballistics(
         time = (up + math.sqrt(max(2 * gravity_m_s2 * rise, 0.0))) / gravity_m_s2
         return Ballistics(
             before + forward * time, rise, speed, angle,
-            lambda at: np.asarray(height + up * at - 0.5 * gravity_m_s2 * at**2), fall_s(height + below_m),
+            lambda at: place + forward * at + 1j * (up * at - 0.5 * gravity_m_s2 * at**2), fall_s(height + below_m),
         )  # fmt: skip
     from scipy.integrate import solve_ivp
 
@@ -102,5 +103,5 @@ def ballistics(
     down = found.sol(found.t_events[1][0]) if lift + top[1] > 0.0 and len(found.t_events[1]) else top
     return Ballistics(
         before + float(down[0]), lift + float(top[1]), speed, angle,
-        lambda at: np.asarray(height + found.sol(at)[1]), float(found.t[-1]),
+        lambda at: place + found.sol(at)[0] + 1j * found.sol(at)[1], float(found.t[-1]),
     )  # fmt: skip

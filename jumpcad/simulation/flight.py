@@ -6,15 +6,18 @@ friction in the pins is left out. Points in x-z are complex numbers x + iz.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, Mechanism
 from jumpcad.mechanism.planar import about_common_centre, frames, points, seen_from_body
 from jumpcad.mechanism.reflected import flying_inertias
 from jumpcad.simulation.ballistics import Ballistics
 from jumpcad.simulation.mechanics import Mechanics, State
+from jumpcad.simulation.obstacles import obstacles
 from jumpcad.transforms import Array
 
 SWING_POINTS = 9
@@ -31,13 +34,18 @@ class Flight:
 
     `touchdown_pitch_deg` is the body's pitch at the first touch of the ground against its standing loaded pose, from
     -180 to 180; `turn_deg` its turn from take-off to touchdown, not wrapped; `turn_rate_deg_s` its rate once the leg
-    is at its stop; `air_time_s` the time between both.
+    is at its stop; `air_time_s` the time between both. `clears_bar_mm` is the highest thin bar that it passes over,
+    `lands_on_mm` the highest step that it lands on, with their distances from its nose where it stands; 0 without.
     """
 
     touchdown_pitch_deg: float
     turn_deg: float
     turn_rate_deg_s: float
     air_time_s: float
+    clears_bar_mm: float
+    bar_distance_mm: float
+    lands_on_mm: float
+    step_distance_mm: float
 
 
 def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: State, path: Ballistics) -> Flight:
@@ -61,11 +69,22 @@ def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: S
     pitch = _pitch_rad(takeoff)
     time = np.linspace(swing.time_s, max(path.deepest_s, swing.time_s), MOMENTS)
     turn = swing.turn_rad + swing.rate_rad_s * (time - swing.time_s)
-    clearance = path.height_m(time) + _lowest_m(mechanism, mechanics, swing.leg_rad, pitch + turn)
+    centre = path.place_m(time)
+    contacts, outline = _contacts(mechanism), mechanism.outline_m
+    arms = _arms_m(mechanism, mechanics, contacts, swing.leg_rad, pitch + turn)
+    clearance = (centre[:, None] + arms).imag.min(axis=1)
     air = _first_touch_s(time, clearance)
     turned = swing.turn_rad + swing.rate_rad_s * (air - swing.time_s)
     arrived = math.degrees(pitch + turned - _pitch_rad(loaded))
-    return Flight((arrived + 180.0) % 360.0 - 180.0, math.degrees(turned), math.degrees(swing.rate_rad_s), air)
+    stood = complex(*mechanics.centre_of_mass_m(loaded)[[0, 2]])
+    around = {name: (corners, np.zeros(len(corners))) for name, corners in outline.items()} or contacts
+    standing = _arms_m(mechanism, mechanics, around, loaded.leg_rad, np.array([_pitch_rad(loaded)]))
+    flown = time <= air
+    bottoms = centre[flown, None] + _arms_m(mechanism, mechanics, around, swing.leg_rad, (pitch + turn)[flown])
+    return Flight(
+        (arrived + 180.0) % 360.0 - 180.0, math.degrees(turned), math.degrees(swing.rate_rad_s), air,
+        *vars(obstacles(bottoms, centre[flown].real, float((stood + standing).real.max()))).values(),
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -106,18 +125,30 @@ def _swing(mechanism: Mechanism, leg_rad: float, leg_rad_s: float, momentum: flo
     return _Swing(time, turn, momentum / float(whole[-1]), end_rad)
 
 
-def _lowest_m(mechanism: Mechanism, mechanics: Mechanics, leg_rad: float, pitch_rad: Array) -> Array:
-    """Return how far the contacts reach below the common centre (n,), negative, at pitches of the body (n,)."""
+Points = Mapping[str, tuple[Complex, Array]]
+"""Points of bodies, x + iz (k,) in their frames, with the radii (k,) of what is round about them."""
+
+
+def _contacts(mechanism: Mechanism) -> Points:
+    """Return the contact spheres."""
+    touching = {name: body.contacts for name, body in mechanism.bodies.items() if body.contacts}
+    return {
+        name: (
+            points(np.array([sphere.centre_m[[0, 2]] for sphere in spheres])),
+            np.array([sphere.radius_m for sphere in spheres]),
+        )
+        for name, spheres in touching.items()
+    }
+
+
+def _arms_m(mechanism: Mechanism, mechanics: Mechanics, around: Points, leg_rad: float, pitch_rad: Array) -> Complex:
+    """Return the lowest points, x + iz from the common centre (n, k), at pitches of the body (n,)."""
     angle = np.array([leg_rad])
     placed, (com,) = frames(mechanism.linkage, angle), seen_from_body(mechanism.bodies, mechanism.linkage, angle)[0]
     centre = mechanics.mass_kg @ com / mechanics.total_mass_kg
-    spheres = [
-        (placed[name][0][0] + points(sphere.centre_m[[0, 2]]) * np.exp(-1j * placed[name][1][0]), sphere.radius_m)
-        for name in BODY_NAMES
-        for sphere in mechanism.bodies[name].contacts
-    ]
-    arms, radii = (np.array(one) for one in zip(*spheres, strict=True))
-    return np.asarray((((arms - centre) * np.exp(-1j * pitch_rad)[:, None]).imag - radii).min(axis=1))
+    arms = [placed[name][0][0] + at * np.exp(-1j * placed[name][1][0]) for name, (at, _) in around.items()]
+    radii = np.concatenate([radius for _, radius in around.values()])
+    return np.asarray((np.concatenate(arms) - centre) * np.exp(-1j * pitch_rad)[:, None] - 1j * radii)
 
 
 def _first_touch_s(time_s: Array, clearance_m: Array) -> float:

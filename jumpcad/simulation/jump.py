@@ -126,6 +126,10 @@ class Jump:
     turn_deg: float | None = None
     turn_rate_deg_s: float | None = None
     air_time_s: float | None = None
+    clears_bar_mm: float | None = None
+    bar_distance_mm: float | None = None
+    lands_on_mm: float | None = None
+    step_distance_mm: float | None = None
     lateral_offset_mm: float | None = None
     energy: EnergyBudget | None = None
     published: PublishedQuantities | None = None

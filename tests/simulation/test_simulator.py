@@ -140,8 +140,8 @@ def test_every_figure_of_a_run_comes_under_its_own_name(kenan: Robot) -> None:
     """Fitness is range over the longest link; release and take-off are shares of the springs' energy."""
     budget = EnergyBudget(0.1, 0.2, 0.3, 0.4, 0.5, 0.25 * kenan.spring.energy_j, 0.7, 0.8, 0.9)
     takeoff = SimpleNamespace(
-        ballistics=Ballistics(1.5, 0.25, 3.5, 62.0, np.zeros_like, 1.0), flight=Flight(-20.0, 340.0, 400.0, 0.85),
-        energy=budget, energy_ratio=0.875, time_s=0.0625,
+        ballistics=Ballistics(1.5, 0.25, 3.5, 62.0, np.zeros_like, 1.0), energy_ratio=0.875,
+        flight=Flight(-20.0, 340.0, 400.0, 0.85, 120.0, 60.0, 140.0, 75.0), energy=budget, time_s=0.0625,
     )  # fmt: skip
     told, kept = Finding("audit_loop", "info", 1.0, "mm", "", ""), Finding("loop", "info", 2.0, "°", "", "")
     made: Any = SimpleNamespace(
@@ -155,6 +155,7 @@ def test_every_figure_of_a_run_comes_under_its_own_name(kenan: Robot) -> None:
         "release_energy_ratio": pytest.approx(0.75), "takeoff_energy_ratio": 0.875, "takeoff_speed_m_s": 3.5,
         "takeoff_angle_deg": 62.0, "takeoff_time_s": 0.0625, "touchdown_distance_m": 1.25, "energy": budget,
         "touchdown_pitch_deg": -20.0, "turn_deg": 340.0, "turn_rate_deg_s": 400.0, "air_time_s": 0.85,
+        "clears_bar_mm": 120.0, "bar_distance_mm": 60.0, "lands_on_mm": 140.0, "step_distance_mm": 75.0,
         "lateral_offset_mm": jump.lateral_offset_mm,
         "published": "published", "trajectory": "path", "findings": (kept, told),
     }  # fmt: skip
