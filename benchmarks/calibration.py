@@ -9,29 +9,33 @@ import argparse
 import json
 import math
 from collections import defaultdict
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 
-from jumpcad.calibration import CalibrationModel, calibrate, explanations, load_subject, predicted_jump
-from jumpcad.calibration.likelihood import ANGLE_DEG, JUMP_SHARE, MODEL_SHARE, STUDENT_T_DEGREES
+from jumpcad.calibration import CalibrationModel, calibrate, load_subject, predicted_jump
+from jumpcad.calibration.likelihood import ANGLE_DEG, JUMP_SHARE, MODEL_SHARE, STUDENT_T_DEGREES, energy_per_mass
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, sampled
-from jumpcad.calibration.prediction import growth
+from jumpcad.calibration.prediction import Prediction
 from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, modelled_mass
 from jumpcad.calibration.subject import Subject
+from jumpcad.calibration.surface import ENERGY
 from jumpcad.calibration.video import seen_takeoff
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump, simulate
+from jumpcad.transforms import Array
 
 PLANS = ("ranges", "ranges, mass, rate", "ranges, mass, rate, video")
 JUMPS = 5
 RATE_SHARE, SCALE_SHARE = 0.03, 0.01
 FRAMES, CLOCK_S, PIXEL_M = 20, 1.0 / 120.0, 0.002
 """Frames of a video, their distance in time, and how well a point is seen."""
+FLOORS_TRIED = 101
+"""Coefficients of friction, of which one that explains a distance is chosen."""
 SHORT = {"steps": 400, "most_steps": 400, "walkers_each": 40}
 """Many walkers on short chains, some 2,000 independent draws: for hundreds of calibrations."""
 
@@ -111,6 +115,55 @@ def trials(robot: str, count: int, seed: int) -> dict[str, Any]:
             key: {"held": sum(held[key]), "of": count, "width_share": float(np.median(widths[key]))} for key in held
         }
     return result
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A property, its predicted value, and the value at which the robot jumps as far as measured (None: no value)."""
+
+    what: str
+    predicted: float
+    needed: float | None
+    unit: str
+
+
+def explanations(prediction: Prediction, distance_m: float) -> list[Explanation]:
+    """Return the values of single properties at which a robot reaches a distance, all others at their medians."""
+    subject, surface = prediction.subject, prediction.subject.surface
+    values = {key: np.array([float(np.median(value))]) for key, value in prediction.values.items()}
+    energy = float(energy_per_mass(subject, values)[0])
+    pins, floor = float(values["pin_friction"][0]), float(values[f"floor:{subject.name}"][0])
+    energies = np.geomspace(ENERGY[0], ENERGY[-1], 400)
+    ranges = surface.at(energies, np.full(400, pins), np.full(400, floor)).range_m
+    needed = _crossing(energies, ranges, distance_m)
+    mass = float(values[f"mass:{subject.name}"][0]) * 1000.0 * subject.robot.mass_kg
+    rate = subject.rate_nmm_per_deg * float(values[f"rate:{subject.pair}"][0])
+    floors = np.linspace(0.2, 1.3, FLOORS_TRIED)
+    by_floor = surface.at(np.full(FLOORS_TRIED, energy), np.full(FLOORS_TRIED, pins), floors).range_m
+    touchdown = float(surface.at(np.array([energy]), np.array([pins]), np.array([floor])).range_m[0])
+    touchdown += subject.beyond_m[0]
+    return [
+        Explanation("energy of the springs over mass, over the model's", energy, needed, ""),
+        Explanation("mass, all else as predicted", mass, needed and mass * energy / needed, "g"),
+        Explanation("spring rate, all else as predicted", rate, needed and rate * needed / energy, "N·mm/°"),
+        Explanation("friction of the floor", floor, _crossing(floors, by_floor, distance_m), ""),
+        Explanation("travel after landing", 0.0, 1000.0 * max(distance_m - touchdown, 0.0), "mm"),
+    ]
+
+
+def growth(posterior: CalibrationPosterior, name: str, prediction: Prediction) -> Array:
+    """Return the predicted range over that of a robot that was calibrated on (draws,); NaN without a jump."""
+    times: Array = prediction.predicted.jump.range_m / posterior.predicted[name].jump.range_m
+    return times
+
+
+def _crossing(at: Array, values: Array, goal: float) -> float | None:
+    """Return the first of `at` (n,) whose value (n,) reaches a goal; None if the goal is outside the values."""
+    known = np.isfinite(values)
+    if not known.any() or not values[known].min() <= goal <= values[known].max():
+        return None
+    index = int(np.argmax(np.where(known, values, -math.inf) >= goal))
+    return float(at[index])
 
 
 @cache

@@ -8,20 +8,23 @@ flight with drag ½·ρ·cd·A·v², the body's plates across the wind. Springs'
 import argparse
 import json
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from jumpcad.building import build
-from jumpcad.calibration import plots
 from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.files import template_names
 from jumpcad.robot import Robot
 from jumpcad.search import save_figure
+from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, labels, panels
 from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.transforms import Array
 from jumpcad.workshop import load_workshop
 
 AIR_KG_M3, DRAG_AREA_M2, GRAVITY_M_S2 = 1.2, 54e-4, 9.81
@@ -87,6 +90,35 @@ def priced(name: str, robot: Robot, jump: Jump) -> Priced:
     )
 
 
+def energy_accounts(accounts: Mapping[str, Mapping[str, float]]) -> Figure:
+    """Draw where the springs' energy is at take-off, one bar for each robot, as shares of the energy account."""
+    figure, (axes,) = panels(1, 6.4, 0.9 + 0.5 * len(accounts))
+    left = np.zeros(len(accounts))
+    totals = np.array([sum(account.values()) for account in accounts.values()])
+    colours = (BLUE, ORANGE, GREY, RED, "#4f9d69", "#8d5fa8", "#6b4a2f")
+    for index, name in enumerate(next(iter(accounts.values()))):
+        share = np.array([account[name] for account in accounts.values()]) / totals
+        axes.barh(list(accounts), share, left=left, color=colours[index % len(colours)], label=name)
+        left += share
+    axes.invert_yaxis()
+    axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), fontsize=8)
+    labels(axes, "share of the energy that was loaded into the springs", "")
+    return figure
+
+
+def floor_figure(friction: Sequence[float], jumps: Mapping[str, tuple[Array, Array]]) -> Figure:
+    """Draw range and rise (m) of robots over the friction of the floor; NaN where they do not jump."""
+    figure, (ranges, rises) = panels(2, 4.2, 3.2)
+    for index, (name, (range_m, rise_m)) in enumerate(jumps.items()):
+        colour = (BLUE, ORANGE, RED)[index % 3]
+        ranges.plot(friction, range_m, ".-", color=colour, label=name)
+        rises.plot(friction, rise_m, ".-", color=colour, label=name)
+    ranges.legend()
+    labels(ranges, "friction of feet on the floor", "range (m)")
+    labels(rises, "friction of feet on the floor", "rise of the centre of mass (m)")
+    return figure
+
+
 def computed(folder: Path | None = None) -> dict[str, Any]:
     """Return prices of effects, energy accounts and floors of the templates; draw the last two into a folder."""
     robots = {name: build(load_design(name), name=name) for name in template_names("robots")}
@@ -99,8 +131,8 @@ def computed(folder: Path | None = None) -> dict[str, Any]:
             np.array([getattr(jump, key) or np.nan for jump in found]) for key in ("ballistic_range_m", "com_rise_m")
         )
     if folder:
-        save_figure(plots.energy_accounts(accounts), folder, "energy-account")
-        save_figure(plots.floors(FRICTIONS.tolist(), floors), folder, "floor-friction")
+        save_figure(energy_accounts(accounts), folder, "energy-account")
+        save_figure(floor_figure(FRICTIONS.tolist(), floors), folder, "floor-friction")
     return {
         "effects": {name: vars(priced(name, robot, jumps[name])) for name, robot in robots.items()},
         "accounts_j": accounts,

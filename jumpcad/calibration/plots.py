@@ -1,13 +1,10 @@
 """Plots of a calibration: prior and posterior, predicted and measured; energy accounts; jumps over floor friction."""
 
-from collections.abc import Mapping, Sequence
-
 import numpy as np
 from matplotlib.figure import Figure
 
 from jumpcad.calibration.posterior import CalibrationPosterior
-from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, labels, panels
-from jumpcad.transforms import Array
+from jumpcad.search.report.figures import BLUE, GREY, RED, labels, panels
 
 PICTURES = ("parameters", "measurements")
 """Names of the pictures of a calibration."""
@@ -47,33 +44,4 @@ def measurements(posterior: CalibrationPosterior) -> Figure:
         axes.set_xlim(-0.6, len(chosen) - 0.4)
         axes.set_ylim(0.0)
         labels(axes, "", TITLES[kind], "predicted (blue), measured (red)")
-    return figure
-
-
-def energy_accounts(accounts: Mapping[str, Mapping[str, float]]) -> Figure:
-    """Draw where the springs' energy is at take-off, one bar for each robot, as shares of the energy account."""
-    figure, (axes,) = panels(1, 6.4, 0.9 + 0.5 * len(accounts))
-    left = np.zeros(len(accounts))
-    totals = np.array([sum(account.values()) for account in accounts.values()])
-    colours = (BLUE, ORANGE, GREY, RED, "#4f9d69", "#8d5fa8", "#6b4a2f")
-    for index, name in enumerate(next(iter(accounts.values()))):
-        share = np.array([account[name] for account in accounts.values()]) / totals
-        axes.barh(list(accounts), share, left=left, color=colours[index % len(colours)], label=name)
-        left += share
-    axes.invert_yaxis()
-    axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), fontsize=8)
-    labels(axes, "share of the energy that was loaded into the springs", "")
-    return figure
-
-
-def floors(friction: Sequence[float], jumps: Mapping[str, tuple[Array, Array]]) -> Figure:
-    """Draw range and rise (m) of robots over the friction of the floor; NaN where they do not jump."""
-    figure, (ranges, rises) = panels(2, 4.2, 3.2)
-    for index, (name, (range_m, rise_m)) in enumerate(jumps.items()):
-        colour = (BLUE, ORANGE, RED)[index % 3]
-        ranges.plot(friction, range_m, ".-", color=colour, label=name)
-        rises.plot(friction, rise_m, ".-", color=colour, label=name)
-    ranges.legend()
-    labels(ranges, "friction of feet on the floor", "range (m)")
-    labels(rises, "friction of feet on the floor", "rise of the centre of mass (m)")
     return figure

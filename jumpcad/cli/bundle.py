@@ -34,13 +34,6 @@ LABEL = 15
 """Width of the words before the lines below it."""
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(build)
-    app.command()(render)
-    app.command()(verify)
-
-
 def build(
     design: Annotated[
         str,

@@ -19,11 +19,6 @@ FILES_HELP = "Measured robots: templates (kenan-1.0, kenan-2.0) or TOML files, o
 PREDICT_HELP = "Predict this measured robot, without calibrating on its jumps; may be repeated."
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(calibrate)
-
-
 def calibrate(
     files: Annotated[list[str], typer.Argument(help=FILES_HELP, metavar="MEASUREMENTS...")],
     predict: Annotated[list[str] | None, typer.Option(help=PREDICT_HELP, metavar="MEASUREMENTS")] = None,

@@ -36,11 +36,6 @@ SMALL = 0.005
 """Margins below this, in the printed unit, are "at the limit" or "just beyond"."""
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(check)
-
-
 def check(
     design: Annotated[
         str,

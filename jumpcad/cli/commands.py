@@ -42,12 +42,27 @@ COMPLETE = "_JUMPCAD_COMPLETE"
 HELP = ["--help", "-h"]
 
 app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, context_settings={"help_option_names": HELP})
-COMMANDS = (
-    listing, designs, bundle, report, check, slicing, coupon, simulate, calibrate, reproduce, explore, optimize, study,
-    studio,
-)  # fmt: skip
-for module in COMMANDS:
-    module.register(app)
+COMMANDS = {
+    "list": listing.list_names,
+    "new": designs.new,
+    "build": bundle.build,
+    "render": bundle.render,
+    "verify": bundle.verify,
+    "report": report.report,
+    "check": check.check,
+    "slice": slicing.slice_command,
+    "coupon": coupon.coupon,
+    "simulate": simulate.simulate,
+    "calibrate": calibrate.calibrate,
+    "reproduce": reproduce.reproduce,
+    "explore": explore.explore,
+    "optimize": optimize.optimize,
+    "study": study.study,
+    "studio": studio.studio,
+}
+"""In the order in which the help lists them."""
+for name, command in COMMANDS.items():
+    app.command(name)(command)
 
 
 def _print_version(wanted: bool) -> None:

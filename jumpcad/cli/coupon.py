@@ -14,11 +14,6 @@ FOLDER = Path("exports/coupon")
 WORKSHOP = Path("my-workshop.toml")
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(coupon)
-
-
 def coupon(
     measured: Annotated[
         Path | None, typer.Option(help="Turn these readings into a workshop file.", metavar="READINGS.toml")

@@ -27,11 +27,6 @@ NewWorkshopOption = Annotated[
 ]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(new)
-
-
 def new(
     file: Annotated[Path, typer.Argument(help="The file to write.", metavar="FILE.toml")],
     template: FromOption = None,

@@ -62,11 +62,6 @@ OverOption = Annotated[
 ]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(explore)
-
-
 @with_search_options
 def explore(
     *,

@@ -36,11 +36,6 @@ KindArgument = Annotated[
 ]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command("list")(list_names)
-
-
 def list_names(kind: KindArgument = None, as_json: JsonFlag = False) -> None:
     """List what ships: templates, workshops, printers, materials, kits, motors and more."""
     from jumpcad.files import did_you_mean

@@ -64,11 +64,6 @@ OutputOption = Annotated[
 ]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(optimize)
-
-
 @with_search_options
 def optimize(
     *,

@@ -12,11 +12,6 @@ PAGE = "report.html"
 STUDY = ".db"
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command of this module."""
-    app.command()(report)
-
-
 def report(
     subject: Annotated[
         str, typer.Argument(help="A bundle, a template, a design file, or a study file.", metavar="BUNDLE|DESIGN|F.db")

@@ -3,19 +3,12 @@
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-import typer
-
 from jumpcad.cli.output import JsonFlag, console, print_json
 
 if TYPE_CHECKING:
     from rich.table import Table
 
     from jumpcad.paper.reproduction import Hyperparameter, Reproduction
-
-
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(reproduce)
 
 
 def reproduce(as_json: JsonFlag = False) -> None:

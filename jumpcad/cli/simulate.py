@@ -48,11 +48,6 @@ TRIES = 20
 """Landings that are tried unless asked for more."""
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(simulate)
-
-
 def simulate(
     design: Annotated[
         str,

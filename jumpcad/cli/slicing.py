@@ -15,11 +15,6 @@ WIDE = 120
 """Width of a table with the longest names of parts (characters)."""
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command("slice")(slice_command)
-
-
 def slice_command(
     bundle: Annotated[Path, typer.Argument(help="A bundle's folder.", metavar="BUNDLE")],
     workshop: Annotated[

@@ -16,11 +16,6 @@ PORT = 8080
 STUDY = ".db"
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command of this module."""
-    app.command()(studio)
-
-
 def studio(
     design: Annotated[
         str, typer.Argument(help="A template, a design file, a bundle, or a study.", metavar="DESIGN|F.db")

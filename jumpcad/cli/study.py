@@ -27,11 +27,6 @@ WATCH_S = 5.0
 ListOption = Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands of this module."""
-    app.command()(study)
-
-
 def study(
     files: StudiesArgument,
     best: ListOption = 5,

@@ -6,6 +6,7 @@ It is a bundle like a robot's, with a manifest and with the workshop for which i
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.manifest import Bundle
@@ -13,7 +14,7 @@ from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
 from jumpcad.coupon.readings import JOINT_KEYS, floor_breaks_n
 from jumpcad.exporters.threemf import plate_files
-from jumpcad.files.rendering import render
+from jumpcad.files.rendering import fill, render
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.solids.finish import require_part
@@ -61,8 +62,9 @@ def _contents(workshop: Workshop, holes: HoleSizes, made: Sequence[Piece]) -> It
         require_part(piece.name, stl)
         yield f"stl/{piece.name}.stl", stl
     yield from plate_files(made, workshop)
-    yield "coupon.md", _guide(workshop, holes)
-    yield READINGS, _template(workshop, holes)
+    values = coupon_values(workshop, holes)
+    yield "coupon.md", render("guides/coupon.md.j2", values)
+    yield READINGS, fill("guides/readings.toml.j2", values)
 
 
 def _mass_kg(piece: Piece, workshop: Workshop) -> float:
@@ -70,50 +72,22 @@ def _mass_kg(piece: Piece, workshop: Workshop) -> float:
     return mass_properties(piece.shape, density, workshop.process, workshop.printer.nozzle_mm).mass_kg
 
 
-def _guide(workshop: Workshop, holes: HoleSizes) -> str:
-    """Return the instructions."""
+def coupon_values(workshop: Workshop, holes: HoleSizes) -> dict[str, Any]:
+    """Return what the templates of the instructions and of the file for the readings say."""
     stronger = [one.name for one in seats(workshop)]
-    return render(
-        "guides/coupon.md.j2",
-        {
-            "materials": list(workshop.materials),
-            "gears": workshop.material_name("gears"),
-            "body": workshop.material_name("body"),
-            "links": workshop.material_name("links"),
-            "screws": workshop.bought.retention == "nuts",
-            "axle_mm": workshop.bought.axle_mm,
-            "hole_mm": holes.axle_mm,
-            "bearing": holes.bearing and holes.bearing.name,
-            "bearings": [*([holes.bearing.name] if holes.bearing else []), *stronger],
-            "seats": stronger,
-            "lying": [engraved(step) for step in steps_mm(workshop.fits.lying_mm)],
-            "readings": READINGS,
-            "floor_n": math.ceil(floor_breaks_n(workshop)),
-        },
-    )
-
-
-def _template(workshop: Workshop, holes: HoleSizes) -> str:
-    """Return the file for the readings: every key as a comment, with the workshop's present value."""
-    fits = workshop.fits
-    lines = [
-        "# Readings of the coupon; see coupon.md. Remove the # of a line and write what you found, in mm as engraved.",
-        "",
-        f"axle_mm = {workshop.bought.axle_mm:g}  # the rods that this coupon is made for: leave it",
-    ]
-    for name in workshop.materials:
-        lines += [
-            "",
-            f"[gauge.{name}]",
-            f"# axle_press_mm = {fits.press_mm:.2f}",
-            f"# axle_sliding_mm = {fits.sliding_mm:.2f}",
-            f"# axle_loose_mm = {fits.loose_mm:.2f}",
-        ]
-        if holes.bearing:
-            lines.append(f"# bearing_press_mm = {fits.press_mm:.2f}")
-        lines.append(f"# pegs_mm = [{', '.join(f'{peg:.2f}' for peg in PEGS_MM)}]")
-    lines += ["", "[joints]"]
-    lines += [f"# {key} = {getattr(fits, fit):.2f}" for key, (fit, _) in JOINT_KEYS.items()]
-    lines.append(f"# floor_n = {math.ceil(floor_breaks_n(workshop))}")
-    lines += ["", "[gears]", f"# turns_freely_mm = {fits.backlash_circumferential_mm:.2f}", ""]
-    return "\n".join(lines)
+    return {
+        "materials": list(workshop.materials),
+        **{role: workshop.material_name(role) for role in ("gears", "body", "links")},
+        "screws": workshop.bought.retention == "nuts",
+        "axle_mm": workshop.bought.axle_mm,
+        "hole_mm": holes.axle_mm,
+        "bearing": holes.bearing and holes.bearing.name,
+        "bearings": [*([holes.bearing.name] if holes.bearing else []), *stronger],
+        "seats": stronger,
+        "lying": [engraved(step) for step in steps_mm(workshop.fits.lying_mm)],
+        "readings": READINGS,
+        "floor_n": math.ceil(floor_breaks_n(workshop)),
+        "fits": workshop.fits,
+        "pegs_mm": PEGS_MM,
+        "joints": {key: fit for key, (fit, _) in JOINT_KEYS.items()},
+    }

@@ -63,27 +63,3 @@ def test_each_measurement_stands_beside_what_is_predicted_of_it() -> None:
                 points[line.get_marker()].append((line.get_xdata()[0], line.get_ydata()[0]))
         assert points["x"] == [(place, one["measured"]) for place, one in enumerate(told)]
         assert points["o"] == [(place, one["predicted"][1]) for place, one in enumerate(told)]
-
-
-def test_shares_of_an_energy_account_lie_one_after_the_other_and_add_up_to_one() -> None:
-    """Of each robot over its own energy, the first robot at the top."""
-    accounts = {"k1": {"useful": 0.05, "slip": 0.03, "pins": 0.02}, "k2": {"useful": 1.0, "slip": 0.0, "pins": 3.0}}
-    (axes,) = plots.energy_accounts(accounts).axes
-    bars = [[(bar.get_x(), bar.get_width()) for bar in group] for group in axes.containers]
-    assert bars == [
-        [pytest.approx((0.0, 0.5)), pytest.approx((0.0, 0.25))],
-        [pytest.approx((0.5, 0.3)), pytest.approx((0.25, 0.0))],
-        [pytest.approx((0.8, 0.2)), pytest.approx((0.25, 0.75))],
-    ]
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["useful", "slip", "pins"]
-    assert axes.yaxis_inverted()
-
-
-def test_range_and_rise_stand_over_the_friction_each_in_its_panel() -> None:
-    friction = [0.4, 0.6, 0.8]
-    jumps = {"k1": (np.array([0.1, 0.2, 0.3]), np.array([0.01, 0.02, 0.03])), "k2": (np.ones(3), 0.5 * np.ones(3))}
-    ranges, rises = plots.floors(friction, jumps).axes
-    for axes, index in ((ranges, 0), (rises, 1)):
-        drawn = {line.get_label(): (list(line.get_xdata()), list(line.get_ydata())) for line in axes.lines}
-        assert drawn == {name: (friction, list(figures[index])) for name, figures in jumps.items()}
-    assert (ranges.get_ylabel(), rises.get_ylabel()) == ("range (m)", "rise of the centre of mass (m)")

@@ -11,10 +11,9 @@ import pytest
 from jumpcad.calibration.likelihood import CalibrationModel
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, sampled
-from jumpcad.calibration.prediction import explanations, growth, predicted_jump
+from jumpcad.calibration.prediction import predicted_jump
 from jumpcad.calibration.settings_file import SAVED, _limits, elsewhere, settings_toml
 from jumpcad.calibration.subject import Subject
-from jumpcad.errors import JumpcadError
 from jumpcad.settings import Settings, load_settings
 
 SAID: dict[str, Any] = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
@@ -50,8 +49,6 @@ def test_springs_that_robots_share_are_those_of_the_calibration(
     shared = posterior.values["rate:kenan-2.0"]
     found = predicted_jump(posterior, twin(subject, jumps=JUMPS, spring={"pair": "kenan-2.0"}))
     assert found.values["rate:kenan-2.0"] is shared
-    (rate,) = (one for one in explanations(found, 0.3) if one.unit == "N·mm/°")
-    assert rate.predicted == pytest.approx(subject.rate_nmm_per_deg * np.median(shared))
 
 
 def test_a_robot_of_the_same_name_has_springs_of_its_own(posterior: CalibrationPosterior, subject: Subject) -> None:
@@ -69,35 +66,13 @@ def test_what_stays_open_is_drawn_by_the_seed(posterior: CalibrationPosterior, s
 
 def test_a_twin_jumps_as_far_with_a_wider_interval(posterior: CalibrationPosterior, subject: Subject) -> None:
     found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
-    low, middle, high = found.quantiles()["ballistic_range_m"]
+    low, _, high = found.quantiles()["ballistic_range_m"]
     own = np.quantile(posterior.predicted["kenan-2.0"].jump.range_m, (0.1, 0.5, 0.9))
     assert high - low > own[2] - own[0]
     assert low < own[1] < high
     (row,) = found.beside()
     assert row["measured"] == pytest.approx(0.22)
     assert row["predicted"][0] < 0.22 < row["predicted"][2]
-    assert np.nanmedian(growth(posterior, "kenan-2.0", found)) == pytest.approx(middle / own[1], rel=0.1)
-
-
-def test_explanations_reach_the_distance(posterior: CalibrationPosterior, subject: Subject) -> None:
-    """The energy that is said to be needed does give the distance; the mass is its inverse."""
-    found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
-    energy, mass, rate, floor, travel = explanations(found, 0.35)
-    assert energy.needed is not None
-    pins = np.array([np.median(found.values["pin_friction"])])
-    ground = np.array([np.median(found.values["floor:twin"])])
-    assert subject.surface.at(np.array([energy.needed]), pins, ground).range_m[0] == pytest.approx(0.35, rel=0.02)
-    assert mass.needed == pytest.approx(mass.predicted * energy.predicted / energy.needed)
-    assert rate.needed == pytest.approx(rate.predicted * energy.needed / energy.predicted)
-    middle = {key: float(np.median(value)) for key, value in found.values.items()}
-    assert mass.predicted == pytest.approx(1000.0 * subject.robot.mass_kg * middle["mass:twin"])
-    assert rate.predicted == pytest.approx(subject.robot.design.stiffness_nmm_per_deg * middle["rate:twin"])
-    assert energy.predicted == pytest.approx(middle["spring_efficiency"] * middle["rate:twin"] / middle["mass:twin"])
-    assert floor.predicted == middle["floor:twin"]
-    reached = subject.surface.at(np.array([energy.predicted]), pins, ground).range_m[0]
-    assert travel.needed == pytest.approx(1000.0 * (0.35 - reached - subject.beyond_m[0]))
-    assert floor.needed is None  # a foot that sticks already gains nothing from more friction
-    assert travel.needed == pytest.approx(350.0 - 220.0, abs=30.0)
 
 
 def test_settings_are_read_back(posterior: CalibrationPosterior, tmp_path: Any) -> None:
@@ -136,64 +111,3 @@ def test_the_draws_of_a_file_are_spread_over_the_whole_chain(posterior: Calibrat
     for key in ("spring_efficiency", "pin_friction"):
         low, high = _limits(key)
         assert kept[key] == pytest.approx(np.clip(found[key][rows], low, high), abs=6e-5)
-
-
-def test_an_easier_floor_explains_a_jump_that_slipped(posterior: CalibrationPosterior, subject: Subject) -> None:
-    """Of two floors with one range each, that on which the robot jumps as far; nearer than measured needs no travel."""
-    found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
-    values = {key: np.array([np.median(value)]) for key, value in found.values.items()}
-    energy = values["spring_efficiency"] * values["rate:twin"] / values["mass:twin"]
-    slips = float(subject.surface.at(energy, values["pin_friction"], np.array([0.42])).range_m[0])
-    *_, floor, travel = explanations(found, slips)
-    assert floor.needed == pytest.approx(0.42, abs=0.012)  # one of 101 from 0.2 to 1.3
-    assert travel.needed == 0.0
-
-
-def test_errors_are_in_what_a_measurement_is_predicted_as(posterior: CalibrationPosterior, subject: Subject) -> None:
-    """A height scatters by 15 mm besides its shares; of a normal, 10 and 90 % lie 1.2816 deviations off the middle."""
-    found = predicted_jump(posterior, twin(subject, jumps=HEIGHT, mass={"robot_g": 103.0}))
-    assert found.jumps_share == 1.0
-    plain = found.predicted.of("height", "absolute")
-    (row,) = found.beside()
-    assert (row["what"], row["as"], row["measured"]) == ("height", "absolute", pytest.approx(0.08))
-    low, middle, high = row["predicted"]
-    assert middle == pytest.approx(np.median(plain), abs=0.004)
-    spread = np.hypot(plain.std(), np.hypot(0.015, np.hypot(0.08, 0.03) * plain.mean()))
-    assert (high - low) / 2.0 == pytest.approx(1.2816 * spread, rel=0.15)
-    (datum,) = CalibrationModel([found.subject]).data
-    for value in (0.08, middle - spread, middle + spread):
-        share = found._beside(replace(datum, value=value), "absolute")["below_share"]
-        assert share == pytest.approx(0.5 * (1.0 + math.erf((value - middle) / spread / math.sqrt(2.0))), abs=0.05)
-
-
-def test_the_share_of_draws_that_jump_is_said(posterior: CalibrationPosterior, subject: Subject) -> None:
-    """Robots of fifty times the mass do not; no jump counts as none far."""
-    found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
-    assert found.jumps_share == 1.0
-    mass = found.values["mass:twin"].copy()
-    mass[::2] *= 50.0
-    heavy = type(found)(found.subject, found.values | {"mass:twin": mass}, found.generator)
-    assert heavy.jumps_share == pytest.approx(0.5, abs=0.01)
-    assert heavy.quantiles()["ballistic_range_m"][0] == 0.0 < heavy.quantiles()["ballistic_range_m"][2]
-
-
-@pytest.mark.parametrize("key", ["spring_efficiency", "pin_friction"])
-def test_what_a_calibration_may_write_is_what_settings_take(key: str) -> None:
-    """Its draws are cut off at the ends of what a file of settings may say, and nowhere before."""
-    least, most = _limits(key)
-    for value in (least, most):
-        assert getattr(Settings(**{key: value}), key) == value
-    for value in (least - 1e-6, most + 1e-6):
-        with pytest.raises(JumpcadError, match=key):
-            Settings(**{key: value})
-
-
-def test_a_length_of_which_it_is_unknown_what_it_is_stands_beside_all_that_it_may_be(
-    posterior: CalibrationPosterior, subject: Subject
-) -> None:
-    unknown = {"distance_of": "unknown", "height_of": "unknown"}
-    jumps = ({"distance_mm": (220.0,), "height_mm": (80.0,)} | unknown,)
-    found = predicted_jump(posterior, twin(subject, jumps=jumps, mass={"robot_g": 103.0}))
-    rows = [(row["what"], row["as"]) for row in found.beside()]
-    lengths = [("distance", of) for of in ("centre-of-mass", "first-touchdown", "resting-place")]
-    assert sorted(rows) == sorted([*lengths, ("height", "rise"), ("height", "absolute")])

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 from support.fits import with_fits_apart
 
-from jumpcad.coupon.export import _template, export_coupon
+from jumpcad.coupon.export import coupon_values, export_coupon
 from jumpcad.coupon.pieces import coupon_holes
 from jumpcad.coupon.readings import Readings, measured_workshop
+from jumpcad.files.rendering import fill
 from jumpcad.workshop import load_workshop
 
 
@@ -31,7 +32,9 @@ def test_the_same_workshop_gives_the_same_bytes(coupon: Path, tmp_path: Path) ->
 def test_the_file_for_readings_has_every_fit_of_the_workshop_and_is_read_as_it_stands() -> None:
     """With the # of all lines removed nothing changes, but what holes without a fit need: twice the press fit."""
     workshop = with_fits_apart(load_workshop("fine"))
-    filled = re.sub("(?m)^# (?=[a-z0-9_]+ = )", "", _template(workshop, coupon_holes(workshop)))
+    filled = re.sub(
+        "(?m)^# (?=[a-z0-9_]+ = )", "", fill("guides/readings.toml.j2", coupon_values(workshop, coupon_holes(workshop)))
+    )
     found = measured_workshop(Readings.from_data(tomllib.loads(filled), "r.toml", filled), workshop)
     assert found.fits.model_dump() == workshop.fits.model_dump() | {
         "hole_allowance_diameter_mm": pytest.approx(2.0 * workshop.fits.press_mm)

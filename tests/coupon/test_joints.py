@@ -6,9 +6,10 @@ from manifold3d import CrossSection
 from support.fits import with_fits_apart
 
 from jumpcad.coupon import joints
-from jumpcad.coupon.export import _guide
+from jumpcad.coupon.export import coupon_values
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
 from jumpcad.coupon.pieces import Piece, coupon_holes
+from jumpcad.files.rendering import render
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
@@ -93,6 +94,10 @@ def test_lying_holes_are_tried_around_their_own_fit() -> None:
     section = bar.shape.solid().rotate((-90.0, 0.0, 0.0)).slice(-2.5)
     widths = sorted(np.ptp(points[:, 0]) for points in section.to_polygons())[:3]
     assert widths == pytest.approx([3.2, 3.3, 3.4], abs=0.01)
-    assert "**lying_holes**" in _guide(workshop, holes)
-    (line,) = (one for one in _guide(workshop, holes).splitlines() if "**lying_holes**" in one)
+    assert "**lying_holes**" in render("guides/coupon.md.j2", coupon_values(workshop, holes))
+    (line,) = (
+        one
+        for one in render("guides/coupon.md.j2", coupon_values(workshop, holes)).splitlines()
+        if "**lying_holes**" in one
+    )
     assert ".10 .15 .20" in line
