@@ -4,7 +4,7 @@ import logging
 import os
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Annotated, Any
 
@@ -42,7 +42,7 @@ COMPLETE = "_JUMPCAD_COMPLETE"
 HELP = ["--help", "-h"]
 
 app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, context_settings={"help_option_names": HELP})
-COMMANDS = {
+COMMANDS: dict[str, Callable[..., None]] = {
     "list": listing.list_names,
     "new": designs.new,
     "build": bundle.build,
