@@ -28,6 +28,7 @@ from jumpcad.files.rendering import environment, render
 from jumpcad.findings import limit
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.workshop import load_workshop
 from jumpcad.workshop.varied import varied
@@ -107,6 +108,8 @@ def test_templates_and_figures_name_the_same_values() -> None:
     for path in templates_folder().glob("*/**/*.j2"):
         said |= jinja2.meta.find_undeclared_variables(environment().parse(path.read_text(encoding="utf-8")))
     assert given <= said
+    steps = {path.name for path in (templates_folder() / "guides" / "steps").iterdir()}
+    assert steps == {f"{plan.key}.md.j2" for plan in ORDER} | {"rest.md.j2"}
     missing = {key: value for key, value in operation_values.operation_values(robot).items() if key != "wind_s"}
     with pytest.raises(jinja2.UndefinedError, match="wind_s"):
         render("firmware/README.md.j2", missing)
