@@ -13,7 +13,7 @@ from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.estimate.refusal import room_findings
-from jumpcad.search.models import CapsuleModel, PrintedModel, _figures, robot_model
+from jumpcad.search.models import CapsuleModel, PrintedModel, robot_model
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.variant import Variant
@@ -161,13 +161,6 @@ def test_the_published_robot_has_no_engine_to_choose(engine):
     assert robot_model("published", engine="pybullet") == robot_model("published")
 
 
-def test_masses_and_floors_scatter_by_what_a_simulation_takes_them_to(monkeypatch):
-    """3.1 and 17 %, and not the other way round."""
-    monkeypatch.setattr(models, "PRINTED_MASS_SHARE", 0.031)
-    monkeypatch.setattr(models, "FLOOR_SHARE", 0.17)
-    assert (robot_model().making.mass, robot_model().making.floor) == (0.031, 0.17)
-
-
 def test_a_refusal_says_by_how_much_its_limit_was_missed(monkeypatch):
     """For the processes that learn where there is room, whether the robot was built or only laid out."""
 
@@ -268,13 +261,6 @@ def test_guesses_and_quick_scores_have_settings_of_their_own():
     assert (rolling.guess_engine, rolling.guess_settings.dt_s) == ("mujoco", 0.002)
     slow = replace(plain, settings=plain.settings.model_copy(update={"dt_s": 0.004}))
     assert slow.guess_settings.dt_s == 0.004
-
-
-def test_figures_of_a_jump_are_its_numbers_alone():
-    jump = Jump("jump", "planar", 0.1, 0.2, ballistic_range_m=0.5, com_rise_m=None)
-    assert _figures(jump) == {
-        "mass_kg": 0.1, "spring_energy_j": 0.2, "fitness": 0.0, "ballistic_range_m": 0.5,
-    }  # fmt: skip
 
 
 @pytest.mark.parametrize("field", ["workshop", "settings", "engine", "stand_in"])

@@ -196,12 +196,6 @@ def test_a_function_is_named_by_its_name_and_a_nameless_one_own():
     assert find_objective(lambda m: 1.0).name == "own"
 
 
-def test_a_figure_that_there_is_not_is_named_with_those_that_there_are():
-    with pytest.raises(JumpcadError, match=r"asks for 'reach'; a jump of this model has fitness, mass_kg") as error:
-        find_objective(lambda m: m["reach"]).score(Evaluation("jump", {"fitness": 1.0, "mass_kg": 0.1}))
-    assert "\n" not in str(error.value)
-
-
 class Mute(Exception):
     """An error that cannot say what it is."""
 

@@ -256,37 +256,6 @@ def test_a_design_that_fails_otherwise_when_it_is_repeated_is_told_with_both(tmp
     assert second.startswith("a design is quarantined: RuntimeError: two; before: RuntimeError: one; design: ")
 
 
-def test_after_its_processes_were_lost_a_task_goes_to_new_ones_with_the_same_limit():
-    """What an executor says that has lost them: it takes no more tasks."""
-    limits, opened, ended = [], [], []
-
-    class Lost(InProcess):
-        def submit(self, fn, /, *args, **kwargs):
-            if self is opened[0]:
-                raise BrokenExecutor
-            limits.append(args[-1])
-            return super().submit(fn, *args[:-1], 0.0)
-
-    with Pool(lambda: opened.append(Lost()) or opened[-1], ended.append, 1, 12.5) as pool:
-        assert [outcome.evaluation for outcome in pool.evaluate(Hill(), GOOD[:1])] == [Hill()(GOOD[0])]
-    assert limits == [12.5]
-    assert ended == opened
-    assert len(opened) == 2
-
-
-def test_what_a_call_without_processes_raises_comes_with_its_result():
-    """An interrupt is nobody's result."""
-    executor = InProcess()
-    assert executor.submit(int, "70", base=8).result() == 56
-    assert isinstance(executor.submit(int, "x").exception(), ValueError)
-
-    def interrupted():
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        executor.submit(interrupted)
-
-
 def test_workers_and_timeouts_have_ends_that_are_told():
     """A day at most; a tenth of a second, below which nothing ends."""
     for workers, limit_s, message in (

@@ -46,18 +46,6 @@ def test_a_quarter_of_the_evaluations_examines_neighbours():
         assert Request(SMALL, Hill(), evaluations=evaluations).pick == share
 
 
-def test_only_what_was_asked_for_is_in_a_studys_identity():
-    plain = Request(SMALL, Hill(), method="ga", evaluations=40)
-    known = plain.identity([])
-    assert "screen" not in known
-    assert known["prior"] is None
-    assert plain.default_name() != replace(plain, seed=plain.seed + 1).default_name()
-    assert replace(plain, evaluations=50).default_name() == plain.default_name()
-    printed = robot_model()
-    screened = Request(SMALL, printed, "body_lengths", "ga", 40, screen=True)
-    assert screened.identity([])["screen"] == printed.guess_engine  # another engine guesses otherwise
-
-
 def test_a_fixed_value_of_the_workshop_leaves_one_workshop_to_guess_in():
     model = robot_model()
     spaces = [Space.parse(**asked, workshop=model.workshop) for asked in (
@@ -90,11 +78,6 @@ def test_what_applies_to_bayesian_optimisation_alone_applies_to_every_search_tha
     Request(SMALL, Hill(), method="ga+bo", **given)
     with pytest.raises(JumpcadError, match=r"does not apply to ga, only to ga\+bo, bo"):
         Request(SMALL, Hill(), method="ga", **given)
-
-
-def test_the_genetic_algorithm_has_its_settings_also_where_another_method_follows():
-    for method in ("ga", "ga+bo"):
-        assert Request(SMALL, Hill(), method=method, preset="published").preset == "published"
 
 
 def test_the_studys_stages_have_an_evaluation_each():
@@ -242,13 +225,6 @@ def test_what_does_not_go_together_is_refused_before_anything_is_evaluated(asked
     assert Request(**usual).method == "ga"
     with pytest.raises(JumpcadError, match=said):
         Request(**usual | asked)
-
-
-@pytest.mark.parametrize(("method", "other"), [("paper", True), ("ga+bo", True), ("bo", False), ("ga", False)])
-def test_more_evaluations_are_another_study_where_stages_share_them(method: str, other: bool) -> None:
-    """A search in one stage goes on in its own file."""
-    names = {Request(SMALL, Hill(), method=method, evaluations=count).default_name() for count in (100, 200)}
-    assert len(names) == 1 + other
 
 
 def test_what_a_front_is_against_follows_from_the_robot_and_is_refused_elsewhere():

@@ -66,24 +66,6 @@ def test_an_hour_counts_from_what_was_read_to_what_is_computed(monkeypatch):
         assert (clock.is_over(), free.is_over(), reading.is_over()) == (over, False, False)
 
 
-@pytest.mark.parametrize("converged", [True, False])
-def test_a_search_that_ended_by_itself_was_not_cut_off(monkeypatch, converged):
-    """Also where its time is over in the last step."""
-    over = []
-
-    def search(evaluator, task):
-        evaluator.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
-        over.append(True)
-        return converged
-
-    monkeypatch.setattr(study.Clock, "is_over", lambda self, following=0: bool(over))
-    monkeypatch.setattr(Method, "run", lambda _, *given: search(*given))
-    result = run(replace(REQUEST, method="bo", hours=2.0))
-    assert result.converged == converged
-    where = "during the robust pick" if converged else f"before {REQUEST.searched} designs"
-    assert result.notes == [f"ended after 2 h, {where}: the same command goes on"]
-
-
 def test_time_is_kept_for_what_follows_at_the_pace_so_far_and_a_quarter_at_most(monkeypatch):
     """Ten evaluations in 1000 s: two that follow take 200 s; twenty would take 2000 s, and get 900 s of an hour."""
     now = [0.0]
@@ -246,17 +228,6 @@ def test_a_study_of_another_request_is_refused(tmp_path, change, message):
     with pytest.raises(JumpcadError, match=message):
         run(replace(request, **change), tmp_path / "s.db")
     assert contents(tmp_path / "s.db") == before
-
-
-def test_a_study_of_another_version_is_refused(tmp_path):
-    class Newer(Hill):
-        def versions(self):
-            return {"hill": "2"}
-
-    request = replace(REQUEST, method="ga", evaluations=5)
-    run(request, tmp_path / "s.db")
-    with pytest.raises(JumpcadError, match=r'another program \(versions\.hill: "1" there, "2" here\).*--from'):
-        run(replace(request, model=Newer()), tmp_path / "s.db")
 
 
 @pytest.mark.thorough
@@ -431,30 +402,6 @@ def test_a_prior_study_of_another_program_is_said_to_be_one(tmp_path):
     for _ in range(2):
         (note,) = run(request, tmp_path / "new.db").notes
         assert "old.db was made by another program" in note
-
-
-def test_a_prior_study_whose_model_had_other_values_in_another_program_is_said_to_be_of_it(tmp_path):
-    class Older(Hill):
-        def describe(self):
-            return super().describe() | {"gravity": 9.8}
-
-        def versions(self):
-            return super().versions() | {"jumpcad": "0.0.1"}
-
-    run(replace(REQUEST, model=Older(), method="ga", evaluations=20), tmp_path / "old.db")
-    with pytest.raises(
-        JumpcadError, match=r"was made by another program with another model .*model.gravity: 9.8 there"
-    ):
-        run(replace(REQUEST, prior=tmp_path / "old.db"))
-
-
-@pytest.mark.parametrize(("evaluations", "kept"), [(240, 8), (80, 5)])
-def test_a_pick_leaves_a_quarter_for_bounds_or_one_evaluation_a_parameter(monkeypatch, evaluations, kept):
-    """Of 60 evaluations eight for the eight parameters, of 20 five."""
-    shares = []
-    monkeypatch.setattr(study, "rank_candidates", lambda *given: shares.append(given[4]) or [])
-    run(Request(Space.default(), Hill(), method="ga", evaluations=evaluations))
-    assert shares == [evaluations // 4 - kept]
 
 
 def test_bounds_of_the_winner_are_examined_with_what_its_pick_leaves(monkeypatch):
