@@ -155,6 +155,8 @@ def real_path(path: str | Path) -> Path:
     JumpcadError
         If the path is impossible: a loop of links, a name that is too long or has a NUL.
     """
+    if "\0" in str(path):  # each Python has other words
+        raise JumpcadError(f"{path}: cannot be a path: it has a NUL")
     try:
         real = Path(path).resolve()
         real.exists()

@@ -127,11 +127,11 @@ def test_a_byte_order_mark_before_the_text_is_no_part_of_it(tmp_path: Path) -> N
 
 
 def test_a_path_that_cannot_be_is_told_why(tmp_path: Path) -> None:
-    """Too long a name as the system says it, without a number or the name once more; a NUL by Python's own words."""
+    """Too long a name as the system says it, without a number or the name once more; a NUL in our own words."""
     assert real_path(tmp_path / "a" / ".." / "b") == tmp_path.resolve() / "b"
     with pytest.raises(JumpcadError, match=r"^x{300}: cannot be a path: File name too long$"):
         real_path("x" * 300)
-    with pytest.raises(JumpcadError, match=r": cannot be a path: embedded null"):
+    with pytest.raises(JumpcadError, match=r": cannot be a path: it has a NUL$"):
         real_path("a\0b")
 
 
