@@ -5,6 +5,7 @@ import math
 from jumpcad.catalogue import Battery
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.nets import gpio
+from jumpcad.landing.series import LANDING_S, REST_S
 from jumpcad.robot import Robot, carried
 
 BUTTON_DELAY_MS = 3000
@@ -17,8 +18,10 @@ SETTLE_MS = 10
 """How long a switch must keep its state; usual of small switches: they bounce for 1 to 5 ms."""
 AFTER_RELEASE_MS = round(1000.0 * RUN_ON_S)
 """Motor runs on after the sensor has opened: twice the leg's fall, and past the switch's bounce; judgement."""
-LANDING_MS = 1500
-"""How long after a jump commands and sensor are ignored: the flight, and the landing's 300 m/s² and more; judgement."""
+LANDING_MS = round(1000.0 * LANDING_S)
+"""How long after a jump commands and sensor are ignored: the flight, and the landing's 300 m/s² and more."""
+REST_MS = round(1000.0 * REST_S)
+"""How long a robot that jumps in a row is left alone after a landing, and when it is wound."""
 RAMP_MS = 100
 """In which the motor gets its power; judgement."""
 LOW_MS = 200
@@ -64,6 +67,7 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "AFTER_RELEASE_MS": AFTER_RELEASE_MS,
         "SETTLE_MS": SETTLE_MS,
         "LANDING_MS": LANDING_MS,
+        "REST_MS": REST_MS,
         "BUTTON_DELAY_MS": BUTTON_DELAY_MS,
         "RAMP_MS": RAMP_MS,
     }

@@ -9,13 +9,14 @@ import numpy as np
 from jumpcad.arguments import check_arguments
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.errors import JumpcadError
-from jumpcad.landing.arena import Arena
+from jumpcad.landing.arena import QUIET_STEP_S, Arena
 from jumpcad.landing.landing import disturb, scattered_floor
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 
-WAIT_S = 1.0
-"""The firmware's pause before a release, in which the wound robot comes to rest."""
+LANDING_S, REST_S = 1.5, 2.0
+"""Pauses of the firmware: after a release for flight and landing, and then and when wound until the robot lies still;
+judgement: simulated landings of the templates rest 2 to 2.6 s after the release."""
 
 
 @dataclass(frozen=True)
@@ -119,7 +120,7 @@ def jumps(robot: Robot, count: int = 10, seed: int = 0, settings: Settings | Non
 def _hop(arena: Arena, wind_s: float, rng: np.random.Generator) -> Hop:
     begun = float(arena.data.time)
     arena.wind(wind_s)
-    arena.step(WAIT_S, quiet=True)
+    arena.step(REST_S, quiet=True)
     stood, start, heading = arena.stands, arena.centre_of_mass_m, arena.heading_rad
     highest = float(start[2])
 
@@ -130,7 +131,8 @@ def _hop(arena: Arena, wind_s: float, rng: np.random.Generator) -> Hop:
     arena.release()
     if arena.fall(look):
         disturb(arena, rng)
-    arena.rest(look)
+    rested_s = arena.rest(look)
+    arena.step(max(LANDING_S + REST_S - rested_s, QUIET_STEP_S), quiet=True)
     way = float(np.linalg.norm((arena.centre_of_mass_m - start)[:2]))
     turned = (arena.heading_rad - heading + math.pi) % (2.0 * math.pi) - math.pi
     return Hop(stood, way, highest - float(start[2]), math.degrees(turned), float(arena.data.time) - begun)

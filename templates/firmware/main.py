@@ -1,7 +1,8 @@
 """Runs the robot: reads sensor, button, battery and serial commands, and turns the motor as `winder` returns.
 
-Commands over USB, one a line: `wind`, `jump`, `stop`, `state`. The button on the board winds, and then releases after
-a delay, in which you step back. While it winds a press stops the motor, and during the delay it takes the jump back.
+Commands over USB, one a line: `wind`, `jump`, `go 10`, `stop`, `state`. The button on the board winds, and then
+releases after a delay, in which you step back. While it winds a press stops the motor, and during the delay it takes
+the jump back; it also ends jumps in a row.
 """
 
 import select
@@ -10,12 +11,13 @@ import time
 
 import robot
 from machine import ADC, PWM, Pin
-from winder import READY, WINDING, Winder
+from winder import READY, WINDING, Row, Winder
 
 STEP_MS = 2
 LONGEST = 20  # characters of a line that are kept
+MOST = 9999  # jumps in a row
 SAMPLES = 8  # readings of the battery that are averaged: one alone scatters
-COMMANDS = ("wind", "jump", "stop", "state")
+COMMANDS = ("wind", "jump", "go", "stop", "state")
 
 
 class Board:
@@ -76,9 +78,18 @@ class Console:
         return ""
 
 
+def split(line):
+    """Return a command and the number behind it; 0 without one, and no command where it is none."""
+    word, _, number = line.partition(" ")
+    if word != "go":
+        return line, 0
+    return ("go", int(number)) if number.isdigit() and 0 < int(number) <= MOST else ("go?", 0)
+
+
 def run():
     """Run until interrupted; the motor is off afterwards in every case."""
     board, winder, button, console = Board(), Winder(robot), Button(), Console()
+    row = Row(winder)
     told, release_at = "", None
     now, last = 0, time.ticks_ms()
     try:
@@ -86,10 +97,19 @@ def run():
             ticks = time.ticks_ms()
             now += time.ticks_diff(ticks, last)
             last = ticks
-            word = console.command()
+            word, number = split(console.command())
             down = board.button is not None and not board.button.value()
             pressed = button.pressed(now, down)
-            if pressed and release_at is not None:
+            if number:
+                row.begin(number)
+                print("%d jumps in a row; stop or the button ends it" % number)
+            ended = row.left and (pressed or word in ("stop", "wind", "jump"))
+            if ended:
+                row.end()
+                pressed = pressed and winder.state == WINDING  # it ends the row, and nothing begins
+            if ended and winder.state == READY:
+                print("no jump; the springs stay loaded")
+            elif pressed and release_at is not None:
                 release_at = None
                 print("no jump; the springs stay loaded")
             elif pressed and winder.state == READY:
@@ -98,13 +118,14 @@ def run():
             due = release_at is not None and now >= release_at
             if winder.state != READY or due or word == "stop":
                 release_at = None
+            again, hop = row.commands(now)
             volts = board.battery_v()
             share = winder.step(
                 now,
                 board.ready.value() == robot.READY_LEVEL,
                 volts,
-                wind=word == "wind" or (pressed and winder.state != READY),
-                jump=word == "jump" or due,
+                wind=word == "wind" or again or (pressed and winder.state != READY),
+                jump=word == "jump" or hop or due,
                 stop=word == "stop" or (pressed and winder.state == WINDING),
             )
             board.turn(share)

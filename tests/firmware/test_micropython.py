@@ -238,7 +238,7 @@ def test_every_command_is_answered(monkeypatch: pytest.MonkeyPatch, capsys: pyte
     assert len(said) == 5
     assert "ready" not in said[0]
     assert [line.partition(":")[0] for line in said[:4]] == ["idle"] * 4
-    assert "wind, jump, stop, state" in said[4]
+    assert "wind, jump, go, stop, state" in said[4]
 
 
 def test_single_readings_of_the_battery_that_scatter_are_no_reason_to_refuse(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -255,3 +255,27 @@ def test_main_refuses_on_a_low_battery(monkeypatch: pytest.MonkeyPatch, capsys: 
     run_main(bench, monkeypatch)
     assert bench.turned_ms == 0.0
     assert "refused: battery low" in capsys.readouterr().out
+
+
+def test_go_jumps_in_a_row_and_the_button_ends_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    """Winding 1 s, 3 s to step back, one jump; the button ends the row while it rests, and winds nothing."""
+    bench = Bench({100: "go 5"})
+    bench.presses = (7000,)
+    run_main(bench, monkeypatch)
+    said = capsys.readouterr().out
+    assert "5 jumps in a row" in said
+    assert said.count("jump 1;") == 1
+    assert "jump 2" not in said
+    assert bench.duty[5] == 0
+
+
+@pytest.mark.parametrize("line", ["go", "go 0", "go ten", "go -1", "go 10000"])
+def test_go_without_a_number_does_nothing(
+    line: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    bench = Bench({100: line})
+    run_main(bench, monkeypatch)
+    assert "unknown command" in capsys.readouterr().out
+    assert bench.turned_ms == 0.0

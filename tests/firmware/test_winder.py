@@ -8,6 +8,7 @@ when pressed, so that a broken lead reads as pressed.
 import importlib.util
 import math
 import random
+from itertools import pairwise
 from types import ModuleType, SimpleNamespace
 
 import pytest
@@ -20,6 +21,7 @@ STEP_MS = 2
 NUMBERS = SimpleNamespace(
     PWM_CAP=0.9, BATTERY_MIN_V=3.5, BATTERY_EMPTY_V=3.3, BATTERY_SAG_V=0.05, LOW_MS=200, WIND_MIN_MS=900,
     WIND_MAX_MS=4000, RELEASE_MAX_MS=1000, AFTER_RELEASE_MS=60, SETTLE_MS=10, LANDING_MS=1500, RAMP_MS=100,
+    REST_MS=2000, BUTTON_DELAY_MS=3000,
 )  # fmt: skip
 
 
@@ -385,3 +387,48 @@ def test_a_spike_before_the_drop_does_not_end_the_release() -> None:
     world.wait(0.3)
     assert world.winder.state == WINDER.RELEASING
     assert world.power > 0.0
+
+
+def row_of(world: World, count: int) -> list[float]:
+    """Let a robot jump in a row until that ends; return when it jumped (s)."""
+    row, jumped_s, begun = WINDER.Row(world.winder), list[float](), world.now_ms
+    row.begin(count)
+    while row.left:
+        assert world.now_ms - begun < 100_000.0, world.winder.said
+        before = world.drops
+        wind, jump = row.commands(round(world.now_ms))
+        world.step(wind=wind, jump=jump)
+        jumped_s += [world.now_ms / 1000.0] * (world.drops - before)
+    return jumped_s
+
+
+@each("seed", range(5))
+def test_a_row_jumps_as_often_as_asked_and_rests_between(seed: int) -> None:
+    """3 s to step back; then landing 1.5 s, rest 2 s, winding 2.2 s at 0.9 of 180°/s, rest 2 s."""
+    world = World(180.0, 5, 4, seed)
+    at = row_of(world, 4)
+    assert (len(at), world.winder.jumps, world.winder.state) == (4, 4, WINDER.IDLE)
+    assert at[0] > 360.0 / 180.0 / 0.9 + 3.0
+    assert [later - sooner for sooner, later in pairwise(at)] == pytest.approx([7.8] * 3, abs=0.3)
+    world.wait(5.0)
+    assert (world.drops, world.power) == (4, 0.0)
+
+
+def test_a_row_ends_on_a_low_battery_and_on_a_blocked_motor() -> None:
+    low = World()
+    low.drain_v_s = 0.1
+    assert 0 < len(row_of(low, 9)) < 9
+    assert low.winder.state == WINDER.REFUSED
+    stuck = World()
+    stuck.stuck_at_deg = 2.5 * TURN
+    assert len(row_of(stuck, 9)) == 2
+    assert (stuck.winder.state, stuck.power) == (WINDER.FAULT, 0.0)
+
+
+def test_a_row_that_is_ended_lets_nothing_begin() -> None:
+    world = wound()
+    row = WINDER.Row(world.winder)
+    row.begin(3)
+    row.end()
+    assert row.commands(10**9) == (False, False)
+    assert world.winder.state == WINDER.READY

@@ -20,5 +20,6 @@ READY_DEG = 16.5  # cam angle before the drop at which the sensor is pressed; fo
 AFTER_RELEASE_MS = 60  # motor runs on after the sensor is free
 SETTLE_MS = 10  # a switch counts after this
 LANDING_MS = 1500  # ignored after a jump
+REST_MS = 2000  # between landing, winding and release of jumps in a row
 BUTTON_DELAY_MS = 3000  # to step back
 RAMP_MS = 100

@@ -78,6 +78,10 @@ class Winder:
             return self._begin(now_ms, settled, battery_v)
         return 0.0
 
+    def rests_ms(self, now_ms):
+        """Return how long the robot has been left alone, in this state and since its last landing."""
+        return now_ms - max(self._since_ms, self._landed_ms)
+
     def _begin(self, now_ms, settled, battery_v):
         """Start to wind from rest; springs that are loaded already can be released on a low battery too."""
         if settled:  # the springs are loaded already
@@ -142,3 +146,38 @@ class Winder:
     def _enter(self, state, now_ms, words):
         self.state, self.said, self._since_ms = state, words, now_ms
         return self._power(0) if state in (WINDING, RELEASING) else 0.0
+
+
+class Row:
+    """Jumps in a row: winds wherever the robot lies, waits until it rests, releases.
+
+    The row ends after its last jump, with `end`, and where the winder refuses or sees a fault: a low battery, a blocked
+    motor. `left` counts the jumps that are to come.
+    """
+
+    def __init__(self, winder):
+        self.winder = winder
+        self.left = 0
+        self._jumps = 0
+        self._wait_ms = 0
+
+    def begin(self, count):
+        """Begin a row of jumps; the first one waits as long as the button's, to step back."""
+        self.left, self._jumps = count, self.winder.jumps
+        self._wait_ms = self.winder.numbers.BUTTON_DELAY_MS
+
+    def end(self):
+        """End the row; what is wound stays wound."""
+        self.left = 0
+
+    def commands(self, now_ms):
+        """Return whether to wind and whether to jump now."""
+        winder, numbers = self.winder, self.winder.numbers
+        if self.left and winder.jumps > self._jumps:
+            self.left -= winder.jumps - self._jumps
+            self._jumps, self._wait_ms = winder.jumps, numbers.REST_MS
+        if not self.left or winder.state in (REFUSED, FAULT):
+            self.left = 0
+            return False, False
+        rested = winder.rests_ms(now_ms) >= (self._wait_ms if winder.state == READY else numbers.REST_MS)
+        return winder.state == IDLE and (rested or not winder.jumps), winder.state == READY and rested
