@@ -33,6 +33,22 @@ def test_candidates_and_bounds_are_those_of_the_run(tmp_path, top):
     assert [trial.key for trial in found.trials] == [trial.key for trial in result.trials]
 
 
+def test_a_search_that_goes_on_has_another_pick_and_the_first_one_stays(tmp_path):
+    space = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.72"])
+    held = []
+    with local_pool(0) as pool:
+        for evaluations in (40, 60):
+            request = Request(space, Bump(), method="ga", evaluations=evaluations, seed=3)
+            result = run_study(request, tmp_path / "s.db", pool)
+            with StudyStore.read(tmp_path / "s.db") as store:
+                found, picked = summary(store), [one for one in store.trials() if one.phase == "robust"]
+            assert [one.to_dict() for one in found.candidates] == [one.to_dict() for one in result.candidates]
+            held.append(picked)
+    assert {one.run for one in held[0]} == {0}
+    assert {one.run for one in held[1]} == {0, 1}
+    assert held[1][: len(held[0])] == held[0]
+
+
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
     """Return the study of a search whose winner lies on a bound."""

@@ -39,12 +39,19 @@ def test_who_proposes_by_a_surrogate_learns() -> None:
     assert set(LEARNING_PHASES) == {"bo", "pareto"}
 
 
-def test_trials_stand_in_the_order_of_phases_steps_and_places(trial: Trial) -> None:
-    order = [("ga", 0, 1), ("ga", 1, 0), ("bo", 0, 0), ("margin", 0, 0), ("robust", 0, 0)]
-    trials = [replace(trial, phase=phase, step=step, place=place) for phase, step, place in order]
+def test_trials_stand_in_the_order_of_phases_runs_steps_and_places(trial: Trial) -> None:
+    order = [
+        ("ga", 0, 0, 1),
+        ("ga", 0, 1, 0),
+        ("ga", 1, 0, 2),
+        ("bo", 0, 0, 0),
+        ("margin", 0, 0, 0),
+        ("robust", 0, 0, 0),
+    ]
+    trials = [replace(trial, phase=phase, run=run, step=step, place=place) for phase, run, step, place in order]
     backwards = trials[::-1]
     assert in_order(backwards) == trials
-    assert searched(trials) == trials[:3]
+    assert searched(trials) == trials[:4]
 
 
 def test_every_reason_of_a_rejection_is_counted_most_frequent_first(trial: Trial) -> None:
