@@ -26,8 +26,9 @@ from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
+from jumpcad.landing.landing import land
+from jumpcad.landing.stable_poses import share_on_feet
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
 from jumpcad.search.models import PrintedModel
@@ -40,6 +41,7 @@ from jumpcad.workshop import load_workshop
 
 HERE = Path(__file__).parent
 ROBOTS = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+LANDINGS = 20
 SHOWN = ("kenan-1.0", "kenan-2.0", "best-printable")
 """The templates of the README."""
 STRONG = ("best-ga", "best-bo", "best-printable")
@@ -229,7 +231,7 @@ def of_loads() -> dict[str, str]:
     strong = [built(name)[0] for name in STRONG]
     seats = [_seat_mpa(LoadCase(robot)) for robot in strong]
     cams = [1000.0 * robot.layout.drive.cam.law.peak_torque_nm for robot in strong]
-    first, second, third = (f"{_turn_deg(built(name)[0]):.0f}°" for name in SHOWN)
+    first, second, third = (f"{built(name)[1].turn_deg:.0f}°" for name in SHOWN)
     return {
         "plate seats": f"{min(seats):.1f} to {max(seats):.1f}",
         "turns": f"the prototypes turn forwards by {first} and {second}, `best-printable` by {third}",
@@ -245,15 +247,22 @@ def _seat_mpa(case: LoadCase) -> float:
     return max(loads) / case.layout.axle_mm
 
 
-def _turn_deg(robot: Robot) -> float:
-    """Return by how much the body turns forwards from take-off to touchdown."""
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True))
-    path = jump.trajectory
-    assert path is not None
-    assert jump.takeoff_time_s is not None
-    _, about_y, _, cosine = path.quaternion_xyzw[:, path.body_names.index(BODY)].T
-    turn = np.degrees(np.unwrap(2.0 * np.arctan2(about_y, cosine)))
-    return float(turn[-1] - np.interp(jump.takeoff_time_s, path.time_s, turn))
+def of_landings() -> dict[str, str]:
+    """Return the table of flights and landings of all templates."""
+    rows = []
+    for name in ROBOTS:
+        robot, jump, _ = built(name)
+        landings = land(robot, LANDINGS)
+        rests = sorted(one.rest_m for one in landings.tries)
+        side, often = next(iter(landings.rests_on.items()))
+        rows.append(
+            (f"`{name}`", f"{jump.turn_deg:.0f}°", f"{jump.touchdown_pitch_deg:.0f}°", f"{jump.clears_bar_mm:.0f} mm",
+             f"{jump.lands_on_mm:.0f} mm", f"{rests[0]:.2f} to {rests[-1]:.2f} m", f"{side} ({often} of {LANDINGS})",
+             f"{landings.share_righted * LANDINGS:.0f} of {LANDINGS}", percent([share_on_feet(robot)]))
+        )  # fmt: skip
+    head = ("design", "turn", "pitch at touchdown", "bar", "step", "rests after", "mostly on",
+            "stands when wound again", "stable poses on the feet")  # fmt: skip
+    return {"landings": table(head, rows)}
 
 
 def of_assumptions() -> dict[str, str]:

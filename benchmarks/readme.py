@@ -50,6 +50,7 @@ CHEAP: dict[Maker, float] = {
 COSTLY: dict[str, tuple[Maker, float]] = {
     "search": (figures.of_search, figures.SEARCH_SLACK),
     "masses": (figures.of_masses, 0.0),
+    "landings": (figures.of_landings, 0.0),
     "speed": (figures.of_speed, SPEED_SLACK),
     "calibration": (calibrated.of_calibration, calibrated.SAMPLER_SLACK),
     "effects": (calibrated.of_effects, 0.0),
