@@ -1,12 +1,11 @@
 """`jumpcad calibrate`: calibrates springs, pins, release and drive on measured jumps."""
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
 from jumpcad.cli.searching import PlotsOption, require_pictures
 
 if TYPE_CHECKING:
@@ -65,7 +64,7 @@ def calibrate(
     if as_json:
         print_json(document)
     else:
-        print("\n".join(map(escaped, _lines(document))))
+        print_text("calibrate", **document, units=UNITS)
 
 
 def _document(posterior: "CalibrationPosterior", seed: int) -> dict[str, Any]:
@@ -96,54 +95,3 @@ def _pictures(posterior: "CalibrationPosterior", folder: Path) -> list[str]:
 
     drawn = {"parameters": plots.parameters(posterior), "measurements": plots.measurements(posterior)}
     return [str(save_figure(figure, folder, name)) for name, figure in drawn.items()]
-
-
-def _lines(document: dict[str, Any]) -> list[str]:
-    """Return the result as lines of text."""
-    lines = [f"{'parameter':<44}{'prior 10…50…90 %':<24}{'posterior':<24}from the data"]
-    for one in document["parameters"]:
-        lines.append(f"{one['label']:<44}{_three(one['prior']):<24}{_three(one['posterior']):<24}{one['verdict']}")
-    for name, energy in document["energy_per_mass"].items():
-        lines.append(f"{name + ': spring energy over mass / model':<68}{_three(energy)}")
-    for first, second, correlation in document["together"]:
-        lines.append(f"correlated, not determined alone: {first} and {second} ({correlation:+.2f})")
-    for row in document["residuals"]:
-        factor, unit = UNITS[row["what"]]
-        predicted = _three([factor * value for value in row["predicted"]])
-        read = (
-            "" if row["of"] == row["as"] else f", likeliest as {row['as']} ({100 * row['readings'][row['as']]:.0f} %)"
-        )
-        lines.append(
-            f"{row['robot']}: {row['what']} {factor * row['measured']:.3g} {unit}, calibrated model {predicted}{read}, "
-            f"off by {row['off_by_deviations']:+.1f} standard deviations"
-        )
-    for name, found in document["predictions"].items():
-        lines.append(f"{name}, predicted: range {_mm(found['ballistic_range_m'])}, rise {_mm(found['com_rise_m'])}")
-        for row in found["beside"]:
-            factor, unit = UNITS[row["what"]]
-            predicted = _three([factor * value for value in row["predicted"]])
-            below = math.floor(100 * row["below_share"] + 1e-9)
-            lines.append(
-                f"  {row['what']} as {row['as']}: {predicted} {unit} predicted with its errors, measured "
-                f"{factor * row['measured']:.3g}, above {below} % of the predictions"
-            )
-    errors = [error["largest"] for error in document["model_error"].values()]
-    sampler = document["sampler"]
-    lines.append(
-        f"{sampler['effective']:.0f} independent draws; ranges of interpolated jumps are within "
-        f"{100 * max(errors):.1f} % of the engine's"
-    )
-    if not sampler["converged"]:
-        lines.append("the chains have not converged: quantiles are inaccurate; give more measurements")
-    if "settings" in document:
-        lines += [f"not in the settings file: {line}" for line in document["elsewhere"]]
-        lines.append(f"{document['settings']}: jumpcad simulate DESIGN --uncertain --settings {document['settings']}")
-    return lines
-
-
-def _three(values: list[float]) -> str:
-    return "…".join(f"{value:.3g}" for value in values)
-
-
-def _mm(values: list[float]) -> str:
-    return f"{_three([1000.0 * value for value in values])} mm"

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, print_text, shell_quoted, status
 from jumpcad.cli.progress import watching
-from jumpcad.cli.search_result import print_result
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_search_options
+from jumpcad.plural import counted
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
@@ -139,7 +139,12 @@ def optimize(
         data["violated"] = [finding.to_dict() for finding in violated]
         print_json(data | result.to_dict())
     else:
-        print_result(result, design_file, violated, options.workshop)
+        of_winner = result.winner is not None and result.winner.workshop
+        used = str(workshop_file(design_file)) if of_winner else options.workshop
+        made = shell_quoted(str(design_file)) + (f" --workshop {shell_quoted(used)}" if used else "")
+        print_text(
+            "optimize", result=result, design_file=str(design_file), violated=violated, made=made, counted=counted
+        )
     if result.winner is None:
         raise typer.Exit(1)
 

@@ -174,6 +174,14 @@ def _log(texts: Sequence[str], done: Event) -> None:
             print(f"jumpcad: {escaped(texts[-1])}", file=sys.stderr, flush=True)
 
 
+def print_text(name: str, **values: Any) -> None:
+    """Print a template of `templates/texts` with values in it; each stays on its line."""
+    from jumpcad.files.rendering import environment
+
+    texts = environment().overlay(finalize=lambda value: escaped(value) if isinstance(value, str) else value)
+    print(texts.get_template(f"texts/{name}.txt.j2").render(values), end="")
+
+
 def print_json(data: Any) -> None:
     """Print one JSON document; NaN and infinities become null."""
     print(json.dumps(_plain(data), indent=2, allow_nan=False))

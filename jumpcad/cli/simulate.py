@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, print_text, status
 from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, reject_workshop, robot_from_file
 from jumpcad.errors import JumpcadError
+from jumpcad.plural import counted
 from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
 
 if TYPE_CHECKING:
@@ -187,9 +188,11 @@ def _settings(name: str, flight: bool, trajectory: bool) -> "Settings":
 
 
 def _uncertain(robot: "Robot", settings: str, engine: str, seed: int) -> dict[str, Any]:
-    from jumpcad.cli.uncertain import uncertain
+    """Return quantiles of a jump and its sensitivity to each uncertain input, as plain data."""
+    from jumpcad.simulation import uncertain_jump
 
-    return uncertain(robot, _settings(settings, False, False), engine, seed)
+    with status("simulating samples of the uncertain inputs …"):
+        return uncertain_jump(robot, _settings(settings, False, False), engine, seed).to_dict()
 
 
 def _jumps(robot: "Mechanism", settings: "Settings", engines: list[str]) -> "list[Jump]":
@@ -199,8 +202,6 @@ def _jumps(robot: "Mechanism", settings: "Settings", engines: list[str]) -> "lis
 
 
 def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread: dict[str, Any] | None) -> None:
-    from jumpcad.cli.uncertain import uncertain_lines
-
     if as_json:
         results = [jump.to_dict() for jump in jumps]
         if len(jumps) == 1:
@@ -210,30 +211,13 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread:
             print_json({**heading, "engines": engines, "range_difference_percent": _difference_percent(jumps)})
         return
     from jumpcad.simulation.jump import ACCOUNT
+    from jumpcad.simulation.uncertain import FIGURES
 
-    print(escaped(f"{heading['design']}, {heading['model']} robot, settings {heading['settings']}"))
-    for jump in jumps:
-        print(f"{jump.engine}: {jump.verdict}")
-        for finding in jump.findings:
-            if finding.severity == "error":
-                print(f"  {finding.message}; {finding.remedy}")
-        for label, name, form in LINES:
-            value = getattr(jump, name)
-            if value is not None:
-                print(f"  {label:<36}{form.format(value)}")
-        if jump.energy_account_j:
-            print("  where the spring energy is at take-off (J):")
-            for name, value in jump.energy_account_j.items():
-                print(f"    {ACCOUNT[name]:<46}{value:.4f}")
-        if jump.published:
-            for name, quantity in asdict(jump.published).items():
-                shown = "none" if quantity is None else f"{quantity:.4f} m"
-                print(f"  {'published ' + name.removesuffix('_m').replace('_', ' '):<36}{shown}")
-    if spread:
-        print("\n".join(uncertain_lines(spread)))
     difference = _difference_percent(jumps)
-    if difference is not None:
-        print(f"range of {jumps[1].engine}: {difference:+.3f} % from that of {jumps[0].engine}")
+    print_text(
+        "simulate", **heading, jumps=jumps, lines=LINES, account=ACCOUNT, spread=spread, figures=FIGURES,
+        difference=difference, counted=counted,
+    )  # fmt: skip
 
 
 def _difference_percent(jumps: "list[Jump]") -> float | None:

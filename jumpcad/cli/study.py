@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 from jumpcad.cli.searching import PlotsOption, require_plots
 from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
@@ -64,7 +64,12 @@ def study(
     if as_json:
         print_json(summaries[0] if len(files) == 1 else {"studies": summaries})
     elif len(files) == 1:
-        _print_one(summaries[0])
+        from jumpcad.search.phases import METHODS
+
+        (summary,) = summaries
+        method = summary["identity"]["method"]
+        done = _done(summary["evaluations"], summary["planned"])
+        print_text("study", **summary, done=done, shares=method in METHODS and METHODS[method].shares)
     else:
         _print_comparison(summaries)
 
@@ -117,46 +122,6 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
         "quarantined": [trial.to_dict() for trial in trials if trial.evaluation.verdict == "quarantined"],
         "notes": store.notes(),
     }
-
-
-def _print_one(summary: dict[str, Any]) -> None:
-    identity = summary["identity"]
-    about = f"{identity['method']} on the {identity['model']['name']} robot, {identity['objective']}"
-    about += f" against {identity['against']}" if "against" in identity else ""
-    print(f"{escaped(summary['study'])}: {about}")
-    around = f", and {summary['other_evaluations']} around the best" if summary["planned"] else ""
-    print(f"{_done(summary['evaluations'], summary['planned'])}{around}")
-    if summary["ended"] is not None:
-        print(f"  ended: {_end_in_words(summary['ended'], identity)}")
-    for name, count in summary["refused"].items():
-        print(f"  rejected {count:6d}  {name}")
-    for note in summary["notes"]:
-        print(f"  note: {note}")
-    for number, trial in enumerate(summary["top"], start=1):
-        values = "  ".join(f"{value:.5g}" for value in trial["design"].values())
-        values += "".join(
-            f"  {key}={value if isinstance(value, str) else f'{value:.5g}'}"
-            for key, value in trial.get("workshop", {}).items()
-        )
-        print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}  (trial {trial['trial']})")
-
-
-def _end_in_words(ended: dict[str, Any], identity: dict[str, Any]) -> str:
-    """Return what ended a search, and how it goes on."""
-    from jumpcad.search.phases import METHODS
-
-    method = identity["method"]
-    shares = method in METHODS and METHODS[method].shares
-    more = f"{method} with more is another study" if shares else "more --evaluations go on"
-    words = {
-        "evaluations": f"all evaluations that it was to take are spent; {more}",
-        "until": f"its last steps gained less than {ended.get('until_percent', 0.0):g} % of the best score (--until); "
-        "--until 0 goes on",
-        "hours": f"its time is over (--hours {ended.get('hours', 0.0):g}); the same command goes on",
-        "space": "it has all designs of the space",
-        "proposals": f"{method} proposed no other designs that are new",
-    }
-    return words[ended["by"]]
 
 
 def _done(designs: int, planned: int) -> str:

@@ -21,7 +21,7 @@ from jumpcad.exporters.xml import allowed
 from jumpcad.files.rendering import render
 from jumpcad.parts.pads import PrintedPad, printed_pads
 from jumpcad.printing.plates import PlacedCopy, Printable, PrintPlate, packed
-from jumpcad.printing.project import PADS_HOW, pad_settings, project_settings, settings_in_words, temperatures_in_words
+from jumpcad.printing.project import pad_settings, project_settings
 from jumpcad.robot import Robot, carried
 from jumpcad.scene.camera import View
 from jumpcad.scene.renderer import Renderer
@@ -165,14 +165,15 @@ def _in_words(plates: Iterable[PrintPlate], workshop: Workshop, kinds: Mapping[s
     told = [
         {
             "name": plate.name,
-            "material": kinds[plate.material].description if plate.kind == PADS else plate.material,
-            "how": PADS_HOW if plate.kind == PADS else temperatures_in_words(workshop.materials[plate.material]),
+            "material": plate.material,
+            "pad": kinds[plate.material] if plate.kind == PADS else None,
+            "heats": workshop.materials.get(plate.material),
             "copies": Counter(placed.part.name for placed in plate.items),
         }
         for plate in plates
     ]
-    settings = settings_in_words(workshop.printer, workshop.process)
-    return render("print/README.md.j2", {"settings": settings, "bed_mm": workshop.printer.bed_mm, "plates": told})
+    values = {"printer": workshop.printer, "process": workshop.process, "plates": told}
+    return render("print/README.md.j2", values)
 
 
 def _lines(line: str, rows: npt.NDArray[np.generic]) -> str:

@@ -1,7 +1,7 @@
 """A robot read back from its URDF file and the JSON file beside it: what is simulated is then what was written.
 
-Such files may come from unknown sources. Both are checked strictly, as far as simulation needs them: whatever `jumpcad
-build` does not write or no mechanism can have is rejected; nothing is guessed or corrected.
+Such files may come from unknown sources. Both are checked as far as simulation needs them: what `jumpcad build` does
+not write or no mechanism can have is rejected; nothing is guessed or corrected.
 """
 
 import math
@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import read_bytes, read_json
-from jumpcad.files.complaints import did_you_mean, shown
+from jumpcad.files.complaints import shown
 from jumpcad.files.names import LONGEST_TEXT, control_character
 from jumpcad.mechanism.model import (
     BODY_NAMES,
@@ -36,8 +36,6 @@ from jumpcad.simulation.loop_file import JointName, LoopFile
 from jumpcad.transforms import Array
 
 JOINTS: tuple[JointName, ...] = ("leg", "front", "ankle")
-NUMBERS = {"xyz": 3, "rpy": 3, "scale": 3, "rgba": 4, "damping": 1, "friction": 1}
-"""Attributes that hold numbers wherever they stand, also where no simulation needs them."""
 LARGEST_M = 10.0
 """How far anything of a robot may be from the origin of its frame."""
 MASS_KG = 1e-6, 1e3
@@ -48,8 +46,8 @@ TRIANGLE_SHARE = 1e-6
 """Share by which rounding may bring the largest principal moment above the sum of the others."""
 LARGEST_EFFORT = 1e6
 """Limit of a joint's torque (N·m) and speed (rad/s)."""
-SAME_M, SAME_RAD = 1e-6, 1e-6
-"""By how much the mechanism of the URDF may differ from its design's."""
+SAME = 1e-6
+"""By how much the mechanism of the URDF may differ from its design's (m, rad)."""
 
 
 def robot_from_urdf(path: Path) -> Mechanism:
@@ -62,12 +60,11 @@ def robot_from_urdf(path: Path) -> Mechanism:
         mechanism can have.
     """
     beside = path.with_suffix(".loop.json")
-    for file in (path, beside):
-        if not file.exists():
-            raise JumpcadError(f"{file}: no such file; jumpcad build writes the URDF and its loop together")
     content, data = read_bytes(path, "a URDF file"), read_json(beside)
     with _named_file(beside):
-        extra = LoopFile.of(data)
+        if not isinstance(data, dict):
+            raise JumpcadError("is not a table of values")
+        extra = LoopFile(**data)
         design = Design(**extra.design)
     with _named_file(path):
         root = _parsed(content)
@@ -113,28 +110,16 @@ def _parsed(content: bytes) -> ET.Element:
         root: ET.Element = parser.close()
     except (ET.ParseError, ValueError, LookupError) as error:  # the latter two: encodings that are not known
         raise JumpcadError(f"broken XML: {error}") from None
-    if root.tag != "robot":
-        raise JumpcadError(f"its root is {shown(root.tag)}, not 'robot'")
-    for node in root.iter():
-        for key, count in NUMBERS.items():
-            if key in node.attrib:
-                _numbers(node, key, count)
     return root
 
 
 def _named(root: ET.Element, tag: str, names: Sequence[str]) -> dict[str, ET.Element]:
     """Return the elements of a kind by name, which must be exactly those of `names`, each once."""
-    found: dict[str, ET.Element] = {}
-    for node in root.findall(tag):
-        name = _text(node, "name")
-        if name not in names:
-            raise JumpcadError(f"{tag} {shown(name)} is none of {', '.join(names)}{did_you_mean(name, names)}")
-        if name in found:
-            raise JumpcadError(f"{tag} {name} appears twice")
-        found[name] = node
-    if missing := [name for name in names if name not in found]:
-        raise JumpcadError(f"{tag} {missing[0]} is missing")
-    return found
+    found = [(_text(node, "name"), node) for node in root.findall(tag)]
+    if sorted(name for name, _ in found) != sorted(names):
+        have = ", ".join(shown(name) for name, _ in found[: len(names) + 1]) or "none"
+        raise JumpcadError(f"its {tag}s must be {', '.join(names)}, each once, not {have}")
+    return dict(found)
 
 
 def _body(link: ET.Element, surfaces: dict[str, Any]) -> Body:
@@ -162,18 +147,13 @@ def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:
     Algorithms, section 2.8): a flat body reaches that sum.
     """
     low, middle, high = np.linalg.eigvalsh(tensor).tolist()
-    if not low > 0.0:
-        raise JumpcadError(f"{name}: inertia has the principal moment {low:g} kg·m²: must be more than 0")
-    if high > (low + middle) * (1.0 + TRIANGLE_SHARE):
+    gyration_m = math.sqrt(max(low + middle + high, 0.0) / 2.0 / mass_kg)
+    triangle = low > 0.0 and high <= (low + middle) * (1.0 + TRIANGLE_SHARE)
+    if not (triangle and GYRATION_M[0] <= gyration_m <= GYRATION_M[1]):
         raise JumpcadError(
-            f"{name}: inertia has the principal moments {low:g}, {middle:g} and {high:g} kg·m²: "
-            f"none can be more than the other two together"
-        )
-    gyration_m = math.sqrt((low + middle + high) / 2.0 / mass_kg)
-    if not GYRATION_M[0] <= gyration_m <= GYRATION_M[1]:
-        raise JumpcadError(
-            f"{name}: inertia and mass give a radius of gyration of {gyration_m:g} m: "
-            f"must be {GYRATION_M[0]:g}…{GYRATION_M[1]:g}"
+            f"{name}: inertia has the principal moments {low:g}, {middle:g} and {high:g} kg·m² and a radius of "
+            f"gyration of {gyration_m:g} m: moments must be more than 0, none more than the other two together, the "
+            f"radius {GYRATION_M[0]:g}…{GYRATION_M[1]:g}"
         )
 
 
@@ -190,15 +170,11 @@ def _contact(item: ET.Element, body: str, surfaces: dict[str, Any]) -> ContactSp
 def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> Joint:
     name = _text(node, "name")
     place = f"joint {name}"
-    if node.get("type") != "revolute" or not np.array_equal(_numbers(_child(node, "axis", place), "xyz", 3), (0, 1, 0)):
-        raise JumpcadError(f"{place}: must be revolute about the axis 0 1 0")
+    axis = _numbers(_child(node, "axis", place), "xyz", 3)
     origin_m, (roll, pitch, yaw) = _origin(node, place)
-    if roll or yaw:
-        raise JumpcadError(f"{place}: is turned out of the plane of the mechanism: rpy must be 0 ANGLE 0")
+    if node.get("type") != "revolute" or not np.array_equal(axis, (0, 1, 0)) or roll or yaw:
+        raise JumpcadError(f"{place}: must be revolute about the axis 0 1 0, and its rpy 0 ANGLE 0")
     limit = _child(node, "limit", place)
-    lower, upper = (_number(limit, key, place, -20.0, 20.0) for key in ("lower", "upper"))
-    if not lower < upper:
-        raise JumpcadError(f"{place}: lower = {lower:g} must be less than upper = {upper:g}")
     return Joint(
         name=name,
         parent=_text(_child(node, "parent", place), "link"),
@@ -217,20 +193,21 @@ def _require_mechanism(mechanism: Mechanism) -> None:
     joints, loop, _ = five_bar(mechanism.linkage, (-mechanism.design.compression_rad, 0.0))
     for joint in joints:
         read = mechanism.joint(joint.name)
-        if (read.parent, read.child) != (joint.parent, joint.child):
-            raise JumpcadError(f"joint {joint.name}: must lead from {joint.parent} to {joint.child}")
-        moved_m = float(np.abs(read.origin_m - joint.origin_m).max())
-        turned_rad = abs(read.rest_angle_rad - joint.rest_angle_rad)
-        if moved_m > SAME_M or turned_rad > SAME_RAD:
-            raise JumpcadError(f"joint {joint.name}: its origin is not that of the design in the loop file")
-    off, wind_rad = mechanism.roller_off, mechanism.spring.wind_rad
-    if off and off.leg_rad < -wind_rad:
-        raise JumpcadError(f"roller_off.leg_rad = {off.leg_rad:g}: begins before the springs' {-wind_rad:g}")
-    if (mechanism.loop.body_a, mechanism.loop.body_b) != (loop.body_a, loop.body_b):
-        raise JumpcadError(f"the loop must join {loop.body_a} and {loop.body_b}")
-    for read_m, point_m in ((mechanism.loop.point_a_m, loop.point_a_m), (mechanism.loop.point_b_m, loop.point_b_m)):
-        if float(np.abs(read_m - point_m).max()) > SAME_M:
-            raise JumpcadError("the points of the loop are not those of the design in the loop file")
+        off = max(np.abs(read.origin_m - joint.origin_m).max(), abs(read.rest_angle_rad - joint.rest_angle_rad))
+        if (read.parent, read.child) != (joint.parent, joint.child) or off > SAME:
+            raise JumpcadError(
+                f"joint {joint.name}: its origin is not that of the design in the loop file, from {joint.parent} to "
+                f"{joint.child}"
+            )
+    released, wind_rad = mechanism.roller_off, mechanism.spring.wind_rad
+    if released and released.leg_rad < -wind_rad:
+        raise JumpcadError(f"roller_off.leg_rad = {released.leg_rad:g}: begins before the springs' {-wind_rad:g}")
+    found = mechanism.loop
+    off = max(np.abs(found.point_a_m - loop.point_a_m).max(), np.abs(found.point_b_m - loop.point_b_m).max())
+    if (found.body_a, found.body_b) != (loop.body_a, loop.body_b) or off > SAME:
+        raise JumpcadError(
+            f"the points of the loop are not those of the design in the loop file, on {loop.body_a} and {loop.body_b}"
+        )
 
 
 def _child(node: ET.Element, tag: str, place: str) -> ET.Element:
@@ -242,11 +219,9 @@ def _child(node: ET.Element, tag: str, place: str) -> ET.Element:
 
 
 def _text(node: ET.Element, key: str) -> str:
-    text = node.get(key)
-    if not text:
-        raise JumpcadError(f"{node.tag}: has no {key}")
-    if len(text) > LONGEST_TEXT or control_character(text):
-        raise JumpcadError(f"{node.tag}: {key} = {shown(text)}: is too long, or holds a control character")
+    text = node.get(key, "")
+    if not text or len(text) > LONGEST_TEXT or control_character(text):
+        raise JumpcadError(f"{node.tag}: {key} = {shown(text)}: is missing, too long, or holds a control character")
     return text
 
 

@@ -4,7 +4,6 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable
 
 Length = Annotated[float, Field(ge=-10, le=10)]
@@ -83,16 +82,3 @@ class LoopFile(Record):
     friction: FrictionSection | None = None
     foot_depth_m: Annotated[float, Field(ge=1e-5, le=1)]
     surfaces: dict[str, Literal["foot", "body"]]
-
-    @classmethod
-    def of(cls, data: Any) -> "LoopFile":
-        """Return the content of a file.
-
-        Raises
-        ------
-        JumpcadError
-            Naming what is missing, unknown, or out of range.
-        """
-        if not isinstance(data, dict):
-            raise JumpcadError("is not a table of values")
-        return cls(**data)

@@ -2,22 +2,22 @@
 
 import pytest
 
-from jumpcad.printing.project import pad_settings, project_settings, temperatures_in_words
+from jumpcad.exporters.threemf import plate_files
+from jumpcad.printing.project import pad_settings, project_settings
+from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
 
-@pytest.mark.parametrize(
-    ("nozzle_c", "bed_c", "words"),
-    [
-        (240.0, 85.0, "nozzle 240 °C, bed 85 °C"),
-        (None, 60.0, "bed 60 °C"),
-        (215.0, None, "nozzle 215 °C"),
-        (215.0, 0.0, "nozzle 215 °C, bed 0 °C"),
-    ],
-)
-def test_temperatures_that_are_known_are_said(nozzle_c: float | None, bed_c: float | None, words: str) -> None:
-    material = load_workshop().material("links").model_copy(update={"nozzle_c": nozzle_c, "bed_c": bed_c})
-    assert temperatures_in_words(material) == words
+def test_temperatures_that_are_known_are_said(small_robot: Robot) -> None:
+    workshop, links = small_robot.workshop, small_robot.workshop.material_name("links")
+    for nozzle_c, bed_c, words in (
+        (240.0, 85.0, "nozzle 240 °C, bed 85 °C"), (None, 60.0, "bed 60 °C"), (215.0, None, "nozzle 215 °C"),
+        (215.0, 0.0, "nozzle 215 °C, bed 0 °C"), (None, None, "no temperatures in the workshop: enter your filament's"),
+    ):  # fmt: skip
+        material = workshop.materials[links].model_copy(update={"nozzle_c": nozzle_c, "bed_c": bed_c})
+        own = workshop.model_copy(update={"materials": dict.fromkeys(workshop.materials, material)})
+        readme = dict(plate_files(small_robot.parts[:1], own))["print/README.md"]
+        assert f": {words}\n" in str(readme)
 
 
 @pytest.mark.parametrize("name", ["PETG", "PLA"])

@@ -64,10 +64,10 @@ def element(tag: str, **attributes: str) -> str:
         (element("mass", value="light"), "mass: value = 'light': must be 1 finite number"),
         (element("mass", value="0.1 light"), "must be 1 finite number"),
         (element("mass", value="1_0"), "must be 1 finite number"),
-        (element("inertia", ixx="0"), "principal moment 0 kg·m²: must be more than 0"),
-        (element("inertia", izz="-1e-5"), "principal moment -1e-05 kg·m²: must be more than 0"),
-        (element("inertia", iyy="1e-9"), "none can be more than the other two together"),
-        (element("inertia", ixx="1e6", iyy="1e6", izz="1e6"), r"a radius of gyration of \d+\.?\d* m: must be 1e-05…10"),
+        (element("inertia", ixx="0"), "principal moments 0, .* must be more than 0"),
+        (element("inertia", izz="-1e-5"), "principal moments -1e-05, .* must be more than 0"),
+        (element("inertia", iyy="1e-9"), "none more than the other two together"),
+        (element("inertia", ixx="1e6", iyy="1e6", izz="1e6"), r"a radius of gyration of \d+\.?\d* m: .* 1e-05…10"),
         (element("inertia", ixx="1.1e9"), r"ixx = 1.1e\+09: must be -1e\+09…1e\+09"),
         (element("inertia", ixy="inf"), "ixy = 'inf': must be 1 finite number"),
         (element("origin", xyz="0 0"), "xyz = '0 0': must be 3 finite numbers"),
@@ -78,31 +78,26 @@ def element(tag: str, **attributes: str) -> str:
         (element("origin", xyz="0 0 -10.1"), "its origin is further than 10 m away"),
         (element("origin", rpy="0 6.3 0"), "or turned by more than 2π"),
         (element("axis", xyz="1 0 0"), "joint leg: must be revolute about the axis 0 1 0"),
-        (element("limit", lower="3"), "lower = 3 must be less than upper"),
-        (element("limit", lower="-20.1"), "lower = -20.1: must be -20…20"),
-        (element("limit", upper="20.1"), "upper = 20.1: must be"),
-        (element("limit", lower="2", upper="2"), "lower = 2 must be less than upper = 2"),
         (element("limit", effort="-1"), r"joint leg: effort = -1: must be 0…1e\+06"),
         (element("limit", effort="1.1e6"), r"joint leg: effort = 1.1e\+06: must be"),
         (element("limit", velocity="0"), r"joint leg: velocity = 0: must be 1e-06…1e\+06"),
-        (element("dynamics", damping="NaN"), "damping = 'NaN': must be 1 finite number"),
-        (element("parent", link="foot"), "joint leg: must lead from body to main_leg"),
-        (element("parent", link="x" * 1001), r"parent: link = 'x{56}[.]{3}: is too long"),
-        (re.sub(LEG_TURN, r'\g<1>rpy="0.1 0 0"', URDF, count=1), "leg: is turned out of the plane"),
-        (re.sub(LEG_TURN, r'\g<1>rpy="0 0 0.1"', URDF, count=1), "leg: is turned out of the plane"),
-        (URDF.replace('link name="foot"', 'link name="fot"'), r"link 'fot' is none of .*did you mean foot\?"),
-        (URDF.replace('link name="foot"', 'link name="body"'), "link body appears twice"),
-        (re.sub(r'<joint name="ankle".*?</joint>', "", URDF, flags=re.DOTALL), "joint ankle is missing"),
+        (element("parent", link="foot"), "joint leg: its origin is not that .* from body to main_leg"),
+        (element("parent", link="x" * 1001), r"parent: link = 'x{56}[.]{3}': is missing, too long"),
+        (re.sub(LEG_TURN, r'\g<1>rpy="0.1 0 0"', URDF, count=1), "joint leg: must be revolute .* rpy 0 ANGLE 0"),
+        (re.sub(LEG_TURN, r'\g<1>rpy="0 0 0.1"', URDF, count=1), "joint leg: must be revolute .* rpy 0 ANGLE 0"),
+        (URDF.replace('link name="foot"', 'link name="fot"'), "its links must be .*, each once, not .*'fot'"),
+        (URDF.replace('link name="foot"', 'link name="body"'), "its links must be .*, each once, not .*"),
+        (re.sub(r'<joint name="ankle".*?</joint>', "", URDF, flags=re.DOTALL), "its joints must be leg, front, "),
         (re.sub(r"<inertial>.*?</inertial>", "", URDF, count=1, flags=re.DOTALL), "body: has no inertial, needs one"),
         (re.sub(r'<joint name="leg" type="revolute">\s*<origin xyz="-0\.0', r"\g<0>1", URDF), "origin is not that"),
         (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r [<!ENTITY a0 "ha">{LAUGHS}]>').replace("kenan", "&a9;"), "type decl"),
         (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r [<!ENTITY e SYSTEM "file:///etc/passwd">]>'), "type decl"),
         (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r SYSTEM "http://localhost/r.dtd">'), "type decl"),
-        (f"{HEAD}<robot name='x'>{'<link>' * 70_000}{'</link>' * 70_000}</robot>", "link: has no name"),
+        (f"{HEAD}<robot name='x'>{'<link>' * 70_000}{'</link>' * 70_000}</robot>", "link: name = '': is missing"),
         (URDF.replace("utf-8", "no-such-code"), "broken XML"),
         (URDF + " " * (1 << 20), "is larger than 1 MiB"),
         ("", "broken XML"),
-        ("<a/>", "its root is 'a', not 'robot'"),
+        ("<a/>", "its links must be body, .* not none"),
     ],
 )  # fmt: skip
 def test_what_no_mechanism_has_is_refused(read: Callable[..., Robot], urdf: str, reason: str) -> None:
@@ -133,7 +128,7 @@ def changed(value: Any, *path: str | int) -> str:
         (changed(0.0, "foot_depth_m"), "foot_depth_m = 0.0: must be at least 1e-05"),
         (changed([0.1, 0.0], "loop", "point_a_m"), "loop.point_a_m.2: missing"),
         (changed([0.2, 0.0, 0.0], "loop", "point_a_m"), "points of the loop are not those of the design"),
-        (changed("body", "loop", "body_a"), "the loop must join front_link and foot"),
+        (changed("body", "loop", "body_a"), "points of the loop are not those .* on front_link and foot"),
         (changed(1e9, "design", "carrying_link_mm"), "must be at most 400"),
         (changed(3, "design"), r"design = 3: must be a table: \[design\]"),
         (changed(150.0, "design", "carrying_link_mm"), "joint leg: its origin is not that of the design"),
@@ -236,7 +231,7 @@ def test_no_principal_moment_exceeds_the_other_two_together(turn_deg: float) -> 
     for order in itertools.permutations((1e-5, 2e-5, 3e-5)):
         assert refusal(*order) == ""
     for order in itertools.permutations((1e-5, 2e-5, 3.1e-5)):
-        assert "none can be more than the other two together" in refusal(*order)
+        assert "none more than the other two together" in refusal(*order)
     assert "must be more than 0" in refusal(-1e-9, 2e-5, 2e-5)
 
 
@@ -264,7 +259,7 @@ def test_a_shell_is_a_body_from_a_hundredth_of_a_millimetre_to_ten_metres(radius
     """All of its mass is at its radius, the radius of gyration about its centre; 2·m·r²/3 about each axis."""
     tensor = 2.0 / 3.0 * 0.1 * radius_m**2 * np.eye(3)
     if refused:
-        with pytest.raises(JumpcadError, match=f"a radius of gyration of {radius_m:g} m: must be 1e-05…10"):
+        with pytest.raises(JumpcadError, match=f"a radius of gyration of {radius_m:g} m: .* 1e-05…10"):
             _require_inertia("body", 0.1, tensor)
     else:
         _require_inertia("body", 0.1, tensor)
@@ -314,7 +309,9 @@ def test_joints_are_those_of_the_design_to_a_thousandth_of_a_millimetre(joint: s
                     _require_mechanism(changed(**values))
             else:
                 _require_mechanism(changed(**values))
-    with pytest.raises(JumpcadError, match=f"joint {joint}: must lead from {one.parent} to {one.child}"):
+    with pytest.raises(
+        JumpcadError, match=f"joint {joint}: its origin is not that .* from {one.parent} to {one.child}"
+    ):
         _require_mechanism(changed(parent=one.child))
     for end in ("point_a_m", "point_b_m"):
         for off, refused in ((0.9e-6, False), (1.1e-6, True)):
