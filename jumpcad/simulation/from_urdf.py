@@ -110,6 +110,8 @@ def _parsed(content: bytes) -> ET.Element:
         root: ET.Element = parser.close()
     except (ET.ParseError, ValueError, LookupError) as error:  # the latter two: encodings that are not known
         raise JumpcadError(f"broken XML: {error}") from None
+    if root.tag != "robot":
+        raise JumpcadError(f"its root is {shown(root.tag)}, not 'robot'")
     return root
 
 
