@@ -58,7 +58,7 @@ def genetic(evaluator: Evaluator, seed: int, evaluations: int, preset: str = "re
 
 def bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run GP-EI."""
-    initial = default_initial(SPACE, evaluations, guessed=isinstance(evaluator.model, PrintedModel))
+    initial = default_initial(SPACE, evaluations, estimated=isinstance(evaluator.model, PrintedModel))
     run_bayesian(evaluator, stage(evaluator, "bo", seed, evaluations, initial))
 
 
@@ -144,7 +144,8 @@ def main() -> None:
     for name in chosen:
         method, evaluations = METHODS[name][0], min(METHODS[name][1], arguments.evaluations)
         model = robot_model(arguments.model)
-        model = replace(model, stand_in=model.name == "printed")  # as a search by `bo` asks for
+        if isinstance(model, PrintedModel):  # as a search by `bo` asks for
+            model = replace(model, stand_in=True)
         if "spread" in name:
             model = Spread(model.workshop, model.settings, model.engine)
         climbs = [climb(method, seed, evaluations, model) for seed in range(arguments.seeds)]

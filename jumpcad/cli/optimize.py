@@ -57,7 +57,7 @@ AgainstOption = Annotated[
     ),
 ]
 ScreenFlag = Annotated[
-    bool, typer.Option("--screen", help="For ga: leave out candidates that a quick guess finds too bad.")
+    bool, typer.Option("--screen", help="For ga: leave out candidates that a quick estimate finds too bad.")
 ]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)

@@ -31,8 +31,8 @@ from jumpcad.workshop.varied import Value
 MODELS = ("printed", "capsule", "published")
 PUBLISHED_FIGURES = ("fitness", "base_distance_m", "base_height_m", "spring_energy_j")
 """Figures of a jump of the published robot."""
-GUESS_STEP_S = 0.002
-"""Time step of the planar engine for a guess: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
+ESTIMATE_STEP_S = 0.002
+"""Time step of the planar engine for an estimate: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
 LENGTH_MM = 0.2
 """Error of a link's length of a robot that is made in no workshop; judgement."""
 
@@ -182,7 +182,7 @@ class PrintedModel(RobotModel):
     workshop, settings, engine
         Where it is built, and how it is simulated; the default ones if None.
     stand_in
-        Whether the evaluation has the figures of which stand-ins of other robots are made.
+        Whether the evaluation has the figures from which other robots are estimated.
     perturbation
         What is made otherwise than designed, by the keys of `tolerances`.
     """
@@ -269,7 +269,7 @@ class PrintedModel(RobotModel):
 
         Where it has no such figure, its fitness ranks the designs: it has no size but that of its links.
         """
-        quick = CapsuleModel(load_settings("screening"), self.guess_engine)
+        quick = CapsuleModel(load_settings("screening"), self.estimate_engine)
         if not quick.admits(design):
             return -math.inf
         found = quick(design)
@@ -281,18 +281,18 @@ class PrintedModel(RobotModel):
             return found.metrics["fitness"]
 
     @property
-    def guess_engine(self) -> str:
-        """The engine of what is only guessed: the planar one, compiled or not, unless it lacks what is asked for."""
+    def estimate_engine(self) -> str:
+        """The engine of what is only estimated: the planar one, compiled or not, unless it lacks what is asked for."""
         from jumpcad.simulation.planar import LACKING
 
         lacks = any(getattr(self.settings or Settings(), key) for key in LACKING)
         return self.engine if lacks else "planar"
 
     @property
-    def guess_settings(self) -> Settings:
-        """The settings of what is only guessed: those of the model with steps of `GUESS_STEP_S`, or longer ones."""
+    def estimate_settings(self) -> Settings:
+        """The settings of what is only estimated: the model's with steps of `ESTIMATE_STEP_S`, or longer ones."""
         settings = self.settings or Settings()
-        return settings.model_copy(update={"dt_s": max(settings.dt_s, GUESS_STEP_S), "push_off_steps": 0})
+        return settings.model_copy(update={"dt_s": max(settings.dt_s, ESTIMATE_STEP_S), "push_off_steps": 0})
 
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""

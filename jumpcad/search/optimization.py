@@ -85,8 +85,8 @@ def optimize(
         End earlier: when the last Bayesian steps gain less than this share of the best score, or after this time (h);
         see `Request`. 0 for neither: all evaluations are spent.
     screen
-        For `ga` on the printed robot: leave out candidates that, by a quick guess, fail or are worse than the best
-        known by more than the guess's own error. They count as evaluations.
+        For `ga` on the printed robot: leave out candidates that, by a quick estimate, fail or are worse than the best
+        known by more than the estimate's error. They count as evaluations.
     against
         What `pareto` and `nsga2` weigh the objective against: one of `jumpcad.search.COSTS`, of which less is better
         (`electrical-energy`, `spring-energy`, `mass`, `winding-time`), or another objective, of which more is. If None,

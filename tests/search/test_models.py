@@ -255,12 +255,13 @@ def test_what_a_model_does_not_use_is_refused(name, given, said):
 def test_guesses_and_quick_scores_have_settings_of_their_own():
     """Steps of 2 ms; the planar engine, unless it lacks what the settings ask for."""
     plain = robot_model("printed", None, "fine", "mujoco")
-    assert (plain.guess_engine, plain.guess_settings.dt_s) == ("planar", 0.002)
-    assert plain.guess_settings.model_copy(update={"dt_s": plain.settings.dt_s, "push_off_steps": 60}) == plain.settings
+    assert (plain.estimate_engine, plain.estimate_settings.dt_s) == ("planar", 0.002)
+    same = plain.estimate_settings.model_copy(update={"dt_s": plain.settings.dt_s, "push_off_steps": 60})
+    assert same == plain.settings
     rolling = replace(plain, settings=plain.settings.model_copy(update={"rolling_friction_m": 0.1}))
-    assert (rolling.guess_engine, rolling.guess_settings.dt_s) == ("mujoco", 0.002)
+    assert (rolling.estimate_engine, rolling.estimate_settings.dt_s) == ("mujoco", 0.002)
     slow = replace(plain, settings=plain.settings.model_copy(update={"dt_s": 0.004}))
-    assert slow.guess_settings.dt_s == 0.004
+    assert slow.estimate_settings.dt_s == 0.004
 
 
 @pytest.mark.parametrize("field", ["workshop", "settings", "engine", "stand_in"])

@@ -92,8 +92,13 @@ class Estimator:
             self._estimates[variant.key] = None if isinstance(laid, Evaluation) else self._estimated(variant, laid)
         return self._estimates[variant.key]
 
-    def _estimated(self, variant: Variant, laid: Mapping[str, float]) -> Estimate | None:
-        assert self._figures is not None
+    def rough(self, variant: Variant) -> Estimate | None:
+        """Return about what a variant would do if it has room; its layout is not looked at."""
+        return self._estimated(variant, None)
+
+    def _estimated(self, variant: Variant, laid: Mapping[str, float] | None) -> Estimate | None:
+        if self._figures is None:
+            return None
         try:
             return self._jump(variant.design, self._figures.predict(self._space.to_unit(variant), laid))
         except (JumpcadError, OverflowError):  # a dead point, or figures far from all that was built
@@ -105,7 +110,7 @@ class Estimator:
         if errors(geometry_findings(design)):
             return Estimate(None, {})
         robot = estimated_robot(design, figures, self._like)
-        jump = simulate(robot, self._model.guess_settings, self._model.guess_engine)
+        jump = simulate(robot, self._model.estimate_settings, self._model.estimate_engine)
         margins = {finding.name: finding.margin for finding in jump.findings if finding.name in STATICS}
         if jump.verdict != "jump":
             return Estimate(None, margins)

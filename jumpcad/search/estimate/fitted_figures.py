@@ -31,10 +31,12 @@ class FittedFigures:
     ----------
     positive, others
         By name, coefficients (features + layout figures,) of logarithms and of figures.
+    layouts
+        Coefficients (layout figures, features) of the layout's own figures.
     """
 
-    def __init__(self, positive: Mapping[str, Array], others: Mapping[str, Array]) -> None:
-        self._logarithms = len(positive)
+    def __init__(self, positive: Mapping[str, Array], others: Mapping[str, Array], layouts: Array) -> None:
+        self._logarithms, self._layouts = len(positive), layouts
         self._names = [*positive, *others]
         self._matrix = np.array([*positive.values(), *others.values()])
 
@@ -45,8 +47,9 @@ class FittedFigures:
         distance = np.abs(units - centre).max(axis=1)
         order = np.sort(np.argsort(distance, kind="stable")[:FITTED])
         metrics = [trials[index].evaluation.metrics for index in order]
-        rows = np.hstack([features(units[order]), np.array([of_layout(one) for one in metrics])])
-        solver = _solver(rows, 1.0 / (1.0 + (distance[order] / REACH) ** 2), units.shape[1])
+        plain, weights = features(units[order]), 1.0 / (1.0 + (distance[order] / REACH) ** 2)
+        laid = np.array([of_layout(one) for one in metrics])
+        solver = _solver(np.hstack([plain, laid]), weights, units.shape[1])
         positive, others = {}, {}
         for name in sorted(set.intersection(*map(set, metrics)) - LAID.keys()):
             values = np.array([one[name] for one in metrics])
@@ -54,17 +57,21 @@ class FittedFigures:
                 positive[name] = solver @ np.log(values)
             else:
                 others[name] = solver @ values
-        return cls(positive, others)
+        return cls(positive, others, (_solver(plain, weights, units.shape[1]) @ laid).T)
 
-    def predict(self, unit: Array, laid: Mapping[str, float]) -> dict[str, float]:
+    def predict(self, unit: Array, laid: Mapping[str, float] | None) -> dict[str, float]:
         """Return the figures at a point (d,) of the unit cube, of a robot with these figures of its layout.
+
+        Without them, of a robot whose layout is about that of the robots beside it.
 
         Raises
         ------
         OverflowError
             Far from all that was built.
         """
-        values = (self._matrix * np.append(features(unit[None])[0], of_layout(laid))).sum(axis=1).tolist()
+        plain = features(unit[None])[0]
+        layout = (self._layouts * plain).sum(axis=1) if laid is None else of_layout(laid)
+        values = (self._matrix * np.append(plain, layout)).sum(axis=1).tolist()
         values[: self._logarithms] = map(math.exp, values[: self._logarithms])
         return dict(zip(self._names, values, strict=True))
 

@@ -23,8 +23,8 @@ REDRAWN = 0.3
 """Probability with which a name is drawn again near a good design."""
 DIGITS = 4
 """Of the coordinates of a proposal."""
-REHEARSED = 0.2
-"""What another candidate must promise more, in logarithms, than one that was rehearsed; judgement."""
+HELD_BONUS = 0.2
+"""What another candidate must promise more, in logarithms, than one that held in a dry run; judgement."""
 _STEP = 1e-6
 """Of the numerical gradient."""
 _FIRST_STEPS, _STEPS = 8, 40
@@ -72,7 +72,7 @@ def propose(
     admits: Callable[[Variant], bool],
     generator: np.random.Generator,
     penalty: Callable[[Array], Array] | None = None,
-    rehearsed: Sequence[Array] = (),
+    held: Sequence[Array] = (),
 ) -> Proposal | None:
     """Return the variant with the largest acquisition found, or None if no candidate is admitted.
 
@@ -90,8 +90,8 @@ def propose(
         Random generator that draws the candidates.
     penalty
         Subtracted from the logarithm of the acquisition: points (m, d) to (m,), 0 where allowed.
-    rehearsed
-        Points (d,) that are candidates too, and worth `REHEARSED` more.
+    held
+        Points (d,) that are candidates too, and worth `HELD_BONUS` more.
     """
 
     def log_acquisition(points: Array) -> Array:
@@ -113,9 +113,9 @@ def propose(
     highest = climbed[log_acquisition(climbed).argmax()]
     tops = space.snap(np.vstack([_climb(space, log_acquisition, highest, _STEPS), climbed]).round(DIGITS))
     points, values = np.vstack([tops, points[order]]), np.concatenate([log_acquisition(tops), values[order]])
-    if rehearsed:
-        points = np.vstack([*rehearsed, points])
-        values = np.concatenate([log_acquisition(np.array(rehearsed)) + REHEARSED, values])
+    if held:
+        points = np.vstack([*held, points])
+        values = np.concatenate([log_acquisition(np.array(held)) + HELD_BONUS, values])
     for index in np.argsort(-values, kind="stable"):
         variant = space.to_variant(points[index])
         if admits(variant):

@@ -27,7 +27,7 @@ from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
 REFIT_AFTER, REFIT_EVERY = 80, 5
-"""Trials up to which hyperparameters are fitted at every step, where nothing is rehearsed; then at every fifth."""
+"""Trials up to which hyperparameters are fitted at every step, where nothing is tried; then at every fifth."""
 ELITE = 4
 LEARNED, LEARNED_BEST = 400, 100
 """Most trials that the processes are fitted to, and how many of them are the best ones; the others are the nearest to
@@ -37,7 +37,7 @@ RUN_SEED = 1_000_000
 PATIENCE = 7
 """The search ends after so many proposals in a row that promise and gain too little; judgement: one or two often do."""
 IDLE = 10
-"""Where robots are guessed, it ends after so many steps in a row that gain too little; judgement."""
+"""Where robots are estimated, it ends after so many steps in a row that gain too little; judgement."""
 
 Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
@@ -86,8 +86,8 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
         if not stage.least_gain:
             return False
         idle, low = progress()
-        guessed = polls and dry_run is not None and not evaluator.space.varies_workshop
-        return idle >= IDLE if guessed else low >= PATIENCE
+        estimated = polls and dry_run is not None and not evaluator.space.varies_workshop
+        return idle >= IDLE if estimated else low >= PATIENCE
 
     return run_steps(evaluator, "bo", stage, proposer, ended)
 

@@ -62,7 +62,7 @@ class DryRun:
         return ranked_points(self._evaluator, np.random.default_rng([self._seed, 5]))
 
     def starts_with(self, variant: Variant) -> bool:
-        """Whether a search may start with a variant: its parts have room. If not, that is learned."""
+        """Whether a search may start with a variant. If its parts have no room, that is learned."""
         if not isinstance(self.estimator.layout(variant), Evaluation):
             return True
         self._passed_over.append(variant)

@@ -121,7 +121,7 @@ class Fitness:
 
 
 class ScreenedFitness(Fitness):
-    """Fitness with a screen; a candidate that it leaves out has the score that was guessed, which the study keeps."""
+    """Fitness with a screen; a candidate that it leaves out has the estimated score, which the study keeps."""
 
     def __init__(self, *arguments: Any) -> None:
         from jumpcad.search.estimate.corrected_estimate import Screen
@@ -133,7 +133,7 @@ class ScreenedFitness(Fitness):
         self._seen: set[Key] = set()
 
     def fitness(self, trial: Trial) -> Any:
-        """Return the fitness of a trial, guessed or exact."""
+        """Return the fitness of a trial, estimated or exact."""
         if trial.evaluation.verdict != SCREENED:
             return super().fitness(trial)
         return trial.evaluation.metrics.get(GUESSED, self.rejected)

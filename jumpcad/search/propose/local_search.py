@@ -2,7 +2,7 @@
 
 The score of a printed robot has steps of a per cent, where a section grows or a part takes another place. The processes
 smooth over them, and promise nothing where a ridge of steps goes on. Points a step away along each axis (compass
-search: Kolda, Lewis and Torczon, SIAM Review 2003) and some aslant are guessed, and the best of them are evaluated;
+search: Kolda, Lewis and Torczon, SIAM Review 2003) and some aslant are estimated, and the best of them are evaluated;
 near and far ones where a proposal promises nothing.
 """
 
@@ -22,7 +22,7 @@ STEP = 0.02
 DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
 WITHIN = 0.005
-"""Of a neighbour's guess: how much less than the best's it may be; judgement: about what a guess is wrong by."""
+"""Of a neighbour's estimate: how much less than the best's it may be; judgement: about what it is wrong by."""
 HOPELESS, FARTHEST = 1e-8, 6.25
 """Of the best score: what a proposal promises that promises nothing. Neighbours are then up to so many times as far
 away, an eighth of the unit cube along an axis; judgement."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.search.propose.acquisition import DIGITS, REHEARSED, Proposal
+from jumpcad.search.propose.acquisition import DIGITS, HELD_BONUS, Proposal
 from jumpcad.search.propose.dry_run import DryRun
 from jumpcad.search.propose.local_search import WITHIN, neighbours
 from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
@@ -66,7 +66,7 @@ class ProposalLoop:
         held: list[Proposal] = []
         self._look_around()
         posterior = self._learned()
-        proposal = ask(posterior, rehearsed=[])
+        proposal = ask(posterior, held=[])
         for _ in range(ROUNDS if self._dry_run else 0):
             assert self._dry_run is not None
             if proposal is None:
@@ -83,11 +83,11 @@ class ProposalLoop:
             if holds:
                 held.append(proposal)
                 before, proposal = proposal.log_value, _best_of([proposal], posterior, best)
-                if proposal.log_value + REHEARSED >= before:
+                if proposal.log_value + HELD_BONUS >= before:
                     break
             else:
                 self._failed.add(proposal.variant.key)
-            proposal = ask(posterior, rehearsed=[one.unit for one in held])
+            proposal = ask(posterior, held=[one.unit for one in held])
         else:
             proposal = _best_of(held, posterior, best) if held else proposal
         if proposal is not None:

@@ -46,7 +46,7 @@ REASONS = {
     "audit_loop": "the simulated linkage came apart: its result cannot be trusted",
     "cannot_build": "no printed robot could be laid out",
     "quarantined": "the evaluation failed twice, or took too long",
-    "screened": "not evaluated: a quick guess found it too bad",
+    "screened": "not evaluated: a quick estimate found it too bad",
     "compression": "the springs are loaded by too small an angle",
     "cam": "no cam loads these springs within the motor's torque and the cam's own limits",
     "bed": "a part is larger than the printer's bed",

@@ -185,8 +185,8 @@ class Request:
         return self.evaluations - self.pick
 
     @property
-    def guessed(self) -> bool:
-        """Whether proposals are tried on stand-ins: of printed robots, in one workshop."""
+    def estimated(self) -> bool:
+        """Whether proposals are tried on estimated robots: of printed robots, in one workshop."""
         return isinstance(self.model, PrintedModel) and not self.space.varies_workshop
 
     @property
@@ -216,7 +216,7 @@ class Request:
             "seed": self.seed,
             "preset": self.preset,
             "batch": self.batch,
-            **({"screen": self.model.guess_engine} if self.screen and isinstance(self.model, PrintedModel) else {}),
+            **({"screen": self.model.estimate_engine} if self.screen and isinstance(self.model, PrintedModel) else {}),
             "making": asdict(self.making),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
@@ -272,13 +272,13 @@ TAKE: Mapping[str, Callable[[Sequence[Method]], bool]] = {
 """Options that some methods take alone, and which."""
 
 
-def default_initial(space: Space, evaluations: int, prior: int = 0, guessed: bool = False) -> int:
+def default_initial(space: Space, evaluations: int, prior: int = 0, estimated: bool = False) -> int:
     """Return the number of first designs: three per free parameter, at most half of all, minus the prior trials.
 
-    Half as many where scores are `guessed`: measured, with eight parameters 12 gave better designs after 30
+    Half as many where scores are `estimated`: measured, with eight parameters 12 gave better designs after 30
     evaluations than 24 after 60.
     """
-    each = 1.5 if guessed else 3.0
+    each = 1.5 if estimated else 3.0
     return max(0, min(math.ceil(each * space.dimension), evaluations // 2) - prior)
 
 
@@ -293,7 +293,7 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     shares = [min(total // 3, MOST_FIRST)] if len(methods) > 1 else []
     shares.append(total - sum(shares))
     learns = len(methods) == 1 and methods[0].learns
-    initial = default_initial(request.space, total, prior, request.guessed) if learns else 0
+    initial = default_initial(request.space, total, prior, request.estimated) if learns else 0
     stages = [Stage(request, method.name, share, initial) for method, share in zip(methods, shares, strict=True)]
     least_gain = request.until_percent / 100.0 if methods[-1].ends else 0.0
     return [*stages[:-1], replace(stages[-1], least_gain=least_gain)]

@@ -12,7 +12,6 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.estimate.corrected_estimate import PAIRS, Screen
 from jumpcad.search.estimate.estimate import LEAST, Estimate
 from jumpcad.search.estimate.estimated_robot import LAID
-from jumpcad.search.estimate.fitted_figures import MARK
 from jumpcad.search.models import robot_model
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.space import Space
@@ -83,7 +82,7 @@ def screen_of(estimate):
         def __call__(self, variant):
             return estimate(round(float(SPACE.to_unit(variant)[0]), 6))
 
-    screen._estimator = Known(ready=True, layout=lambda _: LAYOUT, learn=lambda _: None)
+    screen._estimator = Known(layout=lambda _: LAYOUT, learn=lambda _: None, rough=lambda _: None)
     return screen
 
 
@@ -92,22 +91,24 @@ def robots(scores):
     for place, score in enumerate(scores):
         point = np.full(SPACE.dimension, 0.5)
         point[0] += 0.04 * place
-        yield Trial("ga", 0, place, SPACE.to_design(point), Evaluation("jump", {MARK: 1.0}), score, "m", 0.0)
+        yield Trial("ga", 0, place, SPACE.to_design(point), Evaluation("jump", LAYOUT), score, "m", 0.0)
 
 
 def test_a_score_is_corrected_by_the_robots_beside_it_and_better_known_there():
     """All score about a third more than estimated, one in two a little less; of seven robots no error is told."""
     known = list(robots([4.0 / 3.0 - 0.01 * (place % 2) for place in range(PAIRS)]))
-    screen, one = screen_of(lambda _: Estimate(1.0, {})), Variant(known[3].design)
+    screen = screen_of(lambda _: Estimate(1.0, {}))
+    far = SPACE.to_variant(np.zeros(SPACE.dimension))
+    beside, away = (screen._place(one, LAYOUT) for one in (known[3].variant, far))
     screen.learn(known[:-1])
-    few = screen._bounds(one, Estimate(1.0, {}))
+    few = screen._bounds(Estimate(1.0, {}), beside)
     assert (few.score, few.least, few.most) == (1.0, 0.0, math.inf)
     screen.learn(known)
-    found = screen._bounds(one, Estimate(1.0, {}))
+    found = screen._bounds(Estimate(1.0, {}), beside)
     assert found.score == pytest.approx(known[3].score, rel=0.01)
     assert found.least < known[3].score < found.most < 1.02 * found.least
-    far = screen._bounds(SPACE.to_variant(np.zeros(SPACE.dimension)), Estimate(1.0, {}))
-    assert math.log(far.most / far.least) > 2.0 * math.log(found.most / found.least)
+    apart = screen._bounds(Estimate(1.0, {}), away)
+    assert math.log(apart.most / apart.least) > 2.0 * math.log(found.most / found.least)
 
 
 def test_of_a_generation_those_are_built_that_may_be_better_than_the_best_and_than_another_s_least(monkeypatch):
@@ -130,6 +131,18 @@ def test_of_a_generation_those_are_built_that_may_be_better_than_the_best_and_th
     assert screen.outcomes(variants.values(), 9.0) == {}  # refused at once, with the reason
 
 
+def test_what_is_far_worse_is_not_even_laid_out(monkeypatch):
+    """By more than a tenth: of a best score of 1 with a rough estimate of 0.9, and not with one of 0.92."""
+    monkeypatch.setattr(Quick, "admits", lambda *_: True)
+    for score, laid_out in ((0.9, False), (0.92, True)):
+        laid, screen = [], screen_of(lambda _: None)
+        screen._estimator.rough = lambda _, score=score: Estimate(score, {})
+        screen._estimator.layout = lambda one, laid=laid: laid.append(one) or LAYOUT
+        found = screen.outcomes([Variant(BEST)], 1.0)
+        assert (laid == [Variant(BEST)]) is laid_out
+        assert (found == {}) is laid_out
+
+
 def test_what_can_gain_next_to_nothing_is_not_built(monkeypatch):
     """0.05 % of a best score of 1."""
     monkeypatch.setattr(Quick, "admits", lambda *_: True)
@@ -150,10 +163,10 @@ def test_what_masses_refuse_has_the_outcome_of_its_evaluation():
 
 def test_nothing_is_learned_where_too_few_were_built():
     """Of a hundred trials all but some were refused before anything was built, or all failed."""
-    jump, stayed = Evaluation("jump", {"body_lengths": 1.0}), Evaluation("no_takeoff", {MARK: 1.0})
+    jump, stayed = Evaluation("jump", {"body_lengths": 1.0}), Evaluation("no_takeoff", LAYOUT)
     refused = [Trial("ga", 0, place, BEST, jump, 1.0, "m", 0.0) for place in range(100)]
     failed = [Trial("ga", 0, place, BEST, stayed, None, "m", 0.0) for place in range(100)]
-    few = [*refused, *(replace(trial, evaluation=Evaluation("jump", {MARK: 1.0})) for trial in refused[: LEAST - 1])]
+    few = [*refused, *(replace(trial, evaluation=Evaluation("jump", LAYOUT)) for trial in refused[: LEAST - 1])]
     for known in (refused, failed, few):
         screen = Screen(SPACE, quick(), find_objective("body_lengths"))
         screen.learn(known)

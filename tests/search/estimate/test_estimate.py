@@ -40,7 +40,8 @@ def estimator_of(figures, objective="body_lengths"):
     """Return an estimator by which every robot has figures with these coefficients."""
     found = Estimator(SPACE, quick(), find_objective(objective))
     positive = {name: value for name, value in figures.items() if name == "body_mass_kg"}
-    found._figures = FittedFigures(positive, {name: value for name, value in figures.items() if name not in positive})
+    others = {name: value for name, value in figures.items() if name not in positive}
+    found._figures = FittedFigures(positive, others, np.zeros((len(LAID), 45)))
     found._like = LIKE
     return found
 
@@ -72,7 +73,7 @@ def test_an_estimate_is_the_jump_of_the_robot_with_the_fitted_figures():
         point[0] = share
         variant = SPACE.to_variant(point)
         robot = estimated_robot(variant.design, FIGURES | {"body_mass_kg": math.exp(2.0 * share - 4.0)}, LIKE)
-        found, jump = estimator(variant), simulate(robot, quick().guess_settings, "planar")
+        found, jump = estimator(variant), simulate(robot, quick().estimate_settings, "planar")
         assert found.score == pytest.approx(jump.ballistic_range_m, rel=1e-6)
         statics = {one.name: one.margin for one in jump.findings if one.name in ("tips", "too_weak")}
         assert len(statics) == 2

@@ -52,7 +52,7 @@ def test_figures_of_a_layout_say_where_cam_motor_and_trays_are_and_how_large_a_s
     assert found["laid_coil_mm"] == pytest.approx(layout.drive.spring.arms.mean_mm, rel=6e-6)
 
 
-def test_each_figure_is_found_again_in_the_stand_in() -> None:
+def test_each_figure_is_found_again_in_the_robot() -> None:
     """Bodies turn about y; the toes' spheres stand on the same ground as the foot's others."""
     plain, made = capsule_robot(LIKE.design), estimated_robot(LIKE.design, MADE_UP, LIKE)
     for name in BODY_NAMES:

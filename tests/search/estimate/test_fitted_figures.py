@@ -63,6 +63,19 @@ def test_what_masses_leap_with_is_told_by_the_layout():
         assert fit.predict(point, trial.evaluation.metrics)["body_mass_kg"] == pytest.approx(exact, rel=0.05)
 
 
+def test_without_a_layout_it_is_about_that_of_the_robots_beside_it():
+    def figures(x):
+        laid = {MARK: 30.0 + 5.0 * x[0]}
+        return laid | {"body_mass_kg": math.exp(0.1 * x[1] + 0.02 * laid[MARK])}
+
+    points = SPACE.spread(120, np.random.default_rng(2))
+    trials = list(trials_at(points, figures))
+    fit = FittedFigures.of(SPACE, trials[:90], points[0])
+    for point, trial in zip(points[90:], trials[90:], strict=True):
+        exact = trial.evaluation.metrics["body_mass_kg"]
+        assert fit.predict(point, None)["body_mass_kg"] == pytest.approx(exact, rel=0.02)
+
+
 def test_a_robot_a_quarter_of_the_ranges_from_the_best_counts_half_and_few_do_not_say_the_second_order(monkeypatch):
     """The normal equations of weighted ridge regression, set up anew; the farthest of very many are left out."""
     points = SPACE.spread(FEW, np.random.default_rng(7))

@@ -112,10 +112,10 @@ def test_the_top_of_improvement_and_feasibility_together_is_proposed_with_both()
 
 
 @pytest.mark.parametrize(("less", "taken"), [(0.15, True), (0.25, False)])
-def test_what_was_rehearsed_is_proposed_where_another_promises_little_more(less, taken):
+def test_what_held_in_a_dry_run_is_proposed_where_another_promises_little_more(less, taken):
     """A fifth, in logarithms."""
     known = np.array([0.37 + np.sqrt(less / 10.0), 0.5, 0.71])
-    assert (ask(rehearsed=[known]).unit.tolist() == known.tolist()) == taken
+    assert (ask(held=[known]).unit.tolist() == known.tolist()) == taken
 
 
 def test_a_promise_is_twice_the_gain_of_the_root_as_a_share_of_the_best():

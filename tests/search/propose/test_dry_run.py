@@ -214,9 +214,9 @@ def test_of_very_many_the_last_are_learned():
 
 def test_estimates_take_the_planar_engine_with_long_steps_where_it_has_what_the_settings_ask_for():
     model = robot_model()
-    assert (model.guess_engine, model.guess_settings.dt_s) == ("planar", 0.002)
+    assert (model.estimate_engine, model.estimate_settings.dt_s) == ("planar", 0.002)
     slow = replace(model, settings=model.settings.model_copy(update={"dt_s": 0.004, "restitution": 0.1}))
-    assert (slow.guess_engine, slow.guess_settings.dt_s) == (slow.engine, 0.004)
+    assert (slow.estimate_engine, slow.estimate_settings.dt_s) == (slow.engine, 0.004)
     jump = simulate(LIKE)
-    quick_jump = simulate(LIKE, model.guess_settings, model.guess_engine)
+    quick_jump = simulate(LIKE, model.estimate_settings, model.estimate_engine)
     assert quick_jump.ballistic_range_m == pytest.approx(jump.ballistic_range_m, rel=0.02)

@@ -49,15 +49,15 @@ class DryRun:
 
 
 class Asked:
-    """Proposes given points one after the other, then the last that was rehearsed; promises what none can keep."""
+    """Proposes given points one after the other, then the last that was tried; promises what none can keep."""
 
     def __init__(self, *points, promised=50.0):
-        self.points, self.posteriors, self.rehearsed, self.promised = list(points), [], [], promised
+        self.points, self.posteriors, self.held, self.promised = list(points), [], [], promised
 
-    def __call__(self, posterior, rehearsed):
+    def __call__(self, posterior, held):
         self.posteriors.append(posterior)
-        self.rehearsed.append(list(rehearsed))
-        unit = np.array(self.points.pop(0)) if self.points else rehearsed[-1]
+        self.held.append(list(held))
+        unit = np.array(self.points.pop(0)) if self.points else held[-1]
         return Proposal(SMALL.to_variant(unit), unit, self.promised, 0.0)
 
 
@@ -89,13 +89,13 @@ def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
     loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=True)
     assert loop.propose(ask, 1.0).unit.tolist() == [0.2, 0.2, 0.2]
     assert [point.tolist() for point in loop.tried] == [[0.9, 0.1, 0.1], [0.2, 0.2, 0.2]]
-    assert [len(held) for held in ask.rehearsed] == [0, 0, 1]
+    assert [len(held) for held in ask.held] == [0, 0, 1]
     before, after = ask.posteriors[:2]
     unit = np.array([[0.9, 0.1, 0.1]])
     assert after.log_feasible(unit) < before.log_feasible(unit)
 
 
-def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
+def test_a_proposal_is_tried_until_enough_hold_or_it_is_hopeless():
     many = [[0.01 * number, 0.5, 0.5] for number in range(40)]
     loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=False)
     loop.propose(Asked(*many), 1.0)
@@ -135,7 +135,7 @@ def found_in(*steps):
         ([*(replace(one, phase="ga") for one in found_in([1.0], [1.03])), *found_in([0.5], [0.9])[1:]], False),
     ],
 )  # fmt: skip
-def test_beside_a_leap_all_axes_are_rehearsed(trials, looks):
+def test_beside_a_leap_all_axes_are_tried(trials, looks):
     """A fifth to either side, less at a bound, nothing beyond it: 1.0 has one side, 0.9 the other one halfway."""
     dry_run = DryRun()
     dry_run.estimator.ready = True
@@ -150,8 +150,8 @@ def test_what_failed_is_not_asked_for_again_and_what_held_is_taken_where_nothing
     few = [SMALL.to_variant(np.array(unit)) for unit in ([0.9, 0.1, 0.1], [0.2, 0.2, 0.2], [0.8, 0.3, 0.3])]
     loop = ProposalLoop(SMALL, TRIALS, DryRun(), {}, refit=True)
 
-    def ask(posterior, rehearsed):
-        known = [unit.tolist() for unit in rehearsed]
+    def ask(posterior, held):
+        known = [unit.tolist() for unit in held]
         for variant in few:
             unit = SMALL.to_unit(variant)
             if loop.may_hold(variant) and unit.tolist() not in known:

@@ -51,7 +51,7 @@ def test_a_fixed_value_of_the_workshop_leaves_one_workshop_to_guess_in():
     spaces = [Space.parse(**asked, workshop=model.workshop) for asked in (
         {}, {"fix": ["body.plate_mm=2.4"]}, {"bound": ["body.plate_mm=1.6:2.4"]},
     )]  # fmt: skip
-    assert [Request.make(space, model, "bo").guessed for space in spaces] == [True, True, False]
+    assert [Request.make(space, model, "bo").estimated for space in spaces] == [True, True, False]
 
 
 @pytest.mark.parametrize(
@@ -178,7 +178,7 @@ def test_a_request_is_told_by_method_robot_and_objective():
     plain = Request(SMALL, Hill(), "range", "ga", 40)
     assert plain.title == "ga on the hill robot, range"
     assert repr(plain) == "<Request ga on the hill robot, range: 40 evaluations, 3 parameters free>"
-    assert (plain.pick, plain.searched, plain.is_front, plain.guessed) == (10, 30, False, False)
+    assert (plain.pick, plain.searched, plain.is_front, plain.estimated) == (10, 30, False, False)
     front = Request(SMALL, Hill(), "range", "nsga2", 40)
     assert (front.pick, front.searched, front.is_front) == (10, 30, True)
     assert front.title == "nsga2 on the hill robot, range against spring-energy"
