@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, shell_quoted, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, shell_quoted, status, text_of
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
@@ -239,40 +239,26 @@ def _print_facts(facts: dict[str, Any]) -> None:
     table.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
     screen = console()
     console(width=screen.width if screen.is_terminal else WIDE).print(table)
-    winding, jump = facts["winding"], facts["jump"]
     print()
-    _say("springs", f"{facts['spring_energy_j']:.4f} J")
-    _say(
-        "winding",
-        f"{winding['electrical_j']:.2f} J electrical in {winding['time_s']:.2f} s ({winding['motor']}, "
-        f"{winding['ratio']:.2f}:1), {100.0 * winding['efficiency']:.1f} % of it in the springs",
-    )
-    if jump["takeoff_energy_ratio"] is not None:
-        _say("take-off", f"{100.0 * jump['takeoff_energy_ratio']:.1f} % of the springs' energy")
-    for note in facts["notes"]:
-        _say("note", note)
-    _say("printed robot", _jump_in_words(jump))
-    _say("study's masses", _jump_in_words(facts["capsule_jump"]))
-    _say("written", f"{len(facts['files']) + 1} files in {escaped(facts['folder'])}")
-    for finding in facts["violated"]:
-        _say(finding["severity"], f"{finding['name']}: {finding['message']}; {finding['remedy']}")
-    if facts["violation"]:
-        _say("next", f"{facts['violation']}; jumpcad check says more")
-        return
-    pictured = any(path.startswith(f"{PICTURES}/") for path in facts["files"])
-    what = "the jump in 3-D" if pictured else "its figures"
-    _say("next", f"open its report.html: {what}; assembly.html: how to print, order and assemble it")
     design, workshop = (shell_quoted(str(Path(facts["folder"], name))) for name in (DESIGN, WORKSHOP))
-    _say("", f"jumpcad check {design} --workshop {workshop} also looks at {COSTLY}")
+    text = text_of(
+        "build",
+        **facts,
+        printed=_jump_in_words(facts["jump"]),
+        capsule=_jump_in_words(facts["capsule_jump"]),
+        pictured=any(path.startswith(f"{PICTURES}/") for path in facts["files"]),
+        design_file=design,
+        workshop_file=workshop,
+        costly=COSTLY,
+    )
+    for line in text.splitlines():
+        print(_wrapped(line, screen.width) if screen.is_terminal else line)
 
 
-def _say(label: str, text: str) -> None:
-    """Print a line; on a terminal that is too narrow, the rest stands below the text."""
-    start, screen = f"{label:<{LABEL}}", console()
-    if screen.is_terminal:
-        text = textwrap.fill(text, max(screen.width - LABEL, LABEL), break_long_words=False, break_on_hyphens=False)
-        text = text.replace("\n", "\n" + " " * LABEL)
-    print(start + text)
+def _wrapped(line: str, width: int) -> str:
+    """Return a line for a terminal: what it is too narrow for stands below the text."""
+    indent, width = " " * LABEL, max(width, 2 * LABEL)
+    return textwrap.fill(line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
 def _jump_in_words(jump: dict[str, Any]) -> str:

@@ -174,12 +174,17 @@ def _log(texts: Sequence[str], done: Event) -> None:
             print(f"jumpcad: {escaped(texts[-1])}", file=sys.stderr, flush=True)
 
 
-def print_text(name: str, **values: Any) -> None:
-    """Print a template of `templates/texts` with values in it; each stays on its line."""
+def text_of(name: str, /, **values: Any) -> str:
+    """Return a template of `templates/texts` with values in it; each stays on its line."""
     from jumpcad.files.rendering import environment
 
     texts = environment().overlay(finalize=lambda value: escaped(value) if isinstance(value, str) else value)
-    print(texts.get_template(f"texts/{name}.txt.j2").render(values), end="")
+    return texts.get_template(f"texts/{name}.txt.j2").render(values)
+
+
+def print_text(name: str, /, **values: Any) -> None:
+    """Print a text; see `text_of`."""
+    print(text_of(name, **values), end="")
 
 
 def print_json(data: Any) -> None:

@@ -1,9 +1,7 @@
 """MJCF: a scene around the robot, with floor, light and sky, and a README on how to use it in other scenes."""
 
-import xml.etree.ElementTree as ET
-
-from jumpcad.exporters.xml import add, document
-from jumpcad.files.rendering import render
+from jumpcad.exporters.xml import allowed
+from jumpcad.files.rendering import fill, render
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings, coefficients
 
@@ -15,23 +13,7 @@ LEAST_MUJOCO, NEWEST_MUJOCO = "3.3.1", "4.0.0"
 
 def write_scene(robot: Robot) -> str:
     """Return the document of the scene; it includes the robot's file beside it."""
-    root = ET.Element("mujoco", model=f"{robot.name} scene")
-    add(root, "include", file=f"{robot.name}.xml")
-    add(root, "statistic", center="0 0 0.05", extent="0.3")
-    visual = add(root, "visual")
-    add(visual, "headlight", diffuse="0.6 0.6 0.6", ambient="0.3 0.3 0.3", specular="0 0 0")
-    add(visual, "rgba", haze="0.85 0.88 0.92 1")
-    add(visual, "global", azimuth="120", elevation="-15")
-    asset = add(root, "asset")
-    add(asset, "texture", type="skybox", builtin="gradient", rgb1="0.55 0.68 0.8", rgb2="0.95 0.97 1", width="256",
-        height="1536")  # fmt: skip
-    add(asset, "texture", name="floor", type="2d", builtin="checker", rgb1="0.85 0.86 0.88", rgb2="0.75 0.77 0.8",
-        width="256", height="256")  # fmt: skip
-    add(asset, "material", name="floor", texture="floor", texuniform="true", texrepeat="10 10", reflectance="0.1")
-    world = add(root, "worldbody")
-    add(world, "light", pos="0.2 -0.5 1.5", dir="-0.1 0.3 -1", directional="true")
-    add(world, "geom", name="floor", type="plane", size="0 0 0.05", material="floor")
-    return document(root)
+    return allowed(fill("mjcf/scene.xml.j2", {"name": robot.name}))
 
 
 def readme(robot: Robot) -> str:

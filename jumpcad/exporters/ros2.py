@@ -34,6 +34,9 @@ TEMPLATES = {
     "gazebo.launch.py": "launch/gazebo.launch.py",
     "controllers.yaml": "config/controllers.yaml",
     "view.rviz": "rviz/view.rviz",
+    "robot.urdf.xacro": "urdf/@MODEL@.urdf.xacro",
+    "ros2_control.xacro": "urdf/ros2_control.xacro",
+    "gazebo.xacro": "urdf/gazebo.xacro",
 }
 """Templates with @WORDS@ to be replaced, and their paths in the package."""
 BASE = "base_link"
@@ -58,7 +61,7 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     model = model_name(robot.name)
     package = f"{model}_description"
     folder, visible, mimics = f"ros2/{package}", visuals(robot), mimicked(robot)
-    rest = standing(robot, 0.0)
+    rest, rubs = standing(robot, 0.0), coefficients(robot, Settings())
     words = {
         "PACKAGE": package,
         "MODEL": model,
@@ -66,17 +69,18 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
         "HEIGHT_M": f"{rest.body_position_m[2]:.4f}",
         "PITCH_RAD": f"{rest.body_pitch_rad:z.4f}",
         "HOLD": f"{_hold_nm(robot):g}",
-        **{f"{name.upper()}_DEG": _degrees(mimic.error_rad) for name, mimic in mimics.items()},
+        **{f"{name.upper()}_DEG": f"{math.degrees(mimic.error_rad):.2f}" for name, mimic in mimics.items()},
+        **{f"{name.upper()}_FRICTION": f"{rubs.contact(body.surface):g}" for name, body in robot.bodies.items()},
+        "SPRING_REFERENCE": f"{robot.spring.preload_rad:.9g}",
+        "SPRING_STIFFNESS": f"{robot.spring.stiffness_nm_per_rad:.9g}",
     }
     for name, path in TEMPLATES.items():
         text = (templates_folder() / "ros2" / name).read_text(encoding="utf-8")
-        yield f"{folder}/{path}", re.sub("@([A-Z_]+)@", lambda found: words[found[1]], text)
+        path, text = (re.sub("@([A-Z_]+)@", lambda found: words[found[1]], one) for one in (path, text))
+        yield f"{folder}/{path}", text
     for mesh, shape in {shape.mesh_name: shape.mesh for shape in visible}.items():
         yield f"{folder}/{MESHES}/{mesh}.stl", write_stl(shape)
-    yield f"{folder}/urdf/{model}.urdf.xacro", _top(model)
     yield f"{folder}/urdf/links.xacro", _links(robot, visible, mimics, f"package://{package}/{MESHES}")
-    yield f"{folder}/urdf/ros2_control.xacro", _control(robot)
-    yield f"{folder}/urdf/gazebo.xacro", _gazebo(robot)
     yield f"{folder}/models/{model}/model.config", write_config(robot.name, "model.sdf")
     yield f"{folder}/models/{model}/model.sdf", write_sdf(robot, visible, meshes=f"../../{MESHES}")
 
@@ -106,23 +110,9 @@ def _line(x: Array, y: Array) -> Mimic:
     return Mimic(slope, offset, float(np.abs(slope * x + offset - y).max()))
 
 
-def _degrees(angle_rad: float) -> str:
-    return f"{math.degrees(angle_rad):.2f}"
-
-
-def _top(model: str) -> str:
-    """Return the file that includes the others."""
-    root = _root(model)
-    for name, default in (("mimic", "true"), ("gazebo", "false"), ("controllers", "")):
-        add(root, "xacro:arg", name=name, default=default)
-    for name in ("links", "ros2_control", "gazebo"):
-        add(root, "xacro:include", filename=f"{name}.xacro")
-    return document(root)
-
-
 def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], meshes: str) -> str:
     """Return the bodies with visible meshes and collision shapes, and the joints of the tree."""
-    root = _root()
+    root = ET.Element("robot", {"xmlns:xacro": XACRO})
     add(root, "link", name=BASE)
     base = add(root, "joint", name="base", type="fixed")
     add(base, "parent", link=BASE)
@@ -162,41 +152,3 @@ def _cylinder(link: ET.Element, name: str, capsule: Capsule) -> None:
     collision = add(link, "collision", name=name)
     add(collision, "origin", xyz=(capsule.start_m + capsule.end_m) / 2.0, rpy=turns)
     add(add(collision, "geometry"), "cylinder", radius=capsule.radius_m, length=length)
-
-
-def _control(robot: Robot) -> str:
-    """Return the interfaces of ros2_control: the leg is driven, the others follow."""
-    root = _root()
-    system = add(root, "ros2_control", name="jumper", type="system")
-    hardware = add(system, "hardware")
-    add(add(hardware, "xacro:if", value="$(arg gazebo)"), "plugin", "gz_ros2_control/GazeboSimSystem")
-    add(add(hardware, "xacro:unless", value="$(arg gazebo)"), "plugin", "mock_components/GenericSystem")
-    for joint in robot.joints:
-        node = add(system, "joint", name=joint.name)
-        if joint.name == robot.spring.joint:
-            add(node, "command_interface", name="effort")
-        for state in ("position", "velocity"):
-            add(node, "state_interface", name=state)
-    return document(root)
-
-
-def _gazebo(robot: Robot) -> str:
-    """Return the elements for Gazebo alone: friction of the bodies, the springs, and the plugin of ros2_control."""
-    root, rubs = _root(), coefficients(robot, Settings())
-    for body in robot.bodies.values():
-        node = add(root, "gazebo", reference=body.name)
-        for direction in ("mu1", "mu2"):
-            add(node, direction, f"{rubs.contact(body.surface):g}")
-    spring = add(root, "gazebo", reference=robot.spring.joint)
-    add(spring, "springReference", f"{robot.spring.preload_rad:.9g}")
-    add(spring, "springStiffness", f"{robot.spring.stiffness_nm_per_rad:.9g}")
-    only = add(root, "xacro:if", value="$(arg gazebo)")
-    plugin = add(add(only, "gazebo"), "plugin", filename="gz_ros2_control-system",
-                 name="gz_ros2_control::GazeboSimROS2ControlPlugin")  # fmt: skip
-    add(plugin, "parameters", "$(arg controllers)")
-    return document(root)
-
-
-def _root(name: str = "") -> ET.Element:
-    named = {"name": name} if name else {}
-    return ET.Element("robot", {"xmlns:xacro": XACRO, **named})

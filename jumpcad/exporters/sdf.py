@@ -10,7 +10,8 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 
 from jumpcad.dimensions import MESHES_FROM_BESIDE
-from jumpcad.exporters.xml import add, document, limits_rad, rpy
+from jumpcad.exporters.xml import add, allowed, document, limits_rad, rpy
+from jumpcad.files.rendering import fill
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
@@ -31,13 +32,7 @@ def sdf_files(robot: Robot) -> Iterator[tuple[str, str]]:
 
 def write_config(name: str, file: str) -> str:
     """Return the `model.config` of a folder whose `file` is the SDF document of the robot `name`."""
-    root = ET.Element("model")
-    add(root, "name", name)
-    add(root, "version", "1.0")
-    add(root, "sdf", file, version=SDF)
-    add(add(root, "author"), "name", "jumpcad")
-    add(root, "description", f"Jumping robot {name}. Gazebo leaves the joint `loop` open: its link has two parents.")
-    return document(root)
+    return allowed(fill("sdf/model.config.j2", {"name": name, "file": file, "version": SDF}))
 
 
 def write_sdf(

@@ -18,6 +18,7 @@ import trimesh
 
 from jumpcad.catalogue import Pad
 from jumpcad.exporters.xml import allowed
+from jumpcad.files import templates_folder
 from jumpcad.files.rendering import render
 from jumpcad.parts.pads import PrintedPad, printed_pads
 from jumpcad.printing.plates import PlacedCopy, Printable, PrintPlate, packed
@@ -30,7 +31,6 @@ from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
-PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 PADS = "pads"
@@ -38,23 +38,6 @@ PADS = "pads"
 PICTURE, VIEW = (256, 256), View(yaw_deg=-70.0, pitch_deg=48.0)
 BED_MM = 1.0
 BED: Colour = (0.80, 0.81, 0.83)
-
-CONTENT_TYPES = (
-    f'{XML}<Types xmlns="{PACKAGE}/content-types">'
-    '<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
-    '<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>'
-    '<Default Extension="png" ContentType="image/png"/>'
-    '<Default Extension="config" ContentType="text/xml"/>'
-    "</Types>\n"
-)
-RELATIONSHIPS = (
-    f'{XML}<Relationships xmlns="{PACKAGE}/relationships">'
-    '<Relationship Target="/3D/3dmodel.model" Id="rel0" '
-    'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
-    '<Relationship Target="/Metadata/thumbnail.png" Id="rel1" '
-    f'Type="{PACKAGE}/relationships/metadata/thumbnail"/>'
-    "</Relationships>\n"
-)
 
 
 @carried
@@ -100,11 +83,11 @@ def _files(
 
 def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes) -> bytes:
     """Return the 3MF file of a plate with PrusaSlicer's settings and a PNG picture; equal inputs give equal bytes."""
-    buffer = io.BytesIO()
+    buffer, fixed = io.BytesIO(), templates_folder() / "print"
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as package:
         for name, content in (
-            ("[Content_Types].xml", CONTENT_TYPES),
-            ("_rels/.rels", RELATIONSHIPS),
+            ("[Content_Types].xml", (fixed / "content_types.xml").read_bytes()),
+            ("_rels/.rels", (fixed / "relationships.xml").read_bytes()),
             ("3D/3dmodel.model", _model(plate)),
             ("Metadata/thumbnail.png", picture),
             ("Metadata/Slic3r_PE.config", "".join(f"; {key} = {value}\n" for key, value in settings.items())),
