@@ -24,13 +24,11 @@ PAGE_MM = (297.0, 210.0)
 END_VIEW_MM, SIDE_VIEW_MM = (75.0, 70.0), (200.0, 70.0)
 ROOM_MM = (8.0, 21.0, 284.0, 116.5)
 """Left, upper, right and lower edge of the room for both views, between their titles and the table."""
-LOWEST_WORD_MM = 119.6
-"""Lowest line of a word above the table."""
+LEGEND_MM = 20.6
+"""Line of the words on the arms, between the titles and both views."""
 CROSS_MM = 30.0
 """Reach of the middle lines of the side view."""
 VIEWS_APART_MM = 5.0
-LETTER_MM = (1.92, 3.2)
-"""Width and height of a letter, for the room of words."""
 LENGTH_TOLERANCE_MM = 0.5
 """Judgement."""
 
@@ -110,8 +108,10 @@ def _end_view(spring: TorsionSpring, hand: str, scale: float) -> Iterator[str]:
     yield from _cross(x, y, mean / 2.0 + 6.0)
     loaded = _line(scale * arms_of(spring, hand, spring.wound_rad)[0] + middle, "#4d535c", 0.4)
     yield loaded.replace("/>", ' stroke-dasharray="2 1"/>')
-    for words, place in _labels(spring, hand, scale):
-        yield _text(*place, words)
+    apart = f"{math.degrees(spring.free_arm_angle_rad):.0f}°"
+    yield _text(
+        16.0, LEGEND_MM, f"arms: dark the nearer, pale the farther, {apart} from it; dashed: where it is loaded"
+    )
     title = f"along the axis, {scale_in_words(spring)}; d = {spring.wire_mm:g}, Di = {spring.inside_diameter_mm:.2f}"
     yield _text(END_VIEW_MM[0] - 30.0, 16.0, title)
 
@@ -148,40 +148,12 @@ def _middle_mm(spring: TorsionSpring, hand: str, scale: float) -> Array:
 
 
 def _fits(spring: TorsionSpring, hand: str, scale: float) -> bool:
-    """Tell whether both views and the words beside the arms are on the sheet, apart from each other."""
+    """Tell whether both views are on the sheet, apart from each other."""
     points, half = _drawn_mm(spring, hand, scale), scale * spring.wire_mm / 2.0
     low, high = _room_mm(spring, scale)
     first, last = _side_box_mm(spring, scale)
     beside = bool((np.ptp(points, axis=0) + 2.0 * half <= high - low).all())
-    inside = bool((first[1] >= ROOM_MM[1]) and (last <= ROOM_MM[2:]).all())
-    return beside and inside and all(_is_free(spring, hand, scale, *one) for one in _labels(spring, hand, scale))
-
-
-def _labels(spring: TorsionSpring, hand: str, scale: float) -> list[tuple[str, tuple[float, float]]]:
-    """Return the words at both arms' ends and where they begin: at the first place that is free."""
-    far, near = (scale * arm[1] + _middle_mm(spring, hand, scale) for arm in arms_of(spring, hand))
-    up = max(3.0, scale * spring.wire_mm / 2.0 + 1.0)
-    words = f"farther arm, {math.degrees(spring.free_arm_angle_rad):.0f}° from the nearer; dashed: loaded"
-    found = []
-    for text, (x, y), downs in (("nearer arm", near, (-up, up + 3.0)), (words, far, (6.0, -up))):
-        places = [(x + 2.0, y + down) for down in downs]
-        places += [(x - 2.0 - LETTER_MM[0] * len(text), y + down) for down in downs]
-        lowest = (x + 2.0, x - 2.0 - LETTER_MM[0] * len(text), ROOM_MM[0], ROOM_MM[2] - LETTER_MM[0] * len(text))
-        places += [(start, LOWEST_WORD_MM) for start in lowest]
-        found.append((text, next((one for one in places if _is_free(spring, hand, scale, text, one)), places[0])))
-    return found
-
-
-def _is_free(spring: TorsionSpring, hand: str, scale: float, text: str, place: tuple[float, float]) -> bool:
-    """Tell whether words that begin at a place are on the sheet, and touch neither wire nor the side view."""
-    low = np.array([place[0], place[1] - LETTER_MM[1]])
-    high = np.array([place[0] + LETTER_MM[0] * len(text), place[1]])
-    if low[0] < ROOM_MM[0] or low[1] < ROOM_MM[1] or high[0] > ROOM_MM[2] or high[1] > LOWEST_WORD_MM:
-        return False
-    first, last = _side_box_mm(spring, scale)
-    points = _drawn_mm(spring, hand, scale) + _middle_mm(spring, hand, scale)
-    away = np.linalg.norm(points - np.clip(points, low, high), axis=1)
-    return bool((low >= last).any() or (high <= first).any()) and bool((away >= scale * spring.wire_mm / 2.0).all())
+    return beside and bool((first[1] >= ROOM_MM[1]) and (last <= ROOM_MM[2:]).all())
 
 
 def arms_of(spring: TorsionSpring, hand: str, closed_rad: float = 0.0) -> tuple[Array, Array]:
