@@ -44,7 +44,7 @@ def commented_design(design: "Design", origin: str, file: str) -> str:
 
 def commented_workshop(workshop: "Workshop", origin: str) -> str:
     """Return the TOML document of a workshop: the default workshop's file, comments included, with other values."""
-    from jumpcad.files import find_template
+    from jumpcad.files import find_template, to_toml
 
     text = find_template("workshops", "default").read_text(encoding="utf-8")
     head, *sections = re.split(r"^(?=\[)", text.split('printer = "mk4"\n', 1)[1], flags=re.MULTILINE)
@@ -57,10 +57,8 @@ def commented_workshop(workshop: "Workshop", origin: str) -> str:
     ]
     for section in sections:
         lines += _section(section, data)
-    lines += [] if printer else ["", *_table("printer", data["printer"])]
-    for key, table in _others(data):
-        lines += ["", *_table(key, table)]
-    return "\n".join(lines).rstrip("\n") + "\n"
+    others = ({} if printer else {"printer": data["printer"]}) | _others(data)
+    return "\n".join(lines).rstrip("\n") + "\n" + ("\n" + to_toml(others) if others else "")
 
 
 def printer_name(workshop: "Workshop") -> str:
@@ -104,32 +102,19 @@ def _beyond_kit(bought: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in bought.items() if key not in kit or _plain(value) != _plain(kit[key])}
 
 
-def _others(data: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield the tables that the default workshop does not have: pins, changed materials, the user's own parts."""
+def _others(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables that the default workshop does not have: pins, changed materials, the user's own parts."""
     from jumpcad.files import find_template, read_toml, template_names
     from jumpcad.workshop import OWN_PARTS
 
-    if data["bought"]["pins"]:
-        yield "bought.pins", data["bought"]["pins"]
+    found: dict[str, Any] = {"bought": {"pins": data["bought"]["pins"]}} if data["bought"]["pins"] else {}
     for name, material in data["materials"].items():
         shipped = {}
         if name.lower() in template_names("materials"):
             shipped = read_toml(find_template("materials", name.lower()))[0]
         if own := {key: value for key, value in material.items() if shipped.get(key) != value}:
-            yield f"materials.{_written_key(name)}", own
-    for kind in OWN_PARTS:
-        for name, part in data[kind].items():
-            yield f"{kind}.{_written_key(name)}", part
-
-
-def _table(name: str, values: Mapping[str, Any]) -> list[str]:
-    """Return the lines of a table, followed by those of its nested tables."""
-    plain = {key: value for key, value in values.items() if not isinstance(value, dict)}
-    lines = [f"[{name}]", *(f"{_written_key(key)} = {_written(value)}" for key, value in plain.items())]
-    for key, value in values.items():
-        if isinstance(value, dict) and value:
-            lines += _table(f"{name}.{_written_key(key)}", value)
-    return lines
+            found.setdefault("materials", {})[name] = own
+    return found | {kind: data[kind] for kind in OWN_PARTS if data[kind]}
 
 
 def _at(data: Mapping[str, Any], path: str) -> Mapping[str, Any]:

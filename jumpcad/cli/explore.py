@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import (
     PlotsOption,
@@ -28,8 +28,6 @@ VIEWS = ("sweep", "pca", "importance", "feasibility")
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
 SAMPLES, POINTS, AROUND, OVER = 1000, 21, "best-bo", "rest_angle_deg,compression_ratio"
 """Defaults of the options."""
-SHOWN = 3
-"""Components of the elite that the text shows; JSON has all."""
 USED_BY = {
     "samples": ("pca", "importance"),
     "points": ("sweep", "feasibility"),
@@ -117,7 +115,7 @@ def explore(
         StudyStore.write(options.study, identity) as store,
         watching(total, as_json) as watch,
     ):
-        data, lines, figures = run(Evaluator(request, store, pool, watch=watch))
+        data, figures = run(Evaluator(request, store, pool, watch=watch))
     if plots is not None:
         from jumpcad.search.report.figures import save_figure
 
@@ -125,15 +123,18 @@ def explore(
     if as_json:
         print_json({"view": view, "model": options.model, "objective": objective.name} | data)
     else:
-        print("\n".join(lines))
+        reasons = Counter(reason for line in data.get("verdicts", ()) for reason in line)
+        print_text("explore", view=view, **data, total=total, counts=reasons.most_common(), counted=counted)
 
 
-View = Callable[["Evaluator"], tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]]
-"""Evaluates the designs of a view; returns data for JSON, lines of text, and functions that draw pictures, by name."""
+Found = tuple[dict[str, Any], dict[str, Callable[[], Any]]]
+"""Data for JSON and text, and functions that draw pictures, by name."""
+View = Callable[["Evaluator"], Found]
+"""Evaluates the designs of a view."""
 
 
 def _swept(centre: "Design", points: int) -> View:
-    def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
+    def run(evaluator: "Evaluator") -> Found:
         from jumpcad.search.explore import sweep
         from jumpcad.search.report import plots
 
@@ -150,20 +151,13 @@ def _swept(centre: "Design", points: int) -> View:
             ]
             for one in sweeps
         }
-        lines = []
-        for one in sweeps:
-            scores = [trial.score for trial in one.trials if trial.score is not None]
-            reach = f"{min(scores):9.4f} … {max(scores):9.4f}" if scores else "never feasible       "
-            lines.append(
-                f"{one.parameter:24s}{reach}  feasible at {len(scores)} of {counted(len(one.trials), 'value')}"
-            )
-        return {"sweeps": data}, lines, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
+        return {"sweeps": data}, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
 
     return run
 
 
 def _sampled(view: str, samples: int, seed: int) -> View:
-    def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
+    def run(evaluator: "Evaluator") -> Found:
         from jumpcad.search.explore import LEAST_R_SQUARED, UNIFORM_NOTE, components, elite, importance, sample
         from jumpcad.search.report import plots
 
@@ -177,31 +171,15 @@ def _sampled(view: str, samples: int, seed: int) -> View:
                 "r_squared": found.r_squared,
                 "designs": found.designs,
             }
-            lines = [f"{found.names[i]:24s}{found.mean[i]:8.3f} ± {found.deviation[i]:.3f}" for i in order]
-            lines.append(
-                f"R² on designs held out: {found.r_squared:.3f} ({found.designs} of {len(trials)} designs jump)"
-            )
             if found.r_squared < LEAST_R_SQUARED:
-                note = "R² is too low to say what is important: raise --samples, or narrow the bounds"
-                data["note"] = note
-                lines.append(note)
-            return data, lines, {"importance": lambda: plots.importance(found)}
+                data["note"] = "R² is too low to say what is important: raise --samples, or narrow the bounds"
+            return data, {"importance": lambda: plots.importance(found)}
         best = elite(trials)
         views = {"sampled": components(evaluator, trials), "elite": components(evaluator, best)}
         data = {"note": UNIFORM_NOTE, "parameters": views["elite"].names}
-        lines = ["share of the variance of each component:"]
         for name, view_of in views.items():
             data[name] = {"designs": view_of.designs, "shares": view_of.shares, "directions": view_of.directions}
-            lines.append(
-                f"{name:8s} ({counted(view_of.designs, 'design')}): " + "  ".join(f"{s:.3f}" for s in view_of.shares)
-            )
-        first = views["elite"].directions[:SHOWN]
-        lines.append(f"first {counted(len(first), 'component')} of the elite:")
-        lines += [
-            f"{name:24s}" + "  ".join(f"{part:+.3f}" for part in first[:, i])
-            for i, name in enumerate(views["elite"].names)
-        ]
-        return data, [*lines, UNIFORM_NOTE], {"pca": lambda: plots.components(views)}
+        return data, {"pca": lambda: plots.components(views)}
 
     return run
 
@@ -211,19 +189,17 @@ def _mapped(centre: "Design", over: str, points: int) -> View:
     if len(names) != 2:
         raise JumpcadError(f"--over {over}: a map has two parameters, NAME,NAME")
 
-    def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
+    def run(evaluator: "Evaluator") -> Found:
         from jumpcad.search.explore import feasibility_map
         from jumpcad.search.report import plots
 
         found = feasibility_map(evaluator, centre, names[0], names[1], points)
         reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]
-        counts = Counter(reason for line in reasons for reason in line).most_common()
         data = {
             "x": {"name": found.x_name, "values": found.x_names or found.x},
             "y": {"name": found.y_name, "values": found.y_names or found.y},
             "verdicts": reasons,
         }
-        lines = [f"{count:6d}  {reason}" for reason, count in counts]
-        return data, lines, {"feasibility": lambda: plots.feasibility(found, centre)}
+        return data, {"feasibility": lambda: plots.feasibility(found, centre)}
 
     return run

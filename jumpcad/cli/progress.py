@@ -44,23 +44,14 @@ class Tally:
         elif not self._computed:
             self._start_s = self._clock()
 
-    @property
-    def per_second(self) -> float:
-        """Evaluations computed per second; 0 before the first."""
-        elapsed = self._clock() - self._start_s
-        return self._computed / elapsed if elapsed > 0 else 0.0
-
-    @property
-    def left_s(self) -> float | None:
-        """Time for the remaining evaluations at this rate (s); None before the first."""
-        return (self.total - self.done) / self.per_second if self.per_second else None
-
     def line(self) -> str:
-        """Return the progress as one line of text."""
+        """Return the progress as one line of text: the rate, and the time for the rest at it, from the first on."""
+        elapsed = self._clock() - self._start_s
+        rate = self._computed / elapsed if elapsed > 0 else 0.0
         best = "–" if self.best is None else f"{self.best:.4g}"
-        left = "" if self.left_s is None else f", about {duration(self.left_s)} left"
+        left = f", about {duration((self.total - self.done) / rate)} left" if rate else ""
         done = f"{self.done} of {counted(self.total, 'evaluation')}"
-        return f"{self.phase}: {done}, best {best}, {self.per_second:.2g}/s{left}"
+        return f"{self.phase}: {done}, best {best}, {rate:.2g}/s{left}"
 
 
 def duration(seconds: float) -> str:
