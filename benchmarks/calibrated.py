@@ -147,7 +147,7 @@ def of_effects() -> dict[str, str]:
                 "|---|---|---|",
                 f"| the main leg bends | holds {_span(priced['leg_flex_energy'])} of the springs' energy; "
                 f"{_span(priced['leg_flex_range'])} of the range if none comes back | {weaker} |",
-                f"| air drag | {_span(priced['drag_range'])} of the range | nothing: it is small |",
+                f"| air drag | {_span(priced['drag_range'])} of the range | give `drag_area_m2` in the settings |",
                 f"| internal friction of the springs, {100.0 * effects.SPRING_FRICTION:.0f} % | "
                 f"{_span(priced['spring_friction_range'])} of the range | {weaker} |",
                 f"| gear stages {100.0 * effects.GEAR_LOSS:.0f} % less efficient | "
