@@ -14,6 +14,42 @@ from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.workshop import Workshop
 
+JUMP_FIGURES = {
+    "ballistic_range_m": "range",
+    "com_rise_m": "rise of the centre of mass",
+    "fitness": "range over the longest link",
+    "spring_energy_j": "energy in the springs",
+    "release_energy_ratio": "springs' energy left after the release, share",
+    "takeoff_energy_ratio": "springs' energy in the robot at take-off, share",
+    "takeoff_speed_m_s": "speed at take-off",
+    "takeoff_angle_deg": "angle of take-off above the ground",
+    "takeoff_time_s": "time from release to take-off",
+    "air_time_s": "time from take-off to touchdown",
+    "turn_deg": "turn of the body in flight, forwards",
+    "turn_rate_deg_s": "rate of that turn",
+    "touchdown_pitch_deg": "pitch at touchdown against the standing loaded robot, forwards",
+    "clears_bar_mm": "highest thin bar that it passes over",
+    "bar_distance_mm": "distance of that bar from its nose",
+    "lands_on_mm": "highest step that it lands on",
+    "step_distance_mm": "distance of that step from its nose",
+    "lateral_offset_mm": "centre of mass beside the leg, to the left",
+    "mass_kg": "mass",
+}
+"""Figures of a jump, and what they are."""
+FIGURES = JUMP_FIGURES | {
+    "body_lengths": "range over the robot's size",
+    "size_m": "size, the longest side of the robot at rest",
+    "electrical_energy_j": "electrical energy of a jump",
+    "motor_energy_j": "… of it, the motor's",
+    "boards_energy_j": "… of it, the boards' while winding",
+    "winding_time_s": "time to wind",
+    "body_mass_kg": "mass of the body",
+    "main_leg_mass_kg": "mass of the main leg",
+    "front_link_mass_kg": "mass of the front link",
+    "foot_mass_kg": "mass of the foot",
+}
+"""Figures of an evaluation of a printed robot, and what they are."""
+
 
 @dataclass(frozen=True, repr=False)
 class EvaluationResult:

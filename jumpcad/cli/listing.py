@@ -16,6 +16,7 @@ USED_AS = {
     "settings": "jumpcad simulate DESIGN --settings NAME",
     "engines": "jumpcad simulate DESIGN --engine NAME",
     "objectives": "jumpcad optimize --objective NAME",
+    "figures": "jumpcad optimize --require FIGURE<=NUMBER; an own objective",
     "kits": "[bought] kit in a workshop",
     "motors": "[bought] motors",
     "batteries": "[bought] battery",
@@ -77,6 +78,12 @@ def described(kind: str) -> dict[str, str]:
         from jumpcad.search.study.objective import OBJECTIVES
 
         return {name: f"{one.meaning} ({one.unit})" for name, one in OBJECTIVES.items()}
+    if kind == "figures":
+        from jumpcad.dimensions import unit_of_key
+        from jumpcad.evaluation import FIGURES
+
+        units = {name: unit_of_key(name) for name in FIGURES}
+        return {name: f"{words} ({units[name]})" if units[name] else words for name, words in FIGURES.items()}
     from jumpcad.catalogue import load_catalogue
 
     parts: Mapping[str, Any] = getattr(load_catalogue(), kind)

@@ -59,6 +59,12 @@ AgainstOption = Annotated[
 ScreenFlag = Annotated[
     bool, typer.Option("--screen", help="For ga: leave out candidates that a quick estimate finds too bad.")
 ]
+RequireOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        help="Keep a figure, or the margin of a limit, within limits: -30<=touchdown_pitch_deg<=30.", metavar="LIMITS"
+    ),
+]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
@@ -80,6 +86,7 @@ def optimize(
     hours: HoursOption = 0.0,
     screen: ScreenFlag = False,
     against: AgainstOption = None,
+    require: RequireOption = None,
     output: OutputOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -100,7 +107,7 @@ def optimize(
 
     centre = None if around is None else load_design(around)
     names = [] if only is None else [name.strip() for name in only.split(",")]
-    robot = options.robot_model()
+    robot = options.robot_model().requiring(require or ())
     changes = (options.fix or (), options.bound or (), options.choose or ())
     space = Space.parse(*changes, centre, names, within, robot.workshop)
     request = Request.make(

@@ -10,7 +10,7 @@ from jumpcad.transforms import Array
 
 SOLE_M = 0.0005
 """How far the foot's hull stays above its sole, so that a standing robot stands on its contact spheres alone."""
-DIGITS = 5
+DIGITS = 7
 """Of a corner's coordinates (m)."""
 
 

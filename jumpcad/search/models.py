@@ -12,18 +12,21 @@ from typing import Any
 from jumpcad.arguments import check_arguments, check_fields
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.evaluation import FIGURES, JUMP_FIGURES
 from jumpcad.files import Record, did_you_mean
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
+from jumpcad.mechanism.model import Mechanism
 from jumpcad.search.estimate.estimated_robot import layout_figures, robot_figures
 from jumpcad.search.estimate.refusal import layout_findings, room_findings, statics_refusal
 from jumpcad.search.pick.tolerances import PREFIX, Tolerances, perturbed
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
+from jumpcad.search.study.requirement import Required, Requirement, requirements_of, violations
 from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.search.study.versions import code_digest, versions
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
-from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE
+from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE, floors
 from jumpcad.version import __version__
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 from jumpcad.workshop.varied import Value
@@ -46,6 +49,7 @@ class RobotModel:
     workshop: Workshop | None = None
     settings: Settings | None = None
     engine: str = "pybullet"
+    requirements: tuple[Requirement, ...] = ()
 
     def __repr__(self) -> str:
         return f"<RobotModel {self.name}, {self.engine}>"
@@ -98,6 +102,37 @@ class RobotModel:
         """Names of the figures of a jump."""
         return PUBLISHED_FIGURES
 
+    def requiring(self, asked: Iterable[str] | Required) -> "RobotModel":
+        """Return the model whose evaluations are rejected where a requirement is not kept.
+
+        Raises
+        ------
+        JumpcadError
+            If one is none, or names no figure or limit of this robot.
+        """
+        found = requirements_of(asked, self.figure_names)
+        if not found:
+            return self
+        if not isinstance(self, CapsuleModel | PrintedModel):
+            raise JumpcadError(f"require: does not apply to the {self.name} robot; leave it out")
+        return replace(self, requirements=found)
+
+    def required(self, found: Evaluation, on_floors: Iterable[Mapping[str, float]] = ()) -> Evaluation:
+        """Return an evaluation with the findings of all requirements, also of its figures on other floors."""
+        if found.verdict != "jump" or not self.requirements:
+            return found
+        more = [one for figures in on_floors for one in violations(self.requirements, figures, {})]
+        kept = violations(self.requirements, found.metrics, found.margins)
+        return replace(found, findings=(*found.findings, *kept, *more))
+
+    def on_floors(self, robot: Mechanism, settings: Settings, engine: str) -> list[dict[str, float]]:
+        """Return figures of a robot's jumps on slippery and rough floors, if a requirement depends on them."""
+        from jumpcad.simulation import simulate
+
+        if not any(one.name in JUMP_FIGURES for one in self.requirements):
+            return []
+        return [_figures(simulate(robot, floor, engine)) for floor in floors(robot, settings)]
+
     def admits(self, design: Design) -> bool:
         """Whether the feasibility checks that need neither solids nor simulation accept a design (microseconds)."""
         return not errors(geometry_findings(design))
@@ -109,6 +144,8 @@ class RobotModel:
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""
         record: dict[str, Any] = {"name": self.name, "engine": self.engine}
+        if self.requirements:
+            record["require"] = list(map(str, self.requirements))
         for key in ("workshop", "settings"):
             value = getattr(self, key)
             record[key] = None if value is None else value.model_dump(mode="json")
@@ -147,6 +184,7 @@ class CapsuleModel(RobotModel):
 
     settings: Settings | None = None
     engine: str = "pybullet"
+    requirements: tuple[Requirement, ...] = ()
     name = "capsule"
 
     def __post_init__(self) -> None:
@@ -170,7 +208,7 @@ class CapsuleModel(RobotModel):
         from jumpcad.simulation import simulate
 
         jump = simulate(capsule_robot(design), self.settings, self.engine)
-        return Evaluation(jump.verdict, _figures(jump), tuple(jump.findings))
+        return self.required(Evaluation(jump.verdict, _figures(jump), tuple(jump.findings)))
 
 
 @dataclass(frozen=True, repr=False)
@@ -181,6 +219,8 @@ class PrintedModel(RobotModel):
     ----------
     workshop, settings, engine
         Where it is built, and how it is simulated; the default ones if None.
+    requirements
+        What figures and limits must keep; those of the jump hold on slippery and on rough floors.
     stand_in
         Whether the evaluation has the figures from which other robots are estimated.
     perturbation
@@ -190,6 +230,7 @@ class PrintedModel(RobotModel):
     workshop: Workshop | None = None
     settings: Settings | None = None
     engine: str = "pybullet"
+    requirements: tuple[Requirement, ...] = ()
     stand_in: bool = False
     perturbation: Mapping[str, Value] = field(default_factory=dict)
     name = "printed"
@@ -223,7 +264,10 @@ class PrintedModel(RobotModel):
         if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
         figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
-        return Evaluation(result.verdict, figures, findings)
+        others: list[dict[str, float]] = []
+        if not self.perturbation:  # of what is made otherwise the floor is one
+            others = self.on_floors(robot, self.settings or Settings(), self.estimate_engine)
+        return self.required(Evaluation(result.verdict, figures, findings), others)
 
     def refused_first(self, design: Design) -> Evaluation | None:
         """Return the outcome of a design that an estimate of the robot's masses refuses; None of others."""
@@ -245,6 +289,13 @@ class PrintedModel(RobotModel):
             return super().making
         length, rate = self.workshop.fits.link_tolerance_mm, self.workshop.safety.spring_rate_scatter / 2.0
         return Tolerances(length, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
+
+    @property
+    def figure_names(self) -> Iterable[str]:
+        """Names of the figures of an evaluation, and of the limits, of which the margin counts."""
+        from jumpcad.checks import CHECKS
+
+        return [*FIGURES, *(name for check in CHECKS if check.cheap for name in check.basis)]
 
     def require_figures(self, objective: Objective) -> None:
         """Require nothing: a printed robot has the figures of all objectives."""

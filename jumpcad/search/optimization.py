@@ -47,6 +47,7 @@ def optimize(
     hours: float | int = 0.0,
     screen: bool = False,
     against: str | None = None,
+    require: Mapping[str, tuple[float | None, float | None]] = NOTHING,
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -87,6 +88,10 @@ def optimize(
     screen
         For `ga` on the printed robot: leave out candidates that, by a quick estimate, fail or are worse than the best
         known by more than the estimate's error. They count as evaluations.
+    require
+        At least and at most, None for neither, of figures of an evaluation or margins of limits, by name:
+        ``{"touchdown_pitch_deg": (-30.0, 30.0)}``. What depends on the floor holds on slippery and rough ones. The
+        winner keeps them, or there is none.
     against
         What `pareto` and `nsga2` weigh the objective against: one of `jumpcad.search.COSTS`, of which less is better
         (`electrical-energy`, `spring-energy`, `mass`, `winding-time`), or another objective, of which more is. If None,
@@ -105,7 +110,7 @@ def optimize(
     path = None if study is None else Path(study)
     require_study(path)
     centre = load_design(around) if isinstance(around, str | Path) else around
-    robot = robot_model(model, workshop, settings, engine)
+    robot = robot_model(model, workshop, settings, engine).requiring(require)
     space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop)
     request = Request.make(
         space, robot, method, objective,

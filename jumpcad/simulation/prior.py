@@ -7,6 +7,8 @@ from typing import Literal
 import numpy as np
 from scipy.special import ndtr, ndtri
 
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.settings import Settings, coefficients
 from jumpcad.transforms import Array
 
 Shape = Literal["normal", "lognormal", "uniform", "half-normal"]
@@ -53,3 +55,15 @@ PRINTED_MASS_SHARE = 0.04
 """Relative deviation of a printed robot's mass from the model's: that of parts from PrusaSlicer's mass."""
 FLOOR_SHARE = 0.15
 """Standard deviation of the logarithm of an untested floor's friction; judgement: rubber slides at 0.6 to 1.0."""
+
+
+def floors(mechanism: Mechanism, settings: Settings) -> tuple[Settings, ...]:
+    """Return the settings on the slipperiest and the roughest floor that a robot may meet, by two deviations.
+
+    None where the settings say what the floor is.
+    """
+    if settings.ground_friction is not None:
+        return ()
+    usual = coefficients(mechanism, settings).ground
+    frictions = (usual * math.exp(sign * 2.0 * FLOOR_SHARE) for sign in (-1.0, 1.0))
+    return tuple(settings.model_copy(update={"ground_friction": friction}) for friction in frictions)

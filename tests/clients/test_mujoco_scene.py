@@ -95,7 +95,7 @@ def test_attached_to_another_scene_it_stands_on_its_floor_and_jumps_as_far(case:
 
 
 def test_it_lands_on_its_body_and_stays_above_the_floor(case: Case) -> None:
-    """After a jump it lies somewhere: boxes and capsules carry it where no foot does."""
+    """After a jump it lies somewhere: hulls carry it where no foot does."""
     model = mujoco.MjModel.from_xml_path(str(case.scene))
     data = wound(model)
     data.qpos[2], data.qpos[3:7] = 0.3, [0.0, 1.0, 0.0, 0.0]  # on its back

@@ -117,7 +117,11 @@ class Estimator:
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
         size = max(design.l_max_mm / 1000.0, *(figures[name] for name in EXTENTS))
         found = {**figures, **found, "size_m": size, "body_lengths": found["ballistic_range_m"] / size}
-        return Estimate(self._objective.score(Evaluation("jump", found)) or 0.0, margins)
+        others = self._model.on_floors(robot, self._model.estimate_settings, self._model.estimate_engine)
+        asked = self._model.required(Evaluation("jump", found), others)
+        if asked.reasons:
+            return Estimate(None, {**margins, **asked.margins})
+        return Estimate(self._objective.score(asked) or 0.0, {**margins, **asked.margins})
 
 
 def learned_rows(known: int) -> int:

@@ -2,6 +2,7 @@
 
 from jumpcad.design import Design
 from jumpcad.dimensions import unit_of_key
+from jumpcad.evaluation import FIGURES as FIGURES
 
 FIGURE_UNITS = {
     "_m_s": ("m/s", 1.0),
@@ -16,24 +17,6 @@ FIGURE_UNITS = {
     "_deg": ("°", 1.0),
 }
 """Unit in which a figure is shown, and the factor, by the end of the figure's name."""
-
-FIGURES = {
-    "fitness": "range over the longest link",
-    "body_lengths": "range over the robot's size",
-    "ballistic_range_m": "range",
-    "com_rise_m": "rise of the centre of mass",
-    "release_energy_ratio": "springs' energy left after the release, share",
-    "takeoff_energy_ratio": "springs' energy in the robot at take-off, share",
-    "takeoff_speed_m_s": "speed at take-off",
-    "takeoff_angle_deg": "angle of take-off above the ground",
-    "takeoff_time_s": "time from release to take-off",
-    "electrical_energy_j": "electrical energy of a jump",
-    "motor_energy_j": "… of it, the motor's",
-    "boards_energy_j": "… of it, the boards' while winding",
-    "size_m": "size, the longest side of the robot at rest",
-    "spring_energy_j": "energy in the springs",
-}
-"""What figures of an evaluation are called."""
 
 REASONS = {
     "loop": "foot and front link do not reach each other over the whole travel: the linkage comes apart",

@@ -1,0 +1,105 @@
+"""Limits that a search keeps on any figure: `-30<=touchdown_pitch_deg<=30`, `mass_kg<=0.15`, `leg_strength>=5`."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.files.complaints import shown
+from jumpcad.findings import Finding, at_least, at_most
+
+NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)"
+FORM = re.compile(rf"\s*(?:{NUMBER}\s*<=\s*)?([A-Za-z_]\w*)\s*(?:(<=|>=)\s*{NUMBER})?\s*", re.I)
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """The least and the largest value of a figure, or of the margin of a limit; None where there is none."""
+
+    name: str
+    least: float | None = None
+    most: float | None = None
+
+    def __str__(self) -> str:
+        low = "" if self.least is None else f"{self.least:g}<="
+        return f"{low}{self.name}" + ("" if self.most is None else f"<={self.most:g}")
+
+    @classmethod
+    def parse(cls, text: str) -> "Requirement":
+        """Return the requirement that a text says.
+
+        Raises
+        ------
+        JumpcadError
+            If it says none.
+        """
+        found = FORM.fullmatch(text)
+        low, name, sign, number = found.groups() if found else (None, "", None, None)
+        if not name or (low is None and number is None) or (low is not None and sign == ">="):
+            raise JumpcadError(
+                f"{shown(text)}: is no requirement: write LO<=FIGURE<=HI, FIGURE>=LO or FIGURE<=HI, such as "
+                "-30<=touchdown_pitch_deg<=30"
+            )
+        value = None if number is None else float(number)
+        least = value if sign == ">=" else None if low is None else float(low)
+        return cls.of(name, least, value if sign == "<=" else None)
+
+    @classmethod
+    def of(cls, name: str, least: float | None, most: float | None) -> "Requirement":
+        """Return a requirement on a figure.
+
+        Raises
+        ------
+        JumpcadError
+            If nothing can keep it.
+        """
+        if least is not None and most is not None and not least <= most:
+            raise JumpcadError(f"{name}: at least {least:g} and at most {most:g} cannot both hold; exchange them")
+        return cls(name, least, most)
+
+    def findings(self, value: float) -> Iterator[Finding]:
+        """Yield a finding of a value for each limit, named after it."""
+        remedy = "change what the figure depends on, or require less"
+        if self.least is not None:
+            name = f"{self.name}>={self.least:g}"
+            yield at_least(name, value, self.least, "", f"{self.name} is {value:.4g}, required is {name}", remedy)
+        if self.most is not None:
+            name = f"{self.name}<={self.most:g}"
+            yield at_most(name, value, self.most, "", f"{self.name} is {value:.4g}, required is {name}", remedy)
+
+
+Required = Mapping[str, tuple[float | None, float | None]]
+"""At least and at most, by figure: requirements as a program gives them."""
+
+
+def requirements_of(asked: Iterable[str] | Required, known: Iterable[str]) -> tuple[Requirement, ...]:
+    """Return requirements, sorted by name, of texts or of pairs by name.
+
+    Raises
+    ------
+    JumpcadError
+        If one is none, or names no figure that is `known`.
+    """
+    if isinstance(asked, Mapping):
+        found = [Requirement.of(name, *limits) for name, limits in asked.items()]
+    else:
+        found = [Requirement.parse(text) for text in asked]
+    names = sorted(known)
+    for one in found:
+        if one.name not in names and not any(one.name.startswith(name[:-1]) for name in names if name.endswith("*")):
+            raise JumpcadError(
+                f"{one.name}: a jump of this robot has no such figure{did_you_mean(one.name, names)}; "
+                "jumpcad list figures has them all"
+            )
+    return tuple(sorted(found, key=str))
+
+
+def violations(
+    requirements: Iterable[Requirement], figures: Mapping[str, float], margins: Mapping[str, float]
+) -> Iterator[Finding]:
+    """Yield the findings of requirements on figures and margins that are there."""
+    for one in requirements:
+        value = figures.get(one.name, margins.get(one.name))
+        if value is not None:
+            yield from one.findings(value)

@@ -1,0 +1,78 @@
+"""Requirements: what they say, what keeps them, on which floors, and that a search's winner does."""
+
+import math
+
+import pytest
+from support.built import built
+
+import jumpcad
+from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.evaluation import FIGURES, JUMP_FIGURES
+from jumpcad.findings import errors
+from jumpcad.search.models import robot_model
+from jumpcad.search.study.requirement import Requirement, requirements_of, violations
+from jumpcad.settings import Settings
+from jumpcad.simulation.prior import floors
+
+
+def test_texts_say_the_least_and_the_most_of_a_figure() -> None:
+    for text, least, most in (
+        ("-30<=turn_deg<=30", -30.0, 30.0), ("mass_kg <= 0.15", None, 0.15), ("com_rise_m>=1e-1", 0.1, None),
+        ("0.2<=com_rise_m", 0.2, None), (" .5 <= body_lengths <= +2 ", 0.5, 2.0),
+    ):  # fmt: skip
+        found = Requirement.parse(text)
+        assert (found.least, found.most) == (least, most), text
+        assert Requirement.parse(str(found)) == found
+
+
+def test_what_is_no_requirement_is_told_in_one_line() -> None:
+    for text in ("turn_deg", "turn_deg<30", "turn_deg==3", "3<=turn_deg>=1", "<=3", "", "turn_deg<=x", "1<=2<=3"):
+        with pytest.raises(JumpcadError, match=r"is no requirement: write LO<=FIGURE<=HI") as wrong:
+            Requirement.parse(text)
+        assert "\n" not in str(wrong.value)
+    with pytest.raises(JumpcadError, match=r"turn_deg: at least 3 and at most 1 cannot both hold"):
+        Requirement.parse("3<=turn_deg<=1")
+    with pytest.raises(JumpcadError, match=r"turn_degs: .* \(did you mean turn_deg\?\)"):
+        requirements_of(["turn_degs<=3"], FIGURES)
+    with pytest.raises(JumpcadError, match="does not apply to the published robot"):
+        robot_model("published").requiring(["fitness>=1"])
+
+
+def test_margins_are_the_distance_to_each_limit() -> None:
+    asked = requirements_of({"turn_deg": (-30.0, 30.0), "leg_strength": (5.0, None)}, [*FIGURES, "leg_*"])
+    found = {one.name: one.margin for one in violations(asked, {"turn_deg": 40.0}, {"leg_strength": 7.0})}
+    assert found == {"turn_deg>=-30": 70.0, "turn_deg<=30": -10.0, "leg_strength>=5": 2.0}
+    assert list(violations(asked, {}, {})) == []
+
+
+def test_figures_that_may_be_required_are_those_of_an_evaluation() -> None:
+    given = robot_model("printed")(load_design("kenan-2.0")).metrics
+    assert set(FIGURES) == set(given) - {"touchdown_distance_m"}
+    capsule = robot_model("capsule")(load_design("kenan-2.0")).metrics
+    assert set(JUMP_FIGURES) == set(capsule) - {"touchdown_distance_m"}
+
+
+def test_the_floor_is_two_deviations_slipperier_and_rougher_unless_it_is_given() -> None:
+    robot = built("kenan-2.0")
+    low, high = (one.ground_friction for one in floors(robot, Settings()))
+    assert (low, high) == pytest.approx((0.8 * math.exp(-0.3), 0.8 * math.exp(0.3)))
+    assert floors(robot, Settings(ground_friction=0.7)) == ()
+
+
+def test_a_robot_that_lands_upright_on_one_floor_alone_is_rejected() -> None:
+    """kenan-2.0 touches down within 30° on every floor, and best-printable, which turns over, on none."""
+    model = robot_model("printed").requiring(["-30<=touchdown_pitch_deg<=30"])
+    assert not errors(model(load_design("kenan-2.0")).findings)
+    assert model(load_design("best-printable")).reasons
+    assert model.digest != robot_model("printed").digest
+
+
+def test_the_winner_of_a_search_keeps_what_was_required() -> None:
+    found = jumpcad.optimize(evaluations=30, model="capsule", seed=1, workers=0, require={"com_rise_m": (None, 0.1)})
+    assert found.design is not None
+    assert jumpcad.simulate(jumpcad.capsule_robot(found.design)).com_rise_m <= 0.1
+    kept = [trial for trial in found.trials if trial.score is not None]
+    assert kept
+    assert all(trial.evaluation.metrics["com_rise_m"] <= 0.1 for trial in kept)
+    assert any("com_rise_m<=0.1" in trial.evaluation.reasons for trial in found.trials)
