@@ -12,7 +12,6 @@ import numpy as np
 from jumpcad.arguments import check_arguments
 from jumpcad.calibration.likelihood import (
     CalibrationModel,
-    CalibrationParameter,
     Datum,
     Predicted,
     energy_per_mass,
@@ -78,7 +77,7 @@ class CalibrationPosterior:
             {
                 "key": one.key,
                 "label": one.label,
-                "prior": _quantiles(one),
+                "prior": list(one.prior.quantiles(QUANTILES)),
                 "posterior": np.quantile(self.values[one.key], QUANTILES).tolist(),
                 "spread": float(deviation[index]),
                 "verdict": _verdict(float(deviation[index]), float(self.z[:, index].mean())),
@@ -219,10 +218,6 @@ def _emcee() -> Any:
     except ImportError:
         raise JumpcadError('emcee, the sampler, is not installed: pip install "jumpcad[calibrate]"') from None
     return emcee
-
-
-def _quantiles(parameter: CalibrationParameter) -> list[float]:
-    return list(parameter.prior.quantiles(QUANTILES))
 
 
 def _verdict(spread: float, shift: float) -> str:

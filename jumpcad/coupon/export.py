@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.bundle.atomic_write import require_place, write_folder
+from jumpcad.bundle.bom import Bill, BillLine, mass_facts
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
@@ -38,19 +39,10 @@ def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -
     require_place(folder)
     holes = coupon_holes(workshop)
     made = pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
-    kg = [_mass_kg(piece, workshop) for piece in made]
     masses = [
-        {
-            "kind": "printed",
-            "name": piece.name,
-            "quantity": piece.quantity,
-            "material": piece.material,
-            "mass_kg": mass_kg,
-            "source": "printed",
-        }
-        for piece, mass_kg in zip(made, kg, strict=True)
+        BillLine("printed", one.name, one.quantity, one.material, _mass_kg(one, workshop), "printed") for one in made
     ]
-    facts = {"mass_kg": sum(kg), "masses": masses}
+    facts = {"mass_kg": sum(line.mass_kg for line in masses), "masses": mass_facts(Bill(tuple(masses)))}
     return write_folder(folder, "coupon", facts, _contents(workshop, holes, made), force)
 
 

@@ -27,8 +27,14 @@ def environment() -> Environment:
         keep_trailing_newline=True,
         autoescape=False,  # names of users are escaped by `plain` in Markdown, by `html` in HTML
     )
-    found.filters |= {"n": _rounded, "g": _shortest, "plain": plain, "html": escape}
-    found.filters |= {"capital": _capital, "small": _small}
+    found.filters |= {
+        "n": lambda value, digits=0: f"{float(value):.{digits}f}",
+        "g": lambda value: f"{float(value):g}",
+        "plain": plain,
+        "html": escape,
+        "capital": lambda text: text[:1].upper() + text[1:],
+        "small": lambda text: text[:1].lower() + text[1:],
+    }
     return found
 
 
@@ -47,22 +53,6 @@ def render(template: str, values: Mapping[str, Any]) -> str:
 def fill(template: str, values: Mapping[str, Any]) -> str:
     """Return a template with values in it, line by line as it is; errors are those of `render`."""
     return environment().get_template(template).render(values)
-
-
-def _rounded(value: float, digits: int = 0) -> str:
-    return f"{float(value):.{digits}f}"
-
-
-def _shortest(value: float) -> str:
-    return f"{float(value):g}"
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
-
-
-def _small(text: str) -> str:
-    return text[:1].lower() + text[1:]
 
 
 def _numbered(text: str) -> str:
