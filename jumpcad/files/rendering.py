@@ -1,7 +1,7 @@
 """Texts from templates (Jinja2): what a template names and nobody gives is an error."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from html import escape
 from typing import Any
@@ -27,7 +27,7 @@ def environment() -> Environment:
         keep_trailing_newline=True,
         autoescape=False,  # names of users are escaped by `plain` in Markdown, by `html` in HTML
     )
-    found.filters |= {
+    filters: dict[str, Callable[..., str]] = {
         "n": lambda value, digits=0: f"{float(value):.{digits}f}",
         "g": lambda value: f"{float(value):g}",
         "plain": plain,
@@ -35,6 +35,7 @@ def environment() -> Environment:
         "capital": lambda text: text[:1].upper() + text[1:],
         "small": lambda text: text[:1].lower() + text[1:],
     }
+    found.filters |= filters
     return found
 
 
