@@ -1,5 +1,6 @@
-"""Mass, time and toolpath of a part by PrusaSlicer, printed as the workshop says."""
+"""Mass and time of a part by PrusaSlicer, printed as the workshop says."""
 
+import math
 import re
 import shutil
 import subprocess
@@ -9,8 +10,6 @@ from pathlib import Path
 
 from jumpcad.catalogue import Pad
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.printing.gcode import Toolpath, read_gcode
-from jumpcad.solids.moments import G_PER_CM3
 from jumpcad.workshop import Material, Printer, Process
 
 PROGRAM = "prusa-slicer"
@@ -18,13 +17,16 @@ MAJOR = 2
 """The major version whose settings, remarks and exit codes are known here."""
 TIMEOUT_S = 600
 FILAMENT_MM = 1.75
+REMARK = re.compile(r"^; ([\w \[\]()]+?) = (.*)$", re.MULTILINE)
+"""A closing comment of its G-code: a setting, the time, the filament."""
+USED, TIME = "filament used [mm]", "estimated printing time (normal mode)"
 REFUSED = 1
 """PrusaSlicer's exit code for input that it will not print; any other means a crash."""
 
 
 @dataclass(frozen=True)
 class Sliced:
-    """One sliced part: grams, seconds of printing, settings that the slicer did not take over, and its toolpath.
+    """One sliced part: grams, seconds of printing, settings that the slicer did not take over, and its G-code.
 
     `ignored` maps a setting to what was asked for and what the slicer says it used.
     """
@@ -32,7 +34,7 @@ class Sliced:
     grams: float
     time_s: float
     ignored: dict[str, tuple[str, str]]
-    toolpath: Toolpath
+    gcode: str
 
 
 def slicer_program() -> str | None:
@@ -121,18 +123,18 @@ def _sliced(model: Path, place: list[str], asked: dict[str, str], material: Mate
                 raise CannotBuildError(f"{PROGRAM} refused {model.name}: {words[-1]}")
             said = words[-1] if words else "it printed no message"
             raise JumpcadError(f"{PROGRAM} crashed on {model.name} with exit code {done.returncode}: {said}")
-        toolpath = read_gcode(output.read_text(encoding="utf-8", errors="replace"))
-    remarks = toolpath.remarks
-    if "estimated printing time (normal mode)" not in remarks or "filament_diameter" not in remarks:
+        gcode = output.read_text(encoding="utf-8", errors="replace")
+    remarks = dict(REMARK.findall(gcode))
+    if not {USED, TIME} <= remarks.keys():
         raise JumpcadError(
             f"{PROGRAM} wrote G-code without its usual remarks for {model.name}: another version or program?"
         )
     ignored = {key: (value, remarks.get(key, "nothing")) for key, value in asked.items() if remarks.get(key) != value}
     return Sliced(
-        grams=float(toolpath.volumes_mm3.sum()) * material.density_g_cm3 * G_PER_CM3 * 1000.0,
-        time_s=_seconds(remarks["estimated printing time (normal mode)"]),
+        grams=float(remarks[USED]) * math.pi / 4.0 * FILAMENT_MM**2 * material.density_g_cm3 / 1000.0,
+        time_s=_seconds(remarks[TIME]),
         ignored=ignored,
-        toolpath=toolpath,
+        gcode=gcode,
     )
 
 

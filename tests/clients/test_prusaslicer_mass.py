@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from support import needs
 from support.built import built
+from support.gcode import read_gcode
 from support.slicers import with_seams_behind
 
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -78,11 +79,11 @@ def require_agreement(shape, stl, infill, material):
     process = WORKSHOP.process.model_copy(update={"infill": infill})
     sliced = slice_part(stl, WORKSHOP.printer, process, material)
     assert sliced.ignored == {}
-    assert sliced.grams == pytest.approx(float(sliced.toolpath.remarks["filament used [g]"]), abs=0.006)
+    assert sliced.grams == pytest.approx(float(read_gcode(sliced.gcode).remarks["filament used [g]"]), abs=0.006)
     assert sliced.time_s > 30.0
     model = mass_properties(shape, material.density_g_cm3, process, WORKSHOP.printer.nozzle_mm)
     assert 1000.0 * model.mass_kg == pytest.approx(sliced.grams, rel=0.06)
-    extruded = mass_of(sliced.toolpath.moments(), material.density_g_cm3)
+    extruded = mass_of(read_gcode(sliced.gcode).moments(), material.density_g_cm3)
     np.testing.assert_allclose(np.diag(model.inertia_kg_m2), np.diag(extruded.inertia_kg_m2), rtol=0.05)
     assert model.com_m[2] == pytest.approx(extruded.com_m[2], rel=0.012, abs=1e-4)
 
@@ -143,7 +144,8 @@ def test_over_infill_coarse_layers_are_bridged_with_less_plastic_than_they_hold(
 @needs_slicer
 def test_a_hole_keeps_its_diameter_in_the_toolpath(tmp_path):
     block = Stack.of([(0, 2, rectangle((30, 30)))]).through(hole(8.2))
-    toolpath = slice_part(written(block, tmp_path), WORKSHOP.printer, WORKSHOP.process, MATERIAL).toolpath
+    sliced = slice_part(written(block, tmp_path), WORKSHOP.printer, WORKSHOP.process, MATERIAL)
+    toolpath = read_gcode(sliced.gcode)
     outer = np.array([kind == "External perimeter" for kind in toolpath.kinds])
     centre = np.array(WORKSHOP.printer.bed_mm[:2]) / 2.0
     middles = ((toolpath.starts_mm + toolpath.ends_mm) / 2.0)[outer, :2] - centre

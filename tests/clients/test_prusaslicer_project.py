@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 import trimesh
 from support import needs
+from support.gcode import read_gcode
 
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.parts.part import Drawing, Part, Placement, upright
-from jumpcad.printing.gcode import read_gcode
 from jumpcad.printing.prusaslicer import slice_plate, slicer_program, slicer_settings
 from jumpcad.solids.outline import hole, rectangle, stadium
 from jumpcad.solids.stack import Stack

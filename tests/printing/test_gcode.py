@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from support.gcode import read_gcode
 
-from jumpcad.printing.gcode import read_gcode
 from jumpcad.solids.moments import G_PER_CM3, mass_of
 
 ABSOLUTE = """M82

@@ -16,7 +16,7 @@ GCODE = """M83
 ;TYPE:Perimeter
 G1 X0 Y0 Z.2 F600
 G1 X100 Y0 E10
-; filament_diameter = 1.75
+; filament used [mm] = 10.00
 ; estimated printing time (normal mode) = 1h 2m 3s
 ; perimeters = 99
 """
