@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, shell_quoted, status, text_of
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, shell_quoted, status, table, text_of
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
@@ -224,21 +224,17 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
 
 
 def _print_facts(facts: dict[str, Any]) -> None:
-    from rich.table import Table
-
     from jumpcad.bundle.inputs import DESIGN, WORKSHOP
     from jumpcad.checks import COSTLY
 
-    table = Table("part", "quantity", "material", "g each", "g", "mass from", box=None, pad_edge=False)
-    for column in (1, 3, 4):
-        table.columns[column].justify = "right"
+    masses = table("part", ">quantity", "material", ">g each", ">g", "mass from")
     for line in facts["masses"]:
         grams = 1000.0 * line["mass_kg"]
         row = (line["quantity"], line["material"], f"{grams:.2f}", f"{line['quantity'] * grams:.2f}", line["source"])
-        table.add_row(line["name"], *map(str, row))
-    table.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
+        masses.add_row(line["name"], *map(str, row))
+    masses.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
     screen = console()
-    console(width=screen.width if screen.is_terminal else WIDE).print(table)
+    console(width=screen.width if screen.is_terminal else WIDE).print(masses)
     print()
     design, workshop = (shell_quoted(str(Path(facts["folder"], name))) for name in (DESIGN, WORKSHOP))
     text = text_of(

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, console, print_json
+from jumpcad.cli.output import JsonFlag, console, print_json, table
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
@@ -159,15 +159,10 @@ def _print_table(findings: "list[Finding]", every: bool) -> None:
 
 
 def _print_columns(screen: "Console", shown: "list[Finding]") -> None:
-    from rich.table import Table
-
-    table = Table(box=None, pad_edge=False)
-    for title in ("", "check", "used", "margin", "found"):
-        to_right = title in ("used", "margin")
-        table.add_column(title, justify="right" if to_right else "left", no_wrap=title != "found")
+    limits = table("", "check", ">used", ">margin", "found", wraps="found")
     for finding in shown:
-        table.add_row(*_cells(finding))
-    screen.print(table)
+        limits.add_row(*_cells(finding))
+    screen.print(limits)
 
 
 def _print_lines(screen: "Console", shown: "list[Finding]") -> None:

@@ -21,6 +21,7 @@ from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.table import Table
 
 JsonFlag = Annotated[bool, typer.Option("--json", help="Print one JSON document instead of text.")]
 ForceFlag = Annotated[bool, typer.Option("--force", help="Replace files that are there and not as jumpcad wrote them.")]
@@ -143,6 +144,17 @@ def console(**options: Any) -> "Console":
     if isinstance(sys.stdout, Output) and "stderr" not in options:
         options["file"] = sys.stdout.coloured()
     return Console(markup=False, emoji=False, **options)
+
+
+def table(*headings: str, wraps: str = "", **options: Any) -> "Table":
+    """Return an empty table; a heading with > before it is right-aligned, the column `wraps` alone breaks lines."""
+    from rich.table import Table
+
+    made = Table(**{"box": None, "pad_edge": False} | options)
+    for heading in headings:
+        title = heading.removeprefix(">")
+        made.add_column(title, justify="right" if title != heading else "left", no_wrap=bool(wraps) and title != wraps)
+    return made
 
 
 @contextlib.contextmanager

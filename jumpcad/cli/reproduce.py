@@ -1,9 +1,9 @@
 """`jumpcad reproduce`: the published study's table of results, simulated again, with explanations."""
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from jumpcad.cli.output import JsonFlag, console, print_json
+from jumpcad.cli.output import JsonFlag, console, print_json, table
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 def reproduce(as_json: JsonFlag = False) -> None:
     """Print the published table of results, the same simulated again, and jumpcad's own results."""
+    from rich.box import SIMPLE
+
     from jumpcad.paper import reproduction
 
     rows = reproduction.reproduce()
@@ -25,19 +27,20 @@ def reproduce(as_json: JsonFlag = False) -> None:
             }
         )
         return
-    screen = console(highlight=False)
-    screen.print(_results(rows))
+    screen, style = console(highlight=False), {"title_justify": "left", "box": SIMPLE, "pad_edge": True}
+    screen.print(_results(rows, style))
     screen.print(reproduction.READING)
-    screen.print(_hyperparameters(reproduction.HYPERPARAMETERS))
+    screen.print(_hyperparameters(reproduction.HYPERPARAMETERS, style))
     screen.print("Why the published figures and the evaluator's differ:")
     for reason in reproduction.WHY_THEY_DIFFER:
         screen.print(f"- {reason}")
 
 
-def _results(rows: "list[Reproduction]") -> "Table":
-    table = _table(
-        "Published results", "robot", "quantity", ">published", ">again", ">measured", ">evaluator", "meaning"
-    )
+def _results(rows: "list[Reproduction]", style: dict[str, Any]) -> "Table":
+    made = table(
+        "robot", "quantity", ">published", ">again", ">measured", ">evaluator", "meaning", title="Published results",
+        **style,
+    )  # fmt: skip
     for row in rows:
         there, here, jump = row.published.simulated, row.again, row.jump
         measured = asdict(row.published.measured) if row.published.measured else {}
@@ -45,30 +48,19 @@ def _results(rows: "list[Reproduction]") -> "Table":
         length = ("length m", f"{there.distance_m:g}", f"{here.distance_m:.4f}", built.get("distance_m"))
         height = ("height m", f"{there.base_height_m:g}", f"{here.base_height_m:.4f}", built.get("height_m"))
         energy = ("energy J", f"{there.energy_j:g}", f"{here.energy_j:.4f}", built.get("electrical_energy_j"))
-        table.add_row(row.published.title, *length, _shown(jump.ballistic_range_m), "ballistic")
-        table.add_row("", "", "", "", "", _shown(jump.touchdown_distance_m), "touchdown")
-        table.add_row("", *height, _shown(jump.com_rise_m), "rise")
-        table.add_row("", *energy, _shown(jump.takeoff_energy_ratio), "share", end_section=True)
-    return table
+        made.add_row(row.published.title, *length, _shown(jump.ballistic_range_m), "ballistic")
+        made.add_row("", "", "", "", "", _shown(jump.touchdown_distance_m), "touchdown")
+        made.add_row("", *height, _shown(jump.com_rise_m), "rise")
+        made.add_row("", *energy, _shown(jump.takeoff_energy_ratio), "share", end_section=True)
+    return made
 
 
-def _hyperparameters(items: "tuple[Hyperparameter, ...]") -> "Table":
+def _hyperparameters(items: "tuple[Hyperparameter, ...]", style: dict[str, Any]) -> "Table":
     title = "The study's hyperparameter table is not what its results come from"
-    table = _table(title, "hyperparameter", ">in its table", ">in its results")
+    made = table("hyperparameter", ">in its table", ">in its results", title=title, **style)
     for item in items:
-        table.add_row(item.name, "–" if item.in_table is None else f"{item.in_table:g}", f"{item.in_results:g}")
-    return table
-
-
-def _table(title: str, *headings: str) -> "Table":
-    """Return an empty table; a heading that starts with > is right-aligned."""
-    from rich.box import SIMPLE
-    from rich.table import Table
-
-    table = Table(title=title, title_justify="left", box=SIMPLE)
-    for heading in headings:
-        table.add_column(heading.removeprefix(">"), justify="right" if heading.startswith(">") else "left")
-    return table
+        made.add_row(item.name, "–" if item.in_table is None else f"{item.in_table:g}", f"{item.in_results:g}")
+    return made
 
 
 def _shown(value: float | None) -> str:

@@ -1,12 +1,11 @@
 """`jumpcad slice`: masses and printing times of a bundle's parts and plates by PrusaSlicer."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, status, table
 
 if TYPE_CHECKING:
     from jumpcad.bundle.sliced import SlicedBundle
@@ -77,25 +76,19 @@ def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) 
 def _print_sliced(found: "SlicedBundle") -> None:
     from jumpcad.bundle.guide.markdown import duration
 
-    _print_table(
-        ("part", "quantity", "material", "g each", "model g", "model", "time each"),
-        [
-            (
-                part.name,
-                str(part.quantity),
-                part.material,
-                f"{part.grams:.2f}",
-                f"{part.modelled_grams:.2f}",
-                f"{100.0 * part.difference:+.1f} %",
-                duration(part.time_s),
-            )
-            for part in found.parts
-        ],
-    )
+    screen = console(width=WIDE)
+    parts = table("part", ">quantity", "material", ">g each", ">model g", ">model", ">time each", wraps="none")
+    for part in found.parts:
+        grams = f"{part.grams:.2f}", f"{part.modelled_grams:.2f}", f"{100.0 * part.difference:+.1f} %"
+        parts.add_row(part.name, str(part.quantity), part.material, *grams, duration(part.time_s))
+    screen.print(parts)
     print()
-    plates = [(plate.name, plate.material, f"{plate.grams:.2f}", duration(plate.time_s)) for plate in found.plates]
-    grams, seconds = sum(plate.grams for plate in found.plates), sum(plate.time_s for plate in found.plates)
-    _print_table(("plate", "material", "g", "time"), [*plates, ("all", "", f"{grams:.2f}", duration(seconds))])
+    plates = table("plate", "material", ">g", ">time", wraps="none")
+    for plate in found.plates:
+        plates.add_row(plate.name, plate.material, f"{plate.grams:.2f}", duration(plate.time_s))
+    total_g, total_s = (sum(getattr(plate, key) for plate in found.plates) for key in ("grams", "time_s"))
+    plates.add_row("all", "", f"{total_g:.2f}", duration(total_s))
+    screen.print(plates)
     print()
     for path in found.left_out:
         print(f"left out  {path}: printed pads, whose filament and settings the guide names")
@@ -104,15 +97,3 @@ def _print_sliced(found: "SlicedBundle") -> None:
         print(f"ignored   {key} = {asked}: the slicer used {used}")
     if not found.ignored:
         print("settings  all taken over")
-
-
-def _print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table; columns of figures are right-aligned."""
-    from rich.table import Table
-
-    table = Table(box=None, pad_edge=False)
-    for number, title in enumerate(head):
-        table.add_column(title, justify="right" if rows[0][number][:1] in "+-0123456789" else "left", no_wrap=True)
-    for row in rows:
-        table.add_row(*row)
-    console(width=WIDE).print(table)
