@@ -1,19 +1,18 @@
-"""A study's history, slices and parallel lines as SVG inside its page, each with what is seen in it.
+"""What the history, slices and parallel lines of a study's page show, for their templates in `report/study`.
 
-Drawn for the page and not by matplotlib: they fit a phone, have the page's colours, and show the chosen design. Those
+Drawn there and not by matplotlib: they fit a phone, have the page's colours, and show the chosen design. Those
 of 600 designs take 0.1 MB and 0.02 s; matplotlib's take 0.9 MB and 2 s.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.report.axes import Axes, evenly, scale
-from jumpcad.search.report.text import broken, escape_html
-from jumpcad.search.report.words import meaning_of, named, unit_of, with_unit
+from jumpcad.search.report.axes import Axes, Scale, evenly, scale
+from jumpcad.search.report.words import meaning_of, named, unit_of, value_words, with_unit
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial, best_trial, feasible_trials
 
@@ -31,40 +30,32 @@ LEFT, RIGHT, ROW = 16.0, 624.0, 54.0
 """Ends of the axes of the parallel lines, and their distance."""
 
 
-def history(found: StudySummary) -> Iterator[str]:
-    """Yield the section of every design's score in the order of the search."""
+def history(found: StudySummary) -> dict[str, Any]:
+    """Return every design's score in the order of the search; no axes where none jumps, nothing without designs."""
     trials, objective = found.trials, found.objective
     if not trials:
-        return
+        return {}
     scores = np.array([np.nan if trial.score is None else trial.score for trial in trials])
     feasible = np.flatnonzero(np.isfinite(scores))
-    yield "<h2>History</h2>"
-    yield "<p>Every design in the order in which it was tried; the line is the best score so far, and the ticks at "
-    yield f"the bottom are designs that were rejected. {_gain(scores, found.is_explored)}</p>"
     if not len(feasible):
-        return
+        return {"gain": _gain(scores), "axes": None}
     axes = Axes(scale([1.0, float(len(trials))], whole=True), scale(scores[feasible].tolist()))
-    meaning = f"{objective.meaning} ({objective.unit})"
-    yield f'<svg class="drawn" viewBox="0 0 {axes.width:g} {axes.height:g}" role="img" '
-    yield f'aria-label="{escape_html(meaning)} of every design in the order of the search">'
-    yield from axes.drawn("number of the design in the search", meaning)
-    phases = list(dict.fromkeys(trial.phase for trial in trials))
     chosen = [int(feasible[index]) for index in evenly(len(feasible), MOST_DOTS)]
-    for number, phase in enumerate(phases):
-        yield axes.dots([(n + 1, scores[n]) for n in chosen if trials[n].phase == phase], f"phase{number % 4}")
     rejected = np.flatnonzero(np.isnan(scores))
-    ticks = "".join(
-        f"M{axes.x(rejected[n] + 1):.1f} {axes.height - axes.foot:g}v-9" for n in evenly(len(rejected), MOST_DOTS)
-    )
-    yield f'<path class="rejected" d="{ticks}" />'
+    ticks = (axes.x(rejected[n] + 1) for n in evenly(len(rejected), MOST_DOTS))
     best = np.fmax.accumulate(scores)
     rises = [n for n in feasible.tolist() if n == feasible[0] or best[n] > best[n - 1]]
-    yield axes.steps([(n + 1, best[n]) for n in rises], "best")
-    yield "</svg>"
-    keys = [(f"dot phase{number % 4}", f"tried by {phase}") for number, phase in enumerate(phases)]
-    yield from _legend(
-        [*keys, ("line best", "best so far"), *([("tick rejected", "rejected")] if len(rejected) else [])]
-    )
+    return {
+        "gain": _gain(scores, found.is_explored),
+        "axes": axes,
+        "meaning": f"{objective.meaning} ({objective.unit})",
+        "phases": {
+            phase: axes.dots((n + 1, scores[n]) for n in chosen if trials[n].phase == phase)
+            for phase in dict.fromkeys(trial.phase for trial in trials)
+        },
+        "rejected": "".join(f"M{x:.1f} {axes.height - axes.foot:g}v-9" for x in ticks),
+        "best": axes.steps([(n + 1, best[n]) for n in rises]),
+    }
 
 
 def _gain(scores: np.ndarray, is_explored: bool = False) -> str:
@@ -85,103 +76,69 @@ def _gain(scores: np.ndarray, is_explored: bool = False) -> str:
     return f"{said} The last fifth of the search raised the best score {rise}: {means}."
 
 
-def slices(found: StudySummary, shown: Sequence[Trial]) -> Iterator[str]:
-    """Yield the section of the score over each free parameter."""
+def slices(found: StudySummary, shown: Sequence[Trial]) -> list[dict[str, Any]]:
+    """Return the score over each free parameter; nothing where no design jumps."""
     feasible = [trial for trial in found.trials if trial.score is not None]
     best = best_trial(feasible)
     if best is None:
-        return
-    objective = found.objective
-    yield "<h2>Slices</h2>"
-    yield f"<p>The score, {escape_html(f'{objective.meaning} ({objective.unit})')}, over one parameter at a time; "
-    yield "every dot is a design that jumps, the others of its parameters are what they were. Where the upper edge of "
-    yield "the dots falls to both sides of the best design, its value is the right one; where it still rises at an "
-    yield "end of the range, look beyond it.</p>"
-    ages = [(f"dot age{age}", f"tried {word}") for age, word in ((0, "first"), (2, "half way"), (AGES - 1, "last"))]
-    yield from _legend([*ages, ("dot top", "highest score"), ("dot of", "chosen design")])
+        return []
     chosen = [(AGES * index // len(feasible), feasible[index]) for index in evenly(len(feasible), MOST_SLICED)]
     up = scale([trial.score or 0.0 for trial in feasible], ticks=4)
-    yield '<div class="slices">'
-    for parameter in found.space.free:
-        yield from _slice(parameter, objective, chosen, best, shown, up)
-    yield "</div>"
+    return [_slice(parameter, chosen, best, shown, up) for parameter in found.space.free]
 
 
 def _slice(
-    parameter: SearchParameter,
-    objective: Objective,
-    chosen: Sequence[tuple[int, Trial]],
-    best: Trial,
-    shown: Sequence[Trial],
-    up: tuple[float, float, list[float]],
-) -> Iterator[str]:
+    parameter: SearchParameter, chosen: Sequence[tuple[int, Trial]], best: Trial, shown: Sequence[Trial], up: Scale
+) -> dict[str, Any]:
     def at(trial: Trial) -> tuple[float, float]:
         return parameter.number(trial.variant.value(parameter.name)), trial.score or 0.0
 
-    across = scale([parameter.lower, parameter.upper], ticks=3, whole=bool(parameter.names))
-    first = 1.0 if parameter.names else 0.0
-    axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, first=first)
-    unit = unit_of(parameter.name)
-    yield f'<figure><svg class="drawn" viewBox="0 0 {axes.width:g} {axes.height:g}" role="img" '
-    yield f'aria-label="score over {escape_html(parameter.name)}">'
-    yield from axes.drawn("", f"score ({objective.unit})")
-    for age in range(AGES):
-        yield axes.dots([at(trial) for place, trial in chosen if place == age], f"age{age}")
-    yield axes.dots([at(best)], "top")
-    for number, trial in enumerate(shown, start=1):
-        x, y = at(trial)
-        yield f'<circle class="of" data-of="{number}" cx="{axes.x(x):.1f}" cy="{axes.y(y):.1f}" r="7" />'
-    meaning = meaning_of(parameter.name) or ", ".join(f"{n} is {name}" for n, name in enumerate(parameter.names, 1))
-    said = f"{f' ({escape_html(unit)})' if unit else ''}{f': {escape_html(meaning)}' if meaning else ''}"
-    best_at = _best(parameter, at(best)[0])
-    yield f"</svg><figcaption><b>{broken(parameter.name)}</b>{said}. Best: {best_at}.</figcaption></figure>"
+    name, names = parameter.name, parameter.names
+    across = scale([parameter.lower, parameter.upper], ticks=3, whole=bool(names))
+    axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, first=1.0 if names else 0.0)
+    return {
+        "name": name,
+        "axes": axes,
+        "unit": unit_of(name),
+        "meaning": meaning_of(name) or ", ".join(f"{n} is {one}" for n, one in enumerate(names, 1)),
+        "best": _best(parameter, at(best)[0]),
+        "ages": [axes.dots(at(trial) for place, trial in chosen if place == age) for age in range(AGES)],
+        "top": axes.dots([at(best)]),
+        "shown": [(axes.x(x), axes.y(y)) for x, y in map(at, shown)],
+    }
 
 
 def _best(parameter: SearchParameter, number: float) -> str:
     """Return a parameter's value in the best design, and where it lies in its range."""
     value = parameter.value(number)
     if isinstance(value, str):
-        return escape_html(value)
+        return value
     ends = {"at the lower end of the range": parameter.lower, "at the upper end of the range": parameter.upper}
     at = next((f", {words}" for words, end in ends.items() if abs(number - end) <= 1e-3 * parameter.width), "")
     return f"{with_unit(f'{value:.4g}', parameter.name)}{at}"
 
 
-def parallel(found: StudySummary, shown: Sequence[Trial]) -> Iterator[str]:
-    """Yield the section that has a line for each design, down through its parameters."""
+def parallel(found: StudySummary, shown: Sequence[Trial]) -> dict[str, Any]:
+    """Return a line for each design, down through its parameters; nothing for one parameter, or without a jump."""
     space, feasible = found.space, feasible_trials(found.trials)
     if space.dimension < 2 or not feasible:
-        return
+        return {}
     best = feasible[: max(BEST_LEAST, round(BEST_SHARE * len(feasible)))]
-    yield "<h2>Parallel lines</h2>"
-    yield "<p>One line for each design that jumps, down through its parameters: each axis goes from the lower end of "
-    yield "the parameter's range, left, to the upper end, right. Where the best lines run together, a parameter is "
-    yield f"decided; where they spread, it matters little, or others make up for it. {_spread(space, best)}</p>"
     others = feasible[len(best) : MOST_LINES]
-    rest = [("line bundle2", "the others, the better the stronger")] if others else []
-    yield from _legend([("line bundle3", f"the best {len(best)}"), *rest, ("line of", "chosen design")])
-    height = ROW * space.dimension + 6.0
-    yield f'<svg class="drawn lines" viewBox="0 0 640 {height:g}" role="img" '
-    yield 'aria-label="every design as a line through its parameters">'
     third = -(-len(others) // 3) or 1
     bundles = [others[2 * third :], others[third : 2 * third], others[:third], best]
-    for number, bundle in enumerate(bundles):
-        if bundle:
-            drawn = "".join(_line(space, trial) for trial in reversed(bundle))
-            yield f'<path class="bundle{number}" d="{drawn}" />'
-    for number, trial in enumerate(shown, start=1):
-        yield f'<path class="of" data-of="{number}" d="{_line(space, trial)}" />'
-    for row, parameter in enumerate(space.free):
-        y = ROW * (row + 1)
-        yield f'<path class="grid" d="M{LEFT:g} {y:g}H{RIGHT:g}" />'
-        middle = (LEFT + RIGHT) / 2.0
-        for x, anchor, text in (
-            (LEFT, "start", _end(parameter, parameter.lower)),
-            (middle, "middle", named(parameter.name)),
-            (RIGHT, "end", _end(parameter, parameter.upper)),
-        ):
-            yield f'<text x="{x:g}" y="{y - 8:g}" text-anchor="{anchor}">{escape_html(text)}</text>'
-    yield "</svg>"
+    return {
+        "spread": _spread(space, best),
+        "best": len(best),
+        "others": bool(others),
+        "height": ROW * space.dimension + 6.0,
+        "bundles": ["".join(_line(space, trial) for trial in reversed(bundle)) for bundle in bundles],
+        "shown": [_line(space, trial) for trial in shown],
+        "axes": [
+            (ROW * row, value_words(one.value(one.lower)), named(one.name), value_words(one.value(one.upper)))
+            for row, one in enumerate(space.free, start=1)
+        ],
+    }
 
 
 def _line(space: Space, trial: Trial) -> str:
@@ -203,25 +160,4 @@ def _spread(space: Space, best: Sequence[Trial]) -> str:
         f"spread over more than half of the range in {', '.join(apart)}" if apart else "",
     ]
     words = "; they ".join(part for part in said if part)
-    return (
-        f"Here the best {len(best)} {escape_html(words or 'neither run together nor spread widely in any parameter')}."
-    )
-
-
-def _end(parameter: SearchParameter, number: float) -> str:
-    value = parameter.value(number)
-    return value if isinstance(value, str) else f"{value:g}"
-
-
-def _legend(keys: Sequence[tuple[str, str]]) -> Iterator[str]:
-    """Yield the legend of a picture: kind of the mark, as its style has it, and words."""
-    yield '<p class="legend">'
-    for kind, words in keys:
-        mark, name = kind.split()
-        drawn = {"line": "M1 7h16", "tick": "M9 12v-9", "dot": "M9 7h0"}[mark]
-        shape = f'<path class="{"dots " * (mark == "dot")}{name}" d="{drawn}" />'
-        if kind == "dot of":
-            shape = '<circle class="of" cx="9" cy="7" r="5" />'
-        yield f'<span><svg class="drawn mark lines" viewBox="0 0 18 14" aria-hidden="true">{shape}</svg>'
-        yield f"{escape_html(words)}</span>"
-    yield "</p>"
+    return f"Here the best {len(best)} {words or 'neither run together nor spread widely in any parameter'}."

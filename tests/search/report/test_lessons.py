@@ -10,11 +10,13 @@ from support.hills import SMALL
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.files.rendering import fill
 from jumpcad.findings import Finding
+from jumpcad.plural import counted
 from jumpcad.search.explore import Importance
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.report import lessons
-from jumpcad.search.report.lessons import _cost, _gains, _is_clear, _matters, active, rejections
+from jumpcad.search.report.lessons import _cost, _is_clear, _matters, bound_rows, gains, importances, reason_rows
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial
@@ -41,9 +43,19 @@ def known(*trials: Trial, bounds: tuple[ActiveBound, ...] = ()) -> StudySummary:
 WON = replace(failed(), evaluation=Evaluation("jump"), score=2.0)
 
 
-def text(lines: object) -> str:
-    """Return the words of a part of the page."""
-    return " ".join(re.sub(r"<[^>]*>", " ", " ".join(map(str, lines))).split())  # type: ignore[call-overload]
+def page(found: StudySummary) -> str:
+    """Return this part of the page."""
+    values = {
+        "found": found, "importance": importances(SimpleNamespace(identity={"seed": 7}), found), "gains": gains(found),
+        "bounds": bound_rows(found), "reasons": reason_rows(found), "designs": counted(len(found.trials), "design"),
+        "rejected": sum(trial.score is None for trial in found.trials),
+    }  # fmt: skip
+    return fill("report/study/lessons.html.j2", values)
+
+
+def text(found: StudySummary) -> str:
+    """Return its words."""
+    return " ".join(re.sub(r"<[^>]*>", " ", re.sub("<wbr />", "", page(found))).split())
 
 
 def test_three_that_are_clear_matter_most_the_largest_first() -> None:
@@ -65,34 +77,29 @@ def test_the_longest_bar_is_full_and_two_hundred_designs_tell_evenly_chosen(monk
     asked = []
     monkeypatch.setattr(lessons, "importance_in", lambda *given: asked.append(given) or LEARNED)
     trials = [replace(WON, place=place, score=1.0 + place) for place in range(401)]
-    store = SimpleNamespace(identity={"seed": 7})
-    page = "\n".join(lessons.importances(store, known(*trials)))  # type: ignore[arg-type]
+    widths = re.findall(r"width: (\d+)%", page(known(*trials)))
     assert asked == [(SMALL, trials[::3], 7)]
-    assert [int(width) for width in re.findall(r"width: (\d+)%", page)] == [100, 67, 33, 17, 8]
+    assert [int(width) for width in widths] == [100, 67, 33, 17, 8]
 
 
-@pytest.mark.parametrize(
-    ("r_squared", "said"), [(0.5, "fall of R²"), (0.494, "(R² 0.49, at least 0.5 is asked for)"), (np.nan, "(R² nan, ")]
-)
 def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_important(
-    monkeypatch: pytest.MonkeyPatch, r_squared: float, said: str
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Nor do designs that are too few, or that all score alike."""
-    monkeypatch.setattr(lessons, "importance_in", lambda *_: replace(LEARNED, r_squared=r_squared))
-    store = SimpleNamespace(identity={"seed": 7})
     two, alike = known(WON, replace(WON, score=3.0), failed("tips")), known(WON, WON)
-    page = text(lessons.importances(store, two))  # type: ignore[arg-type]
-    assert said in page
-    assert ("From 40 designs the score of others cannot be predicted" in page) == (r_squared != 0.5)
-    assert ("c_<wbr" in page or "c_coef" in page) == (r_squared == 0.5)
-    assert list(lessons.importances(store, alike)) == []  # type: ignore[arg-type]
+    told = ((0.5, "fall of R²"), (0.494, "(R² 0.49, at least 0.5 is asked for)"), (np.nan, "(R² nan, "))
+    for r_squared, said in told:
+        monkeypatch.setattr(lessons, "importance_in", lambda *_, known=r_squared: replace(LEARNED, r_squared=known))
+        assert said in text(two)
+        assert ("From 40 designs the score of others cannot be predicted" in text(two)) == (r_squared != 0.5)
+        assert ("c_coef" in text(two)) == (r_squared == 0.5)
+    assert "Importance" not in text(alike)
 
     def refused(*_: object) -> None:
         raise JumpcadError("too few")
 
     monkeypatch.setattr(lessons, "importance_in", refused)
-    page = text(lessons.importances(store, two))  # type: ignore[arg-type]
-    assert page == "Importance 2 designs that jumped: too few to say what is important."
+    assert text(two).startswith("Importance 2 designs that jumped: too few to say what is important.")
 
 
 @pytest.mark.parametrize(
@@ -111,18 +118,15 @@ def test_what_lies_beyond_a_bound_is_told_with_its_share_of_the_score(
     assert _cost(ActiveBound("c_coef", "upper", 1.2, 1.25, worth, reason), "m", score) == said
 
 
-@pytest.mark.parametrize(("worth", "rises"), [(0.00101, True), (0.00099, False), (-1.0, False)])
-def test_a_score_rises_where_it_gains_more_than_a_twentieth_of_a_per_cent(worth: float, rises: bool) -> None:
+def test_a_score_rises_where_it_gains_more_than_a_twentieth_of_a_per_cent() -> None:
     """Of a score of 2, or of -2: 0.001."""
-    bound = ActiveBound("c_coef", "upper", 1.2, 1.25, worth)
-    for score in (2.0, -2.0):
-        said = _gains(known(replace(WON, score=score), bounds=(bound,)))
-        assert said == (
-            "Here it rises beyond that of c_coef." if rises else "Here it rises beyond none that was examined."
-        )
-    unknown = replace(bound, worth=None, reason=NOT_EXAMINED)
-    assert "did not examine them" in _gains(known(WON, bounds=(unknown,)))
-    assert "none that was examined" in _gains(known(WON, bounds=(unknown, replace(bound, worth=-1.0))))
+    bound = ActiveBound("c_coef", "upper", 1.2, 1.25, None, NOT_EXAMINED)
+    for worth, rises in ((0.00101, True), (0.00099, False), (-1.0, False)):
+        for score in (2.0, -2.0):
+            said = gains(known(replace(WON, score=score), bounds=(replace(bound, worth=worth, reason=""),)))
+            assert ("rises beyond that of c_coef." in said, "none that was examined" in said) == (rises, not rises)
+    assert "did not examine them" in gains(known(WON, bounds=(bound,)))
+    assert "none that was examined" in gains(known(WON, bounds=(bound, replace(bound, worth=-1.0))))
 
 
 def test_a_bound_stands_in_its_row_with_units() -> None:
@@ -130,22 +134,21 @@ def test_a_bound_stands_in_its_row_with_units() -> None:
         ActiveBound("rest_angle_deg", "upper", 70.0, 72.5, 0.5),
         ActiveBound("body.plate_mm", "lower", 1.6, 1.5, None, "x"),
     )  # fmt: skip
-    said = text(active(known(WON, bounds=bounds)))
-    assert "rest_angle_ deg upper 70° 72.5° +0.5 m (+25.0 %)".replace("_ ", "_") in said.replace("_ ", "_")
-    assert "body.plate_mm lower 1.6 mm 1.5 mm rejected, x" in said.replace("_ ", "_")
-    assert "lies on no bound" in text(active(known(WON)))
-    assert text(active(known(failed("tips")))) == ""
+    said = text(known(WON, bounds=bounds))
+    assert "rest_angle_deg upper 70° 72.5° +0.5 m (+25.0 %)" in said
+    assert "body.plate_mm lower 1.6 mm 1.5 mm rejected, x" in said
+    assert "lies on no bound" in text(known(WON))
+    assert "Active bounds" not in text(known(failed("tips")))
 
 
 def test_reasons_are_counted_the_most_frequent_first() -> None:
     """Two of four designs are rejected, one of them for two reasons; bars are shares of the largest count."""
-    page = list(rejections(known(WON, failed("tips"), failed("leg_flex", "tips"), WON)))
-    said = text(page).replace("_ ", "_")
-    assert "Rejected: 2 of 4 designs of the search" in said
-    assert "The most frequent reason is tips, of 2 designs: with loaded springs" in said
-    assert re.findall(r"width: (\d+)%", "".join(page)) == ["100", "50"]
-    cells = [re.findall(r"<td[^>]*>(.*?)</td>", line) for line in page]
-    assert [(re.sub("<wbr />", "", row[0]), row[3]) for row in cells if row] == [("tips", "2"), ("leg_flex", "1")]
-    none = text(rejections(known(WON)))
-    assert "Rejected: 0 of 1 design of the search" in none
-    assert "most frequent" not in none
+    found = known(WON, failed("tips"), failed("leg_flex", "tips"), WON)
+    assert "Rejected: 2 of 4 designs of the search" in text(found)
+    assert "The most frequent reason is tips, of 2 designs: with loaded springs" in text(found)
+    assert [(name, share, count) for name, _, share, count in reason_rows(found)] == [
+        ("tips", 1.0, "2"), ("leg_flex", 0.5, "1")
+    ]  # fmt: skip
+    assert re.findall(r"width: (\d+)%", page(found)) == ["100", "50"]
+    assert "Rejected: 0 of 1 design of the search" in text(known(WON))
+    assert "most frequent" not in text(known(WON))

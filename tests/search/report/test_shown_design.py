@@ -1,66 +1,89 @@
-"""What a study's page says of a design: its links, its figures, and the command that shows it again."""
+"""The designs that a study's page shows: points that are links, side views, figures, and the command of each."""
 
 import re
 
+import pytest
+
 from jumpcad.design import load_design
-from jumpcad.search.report.shown_design import HEADLINES, shown_designs
-from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.fronts import SPRING_ENERGY, find_cost
+from jumpcad.search.report.axes import Axes, scale
+from jumpcad.search.report.shown_design import HEADLINES, _radii, chart, shown_design
+from jumpcad.search.report.words import with_unit
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
 
 DESIGN = load_design("best-ga")
 
 
-def told(**metrics: float) -> str:
-    """Return a section of the page as text: the study's seventh trial, shown as the first."""
-    trial = Trial("bo", 1, 0, DESIGN, Evaluation("jump", metrics), 2.5, "m", 0.0, {}, {"body.plate_mm": 3.0})
-    page = "\n".join(shown_designs([trial], [7], find_objective("fitness"), "my study.db"))
-    return " ".join(re.sub(r"<[^>]+>", " ", re.sub(r"<wbr ?/?>", "", page)).split())
+def trial(score: float | None, ratio: float, **metrics: float) -> Trial:
+    design = DESIGN.model_copy(update={"compression_ratio": ratio})
+    return Trial("ga", 0, 0, design, Evaluation("tips" if score is None else "jump", metrics), score, "m", 0.0)
 
 
-def test_a_design_is_told_by_its_number_in_the_study() -> None:
-    text = told(ballistic_range_m=0.25)
-    assert "Design 1 (trial 7): 2.5" in text
-    assert "jumpcad studio &#x27;my study.db&#x27; --trial 7" in text or "'my study.db' --trial 7" in text
+def told(**metrics: float) -> tuple[dict[str, str], dict[str, str]]:
+    """Return what is shown at once and on a click of the study's seventh trial."""
+    one = Trial("bo", 1, 0, DESIGN, Evaluation("jump", metrics), 2.5, "m", 0.0, {}, {"body.plate_mm": 3.0})
+    found = shown_design(one, 7, "my study.db")
+    assert found["command"] == "jumpcad studio 'my study.db' --trial 7"
+    return dict(found["first"]), dict(found["others"])
+
+
+def test_points_are_as_large_as_their_neighbours_leave_them() -> None:
+    """Half way to the nearest, from 3.5 to 6."""
+    assert _radii([(0.0, 0.0), (10.0, 0.0), (100.0, 0.0), (100.0, 8.0), (200.0, 1.0), (203.0, 5.0)]) == [
+        5.0, 5.0, 4.0, 4.0, 3.5, 3.5
+    ]  # fmt: skip
+    assert _radii([(0.0, 0.0)]) == _radii([(0.0, 0.0), (30.0, 40.0)])[:1] == [6.0]
+
+
+def test_every_design_is_a_point_at_its_energy_and_score() -> None:
+    trials = [trial(1.0, 0.3), trial(None, 0.4), trial(0.5, 0.5), trial(4.0, 0.6)]
+    for is_front in (True, False):
+        found = chart(trials, [trials[0], trials[3]], [7, 12], SPRING_ENERGY, is_front, "s.db")
+        energies = [one.design.spring_energy_j for one in (trials[0], trials[2], trials[3])]
+        axes = Axes(scale(energies), scale([1.0, 0.5, 4.0]))
+        places = [(axes.x(energy), axes.y(score)) for energy, score in zip(energies, (1.0, 0.5, 4.0), strict=True)]
+        dots = re.findall(r"M([\d.]+) ([\d.]+)h0", found["others"])
+        assert [(float(x), float(y)) for x, y in dots] == [pytest.approx(one, abs=0.051) for one in places]
+        assert [one["place"] for one in found["shown"]] == [places[0], places[2]]
+        assert [(one["number"], one["of_study"], one["cost"]) for one in found["shown"]] == [
+            (1, 7, energies[0]), (2, 12, energies[2])
+        ]  # fmt: skip
+        assert bool(found["line"]) == is_front
+
+
+def test_a_chart_of_more_of_both_has_the_figure_itself() -> None:
+    """Rises to the right of 0, and the design that rises most farthest to the right."""
+    rises, scores = (0.5, 0.125, 0.25), (1.0, 3.0, 2.0)
+    trials = [trial(score, 0.5, com_rise_m=rise) for rise, score in zip(rises, scores, strict=True)]
+    found = chart(trials, trials, [1, 2, 3], find_cost("rise"), True, "s.db")
+    assert [one["cost"] for one in found["shown"]] == list(rises)
+    axes = Axes(scale(rises), scale(scores))
+    assert [one["place"][0] for one in found["shown"]] == pytest.approx([axes.x(rise) for rise in rises])
+    assert axes.x(0.5) > axes.x(0.125)
 
 
 def test_links_are_told_from_the_hub_to_the_toe() -> None:
     l2 = DESIGN.carrying_link_mm
     lengths = (l2, DESIGN.c_coef * l2, DESIGN.d_coef * l2, DESIGN.e_coef * l2)
-    text = told()
-    assert "main leg, front link, foot, toe " + ", ".join(f"{one:.1f}" for one in lengths) + " mm" in text
-    assert "body.plate_mm 3 mm" in text
-
-
-def test_all_designs_are_drawn_to_one_scale_in_which_the_largest_fits() -> None:
-    large = DESIGN.model_copy(update={"carrying_link_mm": 1.5 * DESIGN.carrying_link_mm})
-    trials = [Trial("bo", 1, n, one, Evaluation("jump"), 2.5, "m", 0.0) for n, one in enumerate((DESIGN, large))]
-    text = "\n".join(shown_designs(trials, [1, 2], find_objective("range"), "s.db"))
-    boxes = re.findall(r'class="side" viewBox="([^"]*)"', text)
-    assert len(boxes) == 2
-    assert len(set(boxes)) == 1
-    left, top, width, height = map(float, boxes[0].split())
-    joints = [(float(x), float(y)) for x, y in re.findall(r'<circle cx="([^"]*)" cy="([^"]*)"', text)]
-    assert len(joints) == 16
-    assert all(left < x < left + width and top < y < top + height for x, y in joints)
+    first, _ = told()
+    assert first["main leg, front link, foot, toe"] == ", ".join(f"{one:.1f}" for one in lengths) + " mm"
+    assert first["body.plate_mm"] == "3 mm"
 
 
 def test_headlines_come_first_and_nothing_twice() -> None:
-    figures = {"a_share": 0.5, **dict.fromkeys(HEADLINES, 0.125)}
-    text = told(**figures)
-    first, others = text.split("more figures (1)")
-    assert first.count("125 mm") == 2
-    assert "125 g" in first
-    assert "a share 0.5" in others
+    first, others = told(a_share=0.5, **dict.fromkeys(HEADLINES, 0.125))
+    assert list(first.values()).count("125 mm") == 2
+    assert "125 g" in first.values()
+    assert others == {"a share": "0.5"}
 
 
 def test_every_number_stands_with_its_unit_and_the_energy_is_that_of_the_evaluation() -> None:
     """Of a study without that figure it follows from the design."""
-    values = DESIGN.model_dump()
-    text = told(spring_energy_j=0.125, mass_kg=0.1)
-    assert f"carrying_link_mm {values['carrying_link_mm']:.5g} mm" in text
-    assert f"rest_angle_deg {values['rest_angle_deg']:.5g}°" in text
-    assert f"stiffness_nmm_per_deg {values['stiffness_nmm_per_deg']:.5g} N·mm/°" in text
-    assert f"c_coef {values['c_coef']:.5g} d_coef" in text
-    assert "energy in the springs 125 mJ" in text
-    assert "more figures" not in text
-    assert f"energy in the springs {1000.0 * DESIGN.spring_energy_j:.4g} mJ" in told()
+    first, others = told(spring_energy_j=0.125, mass_kg=0.1)
+    for name, value in DESIGN.model_dump().items():
+        assert first[name] == with_unit(f"{value:.5g}", name)
+    assert (first["rest_angle_deg"][-1], first["carrying_link_mm"][-3:]) == ("°", " mm")
+    assert first["energy in the springs"] == "125 mJ"
+    assert others == {}
+    assert told()[0]["energy in the springs"] == f"{1000.0 * DESIGN.spring_energy_j:.4g} mJ"
