@@ -6,12 +6,15 @@ import numpy as np
 
 from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import WEIGHED_SHARE
+from jumpcad.errors import JumpcadError
 from jumpcad.files import to_toml
 from jumpcad.files.outputs import sealed
 
 SAVED = 100
 """Draws in the file."""
 DIGITS = 4
+MOST_DEVIATIONS = 10.0
+"""By how many standard deviations a measurement may be off: beyond, it is a mistake, not an error; judgement."""
 KEYS = ("spring_efficiency", "pin_friction")
 
 
@@ -19,7 +22,19 @@ def settings_toml(posterior: CalibrationPosterior) -> str:
     """Return the settings file of a calibration.
 
     Floor, masses and rate of the springs are not settings: they belong to workshop and design, see `elsewhere`.
+
+    Raises
+    ------
+    JumpcadError
+        If a measurement is off by more than `MOST_DEVIATIONS`.
     """
+    for one in posterior.residuals():
+        if abs(off := one["off_by_deviations"]) > MOST_DEVIATIONS:
+            unit = {"battery": "J", "speed": "m/s", "angle": "°"}.get(one["what"], "m")
+            raise JumpcadError(
+                f"{one['robot']}: {one['what']} = {one['measured']:.3g} {unit} is off by {off:+.1f} standard "
+                f"deviations, more than {MOST_DEVIATIONS:g}: no settings are written: check it, or leave it out"
+            )
     values = {key: np.clip(np.round(posterior.values[key], DIGITS), *_limits(key)) for key in KEYS}
     names = ", ".join(subject.name for subject in posterior.model.subjects)
     comment = [f"# Calibrated on {names} by jumpcad calibrate: medians, and under [draws] what stays open."]

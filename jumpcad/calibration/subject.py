@@ -89,6 +89,12 @@ class Subject:
         return self.robot.layout.drive.train.electrical_j
 
     @property
+    def fastest_m_s(self) -> float:
+        """Take-off speed if all of the springs' energy went into it, with rate and mass as measured."""
+        energy_j, mass_kg = self.robot.spring.energy_j * self.rate.first, self.robot.mass_kg * self.mass.first
+        return math.sqrt(2.0 * energy_j / mass_kg)
+
+    @property
     def pair(self) -> str:
         """Name of its pair of springs: as measured, by default the robot's."""
         return self.measured.spring.pair or self.name
@@ -148,9 +154,10 @@ def load_subject(name_or_path: str | Path) -> Subject:
     if measured.mass.parts_g:
         _require_parts(measured.mass.parts_g, robot, str(path))
         robot = build(design, _with_weights(workshop, measured.mass.parts_g), name)
+    subject = Subject(path.stem, measured, robot, ())
     videos = [(path.parent / video.points, video.slow_motion) for video in measured.videos]
-    seen = tuple(seen_takeoff(read_points(file) / [slow, 1.0, 1.0], str(file)) for file, slow in videos)
-    subject = Subject(path.stem, measured, robot, seen)
+    seen = (seen_takeoff(read_points(file), str(file), subject.fastest_m_s, slow) for file, slow in videos)
+    subject = replace(subject, seen=tuple(seen))
     _require_plausible(subject, str(path))
     return subject
 

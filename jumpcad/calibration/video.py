@@ -4,15 +4,20 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import stdtrit
 
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array
 
 GRAVITY_SHARE = 0.15
-"""Largest relative difference of the fitted gravity from the earth's."""
-UNITS = ((1000.0, "x and z are in mm: divide them by 1000"), (100.0, "x and z are in cm: divide them by 100"))
-"""Fitted gravity over the earth's, and the probable mistake, where it is no clock's."""
+"""Relative difference of the fitted gravity from the earth's that is never called a mistake."""
+CONFIDENCE = 0.99865
+"""Probability below three standard errors; taken by Student's t, since few points tell little of their noise."""
+SPEED_SHARES = 0.3, 1.5
+"""Least and most of the take-off speed over that with all of the springs' energy; judgement."""
+UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "inches": 1.0 / 0.0254}
+"""Units in which x and z may be by mistake: how many are a metre."""
 FLIGHT = "keep only the points between take-off and touchdown, and check the scale"
 
 
@@ -26,27 +31,48 @@ class TakeoffSeen:
     angle_error_deg: float
 
 
-def seen_takeoff(points: Array, source: str) -> TakeoffSeen:
-    """Fit a ballistic flight to points (n, 3) of t (s), x and z (m), and check its gravity.
+def seen_takeoff(points: Array, source: str, fastest_m_s: float, slow_motion: float = 1.0) -> TakeoffSeen:
+    """Fit a ballistic flight to points (n, 3) of t (s), x and z (m), and check its gravity and its speed.
+
+    Gravity alone cannot tell lengths in cm with a clock 10 times too slow from a flight that is right: the speed does.
+
+    Parameters
+    ----------
+    points
+        At least 4, the first at take-off.
+    source
+        The file, for errors.
+    fastest_m_s
+        Take-off speed with all of the springs' energy.
+    slow_motion
+        Divides t.
 
     Raises
     ------
     JumpcadError
-        If the fitted gravity is not the earth's (wrong scale, wrong clock, or points on the ground), or if x does not
-        point forwards or z upwards.
+        If the gravity is not the earth's or the speed not the robot's (wrong scale, wrong clock, or points on the
+        ground), or if x does not point forwards or z upwards.
     """
     t, x, z = (points - points[0]).T
+    t = t / slow_motion
     fall = np.column_stack([np.ones_like(t), t, -0.5 * t * t])
-    found, _, _, _ = np.linalg.lstsq(fall, z, rcond=None)
-    ratio = float(found[2]) / GRAVITY_M_S2
-    if abs(ratio - 1.0) > GRAVITY_SHARE:
-        raise JumpcadError(
-            f"{source}: its points fall with {found[2]:.3g} m/s² instead of {GRAVITY_M_S2:g}: {_mistake(ratio)}"
-        )
     line = fall[:, :2]
+    _, rising, gravity = np.linalg.lstsq(fall, z, rcond=None)[0]
     (_, forward), (_, up) = (
         np.linalg.lstsq(line, values, rcond=None)[0] for values in (x, z + 0.5 * GRAVITY_M_S2 * t * t)
     )
+    freedom = len(t) - 3
+    scatter = float(np.linalg.norm(_residual(fall, z))) / math.sqrt(freedom)
+    bend = float(np.linalg.norm(_residual(line, fall[:, 2])))  # of which the gravity is the slope
+    seen = math.hypot(forward, rising)
+    ways = _explanations(float(gravity), float(stdtrit(freedom, CONFIDENCE)) * scatter / bend, seen / fastest_m_s)
+    if ("m", 1.0) not in ways:
+        turned = gravity < 0.0 and rising < 0.0
+        raise JumpcadError(
+            f"{source}: its points fall with {gravity:.3g} m/s² instead of {GRAVITY_M_S2:g} and start with {seen:.3g} "
+            f"m/s, where the springs give up to {fastest_m_s:.3g}: "
+            + ("z points down: change its sign" if turned else _ways_out(ways, slow_motion))
+        )
     left = np.concatenate([_residual(line, x), _residual(line, z + 0.5 * GRAVITY_M_S2 * t * t)])
     deviation = math.sqrt(float(np.sum(left * left)) / max(len(left) - 4, 1))
     error = deviation / math.sqrt(float(np.sum((t - t.mean()) ** 2)))
@@ -56,17 +82,33 @@ def seen_takeoff(points: Array, source: str) -> TakeoffSeen:
     return TakeoffSeen(speed, math.degrees(math.atan2(up, forward)), error, math.degrees(error / speed))
 
 
-def _mistake(ratio: float) -> str:
-    """Return what is probably wrong, from the fitted gravity over the earth's: lengths scale it, clocks by squares."""
-    if abs(ratio + 1.0) <= GRAVITY_SHARE:
-        return "z points down: change its sign"
-    if ratio <= 0.0:
-        return FLIGHT
-    slow = 1.0 / math.sqrt(ratio)
-    clock = f"the clock is {slow:.4g} times too slow" if slow > 1.0 else f"the clock is {1.0 / slow:.4g} times too fast"
-    clock += f": say slow_motion = {slow:.4g} in [[videos]], the camera's frames a second over the video's"
-    unit = next((text for factor, text in UNITS if abs(ratio / factor - 1.0) <= GRAVITY_SHARE), "")
-    return f"{unit}; or {clock}" if unit else f"{clock}; or {FLIGHT}"
+def _explanations(gravity: float, error: float, share: float) -> list[tuple[str, float]]:
+    """Return units of x and z, each with how many times too slow the clock is, with which the flight is the robot's.
+
+    Lengths scale gravity (here with its error, m/s²) and speed (here over the fastest); clocks divide it by square, and
+    speed once. A clock that is right goes before any other.
+    """
+    found = []
+    for unit, scale in UNITS.items():
+        right = abs(gravity / scale - GRAVITY_M_S2) <= max(GRAVITY_SHARE * GRAVITY_M_S2, error / scale)
+        slow = 1.0 if right else math.sqrt(GRAVITY_M_S2 * scale / gravity) if gravity > 0.0 else math.inf
+        if SPEED_SHARES[0] <= share * slow / scale <= SPEED_SHARES[1]:
+            found.append((unit, slow))
+    return [one for one in found if one[1] == 1.0] or found
+
+
+def _ways_out(ways: list[tuple[str, float]], slow_motion: float) -> str:
+    """Return what is probably wrong and what to do, from `_explanations`."""
+    said = []
+    for unit, slow in ways:
+        wrong = [] if unit == "m" else [f"x and z are in {unit}: divide them by {UNITS[unit]:.4g}"]
+        if slow != 1.0:
+            clock = f"{slow:.4g} times too slow" if slow > 1.0 else f"{1.0 / slow:.4g} times too fast"
+            wrong.append(f"the clock is {clock}: say slow_motion = {slow * slow_motion:.4g} in [[videos]]")
+        said.append(", and ".join(wrong))
+    if any(slow != 1.0 for _, slow in ways):
+        said[-1] += ", the camera's frames a second over the video's"
+    return "; or ".join(said if any(slow == 1.0 for _, slow in ways) else [*said, FLIGHT])
 
 
 def _residual(matrix: Array, values: Array) -> Array:

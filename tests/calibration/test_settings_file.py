@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from jumpcad.calibration.settings_file import DIGITS, SAVED, elsewhere, settings_toml
+from jumpcad.errors import JumpcadError
 
 
 def posterior(*shapes: str, **more: Any) -> Any:
@@ -18,7 +19,22 @@ def posterior(*shapes: str, **more: Any) -> Any:
     unweighed = SimpleNamespace(mass=SimpleNamespace(robot_g=None, parts_g={}))
     subjects = [SimpleNamespace(name=f"k{n}", floor=SimpleNamespace(shape=shape), measured=unweighed)
                 for n, shape in enumerate(shapes)]  # fmt: skip
-    return SimpleNamespace(model=SimpleNamespace(subjects=subjects), values=values | more, z=np.zeros((991, 3)))
+    return SimpleNamespace(
+        model=SimpleNamespace(subjects=subjects), values=values | more, z=np.zeros((991, 3)), residuals=list
+    )
+
+
+def test_measurements_that_no_parameters_explain_write_no_settings() -> None:
+    found = posterior("uniform")
+    one = {"robot": "k0", "what": "speed", "measured": 17.2, "off_by_deviations": 9.0}
+    found.residuals = lambda: [one]
+    settings_toml(found)
+    for off in (134.0, -11.0):
+        one["off_by_deviations"] = off
+        with pytest.raises(
+            JumpcadError, match=rf"k0: speed = 17.2 m/s is off by \{off:+.1f} standard deviations, more"
+        ):
+            settings_toml(found)
 
 
 def test_medians_stand_for_a_jump_and_pairs_of_draws_for_many() -> None:
