@@ -3,13 +3,9 @@
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP
-from support.shops import Shop
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.explore import (
-    _grid,
-    _start,
-    _with,
     components,
     elite,
     feasibility_map,
@@ -17,12 +13,9 @@ from jumpcad.search.explore import (
     sample,
     sweep,
 )
-from jumpcad.search.models import robot_model
-from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
-from jumpcad.workshop import load_workshop, varied
 
 CENTRE = SMALL.to_design([0.5, 0.5, 0.5])
 
@@ -79,26 +72,6 @@ def test_equal_scores_do_not_say_what_is_important(evaluator):
         importance(evaluator(), scored(np.ones(20)), 0)
 
 
-def test_what_a_name_matters_does_not_depend_on_the_order_of_the_names(evaluator):
-    """They have none: the score of each is its own."""
-    names, generator = "abcde", np.random.default_rng(1)
-    points, drawn = generator.random((60, 3)), generator.integers(0, 5, 60)
-    scores = np.array([1.0, 3.0, 1.5, 4.0, 2.0])[drawn] + 2.0 * np.sin(3.0 * points[:, 0])
-    scores += 0.3 * generator.standard_normal(60)
-    trials = [
-        Trial("sample", 0, number, SMALL.to_design(point), Evaluation("jump"), float(score) ** 2, "m", 0.0, {},
-              {"bought.kit": names[name]})
-        for number, (point, name, score) in enumerate(zip(points, drawn, scores, strict=True))
-    ]  # fmt: skip
-    falls = []
-    for order in ("abcde", "acebd", "bdeca"):
-        space = Space((*SMALL.parameters, SearchParameter.of_names("bought.kit", tuple(order))))
-        falls.append(importance(evaluator(space=space), trials, 0).mean)
-    assert falls[0] == pytest.approx(falls[1], abs=2e-3)
-    assert falls[0] == pytest.approx(falls[2], abs=2e-3)
-    assert falls[0].argmax() == 3
-
-
 def test_feasibility_map_shows_the_border(evaluator):
     found = feasibility_map(evaluator(), CENTRE, "rest_angle_deg", "compression_ratio", 15)
     for y, line in zip(found.y, found.trials, strict=True):
@@ -151,29 +124,6 @@ def test_shares_are_those_of_the_correlations(evaluator):
     assert values.std(axis=0).max() > 100.0 * values.std(axis=0).min()
     assert found.shares == pytest.approx(eigenvalues[::-1] / 8.0, abs=1e-9)
     assert np.abs(found.directions @ vectors[:, ::-1]) == pytest.approx(np.eye(8), abs=1e-6)
-
-
-def test_a_place_in_a_workshop_has_its_values_and_those_that_are_fixed(evaluator):
-    """A sweep starts from the workshop's own; a fixed value is that of every design."""
-    space = Space.parse(
-        fix=[*FIXED, "process.infill=0.35"], bound=["body.plate_mm=1.2:2.4"],
-        choose=["bought.battery=lipo-2s-180,lipo-1s-300"], workshop=load_workshop(),
-    )  # fmt: skip
-    one = evaluator(model=Shop(), space=space)
-    start = _start(one, CENTRE)
-    usual = load_workshop()
-    assert start.design == CENTRE
-    assert start.workshop == {
-        "process.infill": 0.35, "body.plate_mm": usual.body.plate_mm, "bought.battery": usual.bought.battery,
-    }  # fmt: skip
-    plates, battery = space.free[-2:]
-    assert _with(start, {plates: 2.25, battery: 1.0}).workshop == {
-        "process.infill": 0.35, "body.plate_mm": 2.25, "bought.battery": "lipo-1s-300",
-    }  # fmt: skip
-    own = evaluator(model=robot_model("printed", varied(usual, {"body.plate_mm": 2.05})), space=space)
-    assert _start(own, CENTRE).workshop["body.plate_mm"] == 2.05
-    assert _grid(battery, 9).tolist() == [0.0, 1.0]
-    assert _grid(plates, 4).tolist() == pytest.approx([1.2, 1.6, 2.0, 2.4])
 
 
 def test_what_is_fixed_has_its_value_in_every_view(evaluator):

@@ -88,22 +88,6 @@ def test_the_energies_of_many_designs_are_those_of_each():
     assert energies_j(equal_legs)[0] == pytest.approx(0.5 * 9e-3 * np.degrees(1.0) * np.radians(30.0) ** 2)
 
 
-def test_the_same_score_for_more_energy_is_not_on_the_front(trials):
-    cheap, dear = sorted(trials, key=lambda trial: energy_j(trial.design))[:2]
-    assert energy_j(cheap.design) < energy_j(dear.design)
-    same = [replace(trial, score=0.5) for trial in (dear, cheap)]
-    assert front(same) == [same[1]]
-
-
-def test_of_two_designs_with_equal_energy_only_the_better_one_is_on_the_front(trials):
-    """Toes hold no energy: two lengths of theirs, the worse design first."""
-    first = trials[0]
-    longer = first.design.model_copy(update={"e_coef": first.design.e_coef + 0.01})
-    worse, better = replace(first, score=1.0), replace(first, design=longer, score=2.0)
-    assert energy_j(worse.design) == energy_j(better.design)
-    assert front([worse, better]) == front([better, worse]) == [better]
-
-
 @pytest.mark.parametrize(
     ("against", "figure", "sign", "reference"), [("mass", "mass_kg", 1.0, 0.3), ("rise", "com_rise_m", -1.0, 0.0)]
 )

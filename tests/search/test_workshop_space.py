@@ -16,15 +16,12 @@ from jumpcad.search.models import PrintedModel, robot_model
 from jumpcad.search.propose.genetic import run_genetic
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.report import plots
-from jumpcad.search.report.study_plots import plot_study
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.study.table import write_table
-from jumpcad.search.study.variant import Variant
 from jumpcad.workshop import load_workshop
 
 WORKSHOP = load_workshop()
@@ -80,11 +77,6 @@ def test_wrong_keys_are_refused_in_one_line(option, message):
     with pytest.raises(JumpcadError, match=message) as refused:
         Space.parse(**option, workshop=WORKSHOP)
     assert "\n" not in str(refused.value)
-
-
-def test_a_robot_that_is_made_in_no_workshop_refuses_its_values():
-    with pytest.raises(JumpcadError, match="made in no workshop"):
-        Space.parse(bound=["body.plate_mm=1.2:2.4"], workshop=robot_model("capsule").workshop)
 
 
 def test_names_have_no_order_for_the_process():
@@ -149,25 +141,6 @@ def test_a_search_goes_on_where_it_ended(tmp_path):
     assert len(parts) > 15 + 2  # the spread ones, and proposals before and after
 
 
-@pytest.mark.thorough
-def test_study_pictures_and_tables_know_the_workshop(tmp_path):
-    path = tmp_path / "s.db"
-    space = Space.parse(
-        fix=[*FIXED, "rest_angle_deg=55", "compression_ratio=0.6", "stiffness_nmm_per_deg=20"],
-        bound=["body.plate_mm=1.2:2.4"], choose=["bought.battery=lipo-2s-180,lipo-1s-300"], workshop=WORKSHOP,
-    )  # fmt: skip
-    with local_pool(0) as pool:
-        run_study(Request(space, Shop(), method="bo", evaluations=20), path, pool)
-    with StudyStore.read(path) as store:
-        names = {picture.stem for picture in plot_study(store, tmp_path / "plots")}
-        write_table(store.trials(), tmp_path / "t.csv")
-    assert {"history", "slices", "parallel", "acquisition"} <= names
-    assert "lipo-1s-300" in (tmp_path / "plots" / "slices.svg").read_text() or names
-    heading, first = (tmp_path / "t.csv").read_text().splitlines()[:2]
-    assert "body.plate_mm,bought.battery" in heading
-    assert "lipo-" in first
-
-
 def test_sweeps_start_from_the_model_s_workshop(evaluator):
     one = evaluator(model=Shop(), space=SHOP)
     sweeps = {found.parameter: found for found in sweep(one, SHOP.to_design(np.full(5, 0.5)), 5)}
@@ -206,10 +179,3 @@ def test_a_search_without_the_workshop_writes_none(tmp_path):
     result.save(tmp_path / "best.toml")
     assert result.workshop is None
     assert [path.name for path in tmp_path.iterdir()] == ["best.toml"]
-
-
-def test_a_variant_is_a_design_s_values_and_the_workshop_s():
-    variant = SHOP.to_variant(np.full(5, 0.25))
-    changed = variant.changed({"body.plate_mm": 2.0, "rest_angle_deg": 30.0})
-    assert (changed.value("body.plate_mm"), changed.value("rest_angle_deg")) == (2.0, 30.0)
-    assert Variant.of(variant.design).key == tuple(variant.design.to_vector())

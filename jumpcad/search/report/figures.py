@@ -1,6 +1,8 @@
 """Figures as SVG and PNG files: one style, and the same bytes for the same data."""
 
 import io
+import tomllib
+from functools import cache
 from pathlib import Path
 from textwrap import fill
 from typing import Any
@@ -11,32 +13,13 @@ from matplotlib.figure import Figure
 
 from jumpcad.arguments import check_arguments
 from jumpcad.files.outputs import sealed, sealed_png, write_files
+from jumpcad.files.templates import templates_folder
 
 PICTURES = (
     "history", "slices", "parallel", "pareto", "acquisition-first", "acquisition",
     "sweeps", "pca", "importance", "feasibility",
 )  # fmt: skip
 """Names of the pictures of a study, then of those of the design space."""
-
-MEANINGS = {
-    "history": "Every design in the order of the search: a line that rises late says that more evaluations may pay.",
-    "slices": "The score over one parameter at a time, the others being what they were: good designs at an edge of a "
-    "range say that the bound matters. The star is the best design.",
-    "parallel": "One line per design that jumps: where the best ones run together, a parameter is decided; where they "
-    "spread, it matters little.",
-    "pareto": "No design of the front is beaten by one that is better in both figures: choose what you can spend of "
-    "one, and read the other.",
-    "acquisition-first": "What the method knew at its first proposal, and where it expected to gain.",
-    "acquisition": "What the method knew at its last proposal: it looks where score and doubt are high.",
-    "sweeps": "One parameter varied at a time around the centre design, whose value is the dashed line; crosses are "
-    "rejected designs.",
-    "pca": "Directions in which the designs spread: a few large shares among the best say that they lie on a line or "
-    "a surface.",
-    "importance": "How much worse the score is predicted if a parameter is shuffled: a long bar matters, a bar no "
-    "longer than its error does not.",
-    "feasibility": "What rejects a design over two parameters, the others as in the centre design, which is ringed.",
-}
-"""Explanation below each picture, by its name in `PICTURES`."""
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#d9822b", "#8a8f98", "#b3322b"
 INK = "#4a4f57"
@@ -53,6 +36,12 @@ STYLE: dict[Any, Any] = {
     "grid.alpha": 0.25,
     "legend.frameon": False,
 }
+
+
+@cache
+def meanings() -> dict[str, str]:
+    """Return the explanation below each picture, by its name in `PICTURES`."""
+    return tomllib.loads((templates_folder() / "report/pictures.toml").read_text(encoding="utf-8"))
 
 
 def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4) -> tuple[Figure, list[Axes]]:
@@ -77,8 +66,8 @@ def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
         If the folder cannot be written.
     """
     pixels = io.BytesIO()
-    if name in MEANINGS:
-        figure.supxlabel(fill(MEANINGS[name], int(LETTERS_PER_INCH * figure.get_figwidth())), fontsize=7.5, color=INK)
+    if name in PICTURES:
+        figure.supxlabel(fill(meanings()[name], int(LETTERS_PER_INCH * figure.get_figwidth())), fontsize=7.5, color=INK)
     with matplotlib.rc_context(STYLE):
         drawn = svg_text(figure)
         figure.savefig(pixels, format="png", dpi=PNG_DPI, metadata={"Software": None})

@@ -21,7 +21,7 @@ from jumpcad.search.phases import FRONTS
 from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report.drawings import history, parallel, slices
-from jumpcad.search.report.figures import MEANINGS, svg_text
+from jumpcad.search.report.figures import meanings, svg_text
 from jumpcad.search.report.lessons import bound_rows, gains, importances, reason_rows
 from jumpcad.search.report.shown_design import chart
 from jumpcad.search.report.side_view import EDGE_MM, LINKS, POSES, box_mm
@@ -126,7 +126,7 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
     drawn = chart(found.trials, shown, numbers, cost, is_front, str(store.path or UNSAVED))
     if is_front:
         drawn |= {
-            "meaning": MEANINGS["pareto"],
+            "meaning": meanings()["pareto"],
             "reach": _reach(shown, found.objective, cost),
             "area": hypervolume(found.trials, cost=cost),
             "whole": len(front(found.trials, cost)),

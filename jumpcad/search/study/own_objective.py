@@ -4,8 +4,6 @@ Scores are computed by the process that runs the search, so the function needs n
 hash of the function; another function is another study.
 """
 
-import inspect
-import math
 import os
 import random
 import runpy
@@ -53,9 +51,7 @@ def load_function(place: str) -> tuple[Callable[..., Any], str]:
     try:
         with _undisturbed():
             defined = runpy.run_path(file, run_name="objective")
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:
+    except (Exception, SystemExit) as error:
         raise JumpcadError(f"{shown(file)}: does not run: {_told(error)}") from None
     if name not in defined:
         raise JumpcadError(f"{shown(file)}: defines no {name}{did_you_mean(name, defined)}")
@@ -68,12 +64,10 @@ def require_function(function: Any) -> FunctionType:
     Raises
     ------
     JumpcadError
-        If it is anything else, a generator or a coroutine.
+        If it is anything else.
     """
     if not isinstance(function, FunctionType):
         raise JumpcadError(f"an own objective takes a function made by `def` or `lambda`, not {described(function)}")
-    if inspect.isgeneratorfunction(function) or inspect.iscoroutinefunction(function):
-        raise JumpcadError(f"the objective {name_of(function)} returns no number: leave out `async` and `yield`")
     return function
 
 
@@ -95,30 +89,18 @@ def checked(function: FunctionType) -> Callable[[Mapping[str, float]], float]:
         try:
             with _undisturbed():
                 value: Any = function(dict(metrics))
-                number = _number(value)
-        except KeyboardInterrupt:
-            raise
         except KeyError as error:
             key = shown(error.args[0] if error.args else "")
             raise refused(f"asks for {key}; a jump of this model has {', '.join(metrics)}") from None
-        except BaseException as error:
+        except (Exception, SystemExit) as error:
             raise refused(f"fails for a design that jumps: {_told(error)}") from None
-        if number is None:
+        if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
             raise refused(f"returns {described(value)}, not a number")
-        if not -LARGEST <= number <= LARGEST:  # nor is NaN
+        if not -LARGEST <= value <= LARGEST:  # nor is NaN
             raise refused(f"returns {shown(value)}, not a number within ±{LARGEST:g}")
-        return number
+        return float(value)
 
     return figure
-
-
-def _number(value: Any) -> float | None:
-    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
-        return None
-    try:
-        return float(value)
-    except OverflowError:
-        return math.inf
 
 
 @contextmanager
@@ -141,8 +123,4 @@ def _undisturbed() -> Iterator[None]:
 
 def _told(error: BaseException) -> str:
     """Return an error in one line."""
-    try:
-        text = f"{type(error).__name__}: {error}".removesuffix(": ")
-    except Exception:  # from the exception's own __str__
-        text = type(error).__name__
-    return without_controls(text)[:120]
+    return without_controls(f"{type(error).__name__}: {error}".removesuffix(": "))[:120]

@@ -1,8 +1,7 @@
 """Trials as a table: CSV, or Parquet for very many."""
 
 import io
-import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +12,6 @@ from jumpcad.files.outputs import require_target, write_atomically
 from jumpcad.search.study.trial import Trial
 
 TABLES = (".csv", ".parquet")
-
-
-def _table(trials: Sequence[Trial]) -> Iterator[dict[str, Any]]:
-    """Yield one flat record per trial, all with the same columns; a figure that a trial does not have is None."""
-    metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
-    margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
-    keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
-    return (_record(trial, keys, metrics, margins) for trial in trials)
 
 
 @check_arguments
@@ -34,13 +25,15 @@ def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) 
     """
     path = Path(path)
     require_target(path, TABLES, force)
-    records = _table(trials)
+    metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
+    margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
+    keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
+    records = [_record(trial, keys, metrics, margins) for trial in trials]
     if path.suffix == ".csv":
-        first = next(records, {"phase": None})
-        lines = itertools.chain([first] if trials else [], records)
-        write_atomically(path, to_csv(itertools.chain([list(first)], (list(record.values()) for record in lines))))
+        head = list(records[0]) if records else ["phase"]
+        write_atomically(path, to_csv([head, *(list(record.values()) for record in records)]))
     else:
-        write_atomically(path, _parquet(list(records)))
+        write_atomically(path, _parquet(records))
 
 
 def _parquet(records: list[dict[str, Any]]) -> bytes:
@@ -55,10 +48,8 @@ def _parquet(records: list[dict[str, Any]]) -> bytes:
 
 
 def _record(trial: Trial, keys: Sequence[str], metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
+    """Return one flat record; a figure that the trial does not have is None."""
     evaluation = trial.evaluation
-    worst: dict[str, float] = {}
-    for finding in evaluation.findings:
-        worst[finding.name] = min(finding.margin, worst.get(finding.name, finding.margin))
     return {
         "phase": trial.phase,
         "run": trial.run,
@@ -71,7 +62,7 @@ def _record(trial: Trial, keys: Sequence[str], metrics: Sequence[str], margins: 
         "reasons": " ".join(evaluation.reasons),
         "score": trial.score,
         **{name: evaluation.metrics.get(name) for name in metrics},
-        **{f"margin_{name}": worst.get(name) for name in margins},
+        **{f"margin_{name}": evaluation.margins.get(name) for name in margins},
         "detail": evaluation.detail,
         "duration_s": trial.duration_s,
         "model": trial.model,

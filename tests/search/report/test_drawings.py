@@ -15,7 +15,6 @@ from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial
-from jumpcad.workshop import load_workshop
 
 NAN = float("nan")
 
@@ -80,33 +79,11 @@ def drawn(found: StudySummary, name: str, shown: Sequence[Trial] = ()) -> str:
     return fill(f"report/study/{name}.html.j2", {"found": found, **values})
 
 
-def at(kind: str, page: str) -> list[float]:
-    """Return where the marks of a kind begin, outside of legends."""
-    drawing = re.sub('<p class="legend">.*?</p>', "", page, flags=re.DOTALL)
-    paths = re.findall(f'<path class="{kind}" d="([^"]*)"', drawing)
-    return [float(x) for path in paths for x in re.findall(r"M([\d.]+)", path)]
-
-
 def known(*scores: float | None) -> StudySummary:
     """Return what is known of a study of designs with these scores, whose compression ratio grows."""
     shares = np.linspace(0.1, 0.9, len(scores)).tolist()
     trials = [replace(trial(share, 0.5, 0.5), score=score) for share, score in zip(shares, scores, strict=True)]
     return StudySummary(SMALL, find_objective("fitness"), trials, None, [], [], {})
-
-
-def test_dots_of_a_slice_are_as_old_as_the_jumps_before_them() -> None:
-    """A fifth of the designs that jump in each colour, whatever was rejected meanwhile."""
-    page = drawn(known(*[1.0, 2.0, 3.0, 4.0, 5.0], *[None] * 20), "slices")
-    first = page.split("</figure>")[0]
-    places = [at(f"dots age{age}", first) for age in range(5)]
-    ages = [age for age in range(5) for _ in places[age]]
-    assert ages == [0, 1, 2, 3, 4]
-    assert places == sorted(places)
-
-
-def test_a_line_goes_down_through_the_places_in_the_ranges() -> None:
-    """From 16 at the lower end of a range to 624 at its upper one, 54 further down for each parameter."""
-    assert _line(SMALL, trial(0.0, 0.5, 1.0)) == "M16 54L320 108 624 162"
 
 
 def test_the_best_run_together_or_spread_by_their_reach_in_each_range() -> None:
@@ -218,20 +195,3 @@ def test_parallel_lines_are_the_stronger_the_better_and_lie_on_axes_with_their_e
     assert all(0.0 < float(y) < height for _, y, *_ in words)
     line = Space.parse(fix=[*FIXED, "rest_angle_deg=50", "stiffness_nmm_per_deg=20"])
     assert parallel(replace(found, space=line), ()) == parallel(known(None), ()) == {}
-
-
-def test_the_best_lines_are_the_best_twentieth_of_many() -> None:
-    page = drawn(known(*range(1, 141)), "parallel")
-    assert "the best 7<" in page  # the legend has a line of that kind too
-    *_, best = re.findall(r'<path class="bundle3" d="([^"]*)"', page)
-    assert best.count("M") == 7
-
-
-def test_names_are_numbered_from_one_on_an_axis_of_whole_numbers() -> None:
-    battery = "lipo-2s-180", "lipo-1s-300"
-    space = Space.parse(fix=FIXED, choose=[f"bought.battery={','.join(battery)}"], workshop=load_workshop())
-    trials = [replace(trial(0.5, 0.5, 0.5), score=1.0 + n, workshop={"bought.battery": battery[n]}) for n in (0, 1)]
-    *_, page = drawn(replace(known(), space=space, trials=trials), "slices").split("</figure>")[:-1]
-    assert "1 is lipo-2s-180, 2 is lipo-1s-300. Best: lipo-1s-300." in page
-    assert re.findall(r'text-anchor="middle">([\d.]+)<', page) == ["1", "2"]
-    assert dots("top", page) == [pytest.approx((2.0, 2.0), abs=0.02)]

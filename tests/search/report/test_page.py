@@ -216,15 +216,6 @@ def test_values_of_the_workshop_are_told_names_by_numbers(tmp_path):
     assert shown["body.plate_mm"][:4] == asked["body.plate_mm"][3][:4]
 
 
-def test_a_parameter_without_effect_matters_least(tmp_path):
-    space = Space.parse(fix=REST[1:])  # the leg's length is free, and no bump depends on it
-    studied(tmp_path / "s.db", space, "ga", 90).close()
-    found = [table for table in parsed(page_of(tmp_path / "s.db")).iter("table") if "fall of R²" in text(table)]
-    names = [text(row[0]) for row in found[0].iter("tr")][1:]
-    assert set(names[:2]) == {"compression_ratio", "rest_angle_deg"}
-    assert names[2:] == ["carrying_link_mm"]
-
-
 @pytest.mark.parametrize("model", [Never(), Below()], ids=["nothing jumps", "negative scores"])
 def test_studies_without_a_usual_best_have_a_page(tmp_path, model):
     with local_pool(0) as pool:

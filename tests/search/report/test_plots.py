@@ -1,19 +1,17 @@
 """Pictures of searches show the trials and the surrogate."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgba
 from support.bumps import REST, studied
 from support.hills import SMALL
 
 from jumpcad.findings import Finding
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
-from jumpcad.search.fronts import energy_j, find_cost
+from jumpcad.search.fronts import energy_j
 from jumpcad.search.report import plots
-from jumpcad.search.report.figures import MEANINGS, PICTURES, panels, save_figure
+from jumpcad.search.report.figures import PICTURES, meanings, panels, save_figure
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.trial import Trial
@@ -99,21 +97,6 @@ def test_a_front_is_level_from_each_design_to_the_next_that_takes_more_energy():
     assert list(lines["other designs"].get_ydata()) == [3.0, 1.0, 2.0, 0.5]
 
 
-def test_a_front_that_seeks_more_of_both_is_drawn_over_the_figure_itself():
-    """Level from each design to the next that rises less: the best score of all that rise so far."""
-    rises = ((0.5, 1.0), (0.125, 3.0), (0.25, 2.0), (0.2, 0.5))
-    trials = [
-        replace(trial((0.5, 0.5, 0.5), score), evaluation=Evaluation("jump", {"com_rise_m": rise}))
-        for rise, score in rises
-    ]
-    (axes,) = plots.pareto(trials, find_objective("fitness"), find_cost("rise")).axes
-    lines = {line.get_label(): line for line in axes.lines}
-    assert list(lines["front"].get_xdata()) == [0.5, 0.25, 0.125]
-    assert list(lines["front"].get_ydata()) == [1.0, 2.0, 3.0]
-    assert list(lines["other designs"].get_xdata()) == [0.5, 0.125, 0.25, 0.2]
-    assert axes.get_xlabel() == "rise of the centre of mass (m)"
-
-
 def test_each_importance_has_its_own_error():
     """The largest at the top."""
     mean, deviation = np.array([0.3, 0.1, 0.2]), np.array([0.01, 0.02, 0.03])
@@ -133,29 +116,6 @@ def test_shares_of_components_stand_beside_equal_ones():
         assert [bar.get_height() for bar in axes.patches] == [0.6, 0.2, 0.15, 0.05]
 
 
-def test_the_best_line_is_the_darkest_and_lies_above_the_others():
-    trials = [trial((share, 0.5, 0.5), share) for share in (0.4, 0.9, 0.1, 0.6)]
-    (axes,) = plots.parallel(SMALL, trials).axes
-    assert [line.get_ydata()[0] for line in axes.lines] == pytest.approx([0.1, 0.4, 0.6, 0.9], abs=1e-6)
-    shades = [to_rgba(line.get_color())[3] for line in axes.lines]
-    assert shades == sorted(shades)
-    assert (shades[0], shades[-1]) == pytest.approx((0.05, 0.95))
-
-
-def test_one_design_alone_is_seen_between_the_ends_of_every_range():
-    """It is the best; a range that was searched is shown from end to end, so that an edge is seen as one."""
-    alone = [trial((0.4, 0.5, 0.5), 1.0)]
-    (axes,) = plots.parallel(SMALL, alone).axes
-    assert to_rgba(axes.lines[0].get_color())[3] > 0.9
-    assert axes.get_ylim()[0] < 0.0 < 1.0 < axes.get_ylim()[1]
-    for trials in (alone, [trial((0.4, 0.5, 0.5), None, "loop")]):
-        figure = plots.slices(SMALL, trials, find_objective("fitness"))
-        for axes, parameter in zip(figure.axes, SMALL.free, strict=False):
-            low, high = axes.get_xlim()
-            assert low < parameter.lower < parameter.upper < high
-            assert high - low < 1.1 * parameter.width
-
-
 def test_a_map_has_its_ring_where_the_centre_is_and_a_colour_for_each_first_reason():
     x, y = np.array([0.2, 0.4, 0.6]), np.array([20.0, 60.0])
     rows = [
@@ -172,38 +132,9 @@ def test_a_map_has_its_ring_where_the_centre_is_and_a_colour_for_each_first_reas
     assert axes.collections[0].get_array().reshape(2, 3).tolist() == [[0, 0, 0], [2, 1, 2]]
 
 
-def test_a_surrogate_is_drawn_within_two_deviations_of_the_score_s_root():
-    """Roots of 3 ± 2·0.5: scores of 4 to 16 about 9."""
-    line = Space.parse(fix=[*REST, "rest_angle_deg=50"])
-    known = SimpleNamespace(
-        score=SimpleNamespace(predict=lambda points: (np.full(len(points), 3.0), np.full(len(points), 0.5))),
-        log_improvement=lambda points, best: -points[:, 0], log_feasible=lambda points: 0.0 * points[:, 0],
-    )  # fmt: skip
-    above, _ = plots._one_parameter(line, [], known, find_objective("fitness"), 1.0, 6.4).axes
-    heights = above.collections[0].get_paths()[0].vertices[:, 1]
-    assert (heights.min(), heights.max()) == pytest.approx((4.0, 16.0))
-    assert set(np.round(above.lines[0].get_ydata(), 9)) == {9.0}
-
-
-def test_a_surrogate_of_two_parameters_has_the_first_across_and_the_second_up():
-    """A score of the square of the first one's place, a process of its root; what may be gained grows upwards."""
-    plane = Space.parse(fix=REST)
-    assert plane.dimension == 2
-    known = SimpleNamespace(
-        score=SimpleNamespace(predict=lambda points: (points[:, 0], 0.1 + 0.0 * points[:, 0])),
-        log_improvement=lambda points, best: np.log(10.0) * points[:, 1],
-        log_feasible=lambda points: 0.0 * points[:, 0],
-    )
-    left, right, *_ = plots._two(plane, [], known, find_objective("fitness"), 1.0, 2).axes
-    scores, gains = (np.asarray(axes.collections[0].get_array()).reshape(61, 61) for axes in (left, right))
-    assert scores == pytest.approx(np.tile(np.linspace(0.0, 1.0, 61) ** 2, (61, 1)))
-    assert gains == pytest.approx(np.tile(np.linspace(0.0, 1.0, 61)[:, None], (1, 61)))
-    assert (left.get_xlabel(), left.get_ylabel()) == tuple(parameter.name for parameter in plane.free)
-
-
 def test_every_picture_says_what_it_means(tmp_path):
-    assert set(MEANINGS) == set(PICTURES)
+    assert set(meanings()) == set(PICTURES)
     figure, _ = panels(1)
     save_figure(figure, tmp_path, "history")
     said = " ".join(figure.get_supxlabel().split())
-    assert said == MEANINGS["history"]
+    assert said == meanings()["history"]

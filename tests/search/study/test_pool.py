@@ -7,7 +7,6 @@ import subprocess
 import sys
 import textwrap
 from concurrent.futures import BrokenExecutor
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -43,15 +42,6 @@ def test_results_do_not_depend_on_who_computes_them(workers):
     found, notes = evaluate(local_pool(workers), Hill())
     assert found == [Hill()(design) for design in DESIGNS]
     assert notes == []
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize("workers", [0, 1])
-def test_an_outcome_says_how_long_it_took(workers):
-    with local_pool(workers) as pool:
-        durations = [outcome.duration_s for outcome in pool.evaluate(Hill(pause_s=0.02), DESIGNS[:3])]
-    assert len(durations) == 3
-    assert all(0.02 <= duration < 0.5 for duration in durations)
 
 
 @pytest.mark.thorough
@@ -93,22 +83,6 @@ def test_what_fails_once_is_repeated(tmp_path):
     assert found == [Hill()(design) for design in DESIGNS]
     assert notes
     assert not any("quarantined" in note for note in notes)
-
-
-def test_a_closed_pool_starts_again_and_ends_once():
-    opened, ended = [], []
-
-    def start():
-        opened.append(InProcess())
-        return opened[-1]
-
-    pool = Pool(start, ended.append, 1)
-    for _ in range(2):
-        assert len(list(pool.evaluate(Hill(), GOOD[:2]))) == 2
-        pool.close()
-        pool.close()
-    assert len(opened) == 2
-    assert ended == opened
 
 
 def test_an_error_of_the_request_ends_the_run():
@@ -158,49 +132,11 @@ def test_dask_loses_nothing_when_a_worker_is_killed(tmp_path):
         assert found == [Hill()(design) for design in DESIGNS]
 
 
-@pytest.mark.parametrize("threads", [(), (1, 2)])
-def test_a_dask_scheduler_is_let_go_when_the_pool_is_closed_or_it_has_no_workers(monkeypatch, threads):
-    """As many designs at a time as its workers have threads; what runs is not waited for."""
-    told = []
-    asked = []
-    executor = SimpleNamespace(shutdown=lambda wait: told.append(("shutdown", wait)), submit=InProcess().submit)
-    client = SimpleNamespace(
-        scheduler_info=lambda n_workers: {"workers": {str(n): {"nthreads": count} for n, count in enumerate(threads)}},
-        get_executor=lambda pure: asked.append(pure) or executor, close=lambda: told.append("closed"),
-    )  # fmt: skip
-    resolved = SimpleNamespace(resolve_address=lambda address: address)
-    scheduler = SimpleNamespace(comm=resolved, Client=lambda *given, **how: asked.append((*given, how)) or client)
-    monkeypatch.setitem(sys.modules, "distributed", scheduler)
-    if not threads:
-        with pytest.raises(JumpcadError, match="the Dask scheduler at tcp://a has no workers: start some"):
-            dask_pool("tcp://a")
-        assert told == ["closed"]
-        return
-    with dask_pool("tcp://a") as pool:
-        assert pool.workers == 3
-        assert len(list(pool.evaluate(Hill(), GOOD[:2]))) == 2
-        assert told == []
-    assert told == [("shutdown", False), "closed"]
-    # Other code of the same process keeps its own client; equal tasks are not taken for one.
-    assert asked == [("tcp://a", {"timeout": 10.0, "set_as_default": False}), False]
-
-
 def test_dask_that_does_not_answer(monkeypatch):
     monkeypatch.setattr("jumpcad.search.study.pool.ANSWER_S", 0.5)
     needs.package("distributed")
     with pytest.raises(JumpcadError, match="no Dask scheduler answers at"):
         dask_pool("tcp://127.0.0.1:1")
-
-
-def test_a_pool_has_a_worker_for_each_core_that_it_may_use(monkeypatch):
-    """A machine that does not tell has as many as it has cores."""
-    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 2, 5}, raising=False)
-    monkeypatch.setattr(os, "cpu_count", lambda: 8)
-    assert (local_pool().workers, local_pool(2).workers) == (3, 2)
-    monkeypatch.delattr(os, "sched_getaffinity")
-    assert local_pool().workers == 8
-    monkeypatch.setattr(os, "cpu_count", lambda: None)
-    assert local_pool().workers == 1
 
 
 def test_a_cluster_has_its_own_workers_and_the_same_timeout(monkeypatch):

@@ -1,12 +1,10 @@
 """What runs in a worker process."""
 
-import os
 import pickle
 import signal
 import subprocess
 import sys
 import time
-from types import SimpleNamespace
 
 import cloudpickle
 import pytest
@@ -54,29 +52,6 @@ def test_the_alarm_is_off_after_a_design_that_was_in_time():
         assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
 
 
-def test_where_there_are_no_alarms_a_design_takes_as_long_as_it_takes(monkeypatch):
-    """As on Windows."""
-    monkeypatch.delattr(signal, "setitimer", raising=False)
-    seen = []
-    with worker._alarm(60.0):
-        seen.append("ran")
-    assert seen == ["ran"]
-
-
-def test_what_a_worker_prints_goes_nowhere_and_only_its_parent_answers_an_interrupt(monkeypatch):
-    """Descriptor 1 is standard output, on which the parent may be printing a document; errors stay on 2."""
-    made, ended = [], []
-    monkeypatch.setattr(worker.signal, "signal", lambda *call: made.append(call))
-    monkeypatch.setattr(worker.threading, "Thread", lambda **given: SimpleNamespace(start=lambda: ended.append(given)))
-    monkeypatch.setattr(worker.os, "open", lambda path, _: path)
-    monkeypatch.setattr(worker.os, "dup2", lambda source, target: made.append((source, target)))
-    monkeypatch.setattr(worker.atexit, "register", lambda *call: made.append(call))  # or these tests would end well
-    monkeypatch.setattr(worker, "collect_seldom", lambda: made.append("collects seldom"))
-    worker.start_worker(7)
-    assert made == [(signal.SIGINT, signal.SIG_IGN), (os.devnull, 1), "collects seldom", (os._exit, 0)]
-    assert [(given["args"], given["daemon"]) for given in ended] == [((7,), True)]
-
-
 class Told(Hill):
     """A hill that fails where it is steep, and takes 20 ms; of a workshop it says the plates."""
 
@@ -98,7 +73,7 @@ def test_a_task_has_a_result_and_a_duration_for_each_of_its_designs():
         Hill()(flat), worker.Failure("ValueError: too steep"), Evaluation("jump", {"body.plate_mm": 2.0}),
         worker.Failure("ValueError"),
     ]  # fmt: skip
-    assert all(0.02 <= duration_s < 1.0 for _, duration_s in found)
+    assert all(duration_s >= 0.02 for _, duration_s in found)
 
 
 def test_what_is_wrong_with_every_design_ends_the_task():
