@@ -88,7 +88,8 @@ def measured(subject: Subject, true: dict[str, float], jump: Jump, plan: int, rn
         t = CLOCK_S * np.arange(FRAMES)
         x, z = speed * math.cos(angle) * t, speed * math.sin(angle) * t - 0.5 * 9.81 * t**2
         noise = PIXEL_M * rng.standard_normal((2, FRAMES))
-        seen = (seen_takeoff(np.column_stack([t, x + noise[0], z + noise[1]]), "synthetic"),)
+        points = np.column_stack([t, x + noise[0], z + noise[1]])
+        seen = (seen_takeoff(points, "synthetic", subject.fastest_m_s),)
         data["videos"] = ({"points": "synthetic.csv", "point": "centre-of-mass"},)
     return subject.remeasured(Measurements(**data), seen)
 

@@ -32,20 +32,10 @@ class TakeoffSeen:
 
 
 def seen_takeoff(points: Array, source: str, fastest_m_s: float, slow_motion: float = 1.0) -> TakeoffSeen:
-    """Fit a ballistic flight to points (n, 3) of t (s), x and z (m), and check its gravity and its speed.
+    """Fit a ballistic flight to points (n > 3, 3) of t (s), x and z (m), and check its gravity and its speed.
 
-    Gravity alone cannot tell lengths in cm with a clock 10 times too slow from a flight that is right: the speed does.
-
-    Parameters
-    ----------
-    points
-        At least 4, the first at take-off.
-    source
-        The file, for errors.
-    fastest_m_s
-        Take-off speed with all of the springs' energy.
-    slow_motion
-        Divides t.
+    Gravity alone cannot tell lengths in cm with a clock 10 times too slow from a flight that is right: the speed does,
+    by `fastest_m_s`, that with all of the springs' energy. `slow_motion` divides t.
 
     Raises
     ------
@@ -56,37 +46,31 @@ def seen_takeoff(points: Array, source: str, fastest_m_s: float, slow_motion: fl
     t, x, z = (points - points[0]).T
     t = t / slow_motion
     fall = np.column_stack([np.ones_like(t), t, -0.5 * t * t])
-    line = fall[:, :2]
+    line, straight = fall[:, :2], np.column_stack([x, z + 0.5 * GRAVITY_M_S2 * t * t])
     _, rising, gravity = np.linalg.lstsq(fall, z, rcond=None)[0]
-    (_, forward), (_, up) = (
-        np.linalg.lstsq(line, values, rcond=None)[0] for values in (x, z + 0.5 * GRAVITY_M_S2 * t * t)
-    )
-    freedom = len(t) - 3
-    scatter = float(np.linalg.norm(_residual(fall, z))) / math.sqrt(freedom)
-    bend = float(np.linalg.norm(_residual(line, fall[:, 2])))  # of which the gravity is the slope
+    forward, up = np.linalg.lstsq(line, straight, rcond=None)[0][1]
+    bend = np.linalg.norm(_residual(line, fall[:, 2]))  # of which the gravity is the slope
+    doubt = stdtrit(len(t) - 3, CONFIDENCE) * np.linalg.norm(_residual(fall, z)) / math.sqrt(len(t) - 3) / bend
     seen = math.hypot(forward, rising)
-    ways = _explanations(float(gravity), float(stdtrit(freedom, CONFIDENCE)) * scatter / bend, seen / fastest_m_s)
+    ways = _explanations(gravity, doubt, seen / fastest_m_s)
     if ("m", 1.0) not in ways:
-        turned = gravity < 0.0 and rising < 0.0
         raise JumpcadError(
             f"{source}: its points fall with {gravity:.3g} m/s² instead of {GRAVITY_M_S2:g} and start with {seen:.3g} "
             f"m/s, where the springs give up to {fastest_m_s:.3g}: "
-            + ("z points down: change its sign" if turned else _ways_out(ways, slow_motion))
+            + ("z points down: change its sign" if max(gravity, rising) < 0.0 else _ways_out(ways, slow_motion))
         )
-    left = np.concatenate([_residual(line, x), _residual(line, z + 0.5 * GRAVITY_M_S2 * t * t)])
-    deviation = math.sqrt(float(np.sum(left * left)) / max(len(left) - 4, 1))
-    error = deviation / math.sqrt(float(np.sum((t - t.mean()) ** 2)))
-    speed = math.hypot(forward, up)
     if forward <= 0.0 or up <= 0.0:
         raise JumpcadError(f"{source}: flies with ({forward:.3g}, {up:.3g}) m/s: x must point forwards and z upwards")
+    speed = math.hypot(forward, up)
+    deviation = float(np.linalg.norm(_residual(line, straight))) / math.sqrt(2 * len(t) - 4)
+    error = deviation / math.sqrt(float(np.sum((t - t.mean()) ** 2)))
     return TakeoffSeen(speed, math.degrees(math.atan2(up, forward)), error, math.degrees(error / speed))
 
 
 def _explanations(gravity: float, error: float, share: float) -> list[tuple[str, float]]:
-    """Return units of x and z, each with how many times too slow the clock is, with which the flight is the robot's.
+    """Return units of x and z, each with how many times too slow the clock is, that make the flight the robot's.
 
-    Lengths scale gravity (here with its error, m/s²) and speed (here over the fastest); clocks divide it by square, and
-    speed once. A clock that is right goes before any other.
+    Clocks divide gravity (here with its error, m/s²) by their square, speed (here over the fastest) once.
     """
     found = []
     for unit, scale in UNITS.items():
@@ -94,7 +78,7 @@ def _explanations(gravity: float, error: float, share: float) -> list[tuple[str,
         slow = 1.0 if right else math.sqrt(GRAVITY_M_S2 * scale / gravity) if gravity > 0.0 else math.inf
         if SPEED_SHARES[0] <= share * slow / scale <= SPEED_SHARES[1]:
             found.append((unit, slow))
-    return [one for one in found if one[1] == 1.0] or found
+    return [one for one in found if one[1] == 1.0] or found  # a right clock is likelier than any other
 
 
 def _ways_out(ways: list[tuple[str, float]], slow_motion: float) -> str:
@@ -106,11 +90,12 @@ def _ways_out(ways: list[tuple[str, float]], slow_motion: float) -> str:
             clock = f"{slow:.4g} times too slow" if slow > 1.0 else f"{1.0 / slow:.4g} times too fast"
             wrong.append(f"the clock is {clock}: say slow_motion = {slow * slow_motion:.4g} in [[videos]]")
         said.append(", and ".join(wrong))
-    if any(slow != 1.0 for _, slow in ways):
-        said[-1] += ", the camera's frames a second over the video's"
-    return "; or ".join(said if any(slow == 1.0 for _, slow in ways) else [*said, FLIGHT])
+    if any(slow == 1.0 for _, slow in ways):
+        return "; or ".join(said)
+    rates = ", the camera's frames a second over the video's; or "
+    return "; or ".join(said) + rates + FLIGHT if said else FLIGHT
 
 
 def _residual(matrix: Array, values: Array) -> Array:
-    left: Array = values - np.einsum("ij,j->i", matrix, np.linalg.lstsq(matrix, values, rcond=None)[0])
+    left: Array = values - np.einsum("ij,j...->i...", matrix, np.linalg.lstsq(matrix, values, rcond=None)[0])
     return left
