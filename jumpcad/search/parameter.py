@@ -86,6 +86,17 @@ class SearchParameter:
             return value if isinstance(value, int | float) else float("nan")
         return float(self.names.index(value)) if value in self.names else float("nan")
 
+    def held(self, number: float) -> "SearchParameter":
+        """Return the parameter fixed at one of its values."""
+        if self.names:
+            return self.of_names(self.name, [self.names[round(number)]])
+        return replace(self, lower=number, upper=number, choices=())
+
+    def narrowed(self, centre: float, percent: float, limits: tuple[float, float]) -> "SearchParameter":
+        """Return the parameter within a share (%) of its width on either side of a centre, and within limits."""
+        reach = self.width * percent / 100.0
+        return replace(self, lower=max(limits[0], centre - reach), upper=min(limits[1], centre + reach))
+
     def describe(self) -> dict[str, Any]:
         """Return the range, the choices or the fixed value as plain data."""
         if not self.free:
@@ -152,11 +163,9 @@ def read_change(kind: Kind, text: str) -> Change:
     """
     form, separator = FORMS[kind]
     name, equals, value = text.partition("=")
-    if not equals:
-        raise JumpcadError(f"{text!r} is not of the form NAME={form}")
     name, items = name.strip(), value.split(separator) if separator else [value]
-    if kind == "bound" and len(items) != 2:
-        raise JumpcadError(f"{text!r} is not of the form NAME=LO:HI")
+    if not equals or (kind == "bound" and len(items) != 2):
+        raise JumpcadError(f"{text!r} is not of the form NAME={form}")
     if "." in name and kind != "bound":  # of the workshop: what is a number, the workshop decides
         return Change(kind, name, tuple(item.strip() for item in items))
     return Change(kind, name, tuple(_number(item, text, name) for item in items))
@@ -290,12 +299,3 @@ def known_name(name: str, others: str = "") -> str:
         hint = did_you_mean(str(name), PARAMETERS) or f"; the parameters are {', '.join(PARAMETERS)}{others}"
         raise JumpcadError(f"{shown(name)} is not a parameter of a design{hint}")
     return name
-
-
-def narrowed(parameter: SearchParameter, centre: float, percent: float) -> SearchParameter:
-    """Return a parameter with its range narrowed to a share (%) of its width on either side of a centre."""
-    if not 0 < percent <= 100:
-        raise JumpcadError(f"within {percent:g} % is outside 0…100 %: a share of each parameter's range")
-    reach = parameter.width * percent / 100.0
-    lower, upper = physical_limits(parameter.name)
-    return replace(parameter, lower=max(lower, centre - reach), upper=min(upper, centre + reach))

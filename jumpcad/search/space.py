@@ -7,7 +7,7 @@ names evenly.
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
 
@@ -22,7 +22,7 @@ from jumpcad.search.parameter import (
     SearchParameter,
     changed_parameters,
     known_name,
-    narrowed,
+    physical_limits,
     read_change,
     several,
 )
@@ -103,14 +103,7 @@ class Space:
         within_percent: float | None = None,
         workshop: Workshop | None = None,
     ) -> Self:
-        """Return the default space with changes from a command line; see `make`.
-
-        Parameters
-        ----------
-        fix, bound, choose
-            ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``, each parameter in at most one of them.
-        around, only, within_percent, workshop
-            As for `make`.
+        """Return the default space with changes ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``; the rest as `make`.
 
         Raises
         ------
@@ -135,15 +128,17 @@ class Space:
             raise JumpcadError(
                 "to free only some parameters, or search near a design, say around which (around, or --around DESIGN)"
             )
+        if within_percent is not None and not 0 < within_percent <= 100:
+            raise JumpcadError(f"within {within_percent:g} % is outside 0…100 %: a share of each parameter's range")
         changed = changed_parameters(changes, workshop)
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
         for name, limits in SEARCH_BOUNDS.items():
             parameter = SearchParameter(name, limits.lower, limits.upper)
             if only and name not in only:
-                parameter = SearchParameter(name, centre[name], centre[name])
+                parameter = parameter.held(centre[name])
             elif within_percent is not None:
-                parameter = narrowed(parameter, centre[name], within_percent)
+                parameter = parameter.narrowed(centre[name], within_percent, physical_limits(name))
             parameters.append(changed.pop(name, parameter))
         return cls((*parameters, *changed.values()))
 
@@ -249,33 +244,18 @@ class Space:
         return drawn
 
     def near(self, centre: Variant, names: Sequence[str] = (), percent: float | None = None) -> "Space | None":
-        """Return the part of the space in which only some parameters vary; the others have the values of `centre`.
+        """Return the part of the space about one of its variants; None if nothing stays free in it.
 
-        Parameters
-        ----------
-        centre
-            A variant of the space.
-        names
-            The free parameters that stay free; all of them if empty.
-        percent
-            Ranges are narrowed to this percentage of their width on either side of the centre; not if None.
-
-        Returns
-        -------
-        Space or None
-            None if nothing stays free.
+        Only the parameters `names` vary, all of them if empty; the others have the centre's values. Ranges reach so
+        many per cent of their width to either side, all of it if None.
         """
         parts = []
         for parameter in self.parameters:
             number = parameter.number(centre.value(parameter.name))
             if names and parameter.name not in names:
-                held = (parameter.names[round(number)],) if parameter.names else ()
-                at = 0.0 if held else number
-                parameter = SearchParameter(parameter.name, at, at, names=held)
-            elif percent is not None and parameter.free and not parameter.choices:
-                reach = parameter.width * percent / 100.0
-                lower, upper = max(parameter.lower, number - reach), min(parameter.upper, number + reach)
-                parameter = replace(parameter, lower=lower, upper=upper)
+                parameter = parameter.held(number)
+            elif percent is not None and not parameter.choices:
+                parameter = parameter.narrowed(number, percent, (parameter.lower, parameter.upper))
             parts.append(parameter)
         return Space(tuple(parts)) if any(part.free for part in parts) else None
 

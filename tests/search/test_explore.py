@@ -87,12 +87,6 @@ def test_a_sweep_has_so_many_values_from_bound_to_bound(evaluator):
             assert trial.design == CENTRE.model_copy(update={one.parameter: value})
 
 
-def test_choices_are_swept_as_they_are(evaluator):
-    space = Space.parse(choose=["stiffness_nmm_per_deg=9.2,12,20"])
-    swept = {one.parameter: one.values.tolist() for one in sweep(evaluator(space=space), CENTRE, 3)}
-    assert swept["stiffness_nmm_per_deg"] == [9.2, 12.0, 20.0]
-
-
 def test_too_little_to_look_at(evaluator):
     with pytest.raises(JumpcadError, match="samples = 5"):
         sample(evaluator(), 5, 0)

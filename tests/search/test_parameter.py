@@ -11,7 +11,6 @@ from jumpcad.search.parameter import (
     SearchParameter,
     active_sides,
     changed_parameters,
-    narrowed,
     physical_limits,
     read_change,
 )
@@ -39,11 +38,9 @@ def test_a_place_in_the_unit_interval_is_a_value_or_the_nearest_choice():
 
 def test_a_narrowed_range_stays_within_what_a_design_can_be():
     angle = SearchParameter("rest_angle_deg", 20.0, 70.0)
-    near = narrowed(angle, 50.0, 10.0)
-    assert (near.lower, near.upper) == pytest.approx((45.0, 55.0))
-    assert (narrowed(angle, 88.0, 10.0).lower, narrowed(angle, 88.0, 10.0).upper) == pytest.approx((83.0, 90.0))
-    assert (narrowed(angle, 6.0, 10.0).lower, narrowed(angle, 6.0, 10.0).upper) == pytest.approx((5.0, 11.0))
-    assert narrowed(angle, 45.0, 100.0).width == pytest.approx(85.0)  # the width to either side, within 5 to 90
+    for centre, percent, ends in ((50, 10, (45, 55)), (88, 10, (83, 90)), (6, 10, (5, 11)), (45, 100, (5, 90))):
+        near = angle.narrowed(centre, percent, physical_limits("rest_angle_deg"))
+        assert (near.lower, near.upper) == pytest.approx(ends)
 
 
 def test_bounds_of_a_workshops_value_are_numbers_and_its_choices_are_left_to_the_workshop() -> None:

@@ -21,7 +21,6 @@ from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
-from jumpcad.search.study.store import StudyStore
 from jumpcad.workshop import load_workshop
 
 WORKSHOP = load_workshop()
@@ -125,20 +124,6 @@ def test_the_genetic_algorithm_keeps_trying_other_names(evaluator):
     run_genetic(one, stage(200, 3))
     late = [trial.workshop["bought.battery"] for trial in one.trials[-60:]]
     assert set(late) == set(HEIGHTS)
-
-
-@pytest.mark.thorough
-def test_a_search_goes_on_where_it_ended(tmp_path):
-    def rows(path, *lengths):
-        for evaluations in lengths:
-            with local_pool(0) as pool:
-                run_study(Request(SHOP, Shop(), method="bo", evaluations=evaluations), path, pool)
-        with StudyStore.read(path) as store:
-            return [(trial.position, trial.key, trial.score) for trial in store.trials() if trial.phase == "bo"]
-
-    parts = rows(tmp_path / "parts.db", 34, 36)
-    assert parts == rows(tmp_path / "whole.db", 36)
-    assert len(parts) > 15 + 2  # the spread ones, and proposals before and after
 
 
 def test_sweeps_start_from_the_model_s_workshop(evaluator):

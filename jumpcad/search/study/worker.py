@@ -79,25 +79,20 @@ def evaluate_task(sent: bytes, designs: Sequence[Design | Variant], limit_s: flo
     JumpcadError
         If the model cannot work at all, or this machine has other versions of packages.
     """
-    model = _unpacked(sent)
+    model: Any = _unpacked(sent)
     results: list[tuple[Any, float]] = []
     for design in designs:
         start = time.perf_counter()
         with _alarm(limit_s):
             try:
-                result: Evaluation | Failure = _evaluated(model, Variant.of(design))
+                one = Variant.of(design)  # a model that is made in no workshop gets the design alone
+                result: Evaluation | Failure = model(one.design, *([one.workshop] if one.workshop else []))
             except JumpcadError:
                 raise
             except Exception as error:  # a bug with a rare design must not end the run
                 result = Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
         results.append((result, time.perf_counter() - start))
     return pickle.dumps(results)
-
-
-def _evaluated(model: Any, variant: Variant) -> Evaluation:
-    """Return the outcome; a model that is made in no workshop gets the design alone."""
-    found: Evaluation = model(variant.design, variant.workshop) if variant.workshop else model(variant.design)
-    return found
 
 
 @contextlib.contextmanager

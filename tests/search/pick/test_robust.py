@@ -110,19 +110,6 @@ def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluat
     assert sum(new for _, new in rounds) <= 32
 
 
-@pytest.mark.parametrize(
-    ("evaluations", "rounds"),
-    [
-        (6, [(1, 6)]), (8, [(2, 2), (1, 4)]), (24, [(4, 2), (2, 4), (1, 8)]), (40, [(4, 2), (2, 8), (1, 16)]),
-        (160, [(16, 2), (8, 4), (4, 8), (2, 16), (1, 2)]), (200, [(16, 2), (8, 4), (4, 10), (2, 16), (1, 0)]),
-        (1, [(1, 0)]),
-    ],
-)  # fmt: skip
-def test_every_round_costs_as_much_and_nobody_has_more_than_his_32_neighbours(evaluations, rounds):
-    """A half, a third or a fifth of what is left, in pairs: one of each kind, of which there are 16."""
-    assert plan_rounds(evaluations) == rounds
-
-
 @dataclass(frozen=True)
 class Late(Hill):
     """9 above a rest angle of 45°, with stiffnesses off 20 by the share `kept` at most, and 5 below."""
@@ -200,17 +187,6 @@ def test_active_bounds_and_their_worth(evaluator):
     assert found["compression_ratio"].reason == "loop"
     few = active_bounds(one, trial, run=2, evaluations=0)
     assert {bound.reason for bound in few} == {NOT_EXAMINED} or few == list(found.values())
-
-
-def test_what_lies_beyond_a_bound_is_a_design_and_bounds_of_designs_are_left_out(evaluator):
-    """A rest angle is 5° to 90°: a twentieth of 80° beyond 86° would be 90.0°, beyond 89° no angle at all."""
-    for low, high, named in ((5.0, 90.0, []), (6.0, 89.0, [5.0, 90.0]), (15.0, 75.0, [12.0, 78.0])):
-        one = evaluator(model=Slope(), space=Space.parse(fix=FIXED, bound=[f"rest_angle_deg={low}:{high}"]))
-        found = []
-        for step, end in enumerate((0.0, 1.0)):
-            (trial,) = one.evaluate([one.space.to_design([0.5, end, 0.5])], "bo", step)
-            found += [bound.beyond for bound in active_bounds(one, trial, run=2 + step)]
-        assert found == pytest.approx(named)
 
 
 def test_springs_as_made_change_the_jump_and_not_the_robot():

@@ -175,23 +175,6 @@ def test_a_command_that_was_interrupted_evaluates_no_more(tmp_path, monkeypatch)
         interrupts.seen.clear()
 
 
-class Wavering(Hill):
-    """A hill that fails otherwise every time."""
-
-    failures = iter(["one", "two"])
-
-    def __call__(self, design):
-        raise RuntimeError(next(self.failures))
-
-
-def test_a_design_that_fails_otherwise_when_it_is_repeated_is_told_with_both(tmp_path):
-    """Its own reason is the last one: then it was alone."""
-    (found,), (first, second) = evaluate(local_pool(0), Wavering(), GOOD[:1])
-    assert (found.verdict, found.detail) == (QUARANTINED, "RuntimeError: two")
-    assert first == "an evaluation failed and is repeated alone: RuntimeError: one"
-    assert second.startswith("a design is quarantined: RuntimeError: two; before: RuntimeError: one; design: ")
-
-
 def test_workers_and_timeouts_have_ends_that_are_told():
     """A day at most; a tenth of a second, below which nothing ends."""
     for workers, limit_s, message in (
