@@ -17,7 +17,7 @@ from jumpcad.transforms import Array
 BACK_EFFICIENCY = Prior("uniform", 0.0, 1.0, "nothing is known of a release without a dog")
 DRIVE_EFFICIENCY = Prior("lognormal", 0.7, 0.4, "judgement: cam and lever rub, which the model of gears leaves out")
 FLOOR = Prior("uniform", 0.3, 1.0, "plastic on tile to rubber on concrete")
-TRAVEL_MM = Prior("half-normal", 0.0, 200.0, "simulated landings of the templates travel 130 to 280 mm (docs/landing.md)")
+TRAVEL_MM = Prior("half-normal", 0.0, 200.0, "simulated landings of the templates travel 130 to 280 mm")
 MASS_SHARE = 0.2
 """Relative deviation of a built robot's mass from the model's if nothing is weighed: other builders and materials."""
 WEIGHED_SHARE = 0.01

@@ -119,7 +119,7 @@ def test_how_sure_agrees_with_other_jumps(robot: Robot) -> None:
 
 
 def test_a_prototype_stands_beside_what_was_measured(robot: Robot, jump: Jump) -> None:
-    """The study measured 35 cm, 12 cm and 1.3 J; the distance is inside the resting places' interval, the height inside one."""
+    """The study measured 35 cm, 12 cm and 1.3 J; the distance is that of a resting place, the height is inside one."""
     page = write_report(robot, {}, jump)
     rows = {key: row for key, row in cells(page).items() if key.startswith(("distance, as", "height", "energy from"))}
     assert [row[1] for row in rows.values()] == ["350 mm"] * 3 + ["120 mm"] * 2 + ["1.30 J"]
