@@ -38,7 +38,7 @@ def obstacles(bottoms_m: Complex, centre_m: Array, nose_m: float) -> Obstacles:
     All parts have passed a bar by the touchdown. The edge of a step lies below whatever passes it while the robot
     rises, and before the centre of mass when the robot, falling, comes down to its height.
     """
-    if len(bottoms_m) < 2:
+    if len(bottoms_m) < 2 or not np.ptp(bottoms_m.real, axis=0).any():  # straight up: over nothing
         return Obstacles()
     lowest, width = bottoms_m.imag.min(axis=1), 1.5 * float(np.abs(np.diff(bottoms_m.real, axis=0)).max())
     apex, first = int(np.argmax(lowest)), float(bottoms_m.real.min())

@@ -34,6 +34,11 @@ def test_what_does_not_fly_farther_than_it_is_long_clears_no_bar() -> None:
     assert simulate(built("kenan-2.0"), engine="planar").clears_bar_mm == 0.0  # 0.19 m long, 0.17 m far
 
 
+def test_what_flies_straight_up_passes_over_nothing() -> None:
+    found = obstacles((0.3 + 1j * HEIGHT_M)[:, None], np.full(len(TIME_S), 0.3), 0.3)
+    assert (found.clears_bar_mm, found.lands_on_mm) == (0.0, 0.0)
+
+
 def test_a_robots_lowest_point_stays_below_its_centre_of_mass() -> None:
     jump = simulate(built("best-printable"), engine="planar")
     assert jump.com_rise_m is not None

@@ -30,7 +30,7 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
     l1, l2, l3, l4 = design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm
 
     def bar(length: float) -> tuple[float, float, object]:
-        return (-3.0, 3.0, stadium((0.0, 0.0), (length, 0.0), 7.6) - union([hole(3.2), hole(3.2, (length, 0.0))]))
+        return (-3.0, 3.0, stadium((0.0, 0.0), (length, 0.0), 7.9) - union([hole(3.2), hole(3.2, (length, 0.0))]))
 
     plate = rectangle((l1 + 14.0, 26.0), (0.0, 8.0), 3.0) - union([hole(3.2, (x, 0.0)) for x in (-l1 / 2, l1 / 2)])
     drawings = []
