@@ -12,9 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtri
 
-from jumpcad.design import PARAMETERS, Design, limits_of
-from jumpcad.errors import JumpcadError
-from jumpcad.files.complaints import shown
+from jumpcad.design import PARAMETERS, Design
 from jumpcad.mechanism.variants import Robot, design_within_limits, with_length_errors, with_lengths, with_spring_factor
 from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.settings import Settings, coefficients
@@ -34,8 +32,6 @@ SPRINGS, FLOOR = f"{PREFIX}spring_factor", f"{PREFIX}friction_factor"
 """Keys of the springs' rate, and of the floor's friction, over those that the robot is designed for."""
 MADE = (*PARTS, SPRINGS, FLOOR)
 """All keys of a variant as made."""
-FACTORS = (0.01, 100.0)
-"""Wider than any factor that is drawn."""
 LENGTHS, SHARES = 4, 3
 """Numbers that errors of making take: of the links l2…l5; of rate, mass and friction."""
 
@@ -121,24 +117,6 @@ def perturbed(robot: Robot, settings: Settings, values: Mapping[str, Value]) -> 
         friction = float(values[FLOOR]) * coefficients(robot, settings).ground
         settings = settings.model_copy(update={"ground_friction": friction})
     return with_spring_factor(robot if design == old else with_lengths(robot, design), springs), settings
-
-
-def require_made(values: Mapping[str, Value]) -> None:
-    """Require that values of a variant as made are ones that are made.
-
-    Raises
-    ------
-    JumpcadError
-        If a parameter is out of a design's limits, a factor implausible, or one of the two factors missing.
-    """
-    for key in MADE:
-        if key in values:
-            low, high = limits_of(PARTS[key]) if key in PARTS else FACTORS
-            value = values[key]
-            if isinstance(value, str) or not low <= value <= high:
-                raise JumpcadError(f"{key} = {shown(value)} must be a number of {low:g} to {high:g}")
-    if (SPRINGS in values) != (FLOOR in values):
-        raise JumpcadError(f"{FLOOR if SPRINGS in values else SPRINGS}: missing")
 
 
 def _made(one: Variant, design: Design, more: Mapping[str, Value] = NOTHING) -> Variant:

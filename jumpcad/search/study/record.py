@@ -18,7 +18,7 @@ from jumpcad.files.complaints import shown
 from jumpcad.files.names import Name, Text
 from jumpcad.findings import Severity, bare
 from jumpcad.search.phases import LEARNING_PHASES, METHODS, PHASES
-from jumpcad.search.pick.tolerances import MADE, require_made
+from jumpcad.search.pick.tolerances import MADE
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
 
@@ -115,7 +115,6 @@ def read_trial(row: Sequence[Any], free: int, keys: Sequence[str]) -> Trial:
         made = MADE if trial.phase == "robust" else ()
         if [key for key in trial.workshop if key in keys or key not in made] != list(keys):
             raise JumpcadError(f"workshop: has {shown(list(trial.workshop))}, not the keys of the study's space")
-        require_made(trial.workshop)
         return trial
     except JumpcadError as error:
         raise JumpcadError(f"row {' '.join(map(shown, row[:4]))}: {error}") from None

@@ -8,18 +8,15 @@ import pytest
 from support.decimals import decimals
 
 from jumpcad.design import PARAMETERS, Design, load_design
-from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.search.pick.tolerances import (
     FLOOR,
     LENGTHS_ALONE,
-    MADE,
     PARTS,
     PREFIX,
     SPRINGS,
     Tolerances,
     perturbed,
-    require_made,
     tenth,
 )
 from jumpcad.search.study.variant import Variant
@@ -99,26 +96,6 @@ def test_parameters_vary_by_one_per_cent() -> None:
 def test_tolerances_are_twice_the_deviations_in_words() -> None:
     assert PRINTED.words == "lengths ±0.2 mm, springs ±10 %, mass ±6 %, friction ±30 %"
     assert LENGTHS_ALONE.words == "lengths ±0.2 mm"
-
-
-def test_values_that_a_robot_may_have_are_taken() -> None:
-    require_made({})
-    require_made({SPRINGS: 0.95, FLOOR: 1.1})
-    for wrong, said in (
-        ({SPRINGS: 1.0}, f"^{FLOOR}: missing$"),
-        ({FLOOR: 1.0}, f"^{SPRINGS}: missing$"),
-        ({SPRINGS: 1.0, FLOOR: 0.0}, "must be a number"),
-        ({SPRINGS: "x", FLOOR: 1.0}, "a number"),
-    ):
-        with pytest.raises(JumpcadError, match=said):
-            require_made(wrong)
-    for key, name in PARTS.items():
-        require_made({key: getattr(DESIGN, name)})
-        with pytest.raises(JumpcadError, match="must be a number of"):
-            require_made({key: 1e9})
-        with pytest.raises(JumpcadError, match="must be a number of"):
-            require_made({key: -1e9})
-    assert set(PARTS) < set(MADE)
 
 
 def test_nine_of_ten_reach_the_tenth_score() -> None:
