@@ -8,8 +8,6 @@ import base64
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from jumpcad.arguments import check_arguments
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.rendering import fill
@@ -20,6 +18,7 @@ from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.phases import FRONTS
 from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Tolerances
+from jumpcad.search.report.axes import evenly
 from jumpcad.search.report.drawings import history, parallel, slices
 from jumpcad.search.report.figures import meanings, svg_text
 from jumpcad.search.report.lessons import bound_rows, gains, importances, reason_rows
@@ -163,8 +162,7 @@ def _shown(found: StudySummary, of_front: Cost | None) -> list[Trial]:
     """Return the designs that are shown: those of a front against a cost, or the best ones."""
     if of_front is not None:
         best = front(found.trials, of_front)
-        places = np.linspace(0, len(best) - 1, min(len(best), MOST_SHOWN))
-        return [best[round(place)] for place in places.tolist()]
+        return [best[place] for place in evenly(len(best), MOST_SHOWN)]
     return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
 
 

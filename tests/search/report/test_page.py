@@ -13,11 +13,12 @@ from support.shops import SHOP, Shop
 from support.studies import IDENTITY
 
 from jumpcad.design import load_design
-from jumpcad.search.fronts import SPRING_ENERGY, find_cost, hypervolume
+from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
 from jumpcad.search.pick.robust import Candidate
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report import page as study_page
 from jumpcad.search.report.page import write_study_page
+from jumpcad.search.report.side_view import LINKS, joints_mm
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool
@@ -147,6 +148,28 @@ def test_a_design_is_found_in_the_exported_table_by_the_trials_number(studies, t
         design, trial, _ = max(rows, key=lambda row: float(row[2])) if method == "nsga2" else rows[0]
         assert next(one for one in root.iter("div") if one.get("id") == "robots").get("data-first") == design
         assert f"The page opens on design {design} (trial {trial}), the" in " ".join(page.split())
+
+
+def test_shown_designs_are_drawn_at_their_joints_to_one_scale(studies):
+    """Every link is a line between its joints, upwards counted down as SVG does; all lies in one common box."""
+    with StudyStore.read(studies / "nsga2.db") as store:
+        best = front([trial for trial in store.trials() if trial.phase == "nsga2"])
+    sections = list(parsed(known_page_of(studies / "nsga2.db")).iter("section"))
+    assert len(sections) == len(best) > 3
+    boxes = set()
+    for section, trial in zip(sections, best, strict=True):
+        svg = next(section.iter("svg"))
+        boxes.add(svg.get("viewBox"))
+        left, top, width, height = map(float, svg.get("viewBox").split())
+        for group, (pose, at) in zip(svg.iter("g"), joints_mm(trial.design).items(), strict=True):
+            assert group.get("class") == pose
+            for path, ends in zip(group.iter("path"), LINKS.values(), strict=True):
+                wanted = [number for end in ends for number in (at[end][0], -at[end][1])]
+                drawn = [float(number) for number in re.findall(r"-?[\d.]+", path.get("d"))]
+                assert drawn == pytest.approx(wanted, abs=0.051)
+                assert all(left < x < left + width for x in drawn[::2])
+                assert all(top < y < top + height for y in drawn[1::2])
+    assert len(boxes) == 1
 
 
 def test_values_of_the_workshop_are_told_names_by_numbers(tmp_path):

@@ -19,11 +19,3 @@ def test_workers_compute_in_one_thread_and_know_who_started_them(monkeypatch: py
     assert (named["initializer"], named["initargs"]) == (start_worker, (os.getpid(),))
     variables = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
     assert named["env"] == dict.fromkeys(variables, "1")
-
-
-def test_workers_end_without_finishing_what_they_do(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An evaluation may take minutes, and a command is ended at once."""
-    asked = []
-    monkeypatch.setattr(loky.ProcessPoolExecutor, "shutdown", lambda _, **how: asked.append(how))
-    LocalWorkers.__new__(LocalWorkers).end()
-    assert asked == [{"kill_workers": True}]
