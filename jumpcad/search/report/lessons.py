@@ -4,7 +4,7 @@ from typing import Any
 
 from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
-from jumpcad.search.explore import LEAST_R_SQUARED, Importance, importance_in
+from jumpcad.search.explore import LEAST_R_SQUARED, importance_in
 from jumpcad.search.pick.robust import ActiveBound
 from jumpcad.search.report.words import reason_words, with_unit
 from jumpcad.search.study.store import StudyStore
@@ -32,37 +32,16 @@ def importances(store: StudyStore, found: StudySummary) -> dict[str, Any]:
             learned.names[index],
             min(max(float(learned.mean[index]) / most, 0.0), 1.0),
             f"{round(float(learned.mean[index]), 2) + 0.0:.2f} ± {learned.deviation[index]:.2f}",
-            "yes" if _is_clear(learned, index) else "no",
+            "yes" if learned.mean[index] > learned.deviation[index] else "no",
         )
-        for index in _largest_first(learned)
+        for index in sorted(range(len(learned.names)), key=lambda index: -round(float(learned.mean[index]), 2))
     ]
     is_known = learned.r_squared >= LEAST_R_SQUARED  # nor is NaN
     return {
         "learned": learned,
         "least": LEAST_R_SQUARED,
         "rows": rows if is_known else [],
-        "matters": _matters(learned),
     }
-
-
-def _largest_first(learned: Importance) -> list[int]:
-    return sorted(range(len(learned.names)), key=lambda index: -round(float(learned.mean[index]), 2))
-
-
-def _matters(learned: Importance) -> str:
-    """Return which parameters matter most, and which not more than the error of their bar."""
-    order = _largest_first(learned)
-    clear = [learned.names[index] for index in order if _is_clear(learned, index)]
-    rest = [learned.names[index] for index in order if not _is_clear(learned, index)]
-    among = "Of those beyond their error, " if rest else ""
-    most = f"{among}{', then '.join(clear[:3])} matter{'s' * (len(clear[:3]) == 1)} most." if clear else ""
-    none = f"No more than their error, so perhaps nothing: {', '.join(rest)}." if rest else ""
-    return f"{most} {none}".strip()
-
-
-def _is_clear(learned: Importance, index: int) -> bool:
-    """Return whether the bar of a parameter is longer than its error."""
-    return bool(learned.mean[index] > learned.deviation[index])
 
 
 def bound_rows(found: StudySummary) -> list[tuple[str, ...]]:
@@ -80,15 +59,11 @@ def bound_rows(found: StudySummary) -> list[tuple[str, ...]]:
     ]
 
 
-def gains(found: StudySummary) -> str:
-    """Return beyond which bounds the score rises by more than rounding, in words."""
-    score = abs(found.winner.score or 0.0) if found.winner else 0.0
-    rising = [one.name for one in found.bounds if one.worth is not None and one.worth > LEAST_GAIN * score]
-    if rising:
-        return f"Here it rises beyond that of {', '.join(rising)}."
-    if any(one.worth is not None for one in found.bounds):
-        return "Here it rises beyond none that was examined."
-    return "This search did not examine them: one that picks a robust design does (method ga or bo)."
+def rising(found: StudySummary) -> list[str] | None:
+    """Return beyond which bounds the score rises by more than rounding; None where none was examined."""
+    score = abs((found.winner.score if found.winner else None) or 0.0)
+    examined = {one.name: one.worth for one in found.bounds if one.worth is not None}
+    return [name for name, worth in examined.items() if worth > LEAST_GAIN * score] if examined else None
 
 
 def reason_rows(found: StudySummary) -> list[tuple[str, str, float, str]]:

@@ -21,7 +21,7 @@ from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report.axes import evenly
 from jumpcad.search.report.drawings import history, parallel, slices
 from jumpcad.search.report.figures import meanings, svg_text
-from jumpcad.search.report.lessons import bound_rows, gains, importances, reason_rows
+from jumpcad.search.report.lessons import bound_rows, importances, reason_rows, rising
 from jumpcad.search.report.shown_design import chart
 from jumpcad.search.report.side_view import EDGE_MM, LINKS, POSES, box_mm
 from jumpcad.search.report.study_plots import study_figures
@@ -72,7 +72,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
         "pictures": _pictures(store),
         "importance": importances(store, found),
         "bounds": bound_rows(found),
-        "gains": gains(found),
+        "rising": rising(found),
         "rejected": sum(trial.score is None for trial in found.trials),
         "reasons": reason_rows(found),
         "notes": store.notes(),

@@ -16,7 +16,7 @@ from jumpcad.plural import counted
 from jumpcad.search.explore import Importance
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.report import lessons
-from jumpcad.search.report.lessons import _cost, _is_clear, _matters, bound_rows, gains, importances, reason_rows
+from jumpcad.search.report.lessons import _cost, bound_rows, importances, reason_rows, rising
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial
@@ -46,7 +46,8 @@ WON = replace(failed(), evaluation=Evaluation("jump"), score=2.0)
 def page(found: StudySummary) -> str:
     """Return this part of the page."""
     values = {
-        "found": found, "importance": importances(SimpleNamespace(identity={"seed": 7}), found), "gains": gains(found),
+        "importance": importances(SimpleNamespace(identity={"seed": 7}), found), "found": found,
+        "rising": rising(found),
         "bounds": bound_rows(found), "reasons": reason_rows(found), "designs": counted(len(found.trials), "design"),
         "rejected": sum(trial.score is None for trial in found.trials),
     }  # fmt: skip
@@ -58,18 +59,18 @@ def text(found: StudySummary) -> str:
     return " ".join(re.sub(r"<[^>]*>", " ", re.sub("<wbr />", "", page(found))).split())
 
 
-def test_three_that_are_clear_matter_most_the_largest_first() -> None:
+def test_three_that_are_clear_matter_most_the_largest_first(monkeypatch: pytest.MonkeyPatch) -> None:
     """A bar is clear where it is longer than its error; the others perhaps do nothing, the longest first."""
-    assert [_is_clear(LEARNED, index) for index in range(5)] == [True, True, False, True, True]
-    assert _matters(LEARNED) == (
-        "Of those beyond their error, rest_angle_deg, then d_coef, then carrying_link_mm matter most. "
-        "No more than their error, so perhaps nothing: e_coef."
-    )
     alone = Importance(("c_coef",), np.array([0.1]), np.array([0.05]), 0.9, 40)
-    assert _matters(alone) == "c_coef matters most."
-    assert (
-        _matters(replace(alone, deviation=np.array([0.1]))) == "No more than their error, so perhaps nothing: c_coef."
-    )
+    none = "No more than their error, so perhaps nothing: "
+    for learned, said in (
+        (LEARNED, "Of those beyond their error, rest_angle_deg, then d_coef, then carrying_link_mm matter most. "
+         f"{none}e_coef. Learned"),
+        (alone, "by the length of the bar. c_coef matters most. Learned"),
+        (replace(alone, deviation=np.array([0.1])), f"by the length of the bar. {none}c_coef. Learned"),
+    ):  # fmt: skip
+        monkeypatch.setattr(lessons, "importance_in", lambda *_, known=learned: known)
+        assert said in text(known(WON, replace(WON, score=3.0)))
 
 
 def test_the_longest_bar_is_full_and_two_hundred_designs_tell_evenly_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -123,10 +124,10 @@ def test_a_score_rises_where_it_gains_more_than_a_twentieth_of_a_per_cent() -> N
     bound = ActiveBound("c_coef", "upper", 1.2, 1.25, None, NOT_EXAMINED)
     for worth, rises in ((0.00101, True), (0.00099, False), (-1.0, False)):
         for score in (2.0, -2.0):
-            said = gains(known(replace(WON, score=score), bounds=(replace(bound, worth=worth, reason=""),)))
+            said = text(known(replace(WON, score=score), bounds=(replace(bound, worth=worth, reason=""),)))
             assert ("rises beyond that of c_coef." in said, "none that was examined" in said) == (rises, not rises)
-    assert "did not examine them" in gains(known(WON, bounds=(bound,)))
-    assert "none that was examined" in gains(known(WON, bounds=(bound, replace(bound, worth=-1.0))))
+    assert "did not examine them" in text(known(WON, bounds=(bound,)))
+    assert "none that was examined" in text(known(WON, bounds=(bound, replace(bound, worth=-1.0))))
 
 
 def test_a_bound_stands_in_its_row_with_units() -> None:
