@@ -83,7 +83,7 @@ class Cost:
         return cost if self.less_is_better else 0.0 - cost
 
     def describe(self) -> dict[str, str]:
-        """Return what a study remembers of it: nothing of energy in the springs, which every front once had."""
+        """Return what a study remembers of it: nothing of energy in the springs, which it need not name."""
         return {} if self is SPRING_ENERGY else {"against": self.name}
 
 

@@ -130,7 +130,7 @@ def test_a_rejected_design_counts_as_dearer_than_all_that_are_compared(name):
 
 
 def test_costs_are_found_by_name_and_by_what_a_study_remembers():
-    """Studies of before remember none: theirs was energy in the springs."""
+    """A study that remembers none has energy in the springs."""
     assert described_cost({}) is SPRING_ENERGY is find_cost("spring-energy")
     assert SPRING_ENERGY.describe() == {}
     for name in (*COSTS, "rise", "range"):

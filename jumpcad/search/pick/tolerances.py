@@ -68,8 +68,8 @@ class Tolerances:
 
     @classmethod
     def of(cls, identity: Mapping[str, Any]) -> "Tolerances":
-        """Return the tolerances of a study by what it remembers; the first ones had one of lengths alone."""
-        return cls(**identity.get("making") or {"length_mm": identity.get("tolerance_mm", 0.0)})
+        """Return the tolerances of a study by what it remembers; none of one without a pick."""
+        return cls(**identity.get("making") or {"length_mm": 0.0})
 
     def neighbours(self, one: Variant, generator: np.random.Generator) -> list[Variant]:
         """Return variants as they may be made.
