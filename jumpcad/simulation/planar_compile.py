@@ -1,6 +1,7 @@
 """Compiled where numba is installed, plain Python elsewhere: the same statements, and so the same numbers."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, TypeVar, cast
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -18,6 +19,15 @@ def compiled(function: Function) -> Function:
     except ImportError:
         return function
     try:
-        return cast(Function, njit(cache=True, error_model="numpy")(function))
+        made = njit(cache=True, error_model="numpy")(function)
     except RuntimeError:  # numba's "cannot cache function: no locator available"
         return cast(Function, njit(error_model="numpy")(function))
+    if cache := getattr(made, "_cache", None):  # none where compiling is switched off
+        save = cache.save_overload
+
+        def save_if_possible(*given: Any) -> None:
+            with suppress(OSError):  # a full disk, or a quota: the next process compiles anew
+                save(*given)
+
+        cache.save_overload = save_if_possible
+    return cast(Function, made)

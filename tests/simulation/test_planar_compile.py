@@ -58,6 +58,19 @@ def test_where_no_folder_can_be_written_it_is_compiled_all_the_same(monkeypatch:
     assert twice(1.5) == 3.0
 
 
+@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason='numba is not installed: pip install ".[fast]"')
+def test_where_the_disk_is_full_it_is_compiled_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_given: Any) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("numba.core.caching.IndexDataCacheFile.save", full)
+    assert compiled(thrice)(1.5) == 4.5
+
+
+def thrice(number: float) -> float:
+    return 3.0 * number
+
+
 def test_a_missing_compiler_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
 
