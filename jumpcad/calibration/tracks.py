@@ -23,12 +23,16 @@ LEAST_POINTS = 6
 """Least number of points from which gravity can be fitted."""
 HEAD_LINES, HEAD_CHARACTERS = 50, 1000
 """Where the head is looked for: in the first lines, and how long it may be."""
-NAMES = dict.fromkeys(("time", "timestamp", "zeit", "temps", "tiempo", "tempo"), "t") | dict.fromkeys(
-    ("height", "höhe"), "z"
+NAMES = (
+    dict.fromkeys(("time", "timestamp", "zeit", "temps", "tiempo", "tempo"), "t")
+    | dict.fromkeys(("height", "höhe", "vertical"), "z")
+    | {"horizontal": "x"}
 )
 """Other names of a column."""
-SILENT = ("in", "position", "coordinate")
+SILENT = ("in", "pos", "position", "coordinate", "koordinate")
 """Words of a name that say no more: x position (m), t in ms."""
+UNMARKED = ("", "-", "--", "nan", "n/a")
+"""What stands in the cells of a frame in which nothing is marked."""
 SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "sekunde": 1.0, "ms": 1e-3, "millisecond": 1e-3, "min": 60.0}
 METRES = {
     "m": 1.0, "metre": 1.0, "meter": 1.0, "dm": 0.1, "cm": 0.01, "centimetre": 0.01, "centimeter": 0.01, "mm": 1e-3,
@@ -70,7 +74,7 @@ def _points(lines: Sequence[str], path: Path) -> Array:
     for number, line in enumerate(lines[start:], start=start + 1):
         if line.lstrip().startswith(("#", "%", "//")):
             continue
-        cells = [cell.strip() for cell in _split(line, delimiter)]
+        cells = ["" if cell.strip().lower() in UNMARKED else cell.strip() for cell in _split(line, delimiter)]
         if not points and _columns(cells, path):  # names once more, shorter
             continue
         row = [cells[place] if place < len(cells) else "" for place, _ in columns]
@@ -123,9 +127,9 @@ def _columns(cells: Sequence[str], path: Path) -> list[Column]:
     alone: dict[str, list[tuple[int, str]]] = {}
     worded: dict[str, list[tuple[int, str]]] = {}
     for place, cell in enumerate(cells):
-        text, *units = re.split(r"[(\[/]", cell.lower(), maxsplit=1)
+        text, *units = re.split(r"[(\[/]", re.sub(r"_?\{.*?\}", "", cell.lower()), maxsplit=1)  # x_{A} (m)
         words = re.findall(r"[^\W\d_]+", text)
-        unit = units[0].strip(")] ") if units else ""
+        unit = re.split(r"[)\]]", units[0])[0].strip() if units else ""  # t (s) Run #1
         if not unit and len(words) > 1 and words[-1] in SECONDS | METRES:  # x_mm
             *words, unit = words
         words = [word for word in words if word not in SILENT]

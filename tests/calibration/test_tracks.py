@@ -38,6 +38,12 @@ FILES = {
     "spreadsheet": "sep=;\n\nt;x;y\n" + rows('"{}";"{}";"{}"\n', comma=True),
     "quoted decimal commas": "t,x,y\n" + rows('"{}","{}","{}"', comma=True),
     "aligned": "Time (s)   X (m)   Y (m)\n" + rows("  {}   {}   {}"),
+    "a run's name behind": "Time (s) Run #1,x (m) Run #1,y (m) Run #1\n" + rows("{},{},{}"),
+    "which of a track": "t;x_{A};y_{A}\n" + rows("{};{};{}", comma=True),
+    "whole words": "Zeit [s];x-Koordinate [cm];y-Koordinate [cm]\n" + rows("{};{};{}", 1.0, 1e2),
+    "across and up": "time,horizontal position (cm),vertical position (cm)\n" + rows("{},{},{}", 1.0, 1e2),
+    "short": "t,x_pos,y_pos\n" + rows("{},{},{}"),
+    "unmarked frames": "t,x,y\n-1,-,NaN\n-0.5,nan,n/a\n" + rows("{},{},{}") + "9,,\n",
     "comments": "% camera: 240/s\nt,x,z\n# first\n" + rows("{},{},{}") + "// end\n",
 }
 
@@ -60,7 +66,8 @@ def test_what_cannot_be_points_of_one_flight_is_refused_in_one_line(tmp_path: Pa
         "t,x,z\n0,0,0\n": "1 point: too few, mark at least 6",
         "t,x,z\n0,0,a\n": "points.csv:2: '0,0,a' must be three numbers",
         "t,x,z\n0,0,\n": "points.csv:2: '0,0,' must be three numbers",
-        "t,x,z\n0,0,nan\n": "must be finite",
+        "t,x,z\n0,0,inf\n": "must be finite",
+        "t,x,z\n0,0,nan\n": "points.csv:2: '0,0,' must be three numbers",
         "t,x,z\n" + "0,0,0\n" * 8: "t must grow",
         "t,x,y\n0,00,0,02,0,09\n": "points.csv:2: '0,00,0,02,0,09' has more values than columns: decimal commas need",
         "t;x;y\n0,1;0.5;2\n1;2;3\n": "has decimal points and decimal commas",
