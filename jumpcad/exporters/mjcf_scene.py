@@ -23,6 +23,7 @@ def readme(robot: Robot) -> str:
         "name": robot.name,
         "released": bool(robot.roller_off),
         "hold_nm": -HOLD * robot.spring.peak_torque_nm,
+        "wind_s": robot.layout.drive.train.winding_s,
         "least": LEAST_MUJOCO,
         "newest": NEWEST_MUJOCO,
         "foot": rubs.contact("foot"),

@@ -132,10 +132,14 @@ def test_the_robot_alone_brings_no_floor_and_does_not_touch_itself(case: Case) -
 @OPTIONS_DIFFER
 def test_the_notes_program_runs(case: Case, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
     notes = case.mjcf.with_name("README.md").read_text()
-    jump, attach = re.findall(r"```python\n(.*?)```", notes, re.DOTALL)
+    jump, again, attach = re.findall(r"```python\n(.*?)```", notes, re.DOTALL)
     monkeypatch.chdir(case.mjcf.parent)
     exec(jump, {})
     assert float(re.findall(r"-?\d\.\d+", capsys.readouterr().out)[0]) > 0.05
+    exec(again, {})
+    first, *others = capsys.readouterr().out.splitlines()
+    assert re.fullmatch(r"1 on its feet (\d\.\d\d) m", first)
+    assert len(others) == 9
     Path("your_scene.xml").write_text(OWN_SCENE)
     exec(attach, {"mujoco": mujoco})
     Path("your_scene.xml").unlink()

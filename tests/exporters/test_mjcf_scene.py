@@ -45,8 +45,8 @@ def test_the_motor_holds_by_a_quarter_more_than_the_springs_push(robot: Robot, t
 
 def test_the_notes_programs_are_python_and_use_what_there_is(robot: Robot) -> None:
     """Key, actuator, equality and sensor have the names that they have in the robot's file."""
-    jump, attach = re.findall(r"```python\n(.*?)```", readme(robot), re.DOTALL)
-    for program in (jump, attach):
+    jump, again, attach = re.findall(r"```python\n(.*?)```", readme(robot), re.DOTALL)
+    for program in (jump, again, attach):
         ast.parse(program)
     root = ET.fromstring(write_robot(robot))
     sensors = {one.get("name") for sensor in root.iter("sensor") for one in sensor}
@@ -66,7 +66,7 @@ def test_the_notes_programs_run_and_the_robot_jumps_when_the_motor_lets_go(
 ) -> None:
     """Held for 0.1 s, it is in the air 0.3 s after; in another scene it has a prefix. From texts instead of files."""
     monkeypatch.chdir(tmp_path)  # where MuJoCo writes its log
-    jump, attach = re.findall(r"```python\n(.*?)```", readme(robot), re.DOTALL)
+    jump, _, attach = re.findall(r"```python\n(.*?)```", readme(robot), re.DOTALL)
     alone, held = write_robot(robot), at_key(mujoco.MjModel.from_xml_string(write_robot(robot)), "wound")
     given = {"scene": write_scene(robot), "files": {f"{robot.name}.xml": alone.encode()}, "alone": alone}
     own = "<mujoco><worldbody><geom type='plane' size='0 0 0.05'/></worldbody></mujoco>"
