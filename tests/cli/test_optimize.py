@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 import jumpcad.search.optimization  # noqa: F401  # before its pool is replaced
 from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of, load_design
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
 
@@ -109,6 +109,15 @@ def test_nothing_jumps_is_exit_code_1(folder):
     weak = ["--fix", "stiffness_nmm_per_deg=5", "--fix", "compression_ratio=0.1"]
     assert data("optimize", "ga", *QUICK, *weak, "--evaluations", 20, code=1)["best"] is None
     assert "no design jumps" in run("optimize", "ga", *QUICK, *weak, "--evaluations", 20, code=1)
+
+
+def test_an_objective_that_tells_nothing_apart_is_exit_code_1_and_no_file(folder):
+    Path("zero.py").write_text("def zero(figures):\n    return 0.0\n")
+    result = CliRunner().invoke(app, ["optimize", *QUICK, "--evaluations", "12", "--objective", "zero.py:zero"])
+    assert isinstance(result.exception, CannotBuildError)
+    assert result.exception.exit_code == 1
+    assert "every design that jumps scores 0: the objective tells none apart" in str(result.exception)
+    assert not list(Path().glob("*.toml"))
 
 
 @pytest.mark.thorough

@@ -102,6 +102,12 @@ class Result:
         return hypervolume(self.trials, cost=self.request.cost)
 
     @property
+    def flat(self) -> bool:
+        """Whether several designs were scored, all alike: an objective that tells nothing apart has no winner."""
+        scores = [trial.score for trial in self.trials if trial.score is not None]
+        return len(scores) > 1 and len(set(scores)) == 1
+
+    @property
     def rejected(self) -> dict[str, int]:
         """How many designs each reason rejected, most frequent first."""
         return count_rejections(self.trials)
