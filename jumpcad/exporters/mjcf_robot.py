@@ -11,8 +11,9 @@ that is switched off. MuJoCo's key frames do not store whether a constraint is a
 
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from jumpcad.dimensions import MESHES_FROM_BESIDE
+from jumpcad.dimensions import MESH_FOLDER, MESHES_FROM_BESIDE
 from jumpcad.exporters.collision import capsules
 from jumpcad.exporters.mjcf import (
     CONTACT_IMPEDANCE,
@@ -31,19 +32,26 @@ from jumpcad.exporters.xml import Value, add, document, shorten, wxyz
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot import Robot
-from jumpcad.scene.hulls import body_hulls_m
+from jumpcad.scene.hulls import body_hulls
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients
-from jumpcad.transforms import Array
+from jumpcad.solids.stl import write_stl
+
+if TYPE_CHECKING:
+    import trimesh
 
 STEP_S = 0.00025
 """Time step: twice that of the project's own runs; templates jump as far within 0.2 %, at 1 ms up to 12 % less far."""
+HULL = "_hull"
+"""Ends the names of the hulls' meshes."""
 TOUCH = 1.2
 """Radius of a touch sensor's volume over that of the contact sphere in it."""
 
 
-def mjcf_files(robot: Robot) -> Iterator[tuple[str, str]]:
-    """Yield path and content of robot, scene and notes; the meshes are those beside the URDF."""
+def mjcf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of hulls, robot, scene and notes; the other meshes are those of the URDF."""
+    for name, hull in body_hulls(robot, visuals(robot)).items():
+        yield f"urdf/{MESH_FOLDER}/{name}{HULL}.stl", write_stl(hull)
     yield f"mjcf/{robot.name}.xml", write_robot(robot, visuals(robot))
     yield "mjcf/scene.xml", write_scene(robot)
     yield "mjcf/README.md", readme(robot)
@@ -58,7 +66,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
     root = ET.Element("mujoco", model=mechanism.name)
     add(root, "compiler", angle="radian", meshdir=MESHES_FROM_BESIDE, inertiafromgeom="false")
     add_options(root, settings)
-    hulls = body_hulls_m(mechanism, visible)
+    hulls = body_hulls(mechanism, visible)
     seen = visible if looks else ()
     _assets(root, seen, hulls)
     _defaults(root, mechanism, settings)
@@ -67,7 +75,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
         for shape in (shape for shape in seen if shape.body == body.name):
             _visual(node, shape)
         if body.name in hulls:
-            _collision(node, body.name, body, type="mesh", mesh=f"{body.name}_hull")
+            _collision(node, body.name, body, type="mesh", mesh=f"{body.name}{HULL}")
         else:
             for number, link in enumerate(capsules(mechanism, body.name), start=1):
                 _collision(node, f"{body.name}_{number}", body, type="capsule", fromto=(*link.start_m, *link.end_m),
@@ -108,15 +116,18 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
     return document(root)
 
 
-def _assets(root: ET.Element, visible: Sequence[Visual], hulls: Mapping[str, Array]) -> None:
-    """Append one material for each colour, the meshes, and the hulls by their corners."""
+def _assets(root: ET.Element, visible: Sequence[Visual], hulls: "Mapping[str, trimesh.Trimesh]") -> None:
+    """Append one material for each colour, the meshes, and the hulls: by their corners where nothing is seen."""
     asset = add(root, "asset")
     for colour in dict.fromkeys(shape.colour for shape in visible):
         add(asset, "material", name=_material(colour), rgba=(*colour, 1.0))
     for name in dict.fromkeys(shape.mesh_name for shape in visible):
         add(asset, "mesh", name=name, file=f"{name}.stl", scale="0.001 0.001 0.001")
-    for name, corners in hulls.items():
-        add(asset, "mesh", name=f"{name}_hull", vertex=corners.ravel())
+    for name, hull in hulls.items():
+        if visible:
+            add(asset, "mesh", name=f"{name}{HULL}", file=f"{name}{HULL}.stl", scale="0.001 0.001 0.001")
+        else:
+            add(asset, "mesh", name=f"{name}{HULL}", vertex=hull.vertices.ravel() / 1000.0)
 
 
 def _defaults(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from jumpcad.mechanism.model import BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.hulls import body_hulls_m
+from jumpcad.scene.hulls import body_hulls
 from jumpcad.scene.visuals import visuals
 from jumpcad.simulation.mechanics import Mechanics, loaded_state
 
@@ -22,8 +22,8 @@ def share_on_feet(robot: Robot) -> float:
     """
     import trimesh
 
-    poses, hulls = body_poses(robot, 1.0), body_hulls_m(robot, visuals(robot))
-    corners = [hulls[name] @ poses[name][:3, :3].T + poses[name][:3, 3] for name in BODY_NAMES]
+    poses, hulls = body_poses(robot, 1.0), body_hulls(robot, visuals(robot))
+    corners = [hulls[name].vertices / 1000.0 @ poses[name][:3, :3].T + poses[name][:3, 3] for name in BODY_NAMES]
     hull = trimesh.Trimesh(np.concatenate(corners)).convex_hull
     centre = Mechanics(robot, 9.81).centre_of_mass_m(loaded_state(robot))
     stable, share = trimesh.poses.compute_stable_poses(hull, center_mass=centre, sigma=0.0, n_samples=1)

@@ -50,6 +50,6 @@ def test_the_loop_closes_outside_one_articulation(physics: str) -> None:
 
 
 def test_collision_shapes_and_springs_are_carried_over(physics: str) -> None:
-    assert physics.count("PhysicsCollisionAPI") == 11  # a box, five capsules, five spheres
+    assert physics.count("PhysicsCollisionAPI") == 9  # four hulls, five spheres
     (springs,) = re.findall(r'def MjcTendon "springs".*?\n\s*\}', physics, re.S)
     assert numbers(springs, "mjc:stiffness") == pytest.approx([built(NAME).spring.stiffness_nm_per_rad], rel=1e-9)

@@ -93,12 +93,13 @@ def test_the_scene_lies_beside_the_robot_that_it_includes_and_meshes_beside_both
     """By their paths in a bundle, whose URDF has the meshes."""
     files = dict(mjcf_files(small_robot))
     name = small_robot.name
-    assert set(files) == {f"mjcf/{name}.xml", "mjcf/scene.xml", "mjcf/README.md"}
+    hulls = {f"urdf/meshes/{body}_hull.stl" for body in BODY_NAMES}
+    assert set(files) == {f"mjcf/{name}.xml", "mjcf/scene.xml", "mjcf/README.md", *hulls}
     root, scene = (ET.fromstring(files[f"mjcf/{file}.xml"]) for file in (name, "scene"))
     assert [one.get("file") for one in scene.iter("include")] == [f"{name}.xml"]
     folder = root.find("compiler").get("meshdir")
-    paths = {os.path.normpath(f"mjcf/{folder}/{mesh.get('file')}") for mesh in root.iter("mesh") if mesh.get("file")}
-    assert paths == {path for path, _ in urdf_files(small_robot) if path.endswith(".stl")}
+    paths = {os.path.normpath(f"mjcf/{folder}/{mesh.get('file')}") for mesh in root.iter("mesh")}
+    assert paths == hulls | {path for path, _ in urdf_files(small_robot) if path.endswith(".stl")}
     assert files["mjcf/README.md"].startswith(f"# {name} in MuJoCo")
 
 
