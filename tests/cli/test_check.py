@@ -19,6 +19,14 @@ def test_command_finds_nothing_wrong_with_kenan() -> None:
     assert "0 errors, 0 warnings" in result.output
 
 
+def test_rows_and_the_limits_left_out_are_all_that_were_checked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
+    output = CliRunner().invoke(app, ["check", "kenan-2.0"], env={"COLUMNS": "999"}).output
+    rows = len(re.findall("^ *tight ", output, re.MULTILINE))
+    left, held = (int(re.search(rf"(\d+) {words}", output)[1]) for words in ("of them hold", "limits hold"))  # type: ignore[index]
+    assert rows + left == held
+
+
 @pytest.mark.parametrize("as_json", [False, True])
 def test_command_fails_where_an_axle_is_too_weak(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, as_json: bool
