@@ -4,7 +4,6 @@ import gc
 import importlib.util
 import json
 import os
-import resource
 import sys
 import tempfile
 from collections import Counter, defaultdict
@@ -17,6 +16,7 @@ import matplotlib
 import matplotlib.font_manager  # writes its list of fonts, if there is none
 import pytest
 from support.commands import exit_code_of
+from support.costs import spent_s
 from support.kept import once, robot_key
 from support.pictures import with_few_pictures, with_plain_figures
 from support.robots import make_small_robot
@@ -177,11 +177,6 @@ def still_works(sandbox: Sandbox, good_jump: dict[str, str]) -> Callable[[str], 
             pytest.fail(f"{engine} no longer simulates a good robot as before: {done.out[:120]}")
 
     return check
-
-
-def spent_s() -> float:
-    """Return the CPU time of this process and of those that it started and that have ended (s)."""
-    return sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
 
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
