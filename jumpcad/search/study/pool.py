@@ -6,11 +6,9 @@ with the reason. The run continues in both cases.
 """
 
 import importlib
-import math
 import os
 import pickle
 import re
-from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
@@ -25,10 +23,7 @@ from jumpcad.files.complaints import shown
 from jumpcad.interrupts import raise_if_seen
 from jumpcad.search.study.objective import QUARANTINED, Evaluation, Model
 from jumpcad.search.study.variant import Variant
-from jumpcad.search.study.worker import Failure, evaluate_task
-
-TASK_S = 0.1
-"""Longest duration of a task, which has several evaluations; sending one takes 0.3 ms."""
+from jumpcad.search.study.worker import LocalWorkers, evaluate_one
 
 ANSWER_S = 10.0
 """Timeout for a Dask scheduler's answer."""
@@ -79,7 +74,6 @@ class Pool:
         self._end = end_executor
         self._limit_s = limit_s
         self._executor: Executor | None = None
-        self._mean_s = TASK_S
 
     def __enter__(self) -> "Pool":
         return self
@@ -102,71 +96,55 @@ class Pool:
             If the model itself cannot work, whatever the design.
         """
         sent = cloudpickle.dumps((model, model.versions()))  # once per batch; executors would do it once per task
-        suspects: dict[int, str] = {}
-        waiting = deque(self._tasks(len(designs)))
-        running: dict[Future[Any], list[int]] = {}
+        waiting = [(index, Variant.of(design)) for index, design in enumerate(designs)][::-1]
+        running: dict[Future[bytes], tuple[int, Variant]] = {}
+        suspects: list[tuple[int, Variant, str]] = []
         while waiting or running:
             raise_if_seen()
-            while waiting and len(running) < self.workers + 1:  # one more keeps workers busy while results travel
-                task = waiting.popleft()
-                running[self._submit(sent, [designs[index] for index in task])] = task
+            while waiting and len(running) <= self.workers:  # one more keeps workers busy while results travel
+                task = waiting.pop()
+                running[self._submit(sent, task[1])] = task
             for future in wait(running, return_when=FIRST_COMPLETED).done:
-                yield from self._collect(future, running.pop(future), suspects)
-        for index, reason in suspects.items():
+                index, variant = running.pop(future)
+                outcome = self._outcome(index, future)
+                if isinstance(outcome, str):
+                    suspects.append((index, variant, outcome))
+                else:
+                    yield outcome
+        for index, variant, reason in suspects:
             raise_if_seen()
             self.notice(f"an evaluation failed and is repeated alone: {reason}")
-            again: dict[int, str] = {}
-            yield from self._collect(self._submit(sent, [designs[index]]), [index], again)
-            if again:
-                key = Variant.of(designs[index]).key
-                values = ", ".join(value if isinstance(value, str) else f"{value:.6g}" for value in key)
-                self.notice(f"a design is quarantined: {again[index]}; before: {reason}; design: {values}")
-                yield Outcome(index, Evaluation(QUARANTINED, detail=again[index]), 0.0)
+            again = self._outcome(index, self._submit(sent, variant))
+            if isinstance(again, str):
+                values = ", ".join(value if isinstance(value, str) else f"{value:.6g}" for value in variant.key)
+                self.notice(f"a design is quarantined: {again}; before: {reason}; design: {values}")
+                again = Outcome(index, Evaluation(QUARANTINED, detail=again), 0.0)
+            yield again
 
-    def _tasks(self, count: int) -> list[list[int]]:
-        """Split a batch into tasks of at most `TASK_S`, the last ones smaller, so that all workers finish together."""
-        most = max(1, int(TASK_S / self._mean_s))
-        tasks, start = [], 0
-        while start < count:
-            size = min(most, math.ceil((count - start) / (1.5 * self.workers)))
-            tasks.append(list(range(start, start + size)))
-            start += size
-        return tasks
-
-    def _submit(self, sent: bytes, designs: list[Design | Variant]) -> Future[Any]:
+    def _submit(self, sent: bytes, variant: Variant) -> Future[bytes]:
         if self._executor is None:
             self._executor = self._open()
         try:
-            return self._executor.submit(evaluate_task, sent, designs, self._limit_s)
+            return self._executor.submit(evaluate_one, sent, variant, self._limit_s)
         except BrokenExecutor:
             self.close()
             self._executor = self._open()
-            return self._executor.submit(evaluate_task, sent, designs, self._limit_s)
+            return self._executor.submit(evaluate_one, sent, variant, self._limit_s)
 
-    def _collect(self, future: Future[Any], task: list[int], suspects: dict[int, str]) -> Iterator[Outcome]:
+    def _outcome(self, index: int, future: Future[bytes]) -> Outcome | str:
+        """Return what a future holds: an outcome, or in one line how the evaluation failed."""
         try:
-            results = pickle.loads(future.result())
+            return Outcome(index, *pickle.loads(future.result()))
         except JumpcadError:
             raise
-        except Exception as error:  # whatever an executor raises for a lost worker
-            suspects |= dict.fromkeys(task, self._loss(error))
-            return
-        for index, (result, duration_s) in zip(task, results, strict=True):
-            self._mean_s += 0.1 * (duration_s - self._mean_s)
-            if isinstance(result, Failure):
-                suspects[index] = result.text
-            else:
-                yield Outcome(index, result, duration_s)
-
-    def _loss(self, error: Exception) -> str:
-        """Return in one line how a worker was lost."""
-        ended_by = re.search(r"SIG[A-Z]+", str(error))
-        if ended_by and ended_by[0] == "SIGALRM":
-            return f"it ran past its limit of {self._limit_s:g} s"
-        if ended_by:
-            killed = " (killed, perhaps because memory ran out)" if ended_by[0] == "SIGKILL" else ""
-            return f"its worker was ended by {ended_by[0]}{killed}"
-        return f"its worker was lost: {type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"
+        except Exception as error:  # a bug with a rare design, or whatever an executor raises for a lost worker
+            ended_by = re.search(r"SIG[A-Z]+", str(error)) if isinstance(error, BrokenExecutor) else None
+            if ended_by and ended_by[0] == "SIGALRM":
+                return f"it ran past its limit of {self._limit_s:g} s"
+            if ended_by:
+                killed = " (killed, perhaps because memory ran out)" if ended_by[0] == "SIGKILL" else ""
+                return f"its worker was ended by {ended_by[0]}{killed}"
+            return f"{type(error).__name__}: {str(error).split(chr(10))[0]}".removesuffix(": ")
 
 
 @check_arguments
@@ -192,12 +170,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     if workers == 0:
         return Pool(InProcess, InProcess.shutdown, 1)
 
-    def open_executor() -> Executor:
-        from jumpcad.search.study.local_workers import LocalWorkers
-
-        return LocalWorkers(workers)
-
-    return Pool(open_executor, lambda executor: executor.end(), workers, limit_s)
+    return Pool(lambda: LocalWorkers(workers), LocalWorkers.end, workers, limit_s)
 
 
 @check_arguments

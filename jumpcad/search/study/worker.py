@@ -1,4 +1,4 @@
-"""The code of a worker process: tasks of evaluations, each with a timeout."""
+"""Worker processes of this machine, which no interrupt reaches, and what they run: one evaluation, with a timeout."""
 
 import atexit
 import contextlib
@@ -8,25 +8,42 @@ import pickle
 import signal
 import threading
 import time
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from functools import lru_cache
+from multiprocessing import resource_tracker
 from typing import Any
 
 import cloudpickle
+import loky
 
-from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.gc_tuning import collect_seldom
+from jumpcad.interrupts import deferred_interrupts
 from jumpcad.search.study.objective import Evaluation, Model
 from jumpcad.search.study.variant import Variant
 
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+"""Environment of a worker: as many workers as cores, one thread each."""
 
-@dataclass(frozen=True)
-class Failure:
-    """An evaluation that ended with an unexpected exception."""
 
-    text: str
+class LocalWorkers(loky.ProcessPoolExecutor):  # type: ignore[misc]  # loky has no annotations
+    """An executor whose processes start while interrupts are held back, and end with this process."""
+
+    def __init__(self, workers: int) -> None:
+        resource_tracker.ensure_running()  # of Python 3.11, it unblocks interrupts when it starts
+        with deferred_interrupts():
+            super().__init__(workers, initializer=start_worker, initargs=(os.getpid(),), env=ONE_THREAD)
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Send a task; the first one starts the processes, and the thread that starts others in place of lost ones."""
+        with deferred_interrupts():
+            future: Future[Any] = super().submit(fn, *args, **kwargs)
+        return future
+
+    def end(self) -> None:
+        """End the processes without waiting for their tasks."""
+        self.shutdown(kill_workers=True)
 
 
 def start_worker(parent: int) -> None:
@@ -48,6 +65,25 @@ def _end_with_parent(parent: int) -> None:
     os._exit(1)
 
 
+def evaluate_one(sent: bytes, one: Variant, limit_s: float) -> bytes:
+    """Evaluate a variant with a pickled model, in a worker; return outcome and duration (s), pickled.
+
+    They are pickled here because the executor's pickler, which also supports functions and classes, takes four times as
+    long.
+
+    Raises
+    ------
+    JumpcadError
+        If the model cannot work at all, or this machine has other versions of packages.
+    """
+    model: Any = _unpacked(sent)
+    start = time.perf_counter()
+    with _alarm(limit_s):
+        # A model that is made in no workshop gets the design alone.
+        outcome: Evaluation = model(one.design, *([one.workshop] if one.workshop else []))
+    return pickle.dumps((outcome, time.perf_counter() - start))
+
+
 @lru_cache(maxsize=1)
 def _unpacked(sent: bytes) -> Model:
     """Return a pickled model; the same object for all tasks of a search.
@@ -66,33 +102,6 @@ def _unpacked(sent: bytes) -> Model:
                 f"or repeat the command if it changed meanwhile"
             )
     return model
-
-
-def evaluate_task(sent: bytes, designs: Sequence[Design | Variant], limit_s: float) -> bytes:
-    """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
-
-    They are pickled here because the executor's pickler, which also supports functions and classes, takes four times as
-    long.
-
-    Raises
-    ------
-    JumpcadError
-        If the model cannot work at all, or this machine has other versions of packages.
-    """
-    model: Any = _unpacked(sent)
-    results: list[tuple[Any, float]] = []
-    for design in designs:
-        start = time.perf_counter()
-        with _alarm(limit_s):
-            try:
-                one = Variant.of(design)  # a model that is made in no workshop gets the design alone
-                result: Evaluation | Failure = model(one.design, *([one.workshop] if one.workshop else []))
-            except JumpcadError:
-                raise
-            except Exception as error:  # a bug with a rare design must not end the run
-                result = Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
-        results.append((result, time.perf_counter() - start))
-    return pickle.dumps(results)
 
 
 @contextlib.contextmanager

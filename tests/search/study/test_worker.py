@@ -1,5 +1,6 @@
 """What runs in a worker process."""
 
+import os
 import pickle
 import signal
 import subprocess
@@ -7,6 +8,7 @@ import sys
 import time
 
 import cloudpickle
+import loky
 import pytest
 from support.hills import SMALL, Hill
 
@@ -53,36 +55,33 @@ def test_the_alarm_is_off_after_a_design_that_was_in_time():
 
 
 class Told(Hill):
-    """A hill that fails where it is steep, and takes 20 ms; of a workshop it says the plates."""
+    """A hill that takes 20 ms; of a workshop it says the plates."""
 
     def __call__(self, design, workshop=None):
         time.sleep(0.02)
-        if design.rest_angle_deg > 60.0:
-            raise ValueError("too steep" if workshop is None else "")
         return super().__call__(design) if workshop is None else Evaluation("jump", dict(workshop))
 
 
-def test_a_task_has_a_result_and_a_duration_for_each_of_its_designs():
-    """In their order; an unexpected error is one line, and does not end the task."""
-    flat, steep = (SMALL.to_design([0.5, place, 0.5]) for place in (0.5, 0.9))
-    asked = [flat, steep, Variant(flat, {"body.plate_mm": 2.0}), Variant(steep, {"body.plate_mm": 3.0})]
-    model = Told()
-    sent = cloudpickle.dumps((model, model.versions()))
-    found = pickle.loads(worker.evaluate_task(sent, asked, 0.0))
-    assert [result for result, _ in found] == [
-        Hill()(flat), worker.Failure("ValueError: too steep"), Evaluation("jump", {"body.plate_mm": 2.0}),
-        worker.Failure("ValueError"),
-    ]  # fmt: skip
-    assert all(duration_s >= 0.02 for _, duration_s in found)
+def test_a_task_has_the_outcome_of_its_variant_and_how_long_it_took():
+    design = SMALL.to_design([0.5] * 3)
+    sent = cloudpickle.dumps((Told(), {"hill": "1"}))
+    plates = {"body.plate_mm": 2.0}
+    for variant, expected in (
+        (Variant(design), Hill()(design)),
+        (Variant(design, plates), Evaluation("jump", plates)),
+    ):
+        found, duration_s = pickle.loads(worker.evaluate_one(sent, variant, 0.0))
+        assert found == expected
+        assert duration_s >= 0.02
 
 
-def test_what_is_wrong_with_every_design_ends_the_task():
-    """As an engine that is not installed: it is no failure of one design."""
-
-    class Wrong(Hill):
-        def __call__(self, design):
-            raise JumpcadError("no engine")
-
-    sent = cloudpickle.dumps((Wrong(), {"hill": "1"}))
-    with pytest.raises(JumpcadError, match="no engine"):
-        worker.evaluate_task(sent, [SMALL.to_design([0.5] * 3)], 0.0)
+def test_workers_compute_in_one_thread_and_know_who_started_them(monkeypatch):
+    """As many as asked, each in one thread of OpenMP and of both libraries of linear algebra."""
+    started = []
+    monkeypatch.setattr(loky.ProcessPoolExecutor, "__init__", lambda _, *given, **named: started.append((given, named)))
+    worker.LocalWorkers(3)
+    (((workers,), named),) = started
+    assert workers == 3
+    assert (named["initializer"], named["initargs"]) == (worker.start_worker, (os.getpid(),))
+    variables = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+    assert named["env"] == dict.fromkeys(variables, "1")
