@@ -96,8 +96,8 @@ def explore(
     require_plots(plots, force)
     robot = options.robot_model()
     space = Space.parse(options.fix or (), options.bound or (), options.choose or (), workshop=robot.workshop)
-    objective = robot.aiming_at(options.objective)
-    request = Request(space, robot, objective.name, own=objective if objective.code else None)
+    request = Request.make(space, robot, "ga", options.objective)
+    objective = request.aim
     centre = load_design(AROUND if around is None else around)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),

@@ -3,8 +3,8 @@
 import hashlib
 import json
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ from jumpcad.mechanism.model import Mechanism
 from jumpcad.search.estimate.estimated_robot import layout_figures, robot_figures
 from jumpcad.search.estimate.refusal import layout_findings, room_findings, statics_refusal
 from jumpcad.search.pick.tolerances import PREFIX, Tolerances, perturbed
-from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective, find_objective
+from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective
 from jumpcad.search.study.requirement import Required, Requirement, requirements_of, violations
 from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.search.study.versions import code_digest, versions
@@ -34,6 +34,8 @@ from jumpcad.workshop.varied import Value
 MODELS = ("printed", "capsule", "published")
 PUBLISHED_FIGURES = ("fitness", "base_distance_m", "base_height_m", "spring_energy_j")
 """Figures of a jump of the published robot."""
+FULL_FLIGHT = "touchdown_distance_m"
+"""A figure that settings with the whole flight add."""
 ESTIMATE_STEP_S = 0.002
 """Time step of the planar engine for an estimate: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
 LENGTH_MM = 0.2
@@ -74,33 +76,15 @@ class RobotModel:
         """How far what is made of a design differs from it: of a robot that is made in no workshop, lengths alone."""
         return Tolerances(LENGTH_MM)
 
-    def aiming_at(self, objective: str | Callable[..., Any] | None, default: str = "") -> Objective:
-        """Return an objective, see `find_objective`; without one the default, the model's own if none is given.
-
-        Raises
-        ------
-        JumpcadError
-            If there is no such objective, or a jump of this robot lacks a figure that it needs.
-        """
-        aim = find_objective((default or self.default_objective) if objective is None else objective)
-        self.require_figures(aim)
-        return aim
-
-    def require_figures(self, objective: Objective) -> None:
-        """Require that a jump of this robot has the figures of a named objective; a printed robot has them all.
-
-        Raises
-        ------
-        JumpcadError
-            If one is missing.
-        """
-        if not objective.code:
-            objective.score(Evaluation("jump", dict.fromkeys(self.figure_names, 1.0)))
+    @property
+    def figure_names(self) -> Sequence[str]:
+        """Names of the figures of a jump, as `jumpcad list figures` has them."""
+        return PUBLISHED_FIGURES
 
     @property
-    def figure_names(self) -> Iterable[str]:
-        """Names of the figures of a jump."""
-        return PUBLISHED_FIGURES
+    def limit_names(self) -> Sequence[str]:
+        """Names of the limits of which a search may require margins; `*` stands for the end of several."""
+        return ()
 
     def requiring(self, asked: Iterable[str] | Required) -> "RobotModel":
         """Return the model whose evaluations are rejected where a requirement is not kept.
@@ -110,7 +94,7 @@ class RobotModel:
         JumpcadError
             If one is none, or names no figure or limit of this robot.
         """
-        found = requirements_of(asked, self.figure_names)
+        found = requirements_of(asked, [*self.figure_names, *self.limit_names])
         if not found:
             return self
         if not isinstance(self, CapsuleModel | PrintedModel):
@@ -197,11 +181,9 @@ class CapsuleModel(RobotModel):
         return super().admits(design) and not errors(statics_findings(capsule_robot(design)))
 
     @property
-    def figure_names(self) -> Iterable[str]:
+    def figure_names(self) -> Sequence[str]:
         """Names of the figures of a jump."""
-        from jumpcad.simulation.jump import Jump
-
-        return [one.name for one in fields(Jump)]
+        return [*JUMP_FIGURES, FULL_FLIGHT]
 
     def _evaluated(self, design: Design) -> Evaluation:
         from jumpcad.mechanism.capsule import capsule_robot
@@ -291,14 +273,16 @@ class PrintedModel(RobotModel):
         return Tolerances(length, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
 
     @property
-    def figure_names(self) -> Iterable[str]:
-        """Names of the figures of an evaluation, and of the limits, of which the margin counts."""
+    def figure_names(self) -> Sequence[str]:
+        """Names of the figures of an evaluation."""
+        return [*FIGURES, FULL_FLIGHT]
+
+    @property
+    def limit_names(self) -> Sequence[str]:
+        """Names of the limits that every evaluation checks."""
         from jumpcad.checks import CHECKS
 
-        return [*FIGURES, *(name for check in CHECKS if check.cheap for name in check.basis)]
-
-    def require_figures(self, objective: Objective) -> None:
-        """Require nothing: a printed robot has the figures of all objectives."""
+        return [name for check in CHECKS if check.cheap for name in check.basis]
 
     def laid_out(self, variant: Variant) -> Mapping[str, float] | Evaluation:
         """Return figures of the layout of a printed robot, or the outcome of one whose parts have no room.

@@ -1,17 +1,25 @@
 """The outcome of one evaluation, and the score that an objective gives it."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Protocol, runtime_checkable
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, bare, errors
 from jumpcad.search.study.code_hash import function_hash
-from jumpcad.search.study.own_objective import SUFFIX, checked, load_function, name_of, require_function
+from jumpcad.search.study.own_objective import (
+    SUFFIX,
+    TriedFigures,
+    checked,
+    load_function,
+    name_of,
+    require_function,
+)
 
 SCREENED, GUESSED = "screened", "guessed_score"
 """Verdict of a candidate that a screen left out, and the figure that it had for its score."""
@@ -139,15 +147,26 @@ class Objective:
             return None
         try:
             return float(self.figure(evaluation.metrics))
-        except ZeroDivisionError:
+        except (KeyError, ZeroDivisionError) as error:
+            why = "divides by 0" if isinstance(error, ZeroDivisionError) else f"lacks {error.args[0]}"
+            raise JumpcadError(f"the objective {self.name} of an evaluation {why}: its figures are wrong") from None
+
+    def require(self, names: Iterable[str], what: str = "the objective") -> None:
+        """Require that it needs no other figures than these; an own function is tried on figures of 1.
+
+        Raises
+        ------
+        JumpcadError
+            Naming the first that it needs besides, and the most similar one that there is.
+        """
+        tried = TriedFigures(names)
+        with suppress(JumpcadError):  # what figures of 1 do besides says nothing of those of a jump
+            self.figure(tried)
+        for name in tried.lacking:
             raise JumpcadError(
-                f"the objective {self.name} of an evaluation divides by 0: its figures are wrong"
-            ) from None
-        except KeyError as missing:
-            raise JumpcadError(
-                f"the objective {self.name} needs {missing.args[0]}, which this model does not give: "
-                f"choose another --objective or --model"
-            ) from None
+                f"{what} {self.name} needs {without_controls(name)[:80]}, which this model does not give"
+                f"{did_you_mean(name, tried)}: choose another figure or --model; `jumpcad list figures` names all"
+            )
 
 
 def _range_m(metrics: Mapping[str, float]) -> float:

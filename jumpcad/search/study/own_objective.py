@@ -8,7 +8,7 @@ import os
 import random
 import runpy
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout, suppress
 from pathlib import Path
 from types import FunctionType
@@ -27,6 +27,18 @@ SUFFIX = ".py"
 LARGEST = 1e12
 """Largest absolute score; study files hold no larger figure."""
 REMEDY = "mend it; what a study file holds is kept, and `--from-study` takes it over into a new study"
+
+
+class TriedFigures(dict[str, float]):
+    """Figures of 1 on which a function is tried, and the names that it asked for besides."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        super().__init__(dict.fromkeys(names, 1.0))
+        self.lacking: list[str] = []
+
+    def __missing__(self, name: object) -> float:
+        self.lacking.append(str(name) if isinstance(name, str | int | float) else type(name).__name__)
+        return 1.0
 
 
 def load_function(place: str) -> tuple[Callable[..., Any], str]:
@@ -88,7 +100,7 @@ def checked(function: FunctionType) -> Callable[[Mapping[str, float]], float]:
     def figure(metrics: Mapping[str, float]) -> float:
         try:
             with _undisturbed():
-                value: Any = function(dict(metrics))
+                value: Any = function(metrics if isinstance(metrics, TriedFigures) else dict(metrics))
         except KeyError as error:
             key = shown(error.args[0] if error.args else "")
             raise refused(f"asks for {key}; a jump of this model has {', '.join(metrics)}") from None

@@ -95,7 +95,8 @@ class Request:
         printed_front = isinstance(model, PrintedModel) and method in FRONTS
         if against is None:
             against = (ELECTRICAL_ENERGY if printed_front else SPRING_ENERGY).name
-        aim = model.aiming_at(objective, "range" if method in FRONTS else "")
+        usual = "range" if method in FRONTS else model.default_objective
+        aim = find_objective(usual if objective is None else objective)
         own = aim if aim.code else None
         if isinstance(model, PrintedModel) and (others.get("screen") or method not in ("ga", "nsga2")):
             model = replace(model, stand_in=True)
@@ -120,9 +121,9 @@ class Request:
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
         if isinstance(self.model, RobotModel):
-            self.model.require_figures(self.aim)
+            self.aim.require(self.model.figure_names)
             if self.is_front and self.cost.of_design is None:
-                self._require_cost(self.model)
+                self.cost.figure.require(self.model.figure_names, "against")
         if self.is_front and self.against == self.objective and not self.own:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
         if (
@@ -144,15 +145,6 @@ class Request:
                     f"evaluations = {self.evaluations} leave {stage.evaluations} for {stage.method}, whose parts take "
                     f"{least} at least: ask for more"
                 )
-
-    def _require_cost(self, model: RobotModel) -> None:
-        try:
-            model.require_figures(self.cost.figure)
-        except JumpcadError:
-            raise JumpcadError(
-                f"against = {self.against!r}: a jump of the {model.name} robot has no such figure: name another, or "
-                "choose another model"
-            ) from None
 
     def _require_screen(self) -> None:
         if not isinstance(self.model, PrintedModel):

@@ -56,7 +56,7 @@ def test_warnings_do_not_forbid():
 
 
 def test_an_objective_that_the_model_cannot_give_is_named():
-    with pytest.raises(JumpcadError, match="jumps-per-joule needs electrical_energy_j"):
+    with pytest.raises(JumpcadError, match="jumps-per-joule of an evaluation lacks electrical_energy_j"):
         find_objective("jumps-per-joule").score(Evaluation("jump", {"fitness": 1.0}))
 
 

@@ -14,6 +14,7 @@ from support.hills import SMALL, Hill
 from support.searches import NARROW, QUICK, data, refusal
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search.models import robot_model
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request
@@ -60,6 +61,20 @@ def test_a_file_finds_the_modules_beside_it_from_any_folder(tmp_path, monkeypatc
     assert found is not None
     assert found.origin is not None
     assert not found.origin.startswith(str(tmp_path))
+
+
+def test_names_are_checked_before_the_first_evaluation_and_nothing_is_left(tmp_path, monkeypatch):
+    """A function is tried on figures of 1; what else it does with these is no fault."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "aims.py").write_text("def far(m):\n    return m['ballistic_rangem'] - m['com_rise_m']\n")
+    said = refusal("optimize", "ga", *QUICK, "--evaluations", 12, "--objective", "aims.py:far")
+    assert "the objective far needs ballistic_rangem" in said
+    assert "did you mean ballistic_range_m?" in said
+    assert [path.name for path in tmp_path.iterdir() if path.suffix in (".db", ".toml")] == []
+    find_objective(lambda m: 1.0 / (m["a"] - m["b"])).require(["a", "b"])
+    find_objective(lambda m: m.get("c", 0.0)).require(["a"])
+    with pytest.raises(JumpcadError, match="own needs laid_coil_mm"):
+        find_objective(lambda m: m["laid_coil_mm"]).require(robot_model("printed").figure_names)
 
 
 def test_a_study_of_another_function_is_another_study(tmp_path):

@@ -241,7 +241,7 @@ def test_what_a_front_is_against_follows_from_the_robot_and_is_refused_elsewhere
             "pareto",
             capsule,
             "electrical-energy",
-            "against = 'electrical-energy': a jump of the capsule robot has no such figure",
+            "against electrical-energy needs electrical_energy_j, which this model does not give",
         ),
         ("pareto", capsule, "", "against = '' is none of electrical-energy"),
         ("pareto", capsule, "range", "against = 'range' is the objective itself"),
