@@ -8,7 +8,6 @@ import typer
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, print_text, shell_quoted, status
 from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_search_options
-from jumpcad.errors import CannotBuildError
 from jumpcad.plural import counted
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
@@ -135,11 +134,6 @@ def optimize(
     heading += f"\nevaluations: {request.searched} for the search{pick}"
     with options.pool() as pool, watching(evaluations, as_json) as watch:
         result = run_study(request, path, pool, watch if as_json else _headed(heading, watch))
-    if result.flat:
-        raise CannotBuildError(
-            f"every design that jumps scores {result.score:g}: the objective tells none apart, and no design file is "
-            "written; change --objective"
-        )
     if result.winner is not None:
         result.save(design_file, force)
     pictures = _plot(path, plots)

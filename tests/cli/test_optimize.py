@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 import jumpcad.search.optimization  # noqa: F401  # before its pool is replaced
 from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of, load_design
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
 
@@ -112,11 +112,16 @@ def test_nothing_jumps_is_exit_code_1(folder):
 
 
 def test_an_objective_that_tells_nothing_apart_is_exit_code_1_and_no_file(folder):
+    """Equal scores have not converged: the search goes on to its end, and makes no pick among them."""
     Path("zero.py").write_text("def zero(figures):\n    return 0.0\n")
-    result = CliRunner().invoke(app, ["optimize", *QUICK, "--evaluations", "12", "--objective", "zero.py:zero"])
-    assert isinstance(result.exception, CannotBuildError)
-    assert result.exception.exit_code == 1
-    assert "every design that jumps scores 0: the objective tells none apart" in str(result.exception)
+    asked = ("optimize", *QUICK, *NARROW, "--evaluations", 24, "--objective", "zero.py:zero")
+    said = run(*asked, code=1)
+    assert "every design that jumps scores 0: zero tells none apart; choose another objective; rejected: " in said
+    assert "next:" not in said
+    found = data(*asked, code=1)
+    assert (found["winner"], found["design_file"], found["converged"], found["searched"]) == (None, None, False, 18)
+    assert found["candidates"] == []
+    assert "tells none apart" in found["notes"][-1]
     assert not list(Path().glob("*.toml"))
 
 

@@ -22,7 +22,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED
 from jumpcad.search.study.request import Stage
-from jumpcad.search.study.trial import Trial, feasible_trials
+from jumpcad.search.study.trial import Trial, feasible_trials, is_flat
 from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
@@ -83,7 +83,7 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
         return proposals
 
     def ended(dry_run: DryRun | None) -> bool:
-        if not stage.least_gain:
+        if not stage.least_gain or is_flat(evaluator.trials):  # scores that are all alike have not converged
             return False
         idle, low = progress()
         estimated = polls and dry_run is not None and not evaluator.space.varies_workshop

@@ -14,7 +14,7 @@ from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.study.request import Request
-from jumpcad.search.study.trial import Trial, count_rejections
+from jumpcad.search.study.trial import Trial, count_rejections, is_flat
 from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
@@ -61,8 +61,25 @@ class Result:
 
     @property
     def winner(self) -> Trial | None:
-        """The trial of the most robust of the best designs; None where no design jumps."""
+        """The trial of the most robust of the best designs; None where there is none, for the reason `why_none`."""
+        if self.why_none:
+            return None
         return self.candidates[0].trial if self.candidates else self.best
+
+    @property
+    def why_none(self) -> str:
+        """Why there is no winner: no design jumps, or the scores tell none of those that do apart; mostly empty."""
+        reasons = ", ".join(f"{name} {count}" for name, count in list(self.rejected.items())[:5])
+        if self.best is None:
+            designs = counted(len(self.trials), "design")
+            return f"none of {designs} jumps ({reasons}): widen the bounds, or evaluate more designs"
+        if is_flat(self.trials) and not self.request.is_front:
+            others = f"; rejected: {reasons}" if reasons else ""
+            return (
+                f"every design that jumps scores {self.best.score:g}: {self.request.objective} tells none apart; "
+                f"choose another objective{others}"
+            )
+        return ""
 
     @property
     def design(self) -> Design:
@@ -71,7 +88,7 @@ class Result:
         Raises
         ------
         CannotBuildError
-            If no design jumps.
+            If there is no winner.
         """
         return self._won().design
 
@@ -100,12 +117,6 @@ class Result:
     def hypervolume(self) -> float:
         """The area that the front dominates (units of the score times those of the cost)."""
         return hypervolume(self.trials, cost=self.request.cost)
-
-    @property
-    def flat(self) -> bool:
-        """Whether several designs were scored, all alike: an objective that tells nothing apart has no winner."""
-        scores = [trial.score for trial in self.trials if trial.score is not None]
-        return len(scores) > 1 and len(set(scores)) == 1
 
     @property
     def rejected(self) -> dict[str, int]:
@@ -138,7 +149,7 @@ class Result:
         Raises
         ------
         CannotBuildError
-            If no design jumps.
+            If there is no winner.
         JumpcadError
             If the file does not end in .toml, cannot be written, or is a user's and `force` is not given.
         """
@@ -163,7 +174,7 @@ class Result:
             "winner": None if self.winner is None else self.winner.to_dict(),
             "candidates": [candidate.to_dict() for candidate in self.candidates],
             "active_bounds": [asdict(bound) for bound in self.bounds],
-            "notes": self.notes,
+            "notes": [*self.notes, *filter(None, [self.why_none])],
         }
         if self.request.is_front:
             data |= {"against": self.request.against, "front": [trial.to_dict() for trial in self.front]}
@@ -171,7 +182,7 @@ class Result:
         return data
 
     def __repr__(self) -> str:
-        found = "no design jumps" if self.winner is None else f"{self.request.objective} {self.score:.4g}"
+        found = "no winner" if self.winner is None else f"{self.request.objective} {self.score:.4g}"
         trials, candidates = counted(len(self.trials), "trial"), counted(len(self.candidates), "candidate")
         return f"<Result {self.request.method}: {found}, {trials}, {candidates}>"
 
@@ -198,9 +209,5 @@ class Result:
 
     def _won(self) -> Trial:
         if self.winner is None:
-            reasons = ", ".join(f"{name} {count}" for name, count in list(self.rejected.items())[:5])
-            raise CannotBuildError(
-                f"none of {counted(len(self.trials), 'design')} jumps ({reasons}): "
-                "widen the bounds, or evaluate more designs"
-            )
+            raise CannotBuildError(self.why_none)
         return self.winner

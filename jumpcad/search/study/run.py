@@ -22,7 +22,7 @@ from jumpcad.search.study.pool import Pool
 from jumpcad.search.study.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.study.result import Result
 from jumpcad.search.study.store import ENDED, StudyStore, difference
-from jumpcad.search.study.trial import Trial, best_trial, count_rejections
+from jumpcad.search.study.trial import Trial, best_trial, count_rejections, is_flat
 from jumpcad.search.study.versions import versions
 
 FIRST = 50
@@ -118,7 +118,8 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         trials = evaluator.trials
         timed = clock.is_over(request.pick) and not converged and len(trials) < request.searched
         picking, best = True, best_trial(trials)
-        candidates, bounds = _picked(request, evaluator) if request.pick and best is not None else ([], [])
+        worth = request.pick and best is not None and (request.is_front or not is_flat(trials))
+        candidates, bounds = _picked(request, evaluator) if worth else ([], [])
         notes = store.notes()
         if timed or cut:
             where = f"before {counted(request.searched, 'design')}" if timed else "during the robust pick"

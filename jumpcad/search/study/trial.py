@@ -103,6 +103,12 @@ def best_trial(trials: Sequence[Trial]) -> Trial | None:
     return next(iter(feasible_trials(trials)), None)
 
 
+def is_flat(trials: Sequence[Trial]) -> bool:
+    """Whether all scores are alike, and so say nothing: those of several trials, or a single one of 0."""
+    scores = [trial.score for trial in trials if trial.score is not None]
+    return len(set(scores)) == 1 and (len(scores) > 1 or scores == [0.0])
+
+
 def trial_numbers(trials: Sequence[Trial]) -> dict[Position, int]:
     """Return the numbers of all trials of a study, by position: from 1 in its order, as its exported table has them."""
     return {trial.position: number for number, trial in enumerate(trials, start=1)}
