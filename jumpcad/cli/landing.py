@@ -27,7 +27,10 @@ def report_landing(
         label: np.quantile([getattr(one, name) for one in found.tries], [0.0, 0.5, 1.0])
         for label, name in names.items()
     }
-    print_text("landing", design=heading["design"], tries=tries, distances=distances, found=found, static=static)
+    print_text(
+        "landing", design=heading["design"], tries=tries, distances=distances, found=found, static=static,
+        stop_mm=robot.workshop.safety.landing_stop_mm,
+    )  # fmt: skip
 
 
 def report_jumps(

@@ -80,6 +80,8 @@ class Arena:
         rubs = coefficients(robot, settings)
         of = {body: rubs.contact(robot.bodies[name].surface) for name, body in self.bodies.items()}
         self._friction = np.array([of.get(int(body), 0.0) for body in model.geom_bodyid])
+        self.watch: Callable[[], None] | None = None
+        """Called after each of MuJoCo's own steps, where something must see them all."""
         self.stand_on(Floor())
 
     def stand_on(self, floor: Floor) -> None:
@@ -110,7 +112,13 @@ class Arena:
             air = drag_m_s2(self.velocity_m_s, self._drag_per_m)
             self.model.opt.gravity[:] = air - np.array([0.0, 0.0, self.gravity_m_s2])
         self.model.opt.timestep = QUIET_STEP_S if quiet else STEP_S
-        self._mujoco.mj_step(self.model, self.data, nstep=max(1, round(time_s / self.model.opt.timestep)))
+        steps = max(1, round(time_s / self.model.opt.timestep))
+        if self.watch is None:
+            self._mujoco.mj_step(self.model, self.data, nstep=steps)
+            return
+        for _ in range(steps):
+            self._mujoco.mj_step(self.model, self.data)
+            self.watch()
 
     def wind(self, time_s: float) -> None:
         """Wind the leg at an even rate within a time, wherever the robot lies, and hold it."""

@@ -9,7 +9,9 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError
+from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
+from jumpcad.landing.blows import Blow, Blows, PartForce, landing_strength, part_forces
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.prior import FLOOR_SHARE
@@ -30,20 +32,23 @@ class Landing:
     """One landing: how far from where it stood it rests and touched down, on what, and whether winding rights it.
 
     Distances (m) are along the floor, of the centre of mass. `rests_on` is `feet`, `nose`, `back`, `left`, `right`,
-    `top` or `belly`.
+    `top` or `belly`. `blows` are those of the floor on its parts, the first one first.
     """
 
     touchdown_m: float
     rest_m: float
     rests_on: str
     rights_itself: bool
+    blows: tuple[Blow, ...] = ()
 
 
 @dataclass(frozen=True)
 class Landings:
-    """Landings of a robot's own jumps."""
+    """Landings of a robot's own jumps, the forces of their hardest blows, and what the part hit hardest bears."""
 
     tries: tuple[Landing, ...]
+    forces: tuple[PartForce, ...] = ()
+    strength: Finding | None = None
 
     @property
     def share_on_feet(self) -> float:
@@ -62,8 +67,14 @@ class Landings:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
+        tries = [
+            {name: value for name, value in vars(one).items() if name != "blows"} | {"hits_first": one.blows[0].part}
+            for one in self.tries
+        ]
         figures = {"share_on_feet": self.share_on_feet, "share_righted": self.share_righted, "rests_on": self.rests_on}
-        return figures | {"tries": [asdict(one) for one in self.tries]}
+        strength = None if self.strength is None else self.strength.to_dict()
+        forces = [asdict(one) for one in self.forces]
+        return figures | {"forces": forces, "landing_strength": strength, "tries": tries}
 
 
 @check_arguments
@@ -89,7 +100,9 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
     if tries < 1:
         raise JumpcadError(f"tries = {tries}: a landing must be tried at least once")
     arena, rng = Arena(robot, settings), np.random.default_rng(seed)
-    return Landings(tuple(_land(arena, rng) for _ in range(tries)))
+    found = tuple(_land(arena, rng) for _ in range(tries))
+    forces = part_forces(robot, (blow for one in found for blow in one.blows))
+    return Landings(found, tuple(forces), landing_strength(robot, forces))
 
 
 def share_righted(robot: Robot, drops: int, rng: np.random.Generator, settings: Settings | None = None) -> float:
@@ -120,8 +133,10 @@ def _land(arena: Arena, rng: np.random.Generator) -> Landing:
         if not touched and arena.data.ncon:
             touched.append(_away_m(arena, start))
 
+    arena.watch = blows = Blows(arena)
     arena.rest(look)
-    return Landing(touched[0], _away_m(arena, start), arena.rests_on, _righted(arena))
+    arena.watch = None
+    return Landing(touched[0], _away_m(arena, start), arena.rests_on, _righted(arena), tuple(blows.all))
 
 
 def _righted(arena: Arena) -> bool:

@@ -1,0 +1,165 @@
+"""Blows of a landing: their energy from the simulation, their force from what gives, and what the first part bears.
+
+MuJoCo's contacts have an assumed time, not a stiffness, so their peak force is no figure; their impulse is. A blow's
+energy is half of its impulse times the speed of the contact before it, that of a mass stopped without rebound. Its
+peak force on a floor that gives nothing follows from what gives in the robot (N, mm, N/mm).
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jumpcad.checks.holding import holding_findings
+from jumpcad.checks.load_case import LoadCase
+from jumpcad.checks.strength import strength_findings
+from jumpcad.dimensions import TOE_TIP_WIDTH_MM
+from jumpcad.findings import Finding, at_most
+from jumpcad.mechanism.model import FOOT
+from jumpcad.parts.pads import TOE_AHEAD_MM, TOE_BACK_MM
+from jumpcad.robot import Robot
+
+if TYPE_CHECKING:
+    from jumpcad.landing.arena import Arena
+
+BLOW_S = 0.01
+"""How long a blow lasts at most; a body that has not touched the floor for as long is hit anew."""
+LEAST_J = 1e-3
+"""Blows with less are left out."""
+EDGE_MM = 6.0
+"""Radius of printed edges seen from the side; judgement: plates are drawn around axles and screws."""
+NOSE, TOE = "nose", "toe"
+"""Where a foot is hit: before and behind the ankle."""
+BEARS = {
+    "front_link_buckling": NOSE,
+    "front_bar_buckling": NOSE,
+    "toe_landing": TOE,
+    "electronics_hold": "body",
+}
+"""Checks whose load is proportional to a landing's force, and the part that the force acts on."""
+
+
+@dataclass
+class Blow:
+    """A hit on a part: speed (m/s) before it, impulse (N·s), and when (s)."""
+
+    part: str
+    speed_m_s: float
+    begun_s: float
+    impulse_ns: float = 0.0
+
+    @property
+    def energy_j(self) -> float:
+        """What must be absorbed: m·v²/2, with the mass that the impulse shows."""
+        return 0.5 * self.impulse_ns * self.speed_m_s
+
+
+class Blows:
+    """The blows on a robot in an arena; called after each of MuJoCo's steps, whose contacts are those before it."""
+
+    def __init__(self, arena: "Arena") -> None:
+        self._arena, self._names = arena, {number: name for name, number in arena.bodies.items()}
+        self._now: dict[str, tuple[Blow, float]] = {}
+        self.all: list[Blow] = []
+
+    def __call__(self) -> None:
+        """Add what the floor did in the last step."""
+        data, model = self._arena.data, self._arena.model
+        if not data.ncon:
+            return
+        time, contact = float(data.time), data.contact
+        hit = model.geom_bodyid[contact.geom].max(axis=1)
+        arm = contact.pos - data.subtree_com[self._arena.bodies["body"]]
+        falling = -(data.cvel[hit, 5] + data.cvel[hit, 0] * arm[:, 1] - data.cvel[hit, 1] * arm[:, 0])
+        ahead = np.einsum("ni,ni->n", contact.pos - data.xpos[hit], data.xmat[hit][:, ::3]) > 0.0
+        for number, body in enumerate(hit):
+            name = self._names[int(body)]
+            part = name if name != FOOT else NOSE if ahead[number] else TOE
+            push = float(data.efc_force[contact.efc_address[number]]) if contact.efc_address[number] >= 0 else 0.0
+            blow, last = self._now.get(part, (None, 0.0))
+            if blow is None or time - last > BLOW_S:
+                blow = Blow(part, 0.0, time)
+                self.all.append(blow)
+            self._now[part] = blow, time
+            if time - blow.begun_s < BLOW_S:
+                blow.impulse_ns += push * float(model.opt.timestep)
+                blow.speed_m_s = max(blow.speed_m_s, float(falling[number]))
+
+
+@dataclass(frozen=True)
+class PartForce:
+    """The hardest blow on a part, and the forces on a floor that gives nothing and on one that gives the stop."""
+
+    part: str
+    energy_j: float
+    speed_m_s: float
+    hard_n: float
+    soft_n: float
+
+
+def part_forces(robot: Robot, blows: Iterable[Blow]) -> list[PartForce]:
+    """Return the hardest blow on each part, hardest first.
+
+    On a hard floor a foot's blow is met by its pad, with the front link or the toe behind it, F = √(2·E·k); one on
+    printed edges crushes them, F = 2·b·R·√(2·r·d) over the dent d. Both are upper bounds. On a soft one it is met
+    evenly over `safety.landing_stop_mm`, F = E/s, as the checks take it.
+    """
+    hardest: dict[str, Blow] = {}
+    for blow in blows:
+        hardest[blow.part] = max(hardest.get(blow.part, blow), blow, key=lambda one: one.energy_j)
+    case, stop_mm = LoadCase(robot), robot.workshop.safety.landing_stop_mm
+    return [
+        PartForce(blow.part, blow.energy_j, blow.speed_m_s, hard_n(case, blow.part, 1000.0 * blow.energy_j),
+                  1000.0 * blow.energy_j / stop_mm)
+        for blow in sorted(hardest.values(), key=lambda one: -one.energy_j)
+        if blow.energy_j >= LEAST_J
+    ]  # fmt: skip
+
+
+def hard_n(case: LoadCase, part: str, energy_nmm: float) -> float:
+    """Return the largest force (N) of a blow of some energy on a floor that gives nothing."""
+    sections, shell, workshop = case.layout.sections, case.shell, case.workshop
+    if part not in (NOSE, TOE):
+        plates, material = 2.0 * float(np.diff(case.layout.lateral.left_plate)[0]), workshop.material("body")
+        width = plates if part == "body" else sections.thickness_mm
+        material = material if part == "body" else workshop.material("links")
+        push = 2.0 * width * material.strength_in_plane_mpa * math.sqrt(2.0 * EDGE_MM)
+        dent = (1.5 * energy_nmm / push) ** (2.0 / 3.0)  # E = ∫F·dd, F growing as its root
+        return push * math.sqrt(dent)
+    modulus, design = workshop.material("links").modulus_mpa, case.robot.design
+    if part == NOSE:
+        gives = design.l3_mm / (modulus * float(sections.front(shell).area_mm2))
+        pads, size = 2.0, (sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm)
+    else:
+        gives = design.l5_mm**3 / (3.0 * modulus * float(np.max(sections.toe(shell).second_moment_mm4)))
+        pads, size = 1.0, (TOE_TIP_WIDTH_MM, TOE_BACK_MM + TOE_AHEAD_MM)
+    if pad := workshop.foot_pad:
+        gives += 1.0 / (pads * pad.rate_n_per_mm(*size))
+    return math.sqrt(2.0 * energy_nmm / gives)
+
+
+def landing_strength(robot: Robot, forces: Sequence[PartForce]) -> Finding | None:
+    """Return the finding of the part that needs the softest floor, None where no part that is hit has a check.
+
+    The floor must absorb what the part does not when the check of the part is at its limit: with the force F that it
+    bears there, and Fh on a hard floor, over E/F·(1 - (F/Fh)²).
+    """
+    case, hardest = LoadCase(robot), {one.part: one for one in forces}
+    needed: list[tuple[float, PartForce, str, float]] = []
+    for found in (*strength_findings(robot), *holding_findings(robot)):
+        hit = hardest.get(BEARS.get(found.name, ""))
+        if hit is not None and found.value and found.limit:
+            borne = (case.toe_blow_n if hit.part == TOE else case.landing_n) * found.limit / found.value
+            floor = 1.0 - min(borne / hit.hard_n, 1.0) ** 2
+            needed.append((1000.0 * hit.energy_j / borne * floor, hit, found.name, borne))
+    if not needed:
+        return None
+    stop, hit, name, borne = max(needed)
+    return at_most(
+        "landing_strength", stop, robot.workshop.safety.landing_stop_mm, "mm",
+        f"a blow of {hit.energy_j:.2f} J on the {hit.part}, of which {name} bears {borne:.0f} N, needs a floor that "
+        f"gives {stop:.0f} mm; on one that gives nothing up to {hit.hard_n:.0f} N act",
+        "let it land on a mat that gives as much, or lower stiffness_nmm_per_deg or compression_ratio", "warning",
+    )  # fmt: skip
