@@ -15,6 +15,7 @@ from typing import Annotated, Self
 from pydantic import Field
 
 from jumpcad.arguments import check_arguments
+from jumpcad.dimensions import unit_of_key
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, find_template, to_toml
 from jumpcad.files.complaints import described
@@ -41,7 +42,7 @@ class Design(Record):
     def _repr_html_(self) -> str:
         """Return the parameters with their units and meanings as a table, for a notebook."""
         rows = "".join(
-            f"<tr><th>{name}</th><td>{f'{value:.5g} {unit_of(name)}'.strip()}</td>"
+            f"<tr><th>{name}</th><td>{f'{value:.5g} {unit_of_key(name)}'.strip()}</td>"
             f"<td>{type(self).model_fields[name].description}</td></tr>"
             for name, value in self.model_dump().items()
         )
@@ -157,15 +158,6 @@ class Design(Record):
 
 
 PARAMETERS: tuple[str, ...] = tuple(Design.model_fields)
-
-
-UNITS = {"_nmm_per_deg": "N·mm/°", "_mm": "mm", "_deg": "°"}
-"""Units of parameters by the ends of their names; the others are ratios."""
-
-
-def unit_of(parameter: str) -> str:
-    """Return the unit of a parameter; a ratio has none."""
-    return next((unit for end, unit in UNITS.items() if parameter.endswith(end)), "")
 
 
 def limits_of(parameter: str) -> tuple[float, float]:

@@ -1,5 +1,6 @@
 """Exceptions for user errors, in one line of text."""
 
+import re
 import unicodedata
 
 CONTROL_CATEGORIES = ("Cc", "Cf", "Cs", "Zl", "Zp")
@@ -33,8 +34,11 @@ class CannotBuildError(JumpcadError):
         self.margin = None if margin is None else min(float(margin), 0.0)
 
 
-def without_controls(text: str) -> str:
-    """Return a text with its control characters replaced by Python's escapes."""
+def without_controls(text: str, kept: str = "") -> str:
+    """Return a text with its control characters replaced by Python's escapes, but for those of a pattern `kept`."""
+    if kept:
+        parts = re.split(f"({kept})", text)
+        return "".join(part if number % 2 else without_controls(part) for number, part in enumerate(parts))
     if text.isprintable():  # quick for nearly every text
         return text
     return "".join(

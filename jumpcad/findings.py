@@ -80,11 +80,6 @@ def bare(name: str, severity: Severity, margin: float, unit: str) -> Finding:
     return Finding(name, severity, margin, unit, "", "")
 
 
-def is_bare(finding: Finding) -> bool:
-    """Tell whether a finding has nothing but name, severity and margin."""
-    return finding == bare(finding.name, finding.severity, finding.margin, finding.unit)
-
-
 def at_most(
     name: str, value: float, allowed: float, unit: str, message: str, remedy: str, violated: Severity = "error",
     grows: str = "",

@@ -36,8 +36,7 @@ from jumpcad.bundle.manifest import (
     trouble,
 )
 from jumpcad.errors import JumpcadError
-from jumpcad.files import real_path
-from jumpcad.files.outputs import require_writable
+from jumpcad.files.outputs import real_path, require_writable
 from jumpcad.version import __version__
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")

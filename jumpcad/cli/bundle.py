@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, shell_quoted, status, table, text_of
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, shell_quoted, status, table, text_of
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
@@ -17,7 +17,7 @@ from jumpcad.cli.subjects import (
     note_template,
     printed_robot,
 )
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError, without_controls
 from jumpcad.plural import counted
 
 if TYPE_CHECKING:
@@ -139,7 +139,7 @@ def render(
         print_json({"folder": str(folder), "files": sorted(files), "verdict": jump.verdict})
         return
     for name in sorted(files):
-        print(escaped(str(folder / name)))
+        print(without_controls(str(folder / name)))
     if jump.trajectory is None:
         print(f"no {GIF}: {jump.verdict}")
 
@@ -158,7 +158,8 @@ def verify(
     if as_json:
         print_json({"bundle": str(bundle), "differences": wrong, "added": added})
     else:
-        whole = f"{escaped(str(bundle))}: {counted(len(open_bundle(bundle).files), 'file')}, none changed or missing"
+        files = counted(len(open_bundle(bundle).files), "file")
+        whole = f"{without_controls(str(bundle))}: {files}, none changed or missing"
         lines = [line for line in wrong if not line.endswith(LINE_ENDS)]
         if others := len(wrong) - len(lines):
             lines.append(f"{counted(others, 'file')}: {LINE_ENDS}; {KEEP_LINE_ENDS}")

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.errors import without_controls
 
 if TYPE_CHECKING:
     from jumpcad.workshop import Workshop
@@ -42,8 +43,8 @@ def coupon(
     if as_json:
         print_json(facts)
     elif measured is None:
-        print(f"{escaped(facts['folder'])}: {len(facts['files']) + 1} files, {facts['grams']:.1f} g to print")
-        print(f"next: read {escaped(facts['folder'])}/coupon.md")
+        print(f"{without_controls(facts['folder'])}: {len(facts['files']) + 1} files, {facts['grams']:.1f} g to print")
+        print(f"next: read {without_controls(facts['folder'])}/coupon.md")
     else:
         for key, change in facts["fits"].items():
             print(f"{key:<28} {change['before']:.3f} -> {change['after']:.3f}")

@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, shell_quoted
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, shell_quoted
 from jumpcad.cli.subjects import MaterialOption, PrinterOption, completion
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import JumpcadError, without_controls
 
 TEMPLATE = "kenan-2.0"
 
@@ -55,12 +55,12 @@ def _new_design(file: Path, template: str, as_json: bool) -> None:
     from jumpcad.design import load_design
     from jumpcad.files.outputs import write_atomically
 
-    design, name = load_design(template), escaped(str(file))
-    write_atomically(file, commented_design(design, escaped(template), name))
+    design, name = load_design(template), without_controls(str(file))
+    write_atomically(file, commented_design(design, without_controls(template), name))
     if as_json:
         print_json({"file": str(file), "design": design.model_dump()})
     else:
-        print(f"{name}: a copy of {escaped(template)}; try: jumpcad simulate {shell_quoted(str(file))}")
+        print(f"{name}: a copy of {without_controls(template)}; try: jumpcad simulate {shell_quoted(str(file))}")
 
 
 def _new_workshop(file: Path, base: str | None, printer: str | None, material: str | None, as_json: bool) -> None:
@@ -69,9 +69,10 @@ def _new_workshop(file: Path, base: str | None, printer: str | None, material: s
     from jumpcad.workshop import DEFAULT, load_workshop
 
     base = DEFAULT if base is None else base
-    workshop, name = load_workshop(base, printer, material), escaped(str(file))
-    write_atomically(file, commented_workshop(workshop, escaped(base)))
+    workshop, name = load_workshop(base, printer, material), without_controls(str(file))
+    write_atomically(file, commented_workshop(workshop, without_controls(base)))
     if as_json:
         print_json({"file": str(file), "workshop": workshop.model_dump(exclude_none=True)})
     else:
-        print(f"{name}: a copy of {escaped(base)}; try: jumpcad check {TEMPLATE} --workshop {shell_quoted(str(file))}")
+        use = f"jumpcad check {TEMPLATE} --workshop {shell_quoted(str(file))}"
+        print(f"{name}: a copy of {without_controls(base)}; try: {use}")

@@ -5,9 +5,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, print_text, shell_quoted, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, shell_quoted, status
 from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_search_options
+from jumpcad.errors import without_controls
 from jumpcad.plural import counted
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
@@ -129,7 +130,7 @@ def optimize(
     require_target(design_file, (".toml",), force)
     require_plots(plots, force)
     where = f"{request.method} on the {options.model} robot"
-    heading = f"study {escaped(str(path))}: {where}, free parameters: {space.dimension}"
+    heading = f"study {without_controls(str(path))}: {where}, free parameters: {space.dimension}"
     pick = f", {request.pick} for the robust pick" if request.pick else ""
     heading += f"\nevaluations: {request.searched} for the search{pick}"
     with options.pool() as pool, watching(evaluations, as_json) as watch:

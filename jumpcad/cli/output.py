@@ -8,7 +8,6 @@ import contextlib
 import json
 import math
 import os
-import re
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -17,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import JumpcadError, without_controls
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -26,8 +25,6 @@ if TYPE_CHECKING:
 JsonFlag = Annotated[bool, typer.Option("--json", help="Print one JSON document instead of text.")]
 ForceFlag = Annotated[bool, typer.Option("--force", help="Replace files that are there and not as jumpcad wrote them.")]
 
-CONTROL_PATTERN = "[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]"
-"""Characters that move the cursor, hide or reverse text, and lone surrogates (bytes of a path that are not UTF-8)."""
 COLOUR = "\x1b\\[[0-9;]*m"
 LINE_EVERY_S = 60.0
 """Time between two lines of progress where standard error is no terminal."""
@@ -39,14 +36,9 @@ class OutputClosed(Exception):
     """The reader of standard output has closed it."""
 
 
-def escaped(text: str) -> str:
-    """Return text on one line, its control characters as in a Python string: a line feed as \\n."""
-    return re.sub(CONTROL_PATTERN, _escape, text)
-
-
 def shell_quoted(file: str) -> str:
     """Return a file's name as it is typed in a shell, on one line."""
-    return shlex.quote(escaped(file))
+    return shlex.quote(without_controls(file))
 
 
 def shortened(text: str) -> str:
@@ -59,7 +51,7 @@ def complain(message: str, exit_code: int) -> int:
     """Print an error as one line on standard error; return the exit code."""
     if sys.stderr is not None:
         try:
-            print(f"jumpcad: {shortened(escaped(message))}", file=sys.stderr, flush=True)
+            print(f"jumpcad: {shortened(without_controls(message))}", file=sys.stderr, flush=True)
         except (OSError, ValueError):  # standard error is closed too
             _discard(sys.stderr)
     return exit_code
@@ -80,8 +72,7 @@ class Output:
 
     def __init__(self, stream: TextIO, coloured: bool) -> None:
         self._stream = stream
-        kept = f"({COLOUR}|[\n\t])" if coloured else "([\n\t])"
-        self._pattern = re.compile(f"{kept}|{CONTROL_PATTERN}")
+        self._kept = f"{COLOUR}|[\n\t]" if coloured else "[\n\t]"
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._stream, name)
@@ -92,9 +83,8 @@ class Output:
 
     def write(self, text: str) -> int:
         """Write text."""
-        shown = self._pattern.sub(lambda found: found[1] or _escape(found), text)
         with self._written():
-            self._stream.write(shown)
+            self._stream.write(without_controls(text, self._kept))
         return len(text)
 
     def flush(self) -> None:
@@ -166,8 +156,8 @@ def status(doing: str) -> Iterator[Callable[[str], None]]:
     from rich.text import Text
 
     if sys.stderr.isatty():
-        with console(stderr=True).status(Text(escaped(doing))) as shown:
-            yield lambda text: shown.update(Text(escaped(text)))
+        with console(stderr=True).status(Text(without_controls(doing))) as shown:
+            yield lambda text: shown.update(Text(without_controls(text)))
         return
     texts, done = [doing], Event()
     thread = Thread(target=_log, args=(texts, done), daemon=True)
@@ -183,14 +173,14 @@ def _log(texts: Sequence[str], done: Event) -> None:
     """Print the newest text every `LINE_EVERY_S` until all is done."""
     while not done.wait(LINE_EVERY_S):
         with contextlib.suppress(OSError, ValueError):  # standard error is closed
-            print(f"jumpcad: {escaped(texts[-1])}", file=sys.stderr, flush=True)
+            print(f"jumpcad: {without_controls(texts[-1])}", file=sys.stderr, flush=True)
 
 
 def text_of(name: str, /, **values: Any) -> str:
     """Return a template of `templates/texts` with values in it; each stays on its line."""
     from jumpcad.files.rendering import environment
 
-    texts = environment().overlay(finalize=lambda value: escaped(value) if isinstance(value, str) else value)
+    texts = environment().overlay(finalize=lambda value: without_controls(value) if isinstance(value, str) else value)
     return texts.get_template(f"texts/{name}.txt.j2").render(values)
 
 
@@ -215,10 +205,6 @@ def _plain(data: Any) -> Any:
     if isinstance(data, float) and not math.isfinite(data):
         return None
     return data
-
-
-def _escape(found: re.Match[str]) -> str:
-    return found[0].encode("unicode_escape").decode()
 
 
 def _open_streams() -> None:

@@ -5,8 +5,9 @@ from typing import Annotated
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, status
 from jumpcad.cli.subjects import WorkshopOption, bundle_of, note_template, printed_robot, reject_workshop
+from jumpcad.errors import without_controls
 
 PAGE = "report.html"
 STUDY = ".db"
@@ -31,7 +32,7 @@ def report(
     if as_json:
         print_json({"file": str(written)})
     else:
-        print(escaped(str(written)))
+        print(without_controls(str(written)))
 
 
 def _study_page(study: Path, output: Path | None, workshop: str | None, force: bool) -> Path:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, print_text, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
 from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, reject_workshop, robot_from_file
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.plural import counted
 from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
 
@@ -234,7 +234,7 @@ def _write_trajectory(path: Path, jump: "Jump") -> None:
 
     if jump.trajectory is None:
         reason = f"{jump.verdict}: a robot that is rejected before its release does not move"
-        print(f"jumpcad: {escaped(str(path))}: not written; {reason}", file=sys.stderr)
+        print(f"jumpcad: {without_controls(str(path))}: not written; {reason}", file=sys.stderr)
         return
     if path.suffix == ".json":
         columns = {name: values.tolist() for name, values in jump.trajectory.columns().items()}

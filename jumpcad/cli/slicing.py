@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, status, table
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table
+from jumpcad.errors import without_controls
 
 if TYPE_CHECKING:
     from jumpcad.bundle.sliced import SlicedBundle
@@ -51,9 +52,9 @@ def slice_command(
         return
     _print_sliced(found)
     if found.billed:
-        print(f"written   the times, into bom.csv and assembly.md of {escaped(str(bundle))}")
+        print(f"written   the times, into bom.csv and assembly.md of {without_controls(str(bundle))}")
     if write_masses is not None:
-        name = escaped(str(write_masses))
+        name = without_controls(str(write_masses))
         print(f"written   {name}: try jumpcad build DESIGN --workshop {name}")
 
 

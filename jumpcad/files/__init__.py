@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from jumpcad.files.reading import read_json as read_json
     from jumpcad.files.reading import read_text as read_text
     from jumpcad.files.reading import read_toml as read_toml
-    from jumpcad.files.reading import real_path as real_path
     from jumpcad.files.reading import to_toml as to_toml
     from jumpcad.files.records import Contradiction as Contradiction
     from jumpcad.files.records import Record as Record
@@ -32,7 +31,6 @@ _HOMES = {
     "read_json": "reading",
     "read_text": "reading",
     "read_toml": "reading",
-    "real_path": "reading",
     "template_names": "templates",
     "templates_folder": "templates",
     "to_toml": "reading",

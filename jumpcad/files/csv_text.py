@@ -2,7 +2,6 @@
 
 import csv
 import io
-import re
 from collections.abc import Iterable, Sequence
 
 from jumpcad.errors import without_controls
@@ -31,7 +30,7 @@ def _cell(value: object) -> object:
     if not isinstance(value, str) or _is_number(value):
         return value
     text = value.replace("\r\n", "\n").replace("\r", "\n")  # a lone \r is not quoted, and would begin another row
-    text = "".join(part if part in "\n\t" else without_controls(part) for part in re.split("([\n\t])", text))
+    text = without_controls(text, "[\n\t]")
     return f"'{text}" if text.startswith(FORMULA) else text
 
 

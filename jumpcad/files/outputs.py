@@ -76,6 +76,23 @@ def require_path(path: Path) -> None:
         raise JumpcadError(f"{path}: cannot be a path: {wrong} cannot be part of a file's name") from None
 
 
+def real_path(path: str | Path) -> Path:
+    """Return the absolute path with all links followed; it need not exist.
+
+    Raises
+    ------
+    JumpcadError
+        If the path is impossible: a loop of links, or a name that no file can have.
+    """
+    require_path(Path(path))
+    try:
+        real = Path(path).resolve()
+        real.exists()
+    except (OSError, RuntimeError) as error:
+        raise JumpcadError(f"{path}: cannot be a path: {getattr(error, 'strerror', None) or error}") from None
+    return real
+
+
 def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str | Path | None]) -> None:
     """Require that no output is another output or an input, or below one, also through links.
 

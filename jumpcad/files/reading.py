@@ -147,24 +147,6 @@ def _require_shallow(data: Any, path: Path) -> None:
         raise JumpcadError(f"{path}: {NESTED}")
 
 
-def real_path(path: str | Path) -> Path:
-    """Return the absolute path with all links followed; it need not exist.
-
-    Raises
-    ------
-    JumpcadError
-        If the path is impossible: a loop of links, a name that is too long or has a NUL.
-    """
-    if "\0" in str(path):  # each Python has other words
-        raise JumpcadError(f"{path}: cannot be a path: it has a NUL")
-    try:
-        real = Path(path).resolve()
-        real.exists()
-    except (OSError, RuntimeError, ValueError) as error:
-        raise JumpcadError(f"{path}: cannot be a path: {getattr(error, 'strerror', None) or error}") from None
-    return real
-
-
 def to_toml(data: dict[str, Any]) -> str:
     """Return `data` as TOML text; the same data gives the same text."""
     return tomli_w.dumps(data)

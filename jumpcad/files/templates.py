@@ -30,11 +30,9 @@ def find_template(kind: str, name_or_path: str | Path) -> Path:
     Raises
     ------
     JumpcadError
-        If it is neither, or no possible path.
+        If it is neither.
     """
     text = str(name_or_path)
-    if "\0" in text:
-        raise JumpcadError(f"{text!r}: cannot be a path: it has a NUL")
     if text.endswith(".toml") or os.path.dirname(text):
         return Path(text)
     names = template_names(kind)

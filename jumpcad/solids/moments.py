@@ -22,28 +22,16 @@ G_PER_CM3 = 1e-6
 """One gram per cubic centimetre in kilograms per cubic millimetre."""
 
 
-def area_moments(region: CrossSection) -> Array:
-    """Return the area moments (6,) of a region by the polygon formulas (Green's theorem)."""
-    return np.asarray(areas_moments([region])[0])
-
-
 def areas_moments(regions: Sequence[CrossSection]) -> Array:
-    """Return the area moments (n, 6) of several regions, which is quicker than one after the other."""
+    """Return the area moments (n, 6) of regions by the polygon formulas (Green's theorem)."""
     return np.concatenate([_areas(*sides) for sides in _batches(regions)])
 
 
-def border_moments(region: CrossSection) -> Array:
-    """Return ∮1, ∮x, ∮y, ∮x², ∮y², ∮xy (6,) along the border of a region: those of a strip, per width of the strip."""
-    return np.asarray(borders_moments([region])[0])
-
-
-def borders_moments(regions: Sequence[CrossSection]) -> Array:
-    """Return the moments (n, 6) along the borders of several regions, by Simpson's rule, exact along straight sides."""
-    return np.concatenate([_borders(*sides) for sides in _batches(regions)])
-
-
 def areas_and_borders(regions: Sequence[CrossSection]) -> tuple[Array, Array]:
-    """Return the moments (n, 6) of several regions and those along their borders."""
+    """Return the moments (n, 6) of regions and those along their borders, which are those of a strip per its width.
+
+    Borders are integrated by Simpson's rule, which is exact along straight sides.
+    """
     areas, borders = zip(*((_areas(*sides), _borders(*sides)) for sides in _batches(regions)), strict=True)
     return np.concatenate(areas), np.concatenate(borders)
 
@@ -157,13 +145,6 @@ def mesh_moments(solid: Manifold) -> Array:
     second = np.einsum("t,tki,tkj->ij", volume, corners, corners) + np.einsum("t,ti,tj->ij", volume, total, total)
     xx, yy, zz = np.diag(second) / 20.0
     return np.array([volume.sum(), *first, xx, yy, zz, second[0, 1] / 20.0, second[1, 2] / 20.0, second[2, 0] / 20.0])
-
-
-def point_moments(points_mm: Array, weights: Array) -> Array:
-    """Return the moments (10,) of weighted points (n, 3)."""
-    x, y, z = points_mm.T
-    products = (np.ones_like(x), x, y, z, x * x, y * y, z * z, x * y, y * z, z * x)
-    return np.array([float((weights * product).sum()) for product in products])
 
 
 def mass_of(moments: Array, density_g_cm3: float) -> MassProperties:

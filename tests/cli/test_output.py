@@ -10,8 +10,8 @@ import pytest
 from support.commands import Run, interruptible
 from support.each import each
 
-from jumpcad.cli.output import escaped
 from jumpcad.design import Design, load_design
+from jumpcad.errors import without_controls
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
 LIGHT = ["simulate", "kenan-2.0", "--capsule"]
@@ -129,7 +129,7 @@ def test_an_error_is_one_line_whatever_the_file_is_called(run: Run) -> None:
     assert run("simulate", "a\nb[/red]\x1b[2J\u202e\udcff.toml") == (
         2, "", "jumpcad: a\\nb[/red]\\x1b[2J\\u202e\\udcff.toml: no such file\n",
     )  # fmt: skip
-    assert escaped("Käfer 机器人 🐸 µ−°…") == "Käfer 机器人 🐸 µ−°…"
+    assert without_controls("Käfer 机器人 🐸 µ−°…") == "Käfer 机器人 🐸 µ−°…"
 
 
 @pytest.mark.parametrize("name", ["[/x].toml", "a\x1b[2Jb.toml", "[red]x.toml"])
@@ -139,7 +139,7 @@ def test_names_are_no_markup_and_move_no_cursor(run: Run, tmp_path: Path, name: 
     file.write_text(load_design("kenan-2.0").to_toml())
     code, out, err = run("simulate", name, "--capsule")
     assert (code, err) == (0, "")
-    assert out.startswith(f"{escaped(name)}, capsule robot")
+    assert out.startswith(f"{without_controls(name)}, capsule robot")
     assert "\x1b" not in out
     code, _, err = run("build", name, "--no-pictures")
     assert (code, err.count("\n")) == (2, 1)

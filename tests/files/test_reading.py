@@ -12,7 +12,6 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     read_json,
     read_toml,
-    real_path,
     to_toml,
 )
 
@@ -124,15 +123,6 @@ def test_a_byte_order_mark_before_the_text_is_no_part_of_it(tmp_path: Path) -> N
     file = tmp_path / "design.toml"
     file.write_bytes(b"\xef\xbb\xbfrest = 45.0\r\n")
     assert read_toml(file) == ({"rest": 45.0}, "rest = 45.0\n")
-
-
-def test_a_path_that_cannot_be_is_told_why(tmp_path: Path) -> None:
-    """Too long a name as the system says it, without a number or the name once more; a NUL in our own words."""
-    assert real_path(tmp_path / "a" / ".." / "b") == tmp_path.resolve() / "b"
-    with pytest.raises(JumpcadError, match=r"^x{300}: cannot be a path: File name too long$"):
-        real_path("x" * 300)
-    with pytest.raises(JumpcadError, match=r": cannot be a path: it has a NUL$"):
-        real_path("a\0b")
 
 
 def test_a_file_of_somebody_elses_is_told_as_one_that_may_not_be_read(

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.solids.moments import point_moments
 from jumpcad.transforms import Array
 
 WORD = re.compile(r"([A-Z])(-?\d*\.?\d+)")
@@ -39,8 +38,10 @@ class Toolpath:
         """
         drop = np.column_stack([np.zeros((len(self.heights_mm), 2)), self.heights_mm / 2.0])
         starts, ends = self.starts_mm - drop, self.ends_mm - drop
-        points = np.concatenate([starts, (starts + ends) / 2.0, ends])
-        return point_moments(points, np.concatenate([self.volumes_mm3 * share / 6.0 for share in (1.0, 4.0, 1.0)]))
+        x, y, z = np.concatenate([starts, (starts + ends) / 2.0, ends]).T
+        weights = np.concatenate([self.volumes_mm3 * share / 6.0 for share in (1.0, 4.0, 1.0)])
+        products = (np.ones_like(x), x, y, z, x * x, y * y, z * z, x * y, y * z, z * x)
+        return np.array([float((weights * product).sum()) for product in products])
 
 
 def read_gcode(text: str) -> Toolpath:
