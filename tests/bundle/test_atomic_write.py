@@ -16,7 +16,7 @@ import pytest
 from support.folders import add_mine, has_mine, listed, old
 
 from jumpcad.bundle import atomic_write
-from jumpcad.bundle.atomic_write import change_files, exchanged, require_unedited, write_folder
+from jumpcad.bundle.atomic_write import change_files, require_unedited, write_folder
 from jumpcad.bundle.manifest import open_bundle, unlisted, verify
 from jumpcad.errors import JumpcadError
 
@@ -97,19 +97,6 @@ def test_where_folders_cannot_change_places_they_are_renamed(target: Path, monke
     assert (target / "a.md").read_text() == "new"
     assert has_mine(target)
     assert listed(target.parent)[0] == "robot", "nothing is left beside it"
-
-
-@pytest.mark.skipif(not os.access("/dev/shm", os.W_OK), reason="no folder in memory, as Linux has it")
-def test_in_linux_memory_two_folders_change_places(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A tmpfs, which can exchange two since Linux 3.15; names are relative to the working directory."""
-    with tempfile.TemporaryDirectory(dir="/dev/shm") as folder:
-        monkeypatch.chdir(folder)
-        for name in ("one", "other"):
-            Path(name, name).mkdir(parents=True)
-        assert not exchanged(Path("one"), Path("nothing"))
-        assert exchanged(Path("one"), Path("other"))
-        assert listed(Path()) == ["one", "one/other", "other", "other/one"]
-        monkeypatch.chdir("/")
 
 
 def test_what_a_user_added_stays_as_it_is(target: Path) -> None:

@@ -2,7 +2,6 @@
 
 import csv
 import io
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +9,7 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
-from jumpcad.bundle.bom import BilledPlate, bill_of_facts, bill_of_materials, mass_facts, write_bom
+from jumpcad.bundle.bom import BilledPlate, bill_of_facts, bill_of_materials, write_bom
 from jumpcad.bundle.guide.markdown import bill_text
 from jumpcad.design import load_design
 from jumpcad.files.csv_text import BOM
@@ -51,14 +50,6 @@ def test_the_bill_counts_every_piece(robot: Robot) -> None:
     axles = 3 if robot.layout.idler_mm is None else 4
     assert sum(count for item, count in quantity.items() if item.startswith("spring steel rod")) == axles + 1
     assert quantity["split pin 0.8 x 10 ISO 1234"] == 3  # ankle, front eye, springs' pin in the leg
-
-
-@pytest.mark.thorough
-def test_nothing_costs_anything_unless_the_workshop_says_so(robot: Robot) -> None:
-    lines = table(write_bom(bill_of_materials(robot)))
-    assert {line["eur_each"] + line["eur"] + line["print_time_s"] for line in lines} == {""}
-    assert lines[-1]["item"] == f"prices known for 0 of {len(lines) - 1} lines"
-    assert "€" not in bill_text(bill_of_materials(robot))
 
 
 def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
@@ -102,12 +93,6 @@ def test_springs_cost_what_is_ordered_of_them(robot: Robot) -> None:
     guide = bill_text(bill_of_materials(dear))
     assert "40.00 € together" in guide
     assert guide.count(": 20.00 €\n") == 2
-
-
-def test_a_manifest_keeps_the_whole_bill(robot: Robot) -> None:
-    bill = bill_of_materials(robot)
-    assert robot.workshop is not None
-    assert bill_of_facts(json.loads(json.dumps(mass_facts(bill))), robot.workshop) == bill
 
 
 def test_filament_is_paid_by_the_mass_of_all_pieces() -> None:

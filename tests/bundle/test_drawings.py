@@ -4,14 +4,13 @@ import itertools
 import math
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.built import built, geared, placed
 
 from jumpcad.bundle.drawings.lead_lines import leads_of
-from jumpcad.bundle.drawings.spring_sheet import requirements, scale_in_words, spring_sheets
+from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
 from jumpcad.bundle.springs import arms_off_deg, torque_shares
 from jumpcad.parts.lead_ways import plate_of
@@ -72,13 +71,6 @@ def words(root: ET.Element) -> list[tuple[str, float, float, float, float]]:
     return found
 
 
-def test_words_of_wiring_and_soldering_are_apart(drawings: dict[str, ET.Element]) -> None:
-    for name in ("wiring.svg", "soldering.svg"):
-        for (one, a, b, c, d), (other, e, f, g, h) in itertools.combinations(words(drawings[name]), 2):
-            overlap = min(c, g) - max(a, e) > 0.3 and min(d, h) - max(b, f) > 0.3
-            assert not overlap, (name, one, other)
-
-
 def test_a_spring_is_drawn_three_times_as_large(robot: Robot, drawings: dict[str, ET.Element]) -> None:
     """Circle of the mean diameter, wire as thick, two straight arms of their length; from the side a coil a turn."""
     spring = robot.layout.drive.spring
@@ -136,21 +128,6 @@ def test_a_spring_is_asked_for_with_its_figures(robot: Robot, drawings: dict[str
         assert (rows["wire"], rows["article"][:14]) == (f"{spring.wire_mm:g} mm, EN 10270-1 SM", "torsion spring")
 
 
-def test_a_spring_from_stock_is_asked_for_by_its_article_and_not_by_its_steel(robot: Robot) -> None:
-    drive = robot.layout.drive
-    drive = replace(drive, spring=replace(drive.spring, stock="9271K589"))
-    rows = dict(requirements(robot, replace(drive.spring), "left", "right"))
-    assert (rows["article"], rows["wire"]) == ("9271K589", f"{drive.spring.wire_mm:g} mm")
-
-
-@pytest.mark.parametrize("scatter", [0.05, 0.15])
-def test_a_springs_rate_may_scatter_as_the_parts_are_made_for(robot: Robot, scatter: float) -> None:
-    safety = robot.workshop.safety.model_copy(update={"spring_rate_scatter": scatter, "stress_reserve": 0.2})
-    other = replace(robot, workshop=robot.workshop.model_copy(update={"safety": safety}))
-    rows = dict(requirements(other, robot.layout.drive.spring, "left", "right"))
-    assert rows["rate"].endswith(f"±{100.0 * scatter:.0f} %")
-
-
 def test_plates_are_drawn_to_scale_seen_from_outside(robot: Robot, drawings: dict[str, ET.Element]) -> None:
     """From the left the front, x, is on the left; standoffs, trays and words stand where they are on the robot."""
     root, layout = drawings["leads.svg"], robot.layout
@@ -188,22 +165,6 @@ def test_plates_are_drawn_to_scale_seen_from_outside(robot: Robot, drawings: dic
             assert any(
                 text == "sensor" and math.dist((x, y), drawn(layout.sensor.place_mm)) < 40.0 for text, x, y in texts
             )
-
-
-def test_leads_leave_the_view_from_above_at_its_ends_alone(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """However little is shown beside the plates: outside them leads rise towards the sensor's terminals."""
-    monkeypatch.setattr("jumpcad.bundle.drawings.lead_drawing.BESIDE_TRAYS_MM", (30.0, 0.1))
-    root = ET.fromstring(drawings_of(robot)["leads.svg"])
-    (frame,) = (np.array(points_of(one)) for clip in root.iter(f"{SPACE}clipPath") for one in clip)
-    (group,) = (one for one in root.iter(f"{SPACE}g") if one.get("clip-path"))
-    share, inside = np.linspace(0.0, 1.0, 400)[:, None], 0
-    for line in (np.array(points_of(one)) for one in group.iter(f"{SPACE}polyline")):
-        for a, b in itertools.pairwise(line):
-            drawn = a + share * (b - a)
-            drawn = drawn[(drawn[:, 0] > frame[0][0]) & (drawn[:, 0] < frame[1][0])]
-            assert ((drawn[:, 1] > frame[0][1]) & (drawn[:, 1] < frame[1][1])).all()
-            inside += len(drawn)
-    assert inside > 4000
 
 
 def views_of(root: ET.Element) -> list[list[ET.Element]]:
@@ -258,65 +219,3 @@ def test_numbers_of_leads_cover_each_other_in_no_view(drawings: dict[str, ET.Ele
         middles = [np.mean(corners, axis=0) for corners in badges]
         assert len(middles) > 1
         assert min(math.dist(*two) for two in itertools.combinations(middles, 2)) > 2.0 * 1.7
-
-
-LONG_ARMS = [
-    # wire, mean diameter, turns, arm from the coil to its pin (mm); the largest scale at which all is on the page
-    (1.3, 7.57, 4.30, 10.9, "3:1"),
-    (2.0, 13.07, 4.38, 14.6, "3:1"),
-    (1.6, 13.6, 5.17, 32.0, "2:1"),
-    (1.6, 13.6, 5.42, 32.0, "3:1"),
-    (2.0, 14.0, 6.75, 60.0, "1:1"),
-    (3.0, 40.0, 9.10, 70.0, ""),
-    (2.0, 12.0, 30.5, 20.0, ""),
-    (1.0, 8.0, 3.95, 28.0, ""),
-    (2.5, 20.0, 4.61, 160.0, ""),
-    (1.6, 13.6, 5.17, 120.0, "1:2"),
-    (1.0, 6.68, 3.75, 17.2, "3:1"),
-]
-
-
-@pytest.mark.parametrize(("wire", "mean", "turns", "lever", "scale"), LONG_ARMS)
-def test_springs_with_long_arms_are_drawn_smaller(
-    wire: float, mean: float, turns: float, lever: float, scale: str
-) -> None:
-    """As large as its scale says; arms and words stay on the page, off the table, the side view and each other."""
-    robot = built("kenan-2.0")
-    drive = robot.layout.drive
-    spring = replace(drive.spring, turns=turns, arms=replace(drive.spring.arms, mean_mm=mean, wire_mm=wire,
-                                                             lever_mm=lever))  # fmt: skip
-    own = replace(robot, layout=replace(robot.layout, drive=replace(drive, spring=spring)))
-    said = set()
-    for _, text in spring_sheets(own):
-        root = ET.fromstring(text)
-        (title,) = (one.text or "" for one in root.iter(f"{SPACE}text") if "along the axis" in (one.text or ""))
-        one, other = re.findall(r"(\d+):(\d+);", title)[0]
-        said.add(f"{one}:{other}")
-        times = int(one) / int(other)
-        (coil,) = root.iter(f"{SPACE}circle")
-        radius, half = float(coil.get("r")), times * wire / 2.0
-        assert radius == pytest.approx(times * mean / 2.0, abs=0.01)
-        middle = np.array([float(coil.get("cx")), float(coil.get("cy"))])
-        wires = [one for one in root.iter(f"{SPACE}line") if float(one.get("stroke-width")) > 0.3]
-        lines = [np.array(points_of(one)) for one in wires]
-        ends = [line for line in lines if abs(np.hypot(*(line[0] - middle)) - radius) < 0.02]
-        assert len(ends) == 3
-        for line in ends:
-            assert np.hypot(*(line[1] - line[0])) == pytest.approx(times * spring.arm_length_mm, abs=0.03)
-        side = np.concatenate([line for line in lines if not any(line is arm for arm in ends)])
-        drawn = np.concatenate([line[0] + np.linspace(0, 1, 99)[:, None] * (line[1] - line[0]) for line in ends])
-        drawn = np.concatenate([drawn, middle - radius, middle + radius], axis=None).reshape(-1, 2)
-        assert drawn.min() - half >= 5.0
-        assert drawn[:, 0].max() + half < side[:, 0].min()
-        assert max(drawn[:, 1].max(), side[:, 1].max()) + half < 120.0  # where the table begins
-        (legend,) = (below for text, *_, below in words(root) if "arms: dark" in text)
-        assert 16.0 < legend <= min(drawn[:, 1].min(), side[:, 1].min()) - half
-    assert len(said) == 1
-    assert scale in ("", *said)
-    assert scale_in_words(own.layout.drive.spring) == said.pop()
-
-
-@pytest.mark.parametrize(("lever", "scale"), [(160.0, "1:2"), (300.0, "1:5"), (900.0, "1:10"), (5000.0, "1:10")])
-def test_the_longest_arms_are_drawn_at_a_tenth_of_their_size_and_no_smaller(lever: float, scale: str) -> None:
-    spring = built("kenan-2.0").layout.drive.spring
-    assert scale_in_words(replace(spring, arms=replace(spring.arms, lever_mm=lever))) == scale

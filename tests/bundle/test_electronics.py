@@ -1,18 +1,15 @@
 """Firmware, drawings of leads and the manifest's `electronics` of a bundle, for both kits."""
 
-import itertools
 import math
-import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from support.built import built, of_kit, placed
+from support.built import built, of_kit
 
 from jumpcad.building import build
 from jumpcad.bundle.drawings.lead_lines import leads_of
-from jumpcad.bundle.drawings.wiring import drawings_of, wires
 from jumpcad.bundle.export import export
 from jumpcad.bundle.facts import electronics_facts
 from jumpcad.bundle.firmware_numbers import numbers
@@ -24,8 +21,6 @@ from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.parts.lead_ways import plate_of
-from jumpcad.parts.leads import has_own_legs
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import chained
@@ -76,22 +71,6 @@ def test_the_firmware_has_time_to_wind_on_an_empty_battery_and_pins_of_the_chip(
     assert found["BATTERY_EMPTY_V"] - found["BATTERY_SAG_V"] == pytest.approx(driver["gets_v"][0], abs=0.001)
 
 
-def test_the_leads_drawing_has_every_number_of_the_table_in_its_colour(robot: Robot) -> None:
-    """A circle of the lead's colour, with its number of the table in it; own legs are on soldering.svg."""
-    strokes = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}
-    rows = enumerate(wires(robot), start=1)
-    drawn = {
-        str(row): strokes[colour] for row, (_, start, end, colour, _) in rows if not has_own_legs(start.part, end.part)
-    }
-    drawing = drawings_of(robot)["leads.svg"]
-    space, elements = "{http://www.w3.org/2000/svg}", list(ET.fromstring(drawing).iter())
-    circles = {(e.get("cx"), e.get("stroke")) for e in elements if e.tag == f"{space}circle"}
-    badges = [(e.text, e.get("x")) for e in elements if e.tag == f"{space}text" and (e.text or "").isdigit()]
-    assert {number for number, _ in badges} == set(drawn)
-    assert all((x, drawn[number or ""]) in circles for number, x in badges)
-    assert len({element.get("points") for element in elements if element.tag == f"{space}polyline"}) >= len(drawn)
-
-
 def test_drawn_leads_pass_the_plates_but_do_not_run_in_them(robot: Robot) -> None:
     """A lead of AWG 28 in silicone is 1.2 mm thick: no corner of its line is nearer to a plate's face.
 
@@ -109,52 +88,6 @@ def test_drawn_leads_pass_the_plates_but_do_not_run_in_them(robot: Robot) -> Non
         assert passed == len({"sensor", "motor"} & set(lead.parts)), (lead.number, lead.parts)
 
 
-def test_drawn_leads_of_a_plate_turn_a_millimetre_apart_inside_of_it(robot: Robot) -> None:
-    """At either plate alike, so that no line covers another."""
-    near_right, near_left = robot.layout.lateral.inside
-    turns = {}
-    for plate, face, inwards in (("left", near_left, -1.0), ("right", near_right, 1.0)):
-        of_plate = [lead for lead in leads_of(robot) if plate in {plate_of(robot.layout, part) for part in lead.parts}]
-        away = [inwards * (lead.points_mm[:, 1] - face) for lead in of_plate]
-        turns[plate] = sorted(float(one[one > 0.0].min()) for one in away)
-    assert min(map(len, turns.values())) > 1
-    assert turns["left"][0] == pytest.approx(turns["right"][0])
-    for found in turns.values():
-        assert np.diff(found) == pytest.approx(1.0)
-
-
-def test_the_front_is_where_the_leads_drawing_points_to(robot: Robot) -> None:
-    """In every view two things whose places are known: the arrow points to where the larger x is drawn."""
-    fittings, layout, space = robot.layout.fittings, robot.layout, "{http://www.w3.org/2000/svg}"
-    texts = [
-        (element.text or "", float(element.get("x", "")))
-        for element in ET.fromstring(drawings_of(robot)["leads.svg"]).iter(f"{space}text")
-    ]
-    starts = [index for index, (words, _) in enumerate(texts) if "leads inside it" in words or "from above" in words]
-    views = [dict(texts[a:b]) for a, b in zip(starts, [*starts[1:], len(texts)], strict=True)]
-    hole, seats = "wire hole, tie above it", layout.electronics.seats(layout.lateral.inside)
-    known = (
-        {"sensor": layout.sensor.place_mm[0], hole: fittings.left_mm[0]},
-        {"motor": layout.motor_mm[0], hole: fittings.right_mm[0]},
-        {role: seats[role].x_mm for role in ("controller", "driver")},
-    )
-    assert len(views) == 3
-    for view, things in zip(views, known, strict=True):
-        (one, x), (other, ahead) = sorted(things.items(), key=lambda item: item[1])
-        arrow = "front →" if view[other] > view[one] else "← front"
-        assert ahead - x > 5.0
-        assert [words for words in view if "front" in words] == [arrow]
-        drawn = [at for words, at in view.items() if words in (one, other)]
-        assert view[arrow] >= max(drawn) if arrow == "front →" else view[arrow] <= min(drawn)
-
-
-def test_from_above_the_left_plate_is_up_where_the_front_is_on_the_right(robot: Robot) -> None:
-    texts = ET.fromstring(drawings_of(robot)["leads.svg"]).iter("{http://www.w3.org/2000/svg}text")
-    height = {element.text: float(element.get("y", "")) for element in texts}
-    assert height["left plate"] < height["right plate"]
-    assert height["← to the sensor, outside"] < height["← to the motor, outside"]
-
-
 def test_a_turn_against_the_largest_torque_on_an_empty_battery_ends_in_time(robot: Robot) -> None:
     """Current from the torque, speed from what it leaves of the voltage; half as long again before the motor is off."""
     train, found = robot.layout.drive.train, numbers(robot)
@@ -167,21 +100,6 @@ def test_a_turn_against_the_largest_torque_on_an_empty_battery_ends_in_time(robo
     speed = ((2.0 * found["PWM_CAP"] - 1.0) * empty - current * (winding + supply.ohm)) / k
     seconds = 2.0 * math.pi * train.ratio / speed
     assert 1.49 * seconds <= found["WIND_MAX_MS"] / 1000.0 <= 1.52 * seconds + 0.1
-
-
-def test_from_above_leads_are_dashed_where_the_upper_tray_hides_them(robot: Robot) -> None:
-    """The tray's height is measured on its mesh; a lead from board to board is drawn through, the battery's is not."""
-    tray = placed(robot, "electronics_tray_upper").vertices[:, 2]
-    space, expected = "{http://www.w3.org/2000/svg}", []
-    for lead in leads_of(robot):
-        seen = lead.points_mm[:, 2] > tray.min()
-        pieces = [bool(a and b) for a, b in itertools.pairwise(seen)]
-        expected += [("", lead.parts) if shown else ("dashed", lead.parts) for shown, _ in itertools.groupby(pieces)]
-    (group,) = ET.fromstring(drawings_of(robot)["leads.svg"]).iter(f"{space}g")
-    lines = list(group.iter(f"{space}polyline"))
-    assert ["dashed" if line.get("stroke-dasharray") else "" for line in lines] == [dashes for dashes, _ in expected]
-    assert ("dashed", ("battery", "plug")) in expected
-    assert ("", ("controller", "driver")) in expected
 
 
 def test_a_quick_turn_on_a_full_battery_is_not_taken_for_a_broken_lead(robot: Robot) -> None:
@@ -214,41 +132,6 @@ def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:
     with pytest.raises(CannotBuildError, match=r"BAT\+ gets .* 8\.40 V and bears 3\.20 to 4\.20 V: choose a "):
         export(robot, tmp_path / "out", pictures=False)
     assert not (tmp_path / "out").exists()
-
-
-def test_the_soldering_plan_joins_every_leg_to_its_pin(robot: Robot) -> None:
-    """Each resistor has two legs; those at the controller end at a pin of it, the others say where their wire goes."""
-    drawing = drawings_of(robot)["soldering.svg"]
-    root = ET.fromstring(drawing)
-    space = "{http://www.w3.org/2000/svg}"
-    words = [element.text or "" for element in root.iter(f"{space}text")]
-    small = [name for name in ("upper", "lower", "pull-up", "diode") if any(w.startswith(name) for w in words)]
-    assert len(small) == (4 if robot.workshop.bought.regulator else 3)
-    assert len(list(root.iter(f"{space}polyline"))) == 2 * len(small)
-    pins = {
-        (float(element.get("cx", "")), float(element.get("cy", ""))): element.get("fill")
-        for element in root.iter(f"{space}circle")
-    }
-    starts = [line.get("points", "").split()[0] for line in root.iter(f"{space}polyline")]
-    at_pins = [tuple(map(float, start.split(","))) for start in starts]
-    to_wires = sum(word.startswith("wire to") for word in words)
-    assert sum(at in pins for at in at_pins) == 2 * len(small) - to_wires
-    assert to_wires == (2 if robot.workshop.bought.regulator else 0)
-
-
-def test_the_diodes_ring_is_on_its_body_at_the_cathode(robot: Robot) -> None:
-    """IEC 60747: the band marks the cathode, K; the letters stand at the two ends of the body."""
-    space = "{http://www.w3.org/2000/svg}"
-    root = ET.fromstring(drawings_of(robot)["soldering.svg"])
-    letters = {e.text: [float(e.get(key, "")) for key in ("x", "y")] for e in root.iter(f"{space}text")}
-    rings = [[float(e.get(key, "")) for key in ("x1", "y1", "y2")] for e in root.iter(f"{space}line")]
-    assert len(rings) == (1 if robot.workshop.bought.regulator else 0)
-    for x, top, bottom in rings:
-        bodies = [[float(e.get(key, "")) for key in ("x", "y", "width", "height")] for e in root.iter(f"{space}rect")
-                  if e.get("fill-opacity")]  # fmt: skip
-        (left, width) = next((a, w) for a, b, w, h in bodies if b < (top + bottom) / 2.0 < b + h)
-        assert left < x < left + width
-        assert abs(x - letters["K"][0]) < abs(x - letters["A"][0])
 
 
 def test_the_tie_over_the_balance_lead_has_walls_beside_its_slots(robot: Robot) -> None:
@@ -302,18 +185,3 @@ def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> Non
         mesh = triangles(name)
         beside = (mesh.min(axis=1) >= high - 1e-6) | (mesh.max(axis=1) <= low + 1e-6)
         assert beside.any(axis=1).all(), name
-
-
-def test_leads_between_the_boards_run_in_the_gap_between_them(robot: Robot) -> None:
-    """Seen from above, no lead from one board to the other is drawn across a third, nor beyond the gap."""
-    electronics, tray = robot.layout.electronics, robot.layout.tray_mm[0]
-    seats = electronics.seats(robot.layout.lateral.inside)
-    ends = sorted((seats[role].x_mm - seats[role].size_mm[0] / 2.0, seats[role].x_mm + seats[role].size_mm[0] / 2.0)
-                  for role in ("controller", "driver"))  # fmt: skip
-    low, high = tray + ends[0][1], tray + ends[1][0]
-    between = [lead for lead in leads_of(robot) if set(lead.parts) == {"controller", "driver"}]
-    assert len(between) >= 2
-    for lead in between:
-        assert ((low <= lead.points_mm[1:-1, 0]) & (lead.points_mm[1:-1, 0] <= high)).all()
-    places = [round(float(lead.points_mm[1, 0]), 6) for lead in between]
-    assert len({*places}) == len(places)

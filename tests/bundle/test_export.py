@@ -7,7 +7,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from support.elsewhere import environment
@@ -28,18 +27,6 @@ def exported(robot: Robot, folder: Path) -> Bundle:
 
 def bytes_of(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-
-
-def test_a_folder_that_takes_no_files_is_told_before_any_is_made(
-    small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    made: list[object] = []
-    monkeypatch.setattr(bundle_module, "contents", lambda *_: made.append(1) or ())
-    (tmp_path / "file").write_text("a user's")
-    with pytest.raises(JumpcadError, match=r"no file can be made in .*file"):
-        exported(small_robot, tmp_path / "file" / "kenan")
-    assert not made
-    assert (tmp_path / "file").read_text() == "a user's"
 
 
 def test_manifest_knows_every_file(small_robot: Robot, tmp_path: Path) -> None:
@@ -70,61 +57,6 @@ def test_the_manifest_says_on_which_ground_the_robot_stands_and_with_which_frict
     ground = small_robot.workshop.ground.model_copy(update=changed)
     robot = replace(small_robot, workshop=small_robot.workshop.model_copy(update={"ground": ground}))
     assert bundle_module._facts(robot)["ground"] == {"friction": friction, "pad": pad, "surface": "dry oak"}
-
-
-@pytest.mark.parametrize(("step", "ros2"), [(False, False), (True, False), (False, True), (True, True)])
-def test_formats_are_written_on_request_each_by_its_own_option(
-    small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, step: bool, ros2: bool
-) -> None:
-    asked: list[str] = []
-    monkeypatch.setattr(bundle_module, "chosen", lambda names: asked.extend(names) or [])
-    monkeypatch.setattr(bundle_module, "write_folder", lambda *_: None)
-    export(small_robot, tmp_path / "b", step=step, ros2=ros2)
-    assert asked == ["step"] * step + ["ros2"] * ros2
-
-
-def test_a_bundle_with_pictures_shows_them_in_its_guide(small_robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """By their names, and on the guide's page with the drawings, as the files that are written."""
-    told: dict[str, object] = {}
-    monkeypatch.setattr(bundle_module, "jump_motion", lambda robot: None)
-    monkeypatch.setattr(bundle_module, "all_pictures", lambda robot: {"rest": b"r", "step-1": b"1"})
-    monkeypatch.setattr(bundle_module, "drawings_of", lambda robot: {"wiring.svg": "<svg/>", "soldering.svg": ""})
-    monkeypatch.setattr(bundle_module, "write_guide", lambda robot, names=(): told.update(names=names) or "guide")
-    monkeypatch.setattr(bundle_module, "write_page", lambda guide, name, files: told.update(files=files) or "page")
-    seen: dict[str, bytes] = {}
-    written = dict(bundle_module._files_before_report(small_robot, [], True, seen))
-    assert list(seen) == told["names"] == ["rest", "step-1"]
-    shown = {"pictures/rest.png": b"r", "pictures/step-1.png": b"1", "wiring.svg": b"<svg/>"}
-    assert told["files"] == shown
-    assert {path for path in written if path.endswith((".png", ".svg")) and "order/" not in path} == set(shown)
-    assert (written["assembly.md"], written["assembly.html"]) == ("guide", "page")
-
-
-def test_the_manifest_has_every_body_with_its_mass_centre_and_inertia(small_robot: Robot) -> None:
-    bodies = bundle_module._facts(small_robot)["bodies"]
-    assert bodies == {
-        name: {"mass_kg": body.mass_kg, "com_m": [*body.com_m], "inertia_kg_m2": [[*row] for row in body.inertia_kg_m2]}
-        for name, body in small_robot.bodies.items()
-    }
-
-
-@pytest.mark.parametrize("jumps", [True, False])
-def test_only_of_a_jump_it_is_said_how_sure_it_is(
-    small_robot: Robot, monkeypatch: pytest.MonkeyPatch, jumps: bool
-) -> None:
-    """And with the motion alone, which needs the robot's GLB file and its recorded trajectory."""
-    jump, asked, sure = SimpleNamespace(verdict="jump" if jumps else "tips"), [], object()
-    monkeypatch.setattr(bundle_module, "simulate", lambda robot, settings, engine: asked.append(settings) or jump)
-    monkeypatch.setattr(bundle_module, "uncertainty_of", lambda robot: sure)
-    monkeypatch.setattr(bundle_module, "write_report", lambda robot, pictures, jump, glb, files, sure: sure)
-    assert bundle_module._page(small_robot, {}, b"glb", []) is (sure if jumps else None)
-    assert bundle_module._page(small_robot, {}, None, []) is None
-    shown: list[object] = []
-    monkeypatch.setattr(bundle_module, "write_report", lambda robot, *rest: shown.extend(rest))
-    bundle_module._page(small_robot, {"step-1": b"1", "exploded": b"e", "rest": b"r"}, None, iter(["bom.csv"]))
-    assert shown == [{"rest": b"r", "exploded": b"e"}, jump, None, ("bom.csv",), None]  # no steps of the assembly
-    del asked[2:]
-    assert [(one.flight, one.trajectory) for one in asked] == [("simulated", True), ("simulated", False)]
 
 
 @pytest.mark.thorough

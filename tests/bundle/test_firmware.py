@@ -1,7 +1,6 @@
 """A robot's numbers for its firmware: times by a DC machine's line, rounded to the safe side, and fixed ones."""
 
 import math
-import re
 from dataclasses import replace
 
 import pytest
@@ -11,13 +10,10 @@ from support.decimals import decimals
 from jumpcad.building import build
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.firmware_numbers import numbers, release_share, start_v
-from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.catalogue import load_catalogue
-from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
-from jumpcad.files.rendering import render
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -60,39 +56,11 @@ def test_times_are_whole_tenths_of_a_second_on_the_safe_side(robot: Robot) -> No
     assert {found[key] % 100 for key in ("WIND_MIN_MS", "WIND_MAX_MS", "RELEASE_MAX_MS")} == {0}
 
 
-def test_the_cap_of_pwm_is_rounded_down_and_readings_have_few_decimals(robot: Robot) -> None:
-    found, chosen = numbers(robot), chosen_parts(robot.workshop)
-    motor, most = robot.layout.drive.train.motor, robot.workshop.safety.motor_torque_max_nm
-    share = (1.0 + supply_of(chosen).duty(motor, most)) / 2.0
-    assert share - 0.001 < found["PWM_CAP"] <= share
-    assert decimals(found["PWM_CAP"]) <= 3
-    assert decimals(found["BATTERY_DIVIDER"]) <= 4
-    peak = robot.layout.drive.train.peak_current_a * chosen.battery.ohm
-    assert found["BATTERY_SAG_V"] == round(peak, 3)
-    sensor = robot.layout.sensor
-    assert sensor is not None
-    assert found["READY_DEG"] == round(math.degrees(sensor.ready_rad), 1)
-
-
-def test_switches_and_ramps_take_their_time(robot: Robot) -> None:
-    """Above what is heard for PWM; 10 ms for a bounce of 5 ms, 0.1 s to full power, 1.5 s in flight and landing."""
-    found = numbers(robot)
-    usual = {"PWM_HZ": 20000, "SETTLE_MS": 10, "RAMP_MS": 100, "LOW_MS": 200, "LANDING_MS": 1500}
-    assert {key: found[key] for key in usual} == usual
-    assert found["BUTTON_DELAY_MS"] == 3000
-    assert found["LOW_MS"] > found["RAMP_MS"] > found["SETTLE_MS"]
-
-
 def test_a_battery_is_wound_from_0_2_v_a_cell_over_empty_or_from_its_nominal_voltage() -> None:
     battery = load_catalogue().batteries["lipo-2s-180"]
     assert start_v(battery) == pytest.approx(6.6 + 2 * 0.2)
     assert start_v(battery.model_copy(update={"empty_v": 7.3})) == 7.4
     assert decimals(start_v(battery.model_copy(update={"empty_v": 6.12345}))) == 3
-
-
-def test_the_motor_runs_on_as_long_as_the_check_of_the_sensor_allows_for(robot: Robot) -> None:
-    assert numbers(robot)["AFTER_RELEASE_MS"] / 1000.0 == RUN_ON_S
-    assert 0.02 < RUN_ON_S < 0.2  # longer than a switch bounces, and a small part of a turn of the cam
 
 
 def test_without_a_sensor_a_quarter_of_a_turn_is_a_release(robot: Robot) -> None:
@@ -125,52 +93,3 @@ def test_a_motor_that_hardly_turns_is_given_ten_times_as_long_as_without_a_load(
     weak = replace(robot, layout=replace(robot.layout, drive=replace(drive, train=train)))
     idle_ms = 1000.0 * seconds_a_turn(robot, battery.range_v[0], 0.0)
     assert numbers(weak)["WIND_MAX_MS"] == pytest.approx(1.5 * 10.0 * idle_ms, rel=0.01)
-
-
-def test_the_notes_say_what_the_sensors_contact_does(robot: Robot) -> None:
-    """It joins its pin to ground, and a resistor pulls the pin up: an open contact reads 1."""
-    assert numbers(robot)["READY_LEVEL"] == 1
-    for opens in (True, False):
-        text = render("firmware/README.md.j2", operation_values(robot) | {"opens": opens})
-        assert f"Its contact {'opens' if opens else 'closes'} when it is pressed" in text
-    assert operation_values(robot)["opens"]
-
-
-def test_the_notes_are_for_the_controller(robot: Robot) -> None:
-    """Its name, its image among MicroPython's downloads, its button or commands in its place."""
-    shop, name = robot.workshop, robot.workshop.bought.controller
-    bare = {"button": "", "micropython": "", "description": "A board of mine"}
-    board = shop.catalogue.boards[name].model_copy(update=bare)
-    own = replace(robot, workshop=shop.model_copy(update={"boards": shop.boards | {name: board}}))
-    for one, said, image, button in (
-        (robot, "XIAO", chosen_parts(shop).controller.micropython, True),
-        (own, "A board of mine", "look for the board's name or its chip", False),
-    ):
-        text = dict(firmware_files(one))["firmware/README.md"]
-        assert re.search(rf"For the .*{said}.*, in MicroPython\.", text)
-        assert f"micropython.org/download ({image});" in text
-        for words in ("Put the board into its bootloader: hold the button", "press the same button once more"):
-            assert (words in text) == button, words
-        assert ("Put the board into its bootloader as its maker says" in text) != button
-        assert ("Type `wind`. Type `jump`." in text) != button
-
-
-def test_the_notes_have_the_numbers_of_the_program(robot: Robot) -> None:
-    """Times in seconds, voltages as they are, the cap of PWM in percent."""
-    values = numbers(robot)
-    text = dict(firmware_files(robot))["firmware/README.md"]
-    for pattern, key, factor in (
-        (r"after ([\d.]+) s without the sensor", "WIND_MAX_MS", 1000.0),
-        (r"at most ([\d.]+) % of PWM", "PWM_CAP", 0.01),
-        (r"from ([\d.]+) V at rest it finishes", "BATTERY_EMPTY_V", 1.0),
-        (r"For ([\d.]+) s after a jump", "LANDING_MS", 1000.0),
-        (r"[Bb]elow ([\d.]+) V at rest", "BATTERY_MIN_V", 1.0),
-        (r"releases after ([\d.]+) s", "BUTTON_DELAY_MS", 1000.0),
-    ):  # fmt: skip
-        found = re.search(pattern, text)
-        assert found is not None, pattern
-        assert factor * float(found[1]) == pytest.approx(values[key]), pattern
-    unmeasured = operation_values(robot) | {"program": values | {"PIN_BATTERY": None}}
-    assert "nothing stops the robot on an empty battery" in render("firmware/README.md.j2", unmeasured)
-    on_pin_0 = operation_values(robot) | {"program": values | {"PIN_BATTERY": 0}}
-    assert render("firmware/README.md.j2", on_pin_0) == text  # GPIO 0 is a pin

@@ -4,7 +4,6 @@ import re
 from collections.abc import Sequence
 
 import pytest
-from support.built import built
 
 from jumpcad.bundle.limits import limit_values, ordered, violation
 from jumpcad.bundle.page import robot_values
@@ -58,42 +57,6 @@ def test_without_a_share_the_margin_is_said_in_units_that_people_read(margin: fl
         assert used(bare("one", severity, 0.0, "")) == "does not hold"
 
 
-@pytest.mark.parametrize(
-    ("finding", "why"),
-    [
-        (bare("one", "error", 0.0, ""), "a condition, kept or not"),
-        (limit("one", 1.0, "mm", "", ""), "given as a margin"),
-        (limit("one", 1.0, "mm", "", "", value=2.0), "given as a margin"),
-        (at_most("one", -1.0, 0.0, "mm", "", ""), "the limit is 0"),
-        (at_most("one", -1.0, 2.0, "mm", "", ""), "below 0"),
-    ],
-)
-def test_why_there_is_no_share_is_said(finding: Finding, why: str) -> None:
-    assert why in page(finding)
-    assert "bar" not in page(finding).split("</p>")[1]
-
-
-@pytest.mark.parametrize(("share", "width"), [(0.5, 40.0), (1.0, 80.0), (1.25, 100.0), (3.0, 100.0)])
-def test_the_mark_of_the_limit_is_at_four_fifths_of_a_bar(share: float, width: float) -> None:
-    """Bars end at 125 %."""
-    found = re.search(r"width: ([\d.]+)%", page(at_most("one", 8.0 * share, 8.0, "mm", "", "")))
-    assert found is not None
-    assert float(found[1]) == pytest.approx(width)
-
-
-def test_what_is_used_by_half_is_shown_and_less_is_behind_a_heading() -> None:
-    """So is what has no share, but where it is just kept: that heading is open."""
-    shown, *behind = page(at_most("half", 5.0, 10.0, "mm", "", ""), at_most("less", 4.9, 10.0, "mm", "", "")).split(
-        "<details"
-    )
-    assert "half" in shown
-    assert "less" not in shown
-    assert len(behind) == 1
-    assert ">1 more are kept, less than half used<" in behind[0]
-    assert "<details><summary>1 more are kept and have no share" in page(limit("one", 1.0, "mm", "", ""))
-    assert '<details open="open"><summary>1 more' in page(limit("one", 1e-4, "mm", "", ""))
-
-
 def test_the_worst_limit_stands_first() -> None:
     """Violated ones by their use, then kept ones; without a share last, of these what is just kept first."""
     in_order = [
@@ -107,17 +70,3 @@ def test_the_worst_limit_stands_first() -> None:
     assert violation(warned) == "1 of its 5 limits is violated: it can be built, but read the warnings first"
     assert violation(in_order[3:]) == ""
     assert violation([bare("one", "error", 0.0, "")]) == "1 of its 1 limits is violated: do not build it as it is"
-
-
-def test_three_limits_are_named_at_the_top() -> None:
-    robot = built("kenan-2.0")
-    violated = [at_most(name, 2.0 - number / 10.0, 1.0, "mm", "", "") for number, name in enumerate("abcd")]
-    for count, words in ((3, "Violated;"), (4, "The worst of 4 violated limits;")):
-        said = top(robot, violated[:count])
-        assert f'{words} <a href="#limits">' in said
-        assert re.findall(r">(\w)</b>", said) == ["a", "b", "c"]
-        assert f'<p class="error">{count} of its {count} limits are violated: do not build it as it is.' in said
-    said = top(robot, [at_most("e", 0.1, 1.0, "mm", "", "")])
-    assert "All 1 limits are kept" in said
-    assert "violated" not in said
-    assert '<p class="warning">' in top(robot, [at_most("a", 2.0, 1.0, "", "", "", violated="warning")])

@@ -3,12 +3,11 @@
 import json
 import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from jumpcad.bundle.atomic_write import write_folder
-from jumpcad.bundle.manifest import Bundle, few, open_bundle, unlisted, verify
+from jumpcad.bundle.manifest import Bundle, open_bundle, unlisted, verify
 from jumpcad.errors import JumpcadError
 
 SHA = "0" * 64
@@ -58,12 +57,6 @@ def test_a_path_that_leads_out_on_any_system_or_is_none_of_ours_makes_it_none(tm
         ".git/HEAD", "a/.b.md", "a",
     ):  # fmt: skip
         refused(tmp_path, json.dumps(GOOD | {"files": GOOD["files"] | {path: SHA}}))
-
-
-def test_a_robot_has_bodies_and_a_coupon_has_masses_alone() -> None:
-    facts: dict[str, Any]
-    for facts, content in (({"bodies": {}}, "the robot frog"), ({"masses": [LINE]}, "the frog")):
-        assert Bundle(Path("b"), GOOD | facts).content == content
 
 
 def test_a_robot_without_its_loop_is_none(tmp_path: Path) -> None:
@@ -139,8 +132,3 @@ def test_what_was_added_is_named_apart_and_printable(tmp_path: Path) -> None:
     for name in ("a.md", "notes.txt"):
         (folder / "deep" / name).unlink()
     assert unlisted(folder) == ["\\x1b[2J", "album/empty", "link"]  # an empty folder of the bundle is its own
-
-
-def test_of_many_paths_three_are_named_and_the_others_counted() -> None:
-    assert few(["a", "b", "c"]) == "a, b, c"
-    assert few(["a", "b", "c", "d", "e"]) == "a, b, c and 2 more"

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from support.built import built, geared
 from support.decimals import decimals
 
-from jumpcad.bundle.motion import SHOWN_S, PhasePose, _seven, _times, motion
+from jumpcad.bundle.motion import SHOWN_S, _seven, motion
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.scene.extent import extent_m
@@ -113,12 +113,6 @@ def test_the_centre_of_mass_is_that_of_the_bodies_and_falls_freely(shown: dict[s
     assert fall[0] == pytest.approx(-9.81 / 2.0, rel=0.01)
 
 
-def test_without_a_jump_the_motion_ends_with_loaded_springs() -> None:
-    found = motion(built("kenan-2.0"), None, None)
-    assert set(found["phase"]) == {"winding"}
-    assert list(found["phases"]) == ["winding"]
-
-
 def test_what_a_click_on_a_part_shows_weighs_as_much_as_the_robot() -> None:
     robot = built("kenan-2.0")
     data = viewer_data(robot, simulate(robot, engine="planar"))
@@ -133,17 +127,6 @@ def test_what_a_click_on_a_part_shows_weighs_as_much_as_the_robot() -> None:
     assert aside["body_plate_left"] > 0.02 > 0.0 == aside["main_leg"] > -0.02 > aside["body_plate_right"]  # y: left
     named = [name for step in data["steps"] for name in step["parts"]]
     assert sorted(named) == sorted(data["parts"])
-
-
-@pytest.mark.parametrize(
-    ("factor", "words"), [(1.2, "1.2 times slower"), (0.8, "1.2 times faster"), (4.0, "4.0 times s")]
-)
-def test_a_phase_that_is_shown_longer_is_slower(factor: float, words: str) -> None:
-    """Shown for so many times as long as it takes."""
-    lasts = SHOWN_S["drop"] / factor
-    real, shown, said = _times([PhasePose("drop", lasts * share, {}, 0.0, 0.0) for share in (0.0, 0.25, 1.0)])
-    assert words in said["drop"]
-    assert shown == pytest.approx([factor * time_s for time_s in real], abs=2e-4 * factor)
 
 
 def test_the_flight_is_shown_to_its_last_moment() -> None:

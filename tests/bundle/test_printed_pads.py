@@ -2,7 +2,6 @@
 
 import io
 import zipfile
-from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -10,12 +9,9 @@ import trimesh
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.bundle.bom import bill_of_facts, bill_of_materials, mass_facts
-from jumpcad.bundle.guide import order_values as module
 from jumpcad.bundle.guide.markdown import write_guide
-from jumpcad.bundle.guide.order_values import order_values
 from jumpcad.exporters.stl import stl_files
 from jumpcad.exporters.threemf import plate_files, threemf_files
-from jumpcad.parts.pads import printed_pads
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
@@ -84,20 +80,3 @@ def test_a_stop_is_printed_though_the_feet_are_cut() -> None:
     body = shop.body.model_copy(update={"stop_pad": "tpu-2"})
     files = dict(stl_files(build(load_design("kenan-2.0"), shop.model_copy(update={"body": body}))))
     assert [name for name in files if "_pad" in name] == ["stl/stop_pad.stl"]
-
-
-def test_each_soft_material_is_ordered_by_its_own_weight(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A foot's of one kind, a stop's of another: the grams are of their own pads."""
-    robot = soled()
-    pads = printed_pads(robot.hardware, robot.workshop)
-    other = replace(pads[0], pad=pads[0].pad.model_copy(update={"description": "TPU 85A"}))
-    monkeypatch.setattr(module, "printed_pads", lambda *_: [other, *pads[1:]])
-    grams = {kind: sum(1000.0 * one.item.mass_kg for one in some)
-             for kind, some in (("TPU 85A", [other]), ("TPU 95A", pads[1:]))}  # fmt: skip
-    assert order_values(robot, bill_of_materials(robot))["pads"] == pytest.approx(grams)
-
-
-@pytest.mark.thorough
-def test_pads_that_are_cut_have_none() -> None:
-    files = dict(stl_files(build(load_design("kenan-2.0"))))
-    assert not [name for name in files if "_pad" in name]

@@ -1,6 +1,5 @@
 """report.html in Debian's Chromium without a screen: it shows, plays and answers, and asks the network for nothing."""
 
-import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -169,39 +168,6 @@ def test_the_camera_stands_still_and_shows_the_whole_jump(driver: Any, box: Any,
     assert middles[0] < middles[1] < middles[2]
     assert shadows[1] < shadows[0] == shadows[2]
     put(driver, "scrub", 0.0)
-
-
-def test_the_camera_follows_if_asked(driver: Any, box: Any) -> None:
-    put(driver, "scrub", 0.0)
-    follow = driver.find_element("id", "follow")
-    still = box.get_attribute("data-camera")
-    follow.send_keys(Keys.SPACE)
-    first = box.get_attribute("data-camera")
-    put(driver, "scrub", 7.0)
-    assert box.get_attribute("data-camera") != first
-    put(driver, "scrub", 0.0)
-    assert box.get_attribute("data-camera") == first
-    follow.send_keys(Keys.SPACE)
-    assert box.get_attribute("data-camera") == still
-
-
-@pytest.mark.parametrize("follow", [False, True])
-def test_a_jump_of_half_a_metre_stays_in_view(driver: Any, page: Path, tmp_path: Path, follow: bool) -> None:
-    """The same motion, lifted: the robot's orange links are in view there too."""
-    head, start, rest = page.read_text(encoding="utf-8").partition('<script type="application/json" id="viewer-data">')
-    text, end, tail = rest.partition("</script>")
-    data = json.loads(text)
-    last = len(data["show_s"]) - 1
-    for poses in (*data["frames"].values(), data["com_m"]):
-        poses[last][2 if len(poses[last]) > 2 else 1] += 0.5
-    lifted = tmp_path / "lifted.html"
-    lifted.write_text(head + start + json.dumps(data) + end + tail, encoding="utf-8")
-    box = opened(driver, lifted)
-    if follow:
-        driver.find_element("id", "follow").send_keys(Keys.SPACE)
-    put(driver, "scrub", data["show_s"][last])
-    driver.execute_script("arguments[0].scrollIntoView()", box)
-    legs(box, tmp_path / "shot.png")
 
 
 def test_it_fits_a_phone(page: Path) -> None:

@@ -47,11 +47,6 @@ def test_plates_of_printed_pads_are_left_out() -> None:
     assert found.left_out == ("print/pads-1-tpu-2.3mf",)
 
 
-def test_a_model_that_is_a_tenth_heavier_says_so() -> None:
-    part = SlicedPart("main_leg", "PETG", 1, grams=10.0, modelled_grams=11.0, time_s=600.0)
-    assert part.difference == pytest.approx(0.10)
-
-
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_no_part_reaches_further_than_two_metres(tmp_path: Path, axis: int, sign: float) -> None:
@@ -86,16 +81,6 @@ def test_a_plate_of_a_material_that_the_workshop_lacks_is_told_before_it_is_slic
     write_folder(tmp_path / "b", "frog", {"masses": [line]}, files.items())
     with pytest.raises(JumpcadError, match="the bundle has parts of ABS, but the workshop only PETG, PLA"):
         slice_bundle(tmp_path / "b")
-
-
-def test_sections_that_are_alike_are_one(tmp_path: Path) -> None:
-    """Of a cube with a smaller one on it, by their squares; neighbours at two heights share a region."""
-    lower, upper = trimesh.creation.box((10.0, 10.0, 10.0)), trimesh.creation.box((4.0, 4.0, 10.0))
-    upper.apply_translation((0.0, 0.0, 9.99))
-    trimesh.boolean.union([lower, upper], engine="manifold").export(tmp_path / "part.stl")
-    sections = _StlPart(tmp_path / "part.stl").sections_at(np.array([-3.0, 0.0, 3.0, 7.0, 12.0]))
-    assert [region.area() for region in sections.outlines] == pytest.approx([100.0, 16.0], rel=1e-3)
-    assert sections.which.tolist() == [0, 0, 0, 1, 1]
 
 
 def test_a_sliced_workshop_has_the_slicers_grams_to_a_milligram() -> None:

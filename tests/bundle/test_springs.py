@@ -1,7 +1,6 @@
 """The order of the springs and the manifest's entries, by EN 13906-3 and the shares that are accepted."""
 
 import math
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -58,17 +57,6 @@ def test_loaded_arms_are_apart_until_they_are_parallel_and_crossed_beyond(angle:
     assert loaded_arms(turned) == said
 
 
-def test_loaded_arms_have_closed_by_the_springs_angle(robot: Robot) -> None:
-    """180° less the part of a turn beyond whole ones, less what the leg winds."""
-    spring = robot.layout.drive.spring
-    free = (180.0 - 360.0 * (spring.turns % 1.0)) % 360.0
-    angle = free - math.degrees(spring.wound_rad)
-    found = re.fullmatch(r"([\d.]+)° apart|crossed by ([\d.]+)°", loaded_arms(robot))
-    assert found is not None
-    read = float(found[1]) if found[1] else -float(found[2])
-    assert read == pytest.approx(angle, abs=0.051)
-
-
 def test_the_manifest_has_both_springs_with_their_pins(robot: Robot) -> None:
     """The robot's left has the right-hand one; pins lie at one distance from the hub, as far as the arms reach."""
     spring = robot.layout.drive.spring
@@ -120,16 +108,3 @@ def test_the_weakest_springs_that_are_accepted_give_the_area_under_their_torque(
     rate = torque_shares(changed)[1] * spring.wound_rad / (spring.wound_rad + wider)
     early = float(law.wind_rad(law.ramp_rad)) + preload
     assert early_torque_share(changed) == pytest.approx(rate * (early + wider) / early)
-
-
-def test_the_manifest_has_the_preload_in_degrees() -> None:
-    robot = built("kenan-2.0")
-    drive = replace(robot.layout.drive, spring=replace(robot.layout.drive.spring, preload_rad=math.radians(7.5)))
-    facts = spring_facts(replace(robot, layout=replace(robot.layout, drive=drive)))
-    assert [one["preload_deg"] for one in facts] == [7.5, 7.5]
-    plain = spring_facts(robot)
-    assert [one["turns"] for one in facts] == [one["turns"] for one in plain]  # of the relaxed body
-    for one in plain:
-        (article,) = {item.article for item in robot.hardware if f", {one['hand']} hand" in item.article}
-        assert f"{one['rate_nmm_per_deg']:.2f} N·mm/°, wire {one['wire_mm']:g} mm" in article
-        assert f"diameter {one['inside_diameter_mm']:.2f} mm, {one['turns']:.2f} turns" in article

@@ -1,18 +1,14 @@
 """What a click on a part of the report's picture shows."""
 
-import base64
 import json
-import re
 from collections.abc import Callable
 
 import pytest
 from support.built import built, geared, placed
 
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.bundle.viewer import _embedded, parts_facts, turning_parts, viewer_data, viewer_values
-from jumpcad.files.rendering import fill
+from jumpcad.bundle.viewer import _embedded, parts_facts, turning_parts
 from jumpcad.robot import Robot
-from jumpcad.simulation import simulate
 
 
 def test_what_is_bought_in_one_piece_and_seen_as_several_has_the_mass_of_the_whole() -> None:
@@ -39,16 +35,6 @@ def test_a_printed_part_is_shown_with_its_material_file_and_mass() -> None:
             "file": f"stl/{part.name}.stl",
             "mass_g": round(1000.0 * part.mass.mass_kg, 3),
         }
-
-
-def test_the_ground_is_ruled_as_the_page_says() -> None:
-    robot = built("kenan-2.0")
-    jump = simulate(robot, engine="planar")
-    page = fill("report/viewer.html.j2", {"viewer": viewer_values(robot, jump, b"glb")})
-    said = re.search(r"Lines of the ground ([\d.]+) mm apart", page)
-    assert said is not None
-    assert viewer_data(robot, jump)["cell_m"] == float(said[1]) / 1000.0 == 0.05
-    assert base64.b64encode(b"glb").decode() in page
 
 
 def test_data_in_a_page_can_neither_end_their_script_nor_begin_markup() -> None:
