@@ -13,7 +13,10 @@ from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, 
 from support.sandbox import ANY, Sandbox
 
 COLUMNS = ("phase", "run", "step", "score", "record")
-FIELDS = ("design", "workshop", "model", "verdict", "metrics", "findings", "detail", "proposal", "duration_s")
+FIELDS = (
+    "phase", "run", "design", "workshop", "model", "evaluation", "evaluation.verdict", "evaluation.metrics",
+    "evaluation.findings", "evaluation.detail", "proposal", "duration_s",
+)  # fmt: skip
 VALUES = {
     "text": "'x'",
     "empty": "''",
@@ -67,7 +70,7 @@ def ask(sandbox: Sandbox, exits: tuple[int, ...] = ANY) -> None:
     sandbox.run("study", "study.db", "--export", "rows.csv", "--json", exits=exits, writes=["rows.csv"])
 
 
-@each("name", [*COLUMNS, *FIELDS])
+@each("name", [*COLUMNS, *(f"record.{field}" for field in FIELDS)])
 def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, study: Path, name: str) -> None:
     good = study.read_bytes()
     with closing(sqlite3.connect(study)) as connection:
@@ -76,8 +79,9 @@ def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, study: Path, name
         sandbox.case = f"{name} = {value}"
         study.write_bytes(good)
         changed = f"{name} = {text}"
-        if name in FIELDS:
-            changed = "record = '" + with_value(record, (name,), text).replace("'", "''") + "'"
+        if name not in COLUMNS:
+            place = tuple(name.split(".")[1:])
+            changed = "record = '" + with_value(record, place, text).replace("'", "''") + "'"
         spoil(study, f"UPDATE trials SET {changed} WHERE rowid = 1")
         ask(sandbox)
 

@@ -4,15 +4,18 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Annotated, Any, Protocol, runtime_checkable
+
+from pydantic import AfterValidator, ConfigDict, Field, PlainSerializer
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import did_you_mean
-from jumpcad.findings import Finding, bare, errors
+from jumpcad.findings import Finding, Severity, bare, errors
 from jumpcad.search.study.code_hash import function_hash
 from jumpcad.search.study.own_objective import (
+    LARGEST,
     SUFFIX,
     TriedFigures,
     checked,
@@ -20,6 +23,19 @@ from jumpcad.search.study.own_objective import (
     name_of,
     require_function,
 )
+
+Word = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,79}$")]
+"""A name of a verdict, finding or figure."""
+Figure = Annotated[float, Field(ge=-LARGEST, le=LARGEST)]
+Margin = Annotated[float, Field(ge=float("-inf"))]  # not NaN; infinite is that of a run that diverged
+if TYPE_CHECKING:
+    Findings = tuple[Finding, ...]
+else:  # a study keeps name, severity, margin and unit of each
+    Findings = Annotated[
+        list[tuple[Word, Severity, Margin, str]],
+        AfterValidator(lambda rows: tuple(bare(*row) for row in rows)),
+        PlainSerializer(lambda findings: [(one.name, one.severity, one.margin, one.unit) for one in findings]),
+    ]
 
 SCREENED, GUESSED = "screened", "guessed_score"
 """Verdict of a candidate that a screen left out, and the figure that it had for its score."""
@@ -37,9 +53,11 @@ class Evaluation:
     checked before the verdict; ``detail`` adds what verdict and findings do not say.
     """
 
-    verdict: str
-    metrics: Mapping[str, float] = field(default_factory=dict)
-    findings: tuple[Finding, ...] = ()
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    verdict: Word
+    metrics: Mapping[Word, Figure] = field(default_factory=dict)
+    findings: Findings = ()
     detail: str = ""
 
     @property

@@ -14,17 +14,19 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from pydantic import TypeAdapter
+
 from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_path
 from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.phases import SEARCH_PHASES
 from jumpcad.search.study.database import connect, lock, open_to_read, plain_errors
-from jumpcad.search.study.record import COLUMNS, read_trial, remembered, to_row
+from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
 from jumpcad.search.study.trial import Trial, in_order
 
 APPLICATION_ID = 0x4A554D50
-FORMAT = 5
+FORMAT = 6
 """Of the file; no other is read."""
 SCHEMA = f"""
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -38,9 +40,6 @@ PRAGMA user_version = {FORMAT};
 """
 ENDED = "ended"
 """Key under which a study remembers what ended its search; None while it runs, and where it was interrupted."""
-"""Key under which a study remembers the space whose bounds the search moved."""
-PICKS = "picks"
-"""Key under which a study remembers its robust picks, one for each length of search and pick, with what they found."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
@@ -141,16 +140,18 @@ class StudyStore:
         identity: dict[str, Any] = self.recall("identity")
         return identity
 
-    def recall(self, key: str, default: Any = None) -> Any:
-        """Return what was remembered under a key."""
+    def recall(self, key: str, default: Any = None, kind: TypeAdapter[Any] | None = None) -> Any:
+        """Return what was remembered under a key, as plain data of a kind: that in `REMEMBERED` unless given."""
         with plain_errors(self.path):
             found = self._connection.execute("SELECT value FROM study WHERE key = ?", (key,)).fetchone()
         if found is None and key != "identity":
             return default
+        text = found[0] if found else ""
         try:
-            text = found[0] if found else ""
-            return json.loads(text) if self.path is None else remembered(key, text)  # in memory it is this process's
-        except JumpcadError as error:
+            if self.path is not None and (kind or key in REMEMBERED):  # in memory it is this process's
+                validated((kind or REMEMBERED[key]).validate_json, key, text)
+            return json.loads(text)
+        except (JumpcadError, ValueError) as error:
             raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
     def remember(self, key: str, value: Any) -> None:

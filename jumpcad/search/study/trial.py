@@ -1,24 +1,49 @@
 """`Trial`: one finished evaluation of a search; filters and counts of trials."""
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import AfterValidator, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
 from jumpcad.design import Design
+from jumpcad.files.names import Text
 from jumpcad.search.phases import PHASES, SEARCH_PHASES
-from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.objective import Evaluation, Figure
 from jumpcad.search.study.variant import Key, Variant
-from jumpcad.workshop.varied import Value
 
+Count = Annotated[int, Field(ge=0)]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0, le=1)]
+Logarithm = Annotated[float, Field(ge=-100, le=100)]
+
+
+def one_of(names: Iterable[str]) -> Callable[[str], str]:
+    """Return a validator of a name among these."""
+
+    def require(name: str) -> str:
+        if name not in names:
+            raise PydanticCustomError("value_error", "is none of {names}", {"names": ", ".join(names)})
+        return name
+
+    return require
+
+
+Phase = Annotated[str, AfterValidator(one_of(PHASES))]
 Position = tuple[str, int, int, int]
 """Where a trial was proposed: phase, run, step and place; each position of a study has one trial."""
+if TYPE_CHECKING:
+    Proposed = Any
+else:  # a prediction, hyperparameters by name, points that were tried
+    Proposed = Finite | dict[str, list[Logarithm]] | list[list[Share]]
 
 
 @dataclass(frozen=True, repr=False)
 class Trial:
-    """One finished evaluation: the design, its place in the search, the outcome and the score.
+    """One finished evaluation: the design, its place in the search, the outcome and the score; a row of a study file.
 
     Parameters
     ----------
@@ -40,17 +65,19 @@ class Trial:
         Run of the phase: a method of `paper` runs several times in a study, and so does the pick of one that goes on.
     """
 
-    phase: str
-    step: int
-    place: int
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    phase: Phase
+    step: Count
+    place: Count
     design: Design
     evaluation: Evaluation
-    score: float | None
+    score: Figure | None
     model: str
-    duration_s: float
-    proposal: Mapping[str, Any] = field(default_factory=dict)
-    workshop: Mapping[str, Value] = field(default_factory=dict)
-    run: int = 0
+    duration_s: Figure
+    proposal: Mapping[str, Proposed] = field(default_factory=dict)
+    workshop: Mapping[str, Finite | Text] = field(default_factory=dict)
+    run: Count = 0
 
     @cached_property
     def key(self) -> Key:

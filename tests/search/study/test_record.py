@@ -6,12 +6,14 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from pydantic import TypeAdapter
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import bare
+from jumpcad.search.study import picks
 from jumpcad.search.study.objective import Evaluation
-from jumpcad.search.study.record import COLUMNS, read_trial, remembered, to_row
+from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
 from jumpcad.search.study.trial import Trial
 
 MADE = {"made.spring_factor": 0.9, "made.friction_factor": 1.1}
@@ -36,20 +38,21 @@ def test_a_trial_reads_back_as_it_was_written_to_the_last_bit() -> None:
     assert list(found.evaluation.metrics) == ["fitness", "a"]
     row = dict(zip(COLUMNS, to_row(told), strict=True))
     assert (row["phase"], row["run"], row["step"], row["place"], row["score"]) == ("bo", 2, 12, 34, 1.0 / 3.0)
-    assert json.loads(row["record"])["design"] == told.design.to_vector()
     for score in (0.0, -2.5, None):  # of nothing, which is not that of a rejected design
         assert again(replace(SCORED, score=score)).score == score
 
 
 def test_a_damaged_field_is_named() -> None:
-    wrong = {
-        "phase": ("x", b"\xff", None), "run": ("one", -1), "step": (1.5, "1"), "place": (-1, None),
-        "score": ("x", math.inf, math.nan, 1e13), "record": ("", "{", "[]", None, 5, b"\xff", "{}", "[" * 9999),
-        "design": ([1.0] * 7, [*SCORED.design.to_vector()[:7], 1e9], "x"), "workshop": ({"a.b": 1.0}, {"a.b": {}}, 5),
-        "model": (5,), "verdict": ("\x1b[31m", "", "=1+1", 5),
-        "metrics": ({"fitness": math.nan}, {"fitness": "x"}, {"=1": 1.0}, {"fitness": 1e300}, []),
-        "findings": ([["loop", "fine", 1.0, "mm"]], [["loop", "info", math.nan, ""]], [["=1", "info", 1.0, ""]], [[]]),
-        "detail": (None,), "duration_s": ("x", math.inf), "more": (1,),
+    design = SCORED.design.model_dump()
+    wrong: dict[str, tuple[Any, ...]] = {
+        "phase": ("x", None), "run": ("one", -1), "step": (1.5, "1"), "place": (-1, None),
+        "score": ("x", math.inf, math.nan, 1e13), "design": ([1.0] * 8, design | {"c_coef": 1e9}, {}, "x"),
+        "workshop": ({"a.b": 1.0}, {"a.b": {}}, 5), "model": (5,), "duration_s": ("x", math.inf), "more": (1,),
+        "evaluation.verdict": ("\x1b[31m", "", "=1+1", 5),
+        "evaluation.metrics": ({"fitness": math.nan}, {"fitness": "x"}, {"=1": 1.0}, {"fitness": 1e300}, []),
+        "evaluation.findings": ([["loop", "fine", 1.0, "mm"]], [["loop", "info", math.nan, ""]],
+                                [["=1", "info", 1.0, ""]], [[]]),
+        "evaluation.detail": (None,),
         "proposal": (
             5, {"log_feasible": math.nan}, {"log_feasible": [[0.5]]}, {}, {"theta": {"score": [1.0] * 2}},
             {"theta": {"score": [1.0] * 10}}, {"theta": {"score": [101.0] * 3}},
@@ -57,16 +60,20 @@ def test_a_damaged_field_is_named() -> None:
             {"theta": {"score": [1.0] * 3}, "tried": [[0.5] * 8]},
         ),
     }  # fmt: skip
-    good = dict(zip(COLUMNS, to_row(SCORED), strict=True))
+    *place, good = to_row(SCORED)
+    texts = [("record", text) for text in ("", "{", "[]", None, 5, b"\xff", "{}", "[" * 9999)]
     for name, values in wrong.items():
         for value in values:
-            changed: dict[str, Any] = {name: value} if name in COLUMNS else {
-                "record": json.dumps(json.loads(good["record"]) | {name: value})}  # fmt: skip
-            with pytest.raises(JumpcadError, match=r"^row ") as caught:
-                read_trial(tuple((good | changed).values()), 7, ())
-            told = str(caught.value)
-            assert told.isprintable(), (name, value)
-            assert name in told or name == "design", (name, value, told)
+            record = json.loads(good)
+            *above, last = name.split(".")
+            (record[above[0]] if above else record)[last] = value
+            texts.append((last, json.dumps(record)))
+    for name, text in texts:
+        with pytest.raises(JumpcadError, match="^row 'bo' 0 1 ") as caught:
+            read_trial((*place, text), 7, ())
+        told = str(caught.value)
+        assert told.isprintable(), (name, text)
+        assert name in told or name == "design", (name, text, told)
 
 
 def test_a_step_that_starts_from_the_one_before_has_its_hyperparameters() -> None:
@@ -99,7 +106,7 @@ def test_what_a_study_remembers_is_what_a_search_remembered() -> None:
     }  # fmt: skip
     bound = {"name": "c_coef", "side": "upper", "value": 1.0, "beyond": 1.1, "worth": None, "reason": "tips"}
     pick = {"designs": 9, "evaluations": 6, "candidates": [candidate], "bounds": [bound]}
-    fine = {
+    fine: dict[str, list[Any]] = {
         "identity": [IDENTITY, *(IDENTITY | {"space": space | more} for more in (
             {"body.plate_mm": {"lower": 1.0, "upper": 2.0}}, {"a.b.c.d": {"choices": ["x"]}},
             {f"a.{80 * 'b'}": {"fixed": "x"}}))],
@@ -107,7 +114,7 @@ def test_what_a_study_remembers_is_what_a_search_remembered() -> None:
         "ended": [None, {"by": "space"}, {"by": "until", "until_percent": 100.0}, {"by": "hours", "hours": 1e6}],
         "picks": [[], [{"designs": 9, "evaluations": 6}], [pick]],
     }  # fmt: skip
-    wrong = {
+    wrong: dict[str, list[Any]] = {
         "identity": [[], {}, IDENTITY | {"seed": -1}, *(IDENTITY | {"space": some} for some in (
             dict(list(space.items())[:7]), dict(reversed(space.items())), space | {"c_coef": {"lower": 1.0}},
             space | {"c_coef": {"lower": 1.0, "upper": 2.0, "fixed": 1.0}}, space | {"c_coef": {"choices": []}},
@@ -118,16 +125,15 @@ def test_what_a_study_remembers_is_what_a_search_remembered() -> None:
         "ended": [{}, 0, {"by": "boredom"}, {"by": "space", "more": 1}, {"by": "until", "until_percent": 100.1},
                   {"by": "hours", "hours": -1.0}],
         "picks": [{}, [{"designs": 9}], [pick | {"candidates": [candidate | {"trial": ["moon", 0, 0, 0]}]}],
-                  [pick | {"candidates": [candidate | {"print_score": "x"}]}], [pick | {"bounds": [{}]}],
-                  [pick | {"bounds": [bound | {"side": "left"}]}]],
+                  [pick | {"candidates": [candidate | {"print_score": "x"}]}], [pick | {"bounds": [{}]}]],
     }  # fmt: skip
-    for key, values in fine.items():
-        for value in values:
-            assert remembered(key, json.dumps(value)) == value
-    for key, values in wrong.items():
-        for value in [*values, "text"]:
+    kinds: dict[str, TypeAdapter[Any]] = REMEMBERED | {"picks": picks._KIND}
+    for key, kind in kinds.items():
+        for value in fine[key]:
+            validated(kind.validate_json, key, json.dumps(value))
+        for value in [*wrong[key], "text"]:
             with pytest.raises(JumpcadError, match=f"^{key}") as caught:
-                remembered(key, json.dumps(value))
+                validated(kind.validate_json, key, json.dumps(value))
             assert str(caught.value).isprintable()
-    with pytest.raises(JumpcadError, match="identity: Invalid JSON"):
-        remembered("identity", "{")
+        with pytest.raises(JumpcadError, match=f"{key}: Invalid JSON"):
+            validated(kind.validate_json, key, "{")

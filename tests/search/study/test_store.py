@@ -155,12 +155,12 @@ def test_a_study_that_another_program_changed_is_refused_in_a_line(tmp_path):
     where = "WHERE phase = 'ga' AND place = 2"
     endless = "WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n FROM r) SELECT n FROM r"
     for statement, reason in (
-        (f"UPDATE trials SET phase = 'x' {where}", "row 'x' 0 0 2: phase: is none of sample, sweep, ga, bo"),
+        (f"UPDATE trials SET phase = 'x' {where}", "row 'x' 0 0 2: record: is that of another row"),
         (f"UPDATE trials SET phase = CAST(x'ff' AS TEXT) {where}", "is damaged"),
         (f"UPDATE trials SET record = '{{' {where}", "row 'ga' 0 0 2: record: Invalid JSON"),
         (f"UPDATE trials SET record = CAST(x'7bff' AS TEXT) {where}", "is damaged"),
         ("UPDATE trials SET record = replace(record, '\"jump\"', 'char(27)')", "record: Invalid JSON"),
-        (f"UPDATE trials SET phase = x'6761', place = 1 {where}", "row b'ga' 0 0 1: phase"),  # a key of its own
+        (f"UPDATE trials SET phase = x'6761', place = 1 {where}", "row b'ga' 0 0 1: record"),  # a key of its own
         ("DELETE FROM study WHERE key = 'identity'", "identity"),
         ("UPDATE study SET value = '{' WHERE key = 'stages'", "stages: Invalid JSON"),
         ("INSERT INTO study VALUES ('ended', x'ff')", "ended: Invalid JSON"),
