@@ -69,7 +69,7 @@ def test_a_damaged_field_is_named() -> None:
             (record[above[0]] if above else record)[last] = value
             texts.append((last, json.dumps(record)))
     for name, text in texts:
-        with pytest.raises(JumpcadError, match="^row 'bo' 0 1 ") as caught:
+        with pytest.raises(JumpcadError, match=r"^row 'bo' 0 1 ") as caught:
             read_trial((*place, text), 7, ())
         told = str(caught.value)
         assert told.isprintable(), (name, text)
