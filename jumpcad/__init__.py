@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from jumpcad.settings import Settings as Settings
     from jumpcad.settings import load_settings as load_settings
     from jumpcad.simulation import Jump as Jump
+    from jumpcad.simulation.robot_file import load_robot as load_robot
     from jumpcad.workshop import Workshop as Workshop
     from jumpcad.workshop import load_workshop as load_workshop
 
@@ -55,6 +56,7 @@ _HOMES = {
     "jumps": "landing.series",
     "land": "landing.landing",
     "load_design": "design",
+    "load_robot": "simulation.robot_file",
     "load_settings": "settings",
     "load_workshop": "workshop",
     "optimize": "search.optimization",

@@ -17,6 +17,7 @@ from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump
 from jumpcad.simulation import simulate as simulate_mechanism
+from jumpcad.simulation.chain import Chain
 
 __all__ = ["build", "capsule_robot", "check", "evaluate", "export", "simulate"]
 
@@ -24,13 +25,13 @@ notebook.attach()
 
 
 @check_arguments
-def simulate(robot: Mechanism | Design, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
+def simulate(robot: Mechanism | Chain | Design, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
     """Simulate the jump of a robot; see `jumpcad.simulation.simulate`.
 
     Parameters
     ----------
     robot
-        A printed or a capsule robot; a design is built in the default workshop.
+        A printed or a capsule robot, or that of `load_robot`; a design is built in the default workshop.
     settings, engine
         As for `jumpcad.simulation.simulate`.
 
@@ -41,7 +42,7 @@ def simulate(robot: Mechanism | Design, settings: Settings | None = None, engine
     CannotBuildError
         If a design cannot be built.
     """
-    return simulate_mechanism(_built(robot), settings, engine)
+    return simulate_mechanism(build(robot) if isinstance(robot, Design) else robot, settings, engine)
 
 
 @check_arguments
@@ -55,7 +56,7 @@ def check(robot: Mechanism | Design) -> list[Finding]:
     CannotBuildError
         If a design cannot be built.
     """
-    return check_robot(_built(robot))
+    return check_robot(build(robot) if isinstance(robot, Design) else robot)
 
 
 @check_arguments
@@ -77,7 +78,3 @@ def export(
         If a design cannot be built.
     """
     return export_robot(build(robot) if isinstance(robot, Design) else robot, folder, pictures, step, force, ros2)
-
-
-def _built(subject: Mechanism | Design) -> Mechanism:
-    return build(subject) if isinstance(subject, Design) else subject

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from jumpcad.mechanism.model import Mechanism
     from jumpcad.robot import Robot
     from jumpcad.simulation import Jump, Settings
+    from jumpcad.simulation.chain import Chain
 
 TRAJECTORY_SUFFIXES = (".csv", ".json")
 DEFAULT_SETTINGS = "default"
@@ -52,7 +53,9 @@ TRIES = 20
 def simulate(
     design: Annotated[
         str,
-        typer.Argument(help="A template, a design file, a bundle, a URDF file.", metavar="DESIGN|BUNDLE"),
+        typer.Argument(
+            help="A template, a design file, a bundle, a URDF file, a TOML file with bodies.", metavar="DESIGN|BUNDLE"
+        ),
     ],
     capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
@@ -87,6 +90,7 @@ def simulate(
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.mechanism.capsule import capsule_robot
+    from jumpcad.simulation.chain import Chain
 
     if capsule and published:
         raise JumpcadError("--capsule and --published exclude each other: choose one model")
@@ -113,7 +117,11 @@ def simulate(
         require_target(trajectory, TRAJECTORY_SUFFIXES, force)
     note_template(design)
     written = robot_from_file(design, workshop)
-    subject = written.design if written else load_design(design)
+    if isinstance(written, Chain):
+        if capsule or published or trajectory or flight:
+            raise JumpcadError(f"{design}: is no five-bar: leave --capsule, --published, --flight and --trajectory out")
+        engine = engine or "mujoco"
+    subject: Any = None if isinstance(written, Chain) else written.design if written else load_design(design)
     if published:
         _published(subject, {"design": design, "model": "published"}, engine, as_json)
         return
@@ -122,11 +130,13 @@ def simulate(
         raise JumpcadError(f"--trajectory records one engine: choose --engine {in_words(ENGINES, 'or')}")
     if uncertain and len(engines) > 1:
         raise JumpcadError(f"--uncertain takes one engine: choose --engine {in_words(ENGINES, 'or')}")
-    if uncertain and Path(design).suffix == ".urdf":
+    if uncertain and written and not Path(design).is_dir():
         raise JumpcadError(f"{design}: --uncertain is for printed robots: give the design, or its bundle")
     asked = _settings(settings, flight, trajectory is not None)
     robot = capsule_robot(subject) if capsule else written or printed_robot(design, workshop)
-    model = "capsule" if capsule else "URDF" if written else "printed"
+    model = "capsule" if capsule else "printed"
+    if written and not capsule:
+        model = "chain" if isinstance(written, Chain) else "own bodies" if Path(design).suffix == ".toml" else "URDF"
     heading = {"design": design, "model": model, "settings": settings}
     if landing or row:
         from jumpcad.cli.landing import report_jumps, report_landing
@@ -195,7 +205,7 @@ def _uncertain(robot: "Robot", settings: str, engine: str, seed: int) -> dict[st
         return uncertain_jump(robot, _settings(settings, False, False), engine, seed).to_dict()
 
 
-def _jumps(robot: "Mechanism", settings: "Settings", engines: list[str]) -> "list[Jump]":
+def _jumps(robot: "Mechanism | Chain", settings: "Settings", engines: list[str]) -> "list[Jump]":
     from jumpcad.simulation import simulate as simulate_jump
 
     return [simulate_jump(robot, settings, engine) for engine in engines]

@@ -1,4 +1,4 @@
-"""Arguments of commands: a template, a design file, a bundle, or a URDF file."""
+"""Arguments of commands: a template, a design file, a bundle, or the file of a robot with bodies of its own."""
 
 import os
 import sys
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle
     from jumpcad.mechanism.model import Mechanism
     from jumpcad.robot import Robot
+    from jumpcad.simulation.chain import Chain
 
 
 def completion(kind: str) -> Callable[[str], list[str]]:
@@ -119,16 +120,17 @@ def design_file(subject: str) -> Path:
     return bundle.file("design.toml") if bundle else find_template("robots", subject)
 
 
-def robot_from_file(subject: str, workshop: str | None) -> "Mechanism | None":
-    """Return the mechanism of a URDF file, also that in a bundle; None for anything else."""
-    from jumpcad.simulation.from_urdf import robot_from_urdf
+def robot_from_file(subject: str, workshop: str | None) -> "Mechanism | Chain | None":
+    """Return the robot of a URDF file, also that in a bundle, or of a TOML file with bodies; None for anything else."""
+    from jumpcad.simulation.robot_file import is_robot_file, load_robot
 
     if bundle := bundle_of(subject, workshop):
-        return robot_from_urdf(bundle.urdf)
-    if Path(subject).suffix != ".urdf":
+        return load_robot(bundle.urdf)
+    path = Path(subject)
+    if path.suffix != ".urdf" and (_is_template(subject) or not is_robot_file(path)):
         return None
     reject_workshop(workshop, f"{subject} is simulated as it is written; leave --workshop out")
-    return robot_from_urdf(Path(subject))
+    return load_robot(path)
 
 
 def reject_workshop(workshop: str | None, reason: str) -> None:

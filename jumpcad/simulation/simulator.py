@@ -7,6 +7,7 @@ from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings as Settings
 from jumpcad.settings import load_settings as load_settings
+from jumpcad.simulation.chain import Chain, simulate_chain
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.jump import Jump
 from jumpcad.simulation.run import Run
@@ -15,13 +16,13 @@ LEAST_STEP_S = 1e-6
 """Least time step that settings may have."""
 
 
-def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
+def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
     """Let a robot jump.
 
     Parameters
     ----------
     mechanism
-        Its bodies, joints, loop and spring are simulated.
+        Its bodies, joints, loop and spring are simulated. A chain of hinges is MuJoCo's alone.
     settings
         Time step, friction and so on; what they leave open follows the robot, as all does if None. With a
         `spring_efficiency` other than 1 the springs have that much of their energy, and the jump's `spring_energy_j`
@@ -43,6 +44,8 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
         invalid values.
     """
     settings = (settings or Settings()).revalidated()
+    if isinstance(mechanism, Chain):
+        return simulate_chain(mechanism, settings, engine)
     mechanism = with_spring_factor(mechanism, settings.spring_efficiency)
     maker = engine_named(engine)
     findings = geometry_findings(mechanism.design)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from support import needs
 from support.commands import Run
+from support.places import ROOT
 
 from jumpcad.cli import simulate as module
 from jumpcad.design import Design, load_design
@@ -176,3 +177,16 @@ def test_a_trajectory_is_not_written_over_what_is_simulated(command: Run, monkey
         assert f"is {itself} itself; choose another name" in command(*words)[2]
     note = "jumpcad: kenan-2.0 is the template; write ./kenan-2.0 for the bundle of this name\n"
     assert command("kenan-2.0")[2] == f"{note}jumpcad: begun\n"
+
+
+def test_robots_with_bodies_of_their_own(command: Run) -> None:
+    needs.package("mujoco")
+    for name, model, engine in (("light_jumper", "own bodies", "pybullet"), ("chain_jumper", "chain", "mujoco")):
+        path = ROOT / "examples" / f"{name}.toml"
+        code, out, err = command(path, "--json")
+        document = json.loads(out)
+        assert (code, err, document["verdict"], document["model"]) == (0, "", "jump", model)
+        assert document["engine"] == engine
+        for options in (["--uncertain"], ["--landing"], ["--workshop", "fine"]):
+            assert command(path, *options)[::2][0] == 2, (name, options)
+    assert command(path, "--engine", "planar")[0] == command(path, "--capsule")[0] == 2

@@ -1,0 +1,131 @@
+"""Chains of hinges: closed forms of a one-link and of a two-link jumper, the five-bar of another engine, energy."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from support import needs
+from support.places import ROOT
+
+from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.model import Body, ContactSphere, Mechanism
+from jumpcad.simulation import simulate
+from jumpcad.simulation.chain import Chain, ChainSpring, Hinge, PlanarLoop
+from jumpcad.simulation.robot_file import robot_from_toml
+
+G = 9.81
+FRICTION = {"foot": 2.0, "body": 0.5}
+pytestmark = pytest.mark.usefixtures("mujoco_there")
+
+
+@pytest.fixture
+def mujoco_there() -> None:
+    needs.package("mujoco")
+
+
+def body(name: str, mass: float, com_x: float, inertia: float, feet: tuple[float, ...] = ()) -> Body:
+    contacts = tuple(ContactSphere(f"{x}", np.array([x, 0.0, 0.0]), 0.001, "foot") for x in feet)
+    return Body(name, mass, np.array([com_x, 0.0, 0.0]), inertia * np.eye(3), contacts)
+
+
+def hinge(name: str, parent: str, child: str, x: float, rest_deg: float, loaded_deg: float | None = None) -> Hinge:
+    loaded = None if loaded_deg is None else math.radians(loaded_deg)
+    return Hinge(name, parent, child, np.array([x, 0.0, 0.0]), math.radians(rest_deg), loaded, None, 0.0)
+
+
+def test_one_link_jumper_is_its_closed_form() -> None:
+    """A rod swings up on a foot that does not tip, and lifts it by centrifugal force; energy gives its rate."""
+    foot, mass, radius, inertia, stiffness, wind = 0.08, 0.01, 0.04, 6e-6, 0.05, 1.2
+    whole = inertia + mass * radius**2
+
+    def rate2(angle: float) -> float:
+        springs = stiffness * (wind**2 - angle**2)
+        return (springs - 2.0 * mass * G * radius * (math.cos(angle) - math.cos(wind))) / whole
+
+    def force(angle: float) -> float:  # from the ground; the rod leans by `angle`
+        acceleration = (-stiffness * angle + mass * G * radius * math.sin(angle)) / whole
+        vertical = -radius * (math.sin(angle) * acceleration + math.cos(angle) * rate2(angle))
+        return (foot + mass) * G + mass * vertical
+
+    leaves = brentq(force, 0.0, wind)
+    rod = body("rod", mass, radius, inertia)
+    chain = Chain(
+        "one", {"foot": body("foot", foot, 0.0, 1.0, (-0.3, 0.3)), "rod": rod},
+        (hinge("pin", "foot", "rod", 0.0, -90.0, -math.degrees(wind)),), (),
+        (ChainSpring("pin", stiffness, 0.0),), "foot", FRICTION | {"foot": 50.0},
+    )  # fmt: skip
+    jump = simulate(chain, engine="mujoco")
+    speed = mass * radius * math.sqrt(rate2(leaves)) / (foot + mass)
+    assert jump.takeoff_speed_m_s == pytest.approx(speed, rel=0.01)
+    assert jump.takeoff_angle_deg == pytest.approx(math.degrees(leaves), abs=0.3)
+
+
+def two_link(link_kg: float, carried: float = 0.02, foot: float = 0.002, stiffness: float = 0.03) -> Chain:
+    """A body on two legs of two links each, loaded from 75° to 20° above the ground."""
+    links = {name: body(name, link_kg, 0.02, link_kg * 1e-4) for name in ("a1", "a2", "b1", "b2")}
+    return Chain(
+        "two",
+        {"foot": body("foot", foot, 0.0, 1e-6, (-0.02, 0.02)), **links,
+         "body": body("body", carried, 0.0, 3e-6, (0.0,))},
+        (
+            hinge("a", "foot", "a1", 0.0, -105.0, -55.0), hinge("a knee", "a1", "a2", 0.04, 30.0, 110.0),
+            hinge("hip", "a2", "body", 0.04, 75.0), hinge("b", "foot", "b1", 0.0, -75.0, 55.0),
+            hinge("b knee", "b1", "b2", 0.04, -30.0, -110.0),
+        ),
+        (PlanarLoop("b2", np.array([0.04, 0.0, 0.0]), "body", np.zeros(3)),),
+        tuple(ChainSpring(f"{side} knee", stiffness, 0.0) for side in "ab"), "foot", FRICTION,
+    )  # fmt: skip
+
+
+def test_two_link_jumper_is_its_closed_form() -> None:
+    """With links of nearly no mass: the foot leaves where the springs, past their rest, pull it up."""
+    length, carried, foot, stiffness = 0.04, 0.02, 0.002, 0.03
+    rest, loaded = math.radians(75.0), math.radians(20.0)
+
+    def stored(rise: float) -> float:
+        return 4.0 * stiffness * (rest - rise) ** 2  # two springs, each turned by 2·(rest - rise)
+
+    def pushes(rise: float) -> float:
+        return 4.0 * stiffness * (rest - rise) / (length * math.cos(rise))
+
+    leaves = brentq(lambda rise: pushes(rise) + foot * G, rest, rest + 0.1)
+    height = 2.0 * length * (math.sin(leaves) - math.sin(loaded))
+    speed = math.sqrt(2.0 * (stored(loaded) - stored(leaves)) / carried - 2.0 * G * height)
+    jump = simulate(two_link(1e-6), engine="mujoco")
+    assert jump.takeoff_speed_m_s == pytest.approx(carried * speed / (carried + foot), rel=0.003)
+    assert jump.takeoff_angle_deg == pytest.approx(90.0, abs=0.5)
+
+
+def test_energy_is_kept_where_nothing_rubs() -> None:
+    """Heavy links, no friction in pins, a foot that cannot slip by symmetry: all that was wound is at take-off."""
+    jump = simulate(two_link(1e-3), engine="mujoco")
+    assert jump.takeoff_energy_ratio == pytest.approx(1.0, abs=0.003)
+    assert sum(jump.energy_account_j.values()) == pytest.approx(jump.spring_energy_j)
+
+
+def test_a_five_bar_as_a_chain_jumps_like_the_five_bar_in_another_engine() -> None:
+    robot = robot_from_toml(ROOT / "examples" / "light_jumper.toml")
+    assert isinstance(robot, Mechanism)
+    joints = tuple(
+        Hinge(one.name, one.parent, one.child, one.origin_m, one.rest_angle_rad,
+              -robot.spring.wind_rad if one.name == "leg" else None, None, 0.0)
+        for one in robot.joints
+    )  # fmt: skip
+    loop = PlanarLoop(robot.loop.body_a, robot.loop.point_a_m, robot.loop.body_b, robot.loop.point_b_m)
+    spring = ChainSpring("leg", robot.spring.stiffness_nm_per_rad, 0.0)
+    chain = Chain("five-bar", robot.bodies, joints, (loop,), (spring,), "foot", {"foot": 0.9, "body": 0.5})
+    jump, other = simulate(chain, engine="mujoco"), simulate(robot, engine="planar")
+    assert jump.takeoff_speed_m_s == pytest.approx(other.takeoff_speed_m_s, rel=0.001)
+    assert jump.com_rise_m == pytest.approx(other.com_rise_m, rel=0.002)
+    assert jump.takeoff_time_s == pytest.approx(other.takeoff_time_s, abs=2e-4)
+
+
+def test_only_mujoco_simulates_a_chain() -> None:
+    for engine in ("pybullet", "planar"):
+        with pytest.raises(JumpcadError, match=f"--engine {engine}: two is a chain of hinges, which only MuJoCo"):
+            simulate(two_link(1e-4), engine=engine)
+
+
+def test_a_weak_chain_stays_on_the_ground() -> None:
+    assert simulate(two_link(1e-4, stiffness=2e-4), engine="mujoco").verdict == "no_takeoff"
