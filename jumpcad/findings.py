@@ -7,6 +7,8 @@ from typing import Any, Literal, get_args
 
 Severity = Literal["info", "warning", "error"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
+TRIVIAL = 0.1
+"""Use of a limit below which it is trivially kept, and does not count as one; judgement."""
 SHOWN_AS = {
     "rad": ("°", 180.0 / math.pi),
     "rad/s": ("°/s", 180.0 / math.pi),
@@ -69,6 +71,16 @@ class Finding:
         is_maximum = (self.margin < 0.0) == (self.limit < self.value)
         used, whole = (self.value, self.limit) if is_maximum else (self.limit, self.value)
         return used / whole if used >= 0.0 and whole > 0.0 else None
+
+    @property
+    def is_note(self) -> bool:
+        """Whether it says something that has no limit."""
+        return self.value is not None and self.limit is None
+
+    @property
+    def counts(self) -> bool:
+        """Whether it is one of the limits that are counted: not a note, and not used by less than `TRIVIAL`."""
+        return self.severity != "info" or not (self.is_note or (self.use is not None and self.use < TRIVIAL))
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""

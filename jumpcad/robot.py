@@ -18,6 +18,7 @@ from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.strength.growth import Grown
 from jumpcad.strength.stop import StopBlow
 from jumpcad.workshop import Workshop
 
@@ -34,7 +35,8 @@ class Robot(Mechanism):
     """One printed robot; its bodies have the mass and inertia of its parts.
 
     `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with;
-    `release` is the release of its springs by the cam, `stop_blow` the impact of its leg on the rest stop. Two robots
+    `release` is the release of its springs by the cam, `stop_blow` the impact of its leg on the rest stop; `grown` says
+    what is stronger than its first sizing. Two robots
     are equal where name, design, workshop and mechanism are, with the masses and inertias of all bodies.
     """
 
@@ -44,6 +46,7 @@ class Robot(Mechanism):
     layout: Layout = field(compare=False)
     release: Release = field(compare=False)
     stop_blow: StopBlow
+    grown: tuple[Grown, ...] = field(default=(), compare=False)
 
     @cached_property
     def electrical_parts(self) -> Chosen:

@@ -22,6 +22,7 @@ from support.robots import make_small_robot
 from jumpcad import checks
 from jumpcad.building import growth
 from jumpcad.bundle import export as bundle_export
+from jumpcad.bundle import limits
 from jumpcad.bundle.export import export
 from jumpcad.checks import Check, printability
 from jumpcad.design import Design
@@ -69,6 +70,7 @@ def judged_once(of_all_workers: Path) -> Iterator[None]:
         patch.setattr(threemf, "write_threemf", once_of(seen, threemf.write_threemf, threemf_key))
         for name in ("uncertainty_of", "renders"):
             patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
+        patch.setattr(limits, "check", once_of(seen, limits.check, robot_key))
         yield
 
 

@@ -1,6 +1,7 @@
 """The printed robot of a design: assembled, checked, and strengthened where larger sections can pass a failed check."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from jumpcad.arguments import check_arguments
 from jumpcad.building.assembly import assembled
@@ -47,6 +48,7 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
             f"{first.name}: {first.message}: {first.remedy}", first.name, first.margin, unit=first.unit
         )
     growth, uses = Growth(), dict[tuple[str, str], tuple[float, float]]()
+    ever_weak: list[Finding] = []
     robot = assembled(design, workshop, name, growth)
     findings = constraint_findings(robot)
     for _ in range(GROWTH_ROUNDS):
@@ -57,9 +59,10 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
         if found is None:  # the checks report what stays too weak
             break
         uses = growth.uses(weak)
+        ever_weak += weak
         robot, growth = found
         findings = constraint_findings(robot)
-    return robot, findings
+    return replace(robot, grown=growth.grown(ever_weak)) if ever_weak else robot, findings
 
 
 def _first_with_room(before: Robot, growths: Iterable[Growth]) -> tuple[Robot, Growth] | None:

@@ -3,8 +3,9 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from jumpcad.checks import COSTLY
+from jumpcad.checks import check
 from jumpcad.findings import SHOWN_AS, Finding, errors
+from jumpcad.robot import Robot, carried
 
 JUST = "at the limit"
 WIDEST = 1.25
@@ -14,6 +15,12 @@ AT_LIMIT = 5e-4
 
 A margin of exactly 0 is that of a condition that holds or does not, and is not shown so.
 """
+
+
+@carried
+def limits_of(robot: Robot) -> list[Finding]:
+    """Return the findings of every check of a robot, checked once."""
+    return check(robot)
 
 
 def limit_values(findings: Sequence[Finding]) -> dict[str, Any]:
@@ -29,8 +36,8 @@ def limit_values(findings: Sequence[Finding]) -> dict[str, Any]:
         "kept": [finding for finding in kept if finding.use is not None],
         "without": without,
         "just_kept": any(used(finding) == JUST for finding in without),
-        "count": len(findings),
-        "costly": COSTLY,
+        "count": counted_limits(findings),
+        "uncounted": sum(not finding.counts and not finding.is_note for finding in findings),
         "used": used,
         "width": lambda finding: 100.0 * min(finding.use, WIDEST) / WIDEST,
         "why_no_share": _why_no_share,
@@ -44,7 +51,12 @@ def violation(findings: Sequence[Finding]) -> str:
         return ""
     are = "is" if len(violated) == 1 else "are"
     means = "do not build it as it is" if errors(violated) else "it can be built, but read the warnings first"
-    return f"{len(violated)} of its {len(findings)} limits {are} violated: {means}"
+    return f"{len(violated)} of its {counted_limits(findings)} limits {are} violated: {means}"
+
+
+def counted_limits(findings: Iterable[Finding]) -> int:
+    """Return the number of limits that a robot is said to have: see `Finding.counts`."""
+    return sum(finding.counts for finding in findings)
 
 
 def ordered(findings: Iterable[Finding]) -> list[Finding]:

@@ -12,10 +12,9 @@ from urllib.parse import quote
 
 from jumpcad.bundle.bom import bill_of_materials, euros
 from jumpcad.bundle.compared import READINGS, compared_of
-from jumpcad.bundle.limits import limit_values
+from jumpcad.bundle.limits import limit_values, limits_of
 from jumpcad.bundle.uncertainty import GROUPS
 from jumpcad.bundle.viewer import viewer_values
-from jumpcad.checks import quick_findings
 from jumpcad.dimensions import unit_of_key
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.rendering import fill
@@ -64,7 +63,7 @@ def write_report(
         "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"),
         "version": __version__,
     }
-    values |= robot_values(robot) | file_values(files) | limit_values(quick_findings(robot))
+    values |= robot_values(robot) | file_values(files) | limit_values(limits_of(robot))
     return allowed(fill("report/report.html.j2", values))
 
 

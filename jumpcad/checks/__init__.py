@@ -34,7 +34,6 @@ from jumpcad.robot import Robot
 
 __all__ = [
     "CHECKS",
-    "COSTLY",
     "SYMBOLS",
     "Check",
     "basis_of",
@@ -91,10 +90,6 @@ CHECKS = (
 """Every check, in the order of its findings."""
 
 
-COSTLY = "walls and overhangs of the prints, overlaps over the whole motion, and paths and tools of the assembly"
-"""What the checks look at that are not cheap."""
-
-
 def check(robot: Mechanism) -> list[Finding]:
     """Return the findings of every check, limits that are met included; without parts, those of feasibility only."""
     return _findings(robot, CHECKS)
@@ -106,7 +101,10 @@ def quick_findings(robot: Mechanism) -> list[Finding]:
 
 
 def costly_findings(robot: Robot) -> list[Finding]:
-    """Return the findings that `build` and searches leave out, for they take seconds: see `COSTLY`."""
+    """Return the findings that `build` and searches leave out, for they take seconds.
+
+    Walls and overhangs of the prints, overlaps over the whole motion, and paths and tools of the assembly.
+    """
     return _findings(robot, (check for check in CHECKS if not check.cheap))
 
 

@@ -60,7 +60,10 @@ def links(robot: Robot) -> list[Link]:
 
 
 def _voltage(link: Link) -> Finding:
-    """Return whether a link bears what it gets; value and limit are those of the end that is nearer to its limit."""
+    """Return whether a link bears what it gets; value and limit are those of the end that is nearer to its limit.
+
+    A least voltage of 0 is no limit.
+    """
     low, high = link.gets_v
     name, at = f"supply_voltage_{link.role}", f"{link.name}{link.pin and f' at {link.pin}'}"
     gets = f"{low:.2f} to {high:.2f} V" if high > low else f"{low:.2f} V"
@@ -68,7 +71,7 @@ def _voltage(link: Link) -> Finding:
         message = f"{at} gets {gets}; what it bears is not known"
         return Finding(name, "warning", 0.0, "V", message, "give supply_v of this board: its inputs and their volts")
     least, most = link.bears_v
-    over, under = most - high, low - least
+    over, under = most - high, low - least if least > 0.0 else math.inf
     value, allowed = (high, most) if over <= under else (low, least)
     message = f"{at} gets {gets} and bears {least:.2f} to {most:.2f} V"
     margin = min(over, under)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, shell_quoted, status, table, text_of
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
@@ -17,6 +17,7 @@ from jumpcad.cli.subjects import (
     note_template,
     printed_robot,
 )
+from jumpcad.cli.verdict import jump_in_words, notes
 from jumpcad.errors import CannotBuildError, JumpcadError, without_controls
 from jumpcad.plural import counted
 
@@ -83,7 +84,7 @@ def build(
         engine = default_engine()
         printed, capsule = (simulate(one, engine=engine) for one in (robot, capsule_robot(robot.design)))
     if printed.verdict != "jump" and not anyway:
-        raise CannotBuildError(f"{robot.name} {_jump_in_words(printed.to_dict())}; --anyway writes its files")
+        raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
     with status(f"writing {robot.name} …"):
         bundle = export(robot, folder, pictures, step, force, ros2)
     facts = _facts(robot, bundle, printed, capsule)
@@ -194,12 +195,11 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
 
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return the figures that `build` prints."""
-    from jumpcad.bundle.limits import ordered, violation
-    from jumpcad.checks import quick_findings
+    from jumpcad.bundle.limits import limits_of, ordered, violation
     from jumpcad.checks.engraving import engraving_findings
 
     train = robot.layout.drive.train
-    energy, findings = robot.spring.energy_j, quick_findings(robot)
+    energy, findings = robot.spring.energy_j, limits_of(robot)
     return {
         "name": robot.name,
         "folder": str(bundle.folder),
@@ -216,7 +216,7 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
             "boards_j": train.boards_j,
             "efficiency": energy / train.electrical_j,
         },
-        "notes": [finding.message for finding in engraving_findings(robot)],
+        "notes": [*(finding.message for finding in engraving_findings(robot)), *notes(robot, findings)],
         "violated": [finding.to_dict() for finding in ordered(findings) if finding.severity != "info"],
         "violation": violation(findings),
         "jump": printed.to_dict(),
@@ -225,9 +225,6 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
 
 
 def _print_facts(facts: dict[str, Any]) -> None:
-    from jumpcad.bundle.inputs import DESIGN, WORKSHOP
-    from jumpcad.checks import COSTLY
-
     masses = table("part", ">quantity", "material", ">g each", ">g", "mass from")
     for line in facts["masses"]:
         grams = 1000.0 * line["mass_kg"]
@@ -237,16 +234,12 @@ def _print_facts(facts: dict[str, Any]) -> None:
     screen = console()
     console(width=screen.width if screen.is_terminal else WIDE).print(masses)
     print()
-    design, workshop = (shell_quoted(str(Path(facts["folder"], name))) for name in (DESIGN, WORKSHOP))
     text = text_of(
         "build",
         **facts,
-        printed=_jump_in_words(facts["jump"]),
-        capsule=_jump_in_words(facts["capsule_jump"]),
+        printed=jump_in_words(facts["jump"]),
+        capsule=jump_in_words(facts["capsule_jump"]),
         pictured=any(path.startswith(f"{PICTURES}/") for path in facts["files"]),
-        design_file=design,
-        workshop_file=workshop,
-        costly=COSTLY,
     )
     for line in text.splitlines():
         print(_wrapped(line, screen.width) if screen.is_terminal else line)
@@ -256,16 +249,3 @@ def _wrapped(line: str, width: int) -> str:
     """Return a line for a terminal: what it is too narrow for stands below the text."""
     indent, width = " " * LABEL, max(width, 2 * LABEL)
     return textwrap.fill(line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
-
-
-def _jump_in_words(jump: dict[str, Any]) -> str:
-    """Return range, rise and mass of a jump, or why there is none."""
-    if jump["verdict"] == "jump":
-        return (
-            f"jumps {1000.0 * jump['ballistic_range_m']:.0f} mm far and {1000.0 * jump['com_rise_m']:.0f} mm high "
-            f"with {1000.0 * jump['mass_kg']:.1f} g"
-        )
-    why = [
-        f": {finding['message']}; {finding['remedy']}" for finding in jump["findings"] if finding["severity"] == "error"
-    ]
-    return f"does not jump ({jump['verdict']}){''.join(why[:1])}"

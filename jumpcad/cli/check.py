@@ -1,4 +1,4 @@
-"""`jumpcad check`: limits of printing, strength, drive and clearance; violated ones first, then tight ones."""
+"""`jumpcad check`: whether the robot jumps, then violated limits, then tight ones."""
 
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Annotated
@@ -14,7 +14,7 @@ from jumpcad.cli.subjects import (
     name_of,
     note_template,
 )
-from jumpcad.plural import counted
+from jumpcad.cli.verdict import jump_in_words, notes
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from jumpcad.errors import JumpcadError
     from jumpcad.findings import Finding
+    from jumpcad.simulation import Jump
 
 SEVERITIES = ("error", "warning", "info")
 STYLES = {"error": "bold red", "warning": "yellow", "info": "green"}
@@ -52,35 +53,64 @@ def check(
     ] = "",
     as_json: JsonFlag = False,
 ) -> None:
-    """Check the robot of a design: printing, strength, drive, clearances.
+    """Check the robot of a design: its jump, printing, strength, drive, clearances.
 
-    Shows violated limits, and those used by 80 % or more.
+    Says whether and how far it jumps, then shows violated limits, and those
+    used by 80 % or more. Remedies have numbers where trying a few finds one.
 
-    The exit code is 1 if a limit of severity "error" is violated.
+    The exit code is 1 if it does not jump, or a limit of severity "error" is
+    violated.
     """
     from jumpcad.building import build
+    from jumpcad.bundle.limits import counted_limits, limits_of
     from jumpcad.checks import basis_of
-    from jumpcad.checks import check as check_robot
     from jumpcad.design import load_design
+    from jumpcad.errors import CannotBuildError
     from jumpcad.findings import errors
+    from jumpcad.remedies import Remedies
+    from jumpcad.simulation import simulate
+    from jumpcad.simulation.engines import default_engine
     from jumpcad.workshop import DEFAULT, load_workshop
 
     note_template(design)
     if explain and basis_of(explain) is None:
         raise _unknown(explain)
-    robot = build(load_design(design), load_workshop(workshop or DEFAULT, printer, material), name_of(design))
-    findings = sorted(check_robot(robot), key=_order)
+    asked, shop = load_design(design), load_workshop(workshop or DEFAULT, printer, material)
+    remedies = Remedies(asked, shop)
+    try:
+        robot = build(asked, shop, name_of(design))
+    except CannotBuildError as refusal:
+        raise remedies.of_refusal(refusal) from None
+    jump = simulate(robot, engine=default_engine())
+    limits = limits_of(robot)
+    known = {finding.name for finding in limits}
+    found = [*limits, *(finding for finding in errors(jump.findings) if finding.name not in known)]
+    findings = remedies.of_findings(sorted(found, key=_order))
+    count = counted_limits(findings)
     if explain:
         findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]
     if as_json:
         data = [finding.to_dict() | {"use": finding.use} for finding in findings]
-        print_json({"design": design, "workshop": workshop or DEFAULT, "findings": data})
+        said = {"verdict": jump.verdict, "ballistic_range_m": jump.ballistic_range_m, "com_rise_m": jump.com_rise_m,
+                "mass_kg": robot.mass_kg, "limits": count, "grown": [vars(one) for one in robot.grown]}  # fmt: skip
+        print_json({"design": design, "workshop": workshop or DEFAULT, **said, "findings": data})
     elif explain:
         _print_explained(explain, findings)
     else:
+        print(_verdict(jump, findings, count))
+        for note in notes(robot, findings):
+            print(f"note: {note}")
         _print_table(findings, every)
-    if errors(findings):
+    if jump.verdict != "jump" or errors(findings):
         raise typer.Exit(1)
+
+
+def _verdict(jump: "Jump", findings: "list[Finding]", count: int) -> str:
+    """Return the sentence that comes first: the jump, and how many limits are kept or violated."""
+    from jumpcad.bundle.limits import violation
+
+    words = jump_in_words(jump.to_dict() | {"findings": []})
+    return f"{words}; {violation(findings) or f'all {count} limits are kept'}"
 
 
 def is_tight(finding: "Finding") -> bool:
@@ -144,18 +174,15 @@ def _print_explained(name: str, findings: "list[Finding]") -> None:
 
 
 def _print_table(findings: "list[Finding]", every: bool) -> None:
-    shown = [finding for finding in findings if every or finding.severity != "info" or is_tight(finding)]
+    limits = [finding for finding in findings if not finding.is_note]
+    shown = [finding for finding in limits if every or finding.severity != "info" or is_tight(finding)]
     screen = console()
     if shown and screen.width >= NARROW:
         _print_columns(screen, shown)
     else:
         _print_lines(screen, shown)
-    counts = {severity: sum(finding.severity == severity for finding in findings) for severity in SEVERITIES}
-    violated = ", ".join(counted(counts[word], word) for word in ("error", "warning"))
-    held = counts["info"]
-    screen.print(f"{violated}, {held} limit{' holds' if held == 1 else 's hold'}")
-    if left := len(findings) - len(shown):
-        screen.print(f"{left} of them hold with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
+    if left := sum(finding.counts for finding in limits) - sum(finding.counts for finding in shown):
+        screen.print(f"{left} more are kept with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
 
 
 def _print_columns(screen: "Console", shown: "list[Finding]") -> None:

@@ -36,7 +36,7 @@ _RESERVE = _degrees(CamLimits.reserve_rad)
 _LOW, _HIGH = _degrees(CamLimits.axis_min_rad), _degrees(CamLimits.axis_max_rad)
 LIMITS = (
     Limit(
-        "cam_pressure_angle", "rad", 0.1, f"{_WIND_LESS}, or safety.pressure_angle_reserve_deg",
+        "cam_pressure_angle", "rad", 0.1, f"{_WIND_LESS}, or lower safety.pressure_angle_reserve_deg",
         Basis(
             f"largest α of the lift ≤ {_STEEPEST} - safety.pressure_angle_reserve_deg; cos α = a·sin ψ/|L·(1 + θ')·u "
             "- a|, L lever with direction u, ψ from u to the cam's axis at a, θ' leg's angle by cam's angle",
@@ -141,7 +141,8 @@ def missed(limits: CamLimits, margin: Array) -> str:
     binding = [LIMITS[i] for i in np.argsort(missing) if missing[i] < 0.7 * missing.min()]
     short = {checked.name: float(margin[LIMITS.index(checked)]) for checked in binding}
     words = ", ".join(f"{_found(name, room, limits)} ({_short(name, room)} short)" for name, room in short.items())
-    return f"{words}: {'; '.join(dict.fromkeys(checked.remedy for checked in binding))}"
+    ways = dict.fromkeys(way for checked in binding for way in checked.remedy.split(", or "))
+    return f"{words}: {', or '.join(ways)}"
 
 
 def _short(name: str, room: float) -> str:

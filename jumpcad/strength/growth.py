@@ -55,6 +55,14 @@ class Growth:
         """Return the factor of what grows and the use of the limit for findings, by their name and what grows."""
         return {(one.name, one.grows): (getattr(self, one.grows), one.use) for one in weak if one.use is not None}
 
+    def grown(self, weak: Iterable[Finding]) -> "tuple[Grown, ...]":
+        """Return what has grown, given the findings that were weak before, the first ones first."""
+        first: dict[str, Finding] = {}
+        for finding in weak:
+            first.setdefault(finding.grows, finding)
+        return tuple(Grown(what, getattr(self, what), one.name, one.use) for what, one in first.items()
+                     if getattr(self, what) > 1.0)  # fmt: skip
+
     def _leap(self, finding: Finding, before: Mapping[tuple[str, str], tuple[float, float]]) -> float:
         use, power = finding.use or math.inf, POWERS.get(finding.name)
         if (finding.name, finding.grows) in before:
@@ -77,6 +85,16 @@ class Growth:
         for finding, factor in factors:
             steps[finding.grows] = max(factor, steps.get(finding.grows, 1.0))
         return replace(self, **{what: step * getattr(self, what) for what, step in steps.items()})
+
+
+@dataclass(frozen=True)
+class Grown:
+    """What grew by itself: by which factor, for which limit, and its use before; None where that is not known."""
+
+    what: str
+    factor: float
+    limit: str
+    use: float | None
 
 
 def grown_mm(size_mm: float, factor: float) -> float:

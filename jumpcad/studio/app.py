@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.bundle.export import export
-from jumpcad.bundle.limits import violation
+from jumpcad.bundle.limits import limits_of, violation
 from jumpcad.bundle.viewer import parts_facts
-from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import is_sealed, require_free, sealed, write_atomically
@@ -276,7 +275,7 @@ class Studio:
             bundle = export(found.robot, self.folder / f"{self.name}-studio", pictures=True)
         finally:
             self._building.release()
-        wrong = [violation(quick_findings(found.robot))]
+        wrong = [violation(limits_of(found.robot))]
         if found.jump.verdict != "jump":
             wrong.insert(0, f"it does not jump ({found.jump.verdict})")
         return "; ".join([f"built {bundle.folder}", *(f"**{one}**" for one in wrong if one)])

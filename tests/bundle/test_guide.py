@@ -330,7 +330,7 @@ def test_a_forbidden_robot_is_told_with_its_limits(monkeypatch: pytest.MonkeyPat
     ):  # fmt: skip
         broken = [limit(name, -1.0, "mm", "found", "remedy") for name in names]
         found = [*broken, limit("holes", 1.0, "mm", "found", "remedy")]
-        monkeypatch.setattr(module, "quick_findings", lambda _, found=found: found)
+        monkeypatch.setattr(module, "limits_of", lambda _, found=found: found)
         assert words in write_guide(built("kenan-2.0"))
 
 

@@ -67,7 +67,7 @@ def test_what_a_cam_misses_is_named_with_how_much_and_what_to_change() -> None:
     margin[names.index("cam_pressure_angle")] = -math.radians(5.0)
     words = missed(CAM, margin)
     assert "(5° short)" in words
-    assert "lower compression_ratio, or safety.pressure_angle_reserve_deg" in words
+    assert "lower compression_ratio, or lower safety.pressure_angle_reserve_deg" in words
     for undercut, worst in ((-0.8, "pressure angle"), (-0.95, "convex radius")):  # 5° are 0.87 of the scale
         margin[names.index("cam_undercut")] = undercut
         words = missed(CAM, margin)

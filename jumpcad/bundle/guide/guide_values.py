@@ -14,8 +14,8 @@ from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.guide.incoming_inspection import inspection_values
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
+from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg
-from jumpcad.checks import quick_findings
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import window_mm
@@ -57,7 +57,7 @@ def guide_values(robot: Robot, steps: Sequence[Step], bill: Bill) -> Mapping[str
         | _wires(robot)
         | {
             "mass_g": 1000.0 * robot.mass_kg,
-            "broken": [finding.name for finding in errors(quick_findings(robot))],
+            "broken": [finding.name for finding in errors(limits_of(robot))],
             "number": dict.fromkeys((plan.key for plan in ORDER), "")
             | {step.key: str(number) for number, step in enumerate(steps, start=1)},
             "tools": sorted({one.move.tool.name for step in steps for one in step.placed if one.move.tool}),

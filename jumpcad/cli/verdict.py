@@ -1,0 +1,37 @@
+"""What is said first of a robot: how far it jumps or why not, its limits, and what became of it by itself."""
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from jumpcad.findings import Finding
+    from jumpcad.robot import Robot
+    from jumpcad.strength.growth import Grown
+
+
+def jump_in_words(jump: dict[str, Any]) -> str:
+    """Return range, rise and mass of a jump, or why there is none."""
+    if jump["verdict"] == "jump":
+        return (
+            f"jumps {1000.0 * jump['ballistic_range_m']:.0f} mm far and {1000.0 * jump['com_rise_m']:.0f} mm high "
+            f"with {1000.0 * jump['mass_kg']:.1f} g"
+        )
+    why = [
+        f": {finding['message']}; {finding['remedy']}" for finding in jump["findings"] if finding["severity"] == "error"
+    ]
+    return f"does not jump ({jump['verdict']}){''.join(why[:1])}"
+
+
+def notes(robot: "Robot", findings: "Sequence[Finding]") -> Iterator[str]:
+    """Yield what became of a robot by itself: sections that grew, and what bought springs do to its stiffness."""
+    if robot.grown:
+        yield grown_in_words(robot.grown)
+    yield from (finding.message for finding in findings if finding.is_note)
+
+
+def grown_in_words(grown: "Sequence[Grown]") -> str:
+    """Return which sections grew, by how much and for which limit."""
+    most = max((one.use for one in grown if one.use is not None), default=None)
+    load = "" if most is None else f" to carry {most:.1f} times the load of their first sizing"
+    each = ", ".join(f"{one.what} by {100.0 * (one.factor - 1.0):.0f} % ({one.limit})" for one in grown)
+    return f"sections grew{load}: {each}"
