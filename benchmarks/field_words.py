@@ -104,6 +104,8 @@ WORDS = {
     "violated": "limits that are violated, the worst first",
     "violation": "how many, and whether to build the robot; empty where none is",
     # jumps
+    "limits": "limits that count; those used by less than a tenth do not",
+    "grown": "sections that grew by themselves: what, by which factor, for which limit, its use before",
     "verdict": "`jump`, or why there is none",
     "engine": "engine that simulated",
     "fitness": "range over the longest link; 0 without a jump",
