@@ -16,9 +16,7 @@ from jumpcad.cli.bundle import _print_facts
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY_NAMES, Mechanism
-from jumpcad.robot import Robot
-from jumpcad.simulation import Jump
+from jumpcad.mechanism.model import BODY_NAMES
 
 
 def test_a_bundle_has_what_the_contract_says(bundle: Path) -> None:
@@ -210,35 +208,6 @@ def test_a_robot_that_tips_is_refused_and_written_anyway(run: Run, tmp_path: Pat
     assert (tmp_path / "b" / "manifest.json").is_file()
 
 
-@pytest.mark.parametrize(("printed", "capsule"), [("jump", "no_takeoff"), ("no_takeoff", "jump")])
-def test_whether_the_printed_robot_jumps_decides(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, printed: str, capsule: str
-) -> None:
-    """Not the one with the study's masses."""
-
-    def jump(robot: Mechanism, engine: str) -> Jump:
-        return Jump(printed if isinstance(robot, Robot) else capsule, engine, robot.mass_kg, robot.spring.energy_j)
-
-    def export(*_: object) -> None:
-        raise JumpcadError("begun")
-
-    monkeypatch.setattr("jumpcad.simulation.simulate", jump)
-    monkeypatch.setattr("jumpcad.bundle.export.export", export)
-    code, _, err = run("build", "kenan-2.0", "-o", tmp_path / "b")
-    if printed == "jump":
-        assert (code, err) == (2, "jumpcad: begun\n")
-    else:
-        assert code == 1
-        assert "does not jump (no_takeoff)" in err
-
-
-@pytest.mark.parametrize(("name", "option"), [("ender-3", "--printer ender-3"), ("PLA", "--material PLA")])
-def test_a_printer_or_a_material_is_no_workshop(run: Run, name: str, option: str) -> None:
-    code, _, err = run("check", "kenan-2.0", "--workshop", name)
-    assert code == 2
-    assert option in err
-
-
 def test_a_ros2_package_is_part_of_the_bundle_where_it_is_asked_for(run: Run, bundle: Path, tmp_path: Path) -> None:
     assert not (bundle / "ros2").exists()
     assert run("build", bundle, "-o", tmp_path / "b", "--no-pictures", "--ros2")[0] == 0
@@ -270,22 +239,3 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> None:
         raise JumpcadError("begun")
 
     monkeypatch.setattr("jumpcad.cli.bundle.printed_robot", stop)
-
-
-@pytest.mark.usefixtures("inputs", "begun")
-@pytest.mark.parametrize("command", ["build", "render"])
-def test_an_output_that_is_an_input_is_told_before_the_work(run: Run, command: str) -> None:
-    for words, itself in (
-        (("own.toml", "-o", "own.toml"), "the design"),
-        (("kenan-2.0", "--workshop", "shop.toml", "-o", "shop.toml"), "--workshop"),
-    ):
-        assert f"is {itself} itself; choose another name" in run(command, *words)[2]
-
-
-@pytest.mark.usefixtures("read_only", "begun")
-@pytest.mark.parametrize("words", [("build",), ("build", "-o", "new"), ("render", "-o", "new")])
-def test_a_folder_in_which_no_file_can_be_made_is_told_before_the_work(run: Run, words: tuple[str, ...]) -> None:
-    command, *options = words
-    code, _, said = run(command, "kenan-2.0", *options)
-    assert (code, said.count("\n")) == (2, 1)
-    assert "cannot be written: no file can be made in" in said

@@ -49,76 +49,12 @@ def test_wrong_request_is_one_line_and_exit_code_2(run: Run, tmp_path: Path, arg
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_cache_that_cannot_be_written_is_no_message(tmp_path: Path) -> None:
-    """As in containers: matplotlib, which draws the letters of a name, and ezdxf warn of it in two lines each."""
-    (tmp_path / "file").touch()
-    code = (
-        "from jumpcad.cli.commands import run; run(['--version']); import matplotlib; "
-        "from ezdxf import fonts; fonts.fonts.build_system_font_cache()"
-    )
-    places = {
-        "MPLCONFIGDIR": str(tmp_path / "file" / "below"),
-        "HOME": str(tmp_path / "file"),
-        "XDG_CACHE_HOME": str(tmp_path / "file"),
-    }
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=os.environ | places
-    )
-    assert done.stderr == ""
-
-
 def test_a_user_without_a_home_has_one_in_which_nothing_can_be_written(monkeypatch: pytest.MonkeyPatch) -> None:
     """As a container's whose number the system does not know: ezdxf cannot be imported without a home."""
     monkeypatch.setenv("HOME", "~")
     monkeypatch.setattr(os.path, "expanduser", lambda path: path)
     assert commands.run(["--version"]) == 0
     assert os.environ["HOME"] == os.devnull
-
-
-LONG_WORK = (
-    "jumpcad.search.study.run.run_study",
-    "jumpcad.search.explore.sweep",
-    "jumpcad.calibration.calibrate",
-    "jumpcad.cli.bundle.printed_robot",
-    "jumpcad.cli.report.printed_robot",
-    "jumpcad.coupon.export.pieces",
-)
-CAPSULE = ("--model", "capsule", "--workers", "0")
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="nobody, not even root, makes a file in /proc")
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["optimize", *CAPSULE, "-o", "/proc/x.toml"],
-        ["optimize", *CAPSULE, "--study", "/proc/x.db"],
-        ["optimize", *CAPSULE, "--plots", "/proc/x/plots"],
-        ["optimize", *CAPSULE, "--bound", "body.plate_mm=1.6:2.4", "--model", "printed", "-o", "/proc/x.toml"],
-        ["explore", "sweep", *CAPSULE, "--plots", "/proc/x"],
-        ["explore", "sweep", *CAPSULE, "--study", "/proc/x.db"],
-        ["calibrate", "kenan-1.0", "-o", "/proc/x.toml"],
-        ["calibrate", "kenan-1.0", "--plots", "/proc/x"],
-        ["build", "kenan-2.0", "-o", "/proc/x"],
-        ["build", "kenan-2.0", "-o", "/proc/x/y"],
-        ["render", "kenan-2.0", "-o", "/proc/x"],
-        ["report", "kenan-2.0", "-o", "/proc/x.html"],
-        ["coupon", "-o", "/proc/x"],
-    ],
-    ids=" ".join,
-)
-def test_a_place_that_takes_no_file_is_refused_before_the_work(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str]
-) -> None:
-    def work(*_: object, **__: object) -> None:
-        raise AssertionError("started")
-
-    for name in LONG_WORK:
-        monkeypatch.setattr(name, work)
-    code, _, err = run(*arguments)
-    assert (code, err.count("\n")) == (2, 1), err
-    assert "/proc" in err
-    assert err.endswith("choose another folder\n")
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_design_that_cannot_be_assembled_is_exit_code_1(run: Run, tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import pytest
 from support.commands import Run
 
 from jumpcad.design import SEARCH_BOUNDS, load_design
-from jumpcad.files import template_names, templates_folder
+from jumpcad.files import template_names
 from jumpcad.workshop import load_workshop
 
 
@@ -96,17 +96,3 @@ def test_a_printer_of_ones_own_is_written_as_a_table(run: Run, tmp_path: Path) -
     (tmp_path / "mine.toml").write_text('name = "mine"\nbed_mm = [300, 300, 300]\nnozzle_mm = 0.4\n')
     assert run("new", "w.toml", "--printer", "./mine.toml")[0] == 0
     assert load_workshop(tmp_path / "w.toml").printer.bed_mm == (300.0, 300.0, 300.0)
-
-
-@pytest.mark.parametrize(
-    ("option", "template"),
-    [("--from", "robots/kenan-2.0"), ("--workshop", "workshops/default"), ("--printer", "printers/ender-3")],
-)
-def test_what_is_copied_is_not_written_over_though_forced(run: Run, tmp_path: Path, option: str, template: str) -> None:
-    """Its comments and the user's own words would be lost."""
-    text = (templates_folder() / f"{template}.toml").read_text(encoding="utf-8") + "# mine\n"
-    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
-    code, _, err = run("new", "own.toml", option, "./own.toml", "--force")
-    assert (code, err.count("\n")) == (2, 1)
-    assert f"is {option} itself" in err
-    assert (tmp_path / "own.toml").read_text(encoding="utf-8") == text

@@ -6,7 +6,6 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -17,8 +16,6 @@ from typer.testing import CliRunner
 import jumpcad.search.optimization  # noqa: F401  # before its pool is replaced
 from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of, load_design
-from jumpcad.errors import JumpcadError
-from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -51,41 +48,6 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
     assert summary["evaluations"] + summary["other_evaluations"] == found["evaluations"]
     assert summary["best"]["score"] == found["best"]["score"]
     assert f"{found['best']['score']:.4f}" in run("study", "s.db")
-
-
-@pytest.mark.parametrize(
-    ("method", "words", "more"),
-    [
-        ("bo", ["--batch", 3, "--until", 1], {"batch": 3, "until_percent": 1.0}),
-        ("ga", ["--screen", "--preset", "published"], {"screen": True, "preset": "published"}),
-    ],
-)
-def test_each_option_reaches_the_search(folder, monkeypatch, method, words, more):
-    """Every value is another than the usual one; the workshop's own spring is one to choose."""
-    asked = []
-
-    def stop(*given):
-        asked.append(given[:3])
-        raise JumpcadError("enough")
-
-    monkeypatch.setattr(study, "run_study", stop)
-    monkeypatch.setattr("jumpcad.search.study.pool.open_pool", lambda *how: nullcontext(how))
-    Path("shop.toml").write_text('[springs.own]\nlike = "9271K619"\nsource = "a test"\n')
-    words = [*words, "--evaluations", 60, "--seed", 4, "--from-study", "before.db"]
-    words += ["--objective", "rise", "--around", "kenan-2.0", "--only", "c_coef, rest_angle_deg", "--within", 5]
-    words += ["--hours", 2, "--workers", 3, "--limit", 7, "--engine", "planar", "--study", "mine.db"]
-    if method == "bo":
-        words += ["--workshop", "shop.toml", "--choose", "bought.spring=own,9271K619"]
-    assert "enough" in refusal("optimize", method, *words)
-    ((request, path, pool),) = asked
-    more = more | {"evaluations": 60, "seed": 4, "prior": Path("before.db"), "hours": 2.0}
-    more |= {"objective": "rise"}
-    assert {name: getattr(request, name) for name in more} == more
-    of_design = [one for one in request.space.free if one not in request.space.of_workshop]
-    near = Space.make(around=load_design("kenan-2.0"), only=["c_coef", "rest_angle_deg"], within_percent=5)
-    assert of_design == list(near.free)
-    assert (request.method, request.model.engine, path, pool) == (method, "planar", Path("mine.db"), (3, None, 7.0))
-    assert [one.names for one in request.space.of_workshop] == ([("own", "9271K619")] if method == "bo" else [])
 
 
 def test_what_optimize_finds_jumps_like_that(folder):

@@ -7,16 +7,13 @@ import sys
 from pathlib import Path
 
 import pytest
-from support.commands import Run, interruptible
-from support.each import each
+from support.commands import Run
 
 from jumpcad.design import Design, load_design
 from jumpcad.errors import without_controls
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
 LIGHT = ["simulate", "kenan-2.0", "--capsule"]
-SEARCH = ["optimize", "ga", "--model", "capsule", "--study", "s.db"]
-SWEEP = ["explore", "sweep", "--model", "capsule", "--study", "s.db"]
 
 SURROUNDINGS = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONUNBUFFERED": ""}
 """Buffered, as for most people: errors come when the buffer is written."""
@@ -83,31 +80,6 @@ def test_a_deleted_folder_is_one_line(tmp_path: Path) -> None:
     assert done.stderr == "jumpcad: the current folder was deleted: change into another one\n"
 
 
-PRESSED = """
-import os, signal, sys
-class Pressed:
-    def find_spec(self, name, path=None, target=None):
-        if name == {module!r}:
-            try:
-                os.kill(os.getpid(), signal.SIGINT)
-            except KeyboardInterrupt:  # as compiled modules do
-                raise ImportError("initialization failed") from None
-sys.meta_path.insert(0, Pressed())
-sys.argv = ["jumpcad", "simulate", "kenan-2.0"]
-from jumpcad.cli import main
-main()
-"""
-
-
-@pytest.mark.parametrize("module", ["numpy", "jumpcad.simulation"])
-def test_an_interrupt_while_modules_load_is_exit_code_130(tmp_path: Path, module: str) -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", PRESSED.format(module=module)], capture_output=True, text=True, cwd=tmp_path,
-        env=SURROUNDINGS, preexec_fn=interruptible,
-    )  # fmt: skip
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "jumpcad: interrupted\n")
-
-
 def test_an_interrupt_that_a_library_caught_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """It goes on as if nothing had been, and the command ends as if all were done."""
     caught = []
@@ -144,37 +116,3 @@ def test_names_are_no_markup_and_move_no_cursor(run: Run, tmp_path: Path, name: 
     code, _, err = run("build", name, "--no-pictures")
     assert (code, err.count("\n")) == (2, 1)
     assert "use letters, digits" in err
-
-
-def test_a_name_as_long_as_a_file_system_allows_is_refused(run: Run, tmp_path: Path) -> None:
-    file = tmp_path / f"{'x' * 250}.toml"
-    file.write_text(load_design("kenan-2.0").to_toml())
-    code, out, err = run("build", file.name, "--no-pictures")
-    assert (code, out) == (2, "")
-    assert err.endswith("use at most 200 bytes\n")
-    assert list(tmp_path.iterdir()) == [file]
-
-
-@each(
-    "arguments",
-    [
-        *([*SWEEP, "--points", number] for number in ("-1", "0", "1", "1001", "nan", "1e3", "9" * 30)),
-        *([*SWEEP, "--seed", number] for number in ("-1", "4294967296")),
-        *(["explore", "pca", *SWEEP[2:], "--samples", number] for number in ("-1", "0", "19", "100001")),
-        *([*SEARCH, "--evaluations", number] for number in ("-1", "0", "1000001", "9" * 30, "1.5")),
-        *([*SEARCH, "--seed", number] for number in ("-1", "4294967296", "nan")),
-        *([*SEARCH, "--workers", number] for number in ("-1", "nan")),
-        *([*SEARCH, "--limit", number] for number in ("-1", "0", "nan", "inf", "86401")),
-        *([*SEARCH, "--around", "best-bo", "--within", number] for number in ("-1", "0", "nan", "inf", "101")),
-        *([*SEARCH, "--batch", number] for number in ("-1", "0", "9" * 30)),
-        [*SEARCH[:-1], "."],
-        [*SWEEP[:-1], "."],
-    ],
-)
-def test_a_number_that_no_search_can_have_is_one_line(run: Run, tmp_path: Path, arguments: list[str]) -> None:
-    code, out, err = run(*arguments)
-    assert (code, out) == (2, "")
-    assert err.startswith("jumpcad: ")
-    assert err.count("\n") == 1
-    assert arguments[-1] in err
-    assert list(tmp_path.iterdir()) == []

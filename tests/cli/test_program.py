@@ -34,24 +34,6 @@ def test_libraries_count_no_leaks_at_the_end() -> None:
     assert called("program", "--version", before=LEAK).stderr == ""
 
 
-def test_threads_that_still_write_are_waited_for() -> None:
-    later = "import sys, threading, time; threading.Thread(target=lambda: (time.sleep(0.3), print('later'))).start()"
-    ended = called("program", "--version", before=later)
-    assert "later" in ended.stdout.splitlines()
-
-
-def test_a_profile_of_the_program_is_printed() -> None:
-    command = [sys.executable, "-m", "cProfile", "-m", "jumpcad", "--version"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert "function calls" in done.stdout
-
-
-def test_a_program_that_is_traced_ends_with_its_code_too() -> None:
-    ended = called("program", "fly", before="import sys; sys.settrace(lambda *_: None)")
-    assert (ended.returncode, ended.stdout) == (2, "")
-    assert "fly" in ended.stderr
-
-
 SWALLOWED = """
 from jumpcad.cli import commands, main
 from jumpcad.interrupts import seen

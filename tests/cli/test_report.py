@@ -59,21 +59,3 @@ def test_the_page_of_a_study_is_a_file_of_its_own_and_is_renewed(run: Run, tmp_p
     code, _, err = run("report", "s.db")
     assert (code, err.count("\n")) == (2, 1)
     assert "--force" in err
-
-
-@pytest.mark.usefixtures("inputs")
-def test_a_page_is_not_written_over_what_it_tells_of(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Told before the robot is built; a bare name beside a bundle of that name is noted."""
-
-    def built(*_: object) -> None:
-        raise JumpcadError("begun")
-
-    monkeypatch.setattr("jumpcad.cli.report.printed_robot", built)
-    (tmp_path / "s.db").touch()
-    for words, itself in (
-        (("own.toml", "-o", "own.toml"), "the design"), (("s.db", "-o", "s.db"), "the study"),
-        (("kenan-2.0", "--workshop", "shop.toml", "-o", "shop.toml"), "--workshop"),
-    ):  # fmt: skip
-        assert f"is {itself} itself; choose another name" in run("report", *words)[2]
-    note = "jumpcad: kenan-2.0 is the template; write ./kenan-2.0 for the bundle of this name\n"
-    assert run("report", "kenan-2.0")[2] == f"{note}jumpcad: begun\n"

@@ -3,27 +3,11 @@
 import os
 
 import pytest
-from support.searches import NARROW, QUICK, data, refusal, run
+from support.searches import NARROW, QUICK, refusal, run
 
 from jumpcad.cli.searching import require_plots
-from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.report.figures import PICTURES
-
-
-def test_options_of_the_space_arrive(folder):
-    found = data(
-        "optimize", "ga", *QUICK, "--evaluations", 20, "--fix", "stiffness_nmm_per_deg=9.2",
-        "--fix", "rest_angle_deg=88.2", "--bound", "carrying_link_mm=90:110", "--choose", "d_coef=0.7,0.8",
-    )  # fmt: skip
-    space = data("study", found["study"])["identity"]["space"]
-    assert space["stiffness_nmm_per_deg"] == {"fixed": 9.2}
-    assert space["carrying_link_mm"] == {"lower": 90.0, "upper": 110.0}
-    assert space["d_coef"] == {"choices": [0.7, 0.8]}
-    near = data("optimize", "bo", *QUICK, "--evaluations", 10, "--around", "best-bo", "--within", 5)
-    assert near["best"]["score"] > 8.0
-    only = data("optimize", "bo", *QUICK, "--evaluations", 6, "--around", "best-bo", "--only", "rest_angle_deg")
-    assert only["best"]["design"]["e_coef"] == load_design("best-bo").e_coef
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from jumpcad.cli import simulate as module
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.simulation import Jump, Settings, load_settings, simulate
+from jumpcad.simulation import Jump, Settings, simulate
 
 
 @pytest.fixture
@@ -126,57 +126,8 @@ def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(
     assert command(urdf, "--uncertain") == (2, "", refused)
 
 
-@pytest.mark.parametrize(("second", "code"), [("jump", 0), ("no_takeoff", 1)])
-def test_of_two_engines_both_must_jump_and_the_second_is_compared_with_the_first(
-    run: Run, monkeypatch: pytest.MonkeyPatch, second: str, code: int
-) -> None:
-    """1.1 m are 10 % more than 1.0 m; 1.0 would be 9.1 % less than 1.1."""
-    reach = {"pybullet": 1.0, "mujoco": 1.1 if second == "jump" else None}
-
-    def jumps(robot: object, settings: object, engines: list[str]) -> list[Jump]:
-        verdicts = zip(engines, ("jump", second), strict=True)
-        return [Jump(verdict, name, 0.1, 0.2, ballistic_range_m=reach[name]) for name, verdict in verdicts]
-
-    monkeypatch.setattr(module, "_jumps", jumps)
-    told = run("simulate", "kenan-2.0", "--capsule", "--engine", "both")
-    assert told[0] == code
-    assert ("range of mujoco: +10.000 % from that of pybullet" in told[1]) == (second == "jump")
-    found = json.loads(run("simulate", "kenan-2.0", "--capsule", "--engine", "both", "--json")[1])
-    assert found["range_difference_percent"] == (pytest.approx(10.0) if second == "jump" else None)
-    assert list(found["engines"]) == ["pybullet", "mujoco"]
-
-
-@pytest.mark.parametrize("trajectory", [False, True])
-@pytest.mark.parametrize("flight", [False, True])
-def test_a_flight_is_simulated_only_where_it_is_asked_for(flight: bool, trajectory: bool) -> None:
-    """A trajectory alone ends at take-off; all else is as the settings say."""
-    plain = load_settings("fine")
-    found = module._settings("fine", flight, trajectory)
-    assert found.flight == ("simulated" if flight else plain.flight) == ("simulated" if flight else "ballistic")
-    assert found.trajectory == trajectory
-    assert found.dt_s == plain.dt_s
-
-
 def ranges(*values: float | None) -> list[Jump]:
     return [Jump("jump", "x", 0.1, 0.2, ballistic_range_m=value) for value in values]
-
-
-@pytest.mark.usefixtures("inputs")
-def test_a_trajectory_is_not_written_over_what_is_simulated(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Told before the jump; a bare name beside a bundle of that name is noted."""
-
-    def built(*_: object) -> None:
-        raise JumpcadError("begun")
-
-    monkeypatch.setattr(module, "printed_robot", built)
-    for words, itself in (
-        (("own.toml", "--trajectory", "own.toml"), "the design"),
-        (("kenan-1.0", "--workshop", "shop.toml", "--trajectory", "shop.toml"), "--workshop"),
-        (("kenan-1.0", "--settings", "own.toml", "--trajectory", "own.toml"), "--settings"),
-    ):
-        assert f"is {itself} itself; choose another name" in command(*words)[2]
-    note = "jumpcad: kenan-2.0 is the template; write ./kenan-2.0 for the bundle of this name\n"
-    assert command("kenan-2.0")[2] == f"{note}jumpcad: begun\n"
 
 
 def test_robots_with_bodies_of_their_own(command: Run) -> None:

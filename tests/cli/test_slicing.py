@@ -6,7 +6,6 @@ import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from support import needs
@@ -130,22 +129,3 @@ def test_masses_replace_nothing(run: Run, bundle: Path, file: str, complaint: st
     assert (code, out) == (2, "")
     assert complaint in err
     assert Path("mine.toml").read_text() == "years of weighing"
-
-
-@pytest.mark.usefixtures("inputs")
-def test_weighed_masses_replace_no_workshop_that_is_read_nor_one_that_came_meanwhile(
-    run: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Slicing takes a minute, in which somebody may make a file of that name."""
-    workshop = Path("shop.toml").read_text()
-
-    def sliced(*_: object) -> SimpleNamespace:
-        Path("weighed.toml").write_text("mine")
-        return SimpleNamespace(weighed=load_workshop("fine"))
-
-    monkeypatch.setattr("jumpcad.bundle.sliced.slice_bundle", sliced)
-    said = run("slice", "kenan-2.0", "--workshop", "shop.toml", "--write-masses", "shop.toml", "--force")[2]
-    assert "is --workshop itself; choose another name" in said
-    assert Path("shop.toml").read_text() == workshop
-    assert "weighed.toml: exists already" in run("slice", "kenan-2.0", "--write-masses", "weighed.toml")[2]
-    assert Path("weighed.toml").read_text() == "mine"

@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 from manifold3d import CrossSection
-from support.fits import with_fits_apart
 
 from jumpcad.coupon import joints
-from jumpcad.coupon.export import coupon_values
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
 from jumpcad.coupon.pieces import Piece, coupon_holes
-from jumpcad.files.rendering import render
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
@@ -69,35 +66,3 @@ def test_openings_are_what_they_hold_with_the_engraved_offset_on_every_side(piec
         assert seat.bounds_mm[:, 2].tolist() == [0.0, max(3.0, one.width_mm)]
     assert np.ptp(pieces["tray_tab"].mesh.bounds, axis=0) == pytest.approx([10.0, 30.0, 1.6])
     assert holes_of(pieces["axle_floor"].shape.solid().slice(0.75)) == []  # 0.8 mm close a plate's bore
-
-
-def test_lying_holes_get_larger_towards_the_cut_corner(pieces: dict[str, Piece]) -> None:
-    """In a bar 10 mm high they are 10 mm apart, half way up; for axles of 3 mm with a step below and above the fit."""
-    solid = pieces["lying_holes"].shape.solid()
-    assert solid.bounding_box() == pytest.approx((0.0, 0.0, 0.0, 35.0, 5.0, 10.0), abs=1e-3)
-    section = solid.rotate((-90.0, 0.0, 0.0)).slice(-2.5)
-    boxes = [np.array([points.min(axis=0), points.max(axis=0)]) for points in section.to_polygons()]
-    found = sorted((box for box in boxes if np.ptp(box, axis=0)[0] < 9.0), key=lambda box: box[0, 0])
-    assert [box.mean(axis=0)[0] for box in found] == pytest.approx([6.0, 16.0, 26.0], abs=0.01)
-    for box, step in zip(found, steps_mm(load_workshop().fits.lying_mm), strict=True):
-        assert np.ptp(box[:, 0]) == pytest.approx(3.0 + 2.0 * step, abs=0.01)
-        assert box[0, 1] == pytest.approx(5.0 - 1.5 - step, abs=0.01)
-    corner = CrossSection([[(32.5, 7.5), (35.0, 7.5), (35.0, 10.0), (32.5, 10.0)]])
-    assert (section ^ corner).area() == pytest.approx(2.5**2 - (3.0**2 / 2.0 - 0.5**2), abs=0.01)
-
-
-def test_lying_holes_are_tried_around_their_own_fit() -> None:
-    """0.15 mm here, where bores have 0.05 mm; the guide names the steps that the bar has."""
-    workshop = with_fits_apart(load_workshop())
-    holes = coupon_holes(workshop)
-    (bar,) = (piece for piece in joint_pieces(workshop, holes) if piece.name == "lying_holes")
-    section = bar.shape.solid().rotate((-90.0, 0.0, 0.0)).slice(-2.5)
-    widths = sorted(np.ptp(points[:, 0]) for points in section.to_polygons())[:3]
-    assert widths == pytest.approx([3.2, 3.3, 3.4], abs=0.01)
-    assert "**lying_holes**" in render("guides/coupon.md.j2", coupon_values(workshop, holes))
-    (line,) = (
-        one
-        for one in render("guides/coupon.md.j2", coupon_values(workshop, holes)).splitlines()
-        if "**lying_holes**" in one
-    )
-    assert ".10 .15 .20" in line

@@ -7,7 +7,7 @@ from support import needs
 from support.built import built
 
 from jumpcad.bundle.motion import jump_motion
-from jumpcad.exporters.animation import _continuous, animated
+from jumpcad.exporters.animation import animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
@@ -72,12 +72,6 @@ def test_it_starts_where_the_robot_stands_loaded(glb: bytes) -> None:
         assert (Rotation.from_matrix(pose[:3, :3]).inv() * film.turns[name][0]).magnitude() < 0.01
 
 
-def test_slow_motion_shows_the_same_ten_times_as_long(glb: bytes) -> None:
-    fast, slow = Film(glb, "jump"), Film(glb, "jump, a tenth of the speed")
-    np.testing.assert_allclose(slow.time_s, 10.0 * fast.time_s, rtol=1e-5)
-    np.testing.assert_array_equal(slow.places["foot"], fast.places["foot"])
-
-
 def test_without_its_motion_the_robot_stands_at_rest(glb: bytes) -> None:
     still, moving = (pygltflib.GLTF2().load_from_bytes(data) for data in (write_glb(built("kenan-2.0")), glb))
     for name in BODY_NAMES:
@@ -85,16 +79,3 @@ def test_without_its_motion_the_robot_stands_at_rest(glb: bytes) -> None:
         matrix = np.array(before.matrix or np.eye(4).ravel()).reshape(4, 4).T
         np.testing.assert_allclose(after.translation, matrix[:3, 3], atol=1e-5)
         np.testing.assert_allclose(Rotation.from_quat(after.rotation).as_matrix(), matrix[:3, :3], atol=1e-5)
-
-
-def test_a_robot_that_does_not_jump_has_no_motion(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("jumpcad.bundle.motion.ENGINE", "no engine")
-    assert jump_motion(built("kenan-2.0")) is None
-
-
-def test_rotations_are_told_without_jumps_of_sign() -> None:
-    """q and -q are one rotation; each is told by the one that is nearer to the one before."""
-    turns = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
-    smooth = np.column_stack([np.zeros((5, 1)), np.sin(turns), np.zeros((5, 1)), np.cos(turns)])
-    found = _continuous(smooth * np.array([[1.0], [-1.0], [-1.0], [1.0], [-1.0]]))
-    np.testing.assert_allclose(found, smooth)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support import needs
-from support.machines import PAD_NM_PER_RAD, STOP_RAD, machine, one_sided, rubbing
+from support.machines import PAD_NM_PER_RAD, STOP_RAD, machine, rubbing
 
 from jumpcad.design import load_design
 from jumpcad.exporters.mjcf import write_mjcf
@@ -91,12 +91,3 @@ def test_the_urdf_jumps_as_the_robot_in_memory(robot: Mechanism, engine: str, tm
     here, there = simulate(robot, Settings(), engine), simulate(again, Settings(), engine)
     assert there.ballistic_range_m == pytest.approx(here.ballistic_range_m, rel=1e-9)
     assert there.release_energy_ratio == pytest.approx(here.release_energy_ratio, rel=1e-9)
-
-
-def test_a_preloaded_spring_that_pulls_too_is_a_joints_own() -> None:
-    robot = capsule_robot(load_design("best-bo"))
-    both = one_sided(robot, math.radians(3.0))
-    node = leg(ET.fromstring(write_mjcf(both)))
-    assert node.get("stiffness") is None
-    sdf = leg(ET.fromstring(write_sdf(both)))
-    assert float(sdf.findtext("axis/dynamics/spring_reference")) == math.radians(3.0)

@@ -1,7 +1,5 @@
 """MJCF: the model that MuJoCo compiles is the robot."""
 
-import subprocess
-import sys
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,13 +8,12 @@ import numpy as np
 import pytest
 from support import needs
 from support.built import built
-from support.flights import make_lopsided
 
 from jumpcad.design import load_design
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY_NAMES, FOOT
+from jumpcad.mechanism.model import FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
@@ -31,27 +28,6 @@ def without_meshes(document: str) -> str:
             if child.tag == "mesh" or (child.tag == "geom" and child.get("mesh")):
                 parent.remove(child)
     return ET.tostring(root, encoding="unicode")
-
-
-@pytest.mark.thorough
-def test_a_simulation_loads_no_format_but_its_own() -> None:
-    others = {"ezdxf", "jumpcad.robot", "jumpcad.scene.visuals"}
-    code = f"import sys, jumpcad.exporters.mjcf; print({others} & set(sys.modules))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "set()\n"
-
-
-def test_mujoco_has_the_robots_inertia() -> None:
-    lopsided = make_lopsided(capsule_robot(load_design("kenan-2.0")))
-    mujoco = needs.package("mujoco")
-    model = mujoco.MjModel.from_xml_string(write_mjcf(lopsided))
-    for name in BODY_NAMES:
-        compiled, body, axes = model.body(name), lopsided.bodies[name], np.zeros(9)
-        mujoco.mju_quat2Mat(axes, compiled.iquat)
-        tensor = axes.reshape(3, 3) @ np.diag(compiled.inertia) @ axes.reshape(3, 3).T
-        assert compiled.mass[0] == pytest.approx(body.mass_kg, rel=1e-12)
-        np.testing.assert_allclose(compiled.ipos, body.com_m, rtol=1e-12)
-        np.testing.assert_allclose(tensor, body.inertia_kg_m2, rtol=1e-9, atol=1e-15)
 
 
 @pytest.mark.parametrize("dt_s", [0.0005, 0.002])

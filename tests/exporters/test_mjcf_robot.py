@@ -1,8 +1,6 @@
 """MJCF for simulations by others, as MuJoCo compiles it: key frames, motor, latch, sensors, and who touches whom."""
 
 import math
-import os
-import xml.etree.ElementTree as ET
 from dataclasses import replace
 from typing import Any
 
@@ -13,8 +11,7 @@ from support.built import built
 from support.machines import one_sided
 
 from jumpcad.exporters.collision import capsules
-from jumpcad.exporters.mjcf_robot import mjcf_files, write_robot
-from jumpcad.exporters.urdf import urdf_files
+from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
@@ -89,20 +86,6 @@ def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any
     assert pushing.tendon_stiffness[pushing.tendon("springs").id] == pytest.approx(robot.spring.stiffness_nm_per_rad)
 
 
-def test_the_scene_lies_beside_the_robot_that_it_includes_and_meshes_beside_both(small_robot: Robot) -> None:
-    """By their paths in a bundle, whose URDF has the meshes."""
-    files = dict(mjcf_files(small_robot))
-    name = small_robot.name
-    hulls = {f"urdf/meshes/{body}_hull.stl" for body in BODY_NAMES}
-    assert set(files) == {f"mjcf/{name}.xml", "mjcf/scene.xml", "mjcf/README.md", *hulls}
-    root, scene = (ET.fromstring(files[f"mjcf/{file}.xml"]) for file in (name, "scene"))
-    assert [one.get("file") for one in scene.iter("include")] == [f"{name}.xml"]
-    folder = root.find("compiler").get("meshdir")
-    paths = {os.path.normpath(f"mjcf/{folder}/{mesh.get('file')}") for mesh in root.iter("mesh")}
-    assert paths == hulls | {path for path, _ in urdf_files(small_robot) if path.endswith(".stl")}
-    assert files["mjcf/README.md"].startswith(f"# {name} in MuJoCo")
-
-
 def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: Any) -> None:
     """The foot's are those of its pads; capsules along the links, spheres where it stands, a box round the body."""
     rubs = coefficients(robot, Settings())
@@ -132,29 +115,6 @@ def test_bodies_do_not_touch_each_other(model: Any) -> None:
     assert model.nexclude == 3
     for key in ("home", "wound"):
         assert at_key(model, key).ncon == 0
-
-
-def test_sensors_are_on_the_body_the_joints_and_under_the_foot(robot: Robot, model: Any) -> None:
-    """A foot's sensors reach 1.2 times as far as the spheres in them; the centre of mass is the whole robot's."""
-    names = [model.sensor(index).name for index in range(model.nsensor)]
-    touching = [contact for contact in robot.bodies[FOOT].contacts if contact.surface == "foot"]
-    assert names == [
-        "accelerometer", "gyro", "attitude", *(f"{contact.name}_touch" for contact in touching),
-        *(f"{joint}_angle" for joint in JOINTS), "cam_torque", "com", "com_velocity",
-    ]  # fmt: skip
-    for contact in touching:
-        site = model.site(contact.name)
-        assert site.size[0] == pytest.approx(1.2 * contact.radius_m)
-        assert site.group[0] == 5  # as MuJoCo Menagerie has it: not drawn unless asked for
-        assert site.pos == pytest.approx(contact.centre_m, abs=1e-9)
-    data = at_key(model, "wound")
-    moment = sum(
-        body.mass_kg * (pose[:3, 3] + pose[:3, :3] @ body.com_m)
-        for body, pose in ((robot.bodies[name], pose) for name, pose in body_poses(robot, 1.0).items())
-    )
-    np.testing.assert_allclose(data.sensor("com").data, moment / robot.mass_kg, atol=1e-7)
-    assert data.sensor("leg_angle").data[0] == pytest.approx(-robot.spring.wind_rad)
-    np.testing.assert_allclose(data.site("imu").xpos, data.body(BODY).xpos)
 
 
 def test_the_velocity_of_the_centre_of_mass_is_how_its_place_changes(model: Any) -> None:

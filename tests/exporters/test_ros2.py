@@ -12,11 +12,9 @@ from support.built import built
 from support.each import each
 
 from jumpcad.design import load_design
-from jumpcad.exporters.collision import body_box, capsules
+from jumpcad.exporters.collision import capsules
 from jumpcad.exporters.ros2 import mimicked, model_name, ros2_files
-from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 
 
@@ -104,14 +102,6 @@ def test_the_whole_is_a_tree_on_a_base_without_mass_and_in_gazebo_alone_has_its_
     assert system == {"name": "jumper", "type": "system"}
 
 
-def test_the_leg_alone_is_driven(package: dict[str, ET.Element]) -> None:
-    joints = package["ros2_control.xacro"].findall("ros2_control/joint")
-    driven = {one.get("name"): [command.get("name") for command in one.findall("command_interface")] for one in joints}
-    assert driven == {"leg": ["effort"], "front": [], "ankle": []}
-    for one in joints:
-        assert [state.get("name") for state in one.findall("state_interface")] == ["position", "velocity"]
-
-
 def test_collision_cylinders_lie_where_the_capsules_of_the_bodies_do(package: dict[str, ET.Element]) -> None:
     """The axis, z turned by roll, pitch and yaw (fixed axes), and the middle between the ends."""
     robot, found = built("kenan-2.0"), 0
@@ -143,47 +133,6 @@ def test_gazebo_has_the_springs_and_the_floor(package: dict[str, ET.Element]) ->
         assert float(one.find("mu1").text) == float(one.find("mu2").text) == pytest.approx(floor.contact(body.surface))
 
 
-def test_joints_are_those_of_the_urdf(package: dict[str, ET.Element]) -> None:
-    """Axes, limits, friction and damping; how far and how hard the driven leg is wound is looked at below."""
-    theirs = {one.get("name"): one for one in ET.fromstring(write_urdf(built("kenan-2.0"))).findall("joint")}
-    ours = {one.get("name"): one for one in package["links.xacro"].findall("joint")}
-    assert ours.keys() - theirs.keys() == {"base"}
-    for name, joint in theirs.items():
-        for tag in ("origin", "axis", "limit", "dynamics"):
-            one, other = ours[name].find(tag).attrib, joint.find(tag).attrib
-            assert one.keys() == other.keys()
-            for key in other.keys() - ({"lower", "effort"} if name == "leg" else set()):
-                values = [np.array(found[key].split(), dtype=float) for found in (one, other)]
-                np.testing.assert_allclose(*values, rtol=1e-6, atol=1e-9, err_msg=f"{name} {tag} {key}")
-        assert [ours[name].find(end).attrib for end in ("parent", "child")] == [
-            joint.find(end).attrib for end in ("parent", "child")
-        ]
-
-
-def test_the_controller_holds_the_leg_where_its_springs_are_loaded(package: dict[str, ET.Element]) -> None:
-    """ros2_control and Gazebo clip a torque to the joint's effort; what is more than the springs' needs a limit."""
-    robot = built("kenan-2.0")
-    (limit,) = (one.find("limit") for one in package["links.xacro"].findall("joint") if one.get("name") == "leg")
-    pages = files()["README.md"] + files()["controllers.yaml"]
-    held = [float(found) for found in re.findall(r"[ \[]-(\d+\.\d+)", pages)]
-    assert len(held) == 2
-    for torque in held:
-        assert robot.spring.peak_torque_nm < torque <= float(limit.get("effort"))
-    assert float(limit.get("lower")) == pytest.approx(-robot.spring.wind_rad)
-
-
-def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.Element]) -> None:
-    robot = built("kenan-2.0")
-    for joint in package["links.xacro"].findall("joint"):
-        mimics = list(joint.iter("mimic"))
-        line = mimicked(robot).get(joint.get("name"))
-        assert len(mimics) == (line is not None)
-        if line is not None:
-            assert mimics[0].get("joint") == "leg"
-            assert float(mimics[0].get("multiplier")) == pytest.approx(line.slope, abs=1e-6)
-            assert float(mimics[0].get("offset")) == pytest.approx(line.offset_rad, abs=1e-6)
-
-
 @each(
     ("name", "model"),
     [("Kenan-2.0", "kenan_2_0"), ("2nd", "robot_2nd"), ("--", "robot"), ("a__b", "a_b"), ("r2d2", "r2d2"), ("X", "x"),
@@ -192,48 +141,3 @@ def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.E
 def test_names_are_those_that_ros_allows(name: str, model: str) -> None:
     """REP 144: lower case, digits, single underscores, a letter first."""
     assert model_name(name) == model
-
-
-def test_the_bodys_box_lies_where_its_parts_do(package: dict[str, ET.Element]) -> None:
-    """From corner to corner, with its middle half way between them."""
-    robot = built("kenan-2.0")
-    box = body_box(robot, visuals(robot))
-    assert box is not None
-    links = package["links.xacro"].findall("link")
-    (shape,) = (one for link in links for one in link.findall("collision") if one.get("name") == "body_box")
-    middle = np.array(shape.find("origin").get("xyz").split(), dtype=float)
-    half = np.array(shape.find("geometry/box").get("size").split(), dtype=float) / 2.0
-    assert shape.find("origin").get("rpy") == "0 0 0"
-    np.testing.assert_allclose(middle - half, box.low_m, atol=2e-6)
-    np.testing.assert_allclose(middle + half, box.high_m, atol=2e-6)
-
-
-def test_every_link_shows_the_parts_of_its_body_where_they_are(package: dict[str, ET.Element]) -> None:
-    """By their names and places; masses are the bodies'. The fixed base has nothing."""
-    robot = built("kenan-2.0")
-    links = {one.get("name"): one for one in package["links.xacro"].findall("link")}
-    seen = {name: {one.name: one.T_body_mesh for one in visuals(robot) if one.body == name} for name in robot.bodies}
-    (base,) = links.keys() - robot.bodies.keys()
-    assert len(links[base]) == 0
-    for name, body in robot.bodies.items():
-        shown = {one.get("name"): one.find("origin") for one in links[name].findall("visual")}
-        assert shown.keys() == seen[name].keys()
-        for part, origin in shown.items():
-            place = np.array(origin.get("xyz").split(), dtype=float)
-            np.testing.assert_allclose(place, seen[name][part][:3, 3], atol=1e-6)
-        assert float(links[name].find("inertial/mass").get("value")) == pytest.approx(body.mass_kg)
-
-
-def test_in_gazebo_a_robot_is_put_on_its_foot() -> None:
-    """Whose sole is level where the body is turned by the pitch at rest, and the joints are at 0 (a tenth of a mm)."""
-    robot = built("best-printable")
-    (launch,) = (text for path, text in ros2_files(robot) if path.endswith("gazebo.launch.py"))
-    ((height, pitch),) = re.findall(r'HEIGHT_M, PITCH_RAD = "(.*)", "(.*)"', launch)
-    assert '"-z", HEIGHT_M, "-P", PITCH_RAD]' in launch
-    angles = {joint.name: joint.rest_angle_rad for joint in robot.joints}
-    foot_rad = float(pitch) + angles["leg"] + angles["ankle"]  # about y, as the joints turn
-    assert foot_rad == pytest.approx(0.0, abs=1e-4)
-    hip = Rotation.from_euler("y", float(pitch)).apply(robot.joint("leg").origin_m)
-    leg = Rotation.from_euler("y", float(pitch) + angles["leg"]).apply(robot.joint("ankle").origin_m)
-    lowest = min(point.centre_m[2] - point.radius_m for point in robot.bodies["foot"].contacts)
-    assert float(height) + hip[2] + leg[2] + lowest == pytest.approx(0.0, abs=1e-4)

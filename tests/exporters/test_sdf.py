@@ -13,8 +13,6 @@ from jumpcad.exporters.sdf import write_sdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, Mechanism
 from jumpcad.robot import Robot
-from jumpcad.scene.visuals import visuals
-from jumpcad.settings import Settings
 
 
 @pytest.fixture(scope="module")
@@ -31,52 +29,6 @@ def pose(element: ET.Element) -> np.ndarray:
     six, placed = numbers(element, "pose"), np.eye(4)
     placed[:3, :3], placed[:3, 3] = Rotation.from_euler("xyz", six[3:]).as_matrix(), six[:3]
     return placed
-
-
-def test_links_have_the_masses_of_the_bodies(small_robot: Robot, model: ET.Element) -> None:
-    masses = {link.get("name"): numbers(link, "inertial/mass")[0] for link in model.iter("link")}
-    assert masses == {name: body.mass_kg for name, body in small_robot.bodies.items()}
-
-
-def test_the_loop_is_closed_and_the_foot_lies_flat(small_robot: Robot, model: ET.Element) -> None:
-    links = {link.get("name"): pose(link) for link in model.iter("link")}
-    loop = next(joint for joint in model.iter("joint") if joint.get("name") == "loop")
-    at_child = links[loop.findtext("child")] @ pose(loop)
-    np.testing.assert_array_equal(numbers(loop, "pose")[3:], np.zeros(3))
-    at_parent = links[loop.findtext("parent")] @ np.append(small_robot.loop.point_a_m, 1.0)
-    np.testing.assert_allclose(at_child[:3, 3], at_parent[:3], atol=1e-9)
-    np.testing.assert_allclose(links[FOOT][:3, :3], np.eye(3), atol=1e-9)
-
-
-def test_the_springs_are_on_one_hinge_alone(small_robot: Robot, model: ET.Element) -> None:
-    stiffness = {
-        joint.get("name"): numbers(joint, "axis/dynamics/spring_stiffness").tolist() for joint in model.iter("joint")
-    }
-    assert stiffness.pop(small_robot.spring.joint) == [small_robot.spring.stiffness_nm_per_rad]
-    assert list(stiffness.values()) == [[]] * 3
-
-
-def test_friction_is_the_product_of_ground_and_foot(small_robot: Robot) -> None:
-    settings = Settings(ground_friction=0.5, foot_friction=0.8)
-    links = ET.fromstring(write_sdf(small_robot, settings=settings))[0].iter("link")
-    foot = next(link for link in links if link.get("name") == FOOT)
-    found = {float(mu.text or "nan") for name in ("mu", "mu2") for mu in foot.iter(name)}
-    assert found == {0.4}
-
-
-def test_every_link_shows_the_parts_of_its_body_where_they_are(small_robot: Robot) -> None:
-    shapes = visuals(small_robot)
-    root = ET.fromstring(write_sdf(small_robot, shapes))
-    shown = {
-        visual.get("name"): (link.get("name"), visual) for link in root.iter("link") for visual in link.iter("visual")
-    }
-    assert shown.keys() == {shape.name for shape in shapes}
-    for shape in shapes:
-        body, visual = shown[shape.name]
-        assert body == shape.body
-        assert visual.findtext("geometry/mesh/uri") == f"../urdf/meshes/{shape.mesh_name}.stl"
-        assert numbers(visual, "geometry/mesh/scale") == pytest.approx([0.001] * 3)
-        assert pose(visual) == pytest.approx(shape.T_body_mesh, abs=1e-6)
 
 
 @pytest.fixture(scope="module", params=["kenan-1.0", "best-bo"])

@@ -2,7 +2,6 @@
 
 import io
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 import trimesh
@@ -22,15 +21,6 @@ def test_every_part_has_one_file_of_its_volume(small_robot: Robot) -> None:
         assert read.is_watertight
         assert read.volume == pytest.approx(part.mesh.volume, rel=1e-5)
         assert read.bounds == pytest.approx(part.mesh.bounds, abs=1e-4)
-
-
-def test_pads_that_are_printed_have_files_too(small_robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After those of the parts; as pads lie in the robot's bill."""
-    soft = SimpleNamespace(name="sole", mesh=trimesh.creation.box((4.0, 3.0, 2.0)))
-    monkeypatch.setattr("jumpcad.exporters.stl.printed_pads", lambda hardware, workshop: [soft])
-    files = dict(stl_files(small_robot))
-    assert list(files) == [*(f"stl/{part.name}.stl" for part in small_robot.parts), "stl/sole.stl"]
-    assert trimesh.load_mesh(io.BytesIO(files["stl/sole.stl"]), file_type="stl").volume == pytest.approx(24.0)
 
 
 def test_a_part_in_two_pieces_is_refused_by_its_name(small_robot: Robot) -> None:

@@ -1,7 +1,6 @@
 """Files that cannot be read, or are not TOML or JSON, are rejected in one line."""
 
 import os
-import stat
 import tomllib
 from pathlib import Path
 
@@ -51,24 +50,6 @@ def test_pipes_and_devices_are_not_waited_for(tmp_path: Path) -> None:
     for name in ("pipe.toml", "zero.toml"):
         with pytest.raises(JumpcadError, match="is a pipe or a device, not a TOML file"):
             read_toml(tmp_path / name)
-
-
-@pytest.mark.parametrize("more", [1, 7])
-def test_a_file_that_grows_is_not_read_in_half(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, more: int) -> None:
-    """By so many bytes after its size was asked for."""
-    file, real = tmp_path / "a.json", os.fstat
-
-    def smaller(descriptor: int) -> os.stat_result:
-        fields = list(real(descriptor))
-        fields[stat.ST_SIZE] -= more
-        return os.stat_result(fields)
-
-    file.write_text("123456789")
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "fstat", smaller)
-        with pytest.raises(JumpcadError, match=r"a\.json: grows while it is read; try again"):
-            read_json(file)
-    assert read_json(file) == 123456789
 
 
 @each(

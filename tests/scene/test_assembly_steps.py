@@ -14,7 +14,6 @@ from support.built import LONG_TOES, built
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order.plan import HEX_AXLE, HEX_M3, NUT_M3, Move
 from jumpcad.scene.assembly_steps import REST, SIDES, Step, assembly_steps, travel
@@ -85,19 +84,6 @@ def test_axles_of_any_kind_are_put_on_once_with_what_keeps_them_each_from_its_en
         if retention == "clips"
         else {"screw M3 .* ISO 4762": 4, "lock nut M3": 4 + 1, "split pin": 3, "at its end": 4 + 2}
     )
-
-
-def test_an_assembly_begins_with_its_largest_printed_part(robot: Robot) -> None:
-    """Onto which the others are put: by volume, on the bench as in the robot."""
-    begun = set()
-    for step in assembly_steps(robot):
-        if step.onto in begun:
-            continue
-        begun.add(step.onto)
-        printed = [thing for placed in step.placed for thing in placed.things if isinstance(thing.source, Part)]
-        assert printed[0] == max(printed, key=lambda thing: thing.mesh.volume), step.key
-        assert step.placed[0].things[0] == printed[0], step.key
-    assert begun >= {"robot", "leg", "foot", "rest stop", "lower tray", "upper tray", "left plate"}
 
 
 @pytest.mark.parametrize(
@@ -171,19 +157,6 @@ def test_parts_move_to_their_places_from_where_the_step_says(robot: Robot) -> No
                 elif placed.move.along == "from the leg":
                     seen.add("stop")
     assert seen == {"screw", "stop"} | ({"toe"} if robot.layout.toes_apart else set())
-
-
-def test_what_comes_from_a_side_moves_away_from_it() -> None:
-    """x forwards, y to the left, z up."""
-    towards = {"left": (1, 1.0), "right": (1, -1.0), "above": (2, 1.0), "below": (2, -1.0)}
-    towards |= {"the front": (0, 1.0), "behind": (0, -1.0)}
-    for words, (axis, sign) in towards.items():
-        side = next(way for name, way in SIDES.items() if name in (f"from {words}", f"from the {words}"))
-        assert side[axis] == -sign
-        assert np.abs(side).sum() == 1.0
-    both = SIDES["from the front"] + SIDES["from below"]
-    assert SIDES["from the front and below"] == pytest.approx(both / np.linalg.norm(both))
-    assert len(SIDES) == len(towards) + 1
 
 
 def test_each_screw_and_nut_is_turned_by_the_tool_of_its_size(robot: Robot) -> None:

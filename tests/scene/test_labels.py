@@ -2,18 +2,13 @@
 
 import numpy as np
 import pytest
-from PIL import Image, ImageDraw
+from PIL import Image
 
 from jumpcad.scene.labels import (
-    CAPITAL_PX,
     EDGE_PX,
-    FINE,
-    HEAD_PX,
     ROW_PX,
-    _arrow,
     _rows,
     _spread,
-    _turn,
     _width,
     labelled,
 )
@@ -25,19 +20,6 @@ def test_rows_are_apart_and_inside_the_picture(wanted: list[float]) -> None:
     assert len(placed) == len(wanted)
     assert (np.diff(placed) >= ROW_PX - 1e-9).all()
     assert all(ROW_PX - 1e-9 <= y <= 400 - ROW_PX + 1e-9 for y in placed)
-
-
-def test_letters_of_two_rows_do_not_touch() -> None:
-    """Capitals, and what hangs below the line, a third of them, have room between two rows."""
-    assert ROW_PX > CAPITAL_PX * 4.0 / 3.0 + 4.0
-    assert 0.0 < EDGE_PX < ROW_PX
-
-
-def test_rows_that_have_room_stay_where_they_are_wanted() -> None:
-    assert _spread([100.0, 200.0, 300.0], 400) == [100.0, 200.0, 300.0]
-    low = _spread([100.0, 101.0, 300.0], 400)
-    assert (low[0], low[2]) == (100.0, 300.0)
-    assert low[1] == pytest.approx(100.0 + ROW_PX)
 
 
 def test_names_stand_on_the_side_of_their_parts_in_their_order() -> None:
@@ -53,12 +35,6 @@ def test_names_stand_on_the_side_of_their_parts_in_their_order() -> None:
         assert x == pytest.approx(EDGE_PX + widest if left else 400.0 - EDGE_PX - widest)
 
 
-def test_a_contours_sense_is_that_of_its_area() -> None:
-    square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
-    assert _turn(square) == 8.0
-    assert _turn(square[::-1]) == -8.0
-
-
 def test_an_arrow_leads_from_where_a_part_is_drawn_to_its_place() -> None:
     """Its head, wider than its shaft, is at the place."""
     picture = Image.new("RGB", (300, 200), (255, 255, 255))
@@ -69,17 +45,3 @@ def test_an_arrow_leads_from_where_a_part_is_drawn_to_its_place() -> None:
     shaft = width[95:105].max()
     assert width[145:160].max() > 2 * shaft > 0
     assert width[46:60].max() <= shaft + 1
-
-
-def test_an_arrow_ends_at_its_point_whatever_its_length() -> None:
-    """Its head is as long as the others' and 0.45 of that wide to either side."""
-    for start, end in (((10.0, 10.0), (30.0, 10.0)), ((10.0, 10.0), (10.0, 90.0)), ((60.0, 70.0), (20.0, 40.0))):
-        image = Image.new("RGB", (400, 400), (255, 255, 255))
-        _arrow(ImageDraw.Draw(image), np.array(start), np.array(end))
-        y, x = np.nonzero(np.asarray(image).min(axis=2) < 250)
-        drawn = np.column_stack([x, y]) / FINE
-        along = np.subtract(end, start) / np.hypot(*np.subtract(end, start))
-        shares = (drawn - start) @ along
-        assert (shares.min(), shares.max()) == pytest.approx((0.0, np.hypot(*np.subtract(end, start))), abs=1.5)
-        beside = np.abs((drawn - start) @ np.array([-along[1], along[0]]))
-        assert beside.max() == pytest.approx(0.45 * HEAD_PX, abs=1.0)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 import trimesh
-from PIL import Image
 
 from jumpcad.scene.camera import View
 from jumpcad.scene.renderer import Renderer, borders, creases
@@ -60,10 +59,3 @@ def test_what_is_behind_a_plate_is_not_seen() -> None:
     alone = taken([plate], [at(0.0)], frame)
     assert np.array_equal(taken([plate, cube], [at(0.0), at(-0.015)], frame), alone)
     assert not np.array_equal(taken([plate, cube], [at(0.0), at(0.015)], frame), alone)
-
-
-def test_the_same_scene_gives_the_same_picture() -> None:
-    things, poses = [(trimesh.creation.cylinder(5.0, 20.0), BLUE)], [at(0.0)]
-    first = taken(things, poses, corners(30, 30, 30), View())
-    assert np.array_equal(first, taken(things, poses, corners(30, 30, 30), View()))
-    assert Image.fromarray(first.astype(np.uint8)).size == SIZE

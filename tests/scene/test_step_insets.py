@@ -5,9 +5,8 @@ import re
 import pytest
 from support.built import built
 
-from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.scene.step_insets import BEHIND, INSETS, Inset
+from jumpcad.scene.step_insets import INSETS, Inset
 
 
 @pytest.mark.parametrize("inset", INSETS, ids=lambda inset: inset.name)
@@ -29,10 +28,3 @@ def test_a_detail_is_seen_from_where_its_title_says(inset: Inset) -> None:
     _, y, z = inset.view.axes[2]
     for words, towards in (("from the left", y), ("from the right", -y), ("from below", -z)):
         assert words not in inset.title or towards > 0.4
-
-
-def test_details_belong_to_steps_and_what_a_plate_hides_has_one() -> None:
-    assert {inset.step for inset in INSETS} <= {plan.key for plan in ORDER}
-    assert len({inset.name for inset in INSETS}) == len(INSETS)
-    for step, hidden in BEHIND.items():
-        assert any(inset.step == step and hidden in inset.framed for inset in INSETS)

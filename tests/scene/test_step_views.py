@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.built import built, geared
 
-from jumpcad.scene.step_views import StepView, _beside, motor_sense, step_views
+from jumpcad.scene.step_views import StepView, motor_sense, step_views
 
 
 @pytest.fixture(scope="module")
@@ -86,25 +86,3 @@ def test_the_split_pin_goes_through_the_springs_pin_along_its_own_length(views: 
 def test_two_meshing_gears_turn_oppositely_and_three_alike() -> None:
     assert motor_sense(built("kenan-2.0")) == -1
     assert motor_sense(geared()) == 1
-
-
-def test_the_turn_of_the_cam_is_counter_clockwise_as_seen_from_the_left(views: dict[str, list[StepView]]) -> None:
-    """Seen from +y with z up, x points to the left, so x-z must be mirrored for the usual area."""
-    (curve,) = views["trial"][0].turns_m
-    across, up = -curve[:, 0], curve[:, 2]
-    middle = np.array([across.mean(), up.mean()])
-    a, b = np.array([across[0], up[0]]) - middle, np.array([across[5], up[5]]) - middle
-    assert a[0] * b[1] - a[1] * b[0] > 0.0
-
-
-@pytest.mark.parametrize("way", [(0.0, 1.0, 0.0), (0.0, 0.0, -1.0), (0.6, 0.8, 0.0)])
-def test_things_on_one_path_cover_each_other_as_seen_along_it(way: tuple[float, float, float]) -> None:
-    """Cubes of 10 mm: moved along the path one is behind the other; 9 mm to a side they overlap, 14.5 mm not."""
-    along = np.array(way)
-    cube = np.array(list(itertools.product((0.0, 0.01), repeat=3)))
-    for side in np.concatenate([np.eye(3), -np.eye(3)]):
-        if abs(side @ along) > 0.1:
-            continue
-        for far, covered in ((0.009, True), (0.0145, False)):
-            other = cube + 0.05 * along + far * side
-            assert _beside(cube, other, along) == _beside(other, cube, along) == covered

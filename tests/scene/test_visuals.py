@@ -1,15 +1,13 @@
 """The visible things of a robot: each copy of each part once, where its mass is."""
 
 from collections import Counter
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from jumpcad.mechanism.mass import combined
 from jumpcad.robot import Robot
-from jumpcad.scene.visuals import BOUGHT_COLOURS, PRINTED_COLOURS, STEEL, visuals
-from jumpcad.solids.tube import DrawnWire
+from jumpcad.scene.visuals import visuals
 
 
 def test_each_copy_is_seen_once_under_a_name_of_its_own(small_robot: Robot) -> None:
@@ -37,23 +35,3 @@ def test_things_are_seen_where_the_body_has_its_mass(small_robot: Robot, body: s
     ])  # fmt: skip
     assert (points.min(axis=0) < whole.com_m).all()
     assert (whole.com_m < points.max(axis=0)).all()
-
-
-def test_colours_tell_roles_and_articles_apart(small_robot: Robot) -> None:
-    strange = replace(small_robot.hardware[0], name="antenna", article="whip")
-    colours = {
-        thing.name: thing.colour for thing in visuals(replace(small_robot, hardware=(*small_robot.hardware, strange)))
-    }
-    assert colours["main_leg"] == colours["foot"] == PRINTED_COLOURS["links"] != colours["body_plate_left"]
-    assert colours["battery"] == BOUGHT_COLOURS["battery"]
-    assert colours["roller"] == BOUGHT_COLOURS["bearing"]
-    assert colours["antenna"] == STEEL
-
-
-def test_what_is_bent_of_wire_has_the_wire_s_shape_and_all_else_its_own(small_robot: Robot) -> None:
-    wire = DrawnWire(np.array([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0], [5.0, 15.0, 0.0]]), 1.2)
-    bent, *others = small_robot.hardware
-    shapes = {one.name: one.shape for one in visuals(replace(small_robot, hardware=(bent.seen_as(wire), *others)))}
-    assert shapes[bent.name] is wire
-    assert all(shapes[one.name] is one.shape for one in others)
-    assert all(shapes[part.name] is part.drawing.shape for part in small_robot.parts if part.quantity == 1)

@@ -1,11 +1,8 @@
 """Sections of blocks in closed form against slices of their solids, which another program cuts."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import shapely
-from manifold3d import CrossSection
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
@@ -64,28 +61,6 @@ def test_what_is_removed_is_removed_and_equal_heights_are_one_outline():
     assert not inset.any()
 
 
-class Between:
-    """A block of one outline between two heights."""
-
-    def __init__(self, size, low, high):
-        (self.outline,), self.low, self.high = rectangle((size, size)).to_polygons(), low, high
-
-    def contours_at(self, heights_mm):
-        return [[self.outline] if self.low < z < self.high else [] for z in heights_mm]
-
-
-def test_what_is_added_at_one_height_and_removed_at_another_is_not_one_section():
-    """A square of 6 mm in one of 10 mm: 100 mm² with both added, 64 mm² with the small one removed."""
-    blocks = Blocks((Between(10.0, 0.0, 4.0), Between(6.0, 0.0, 2.0)), (Between(6.0, 2.0, 4.0),))
-    areas = [region.area() for region in blocks.regions_at([1.0, 3.0])]
-    assert areas == pytest.approx([100.0, 64.0])
-
-
-def test_a_turned_block_has_turned_sections():
-    turned = Turned(FINGER, 0.7, np.array([5.0, -2.0]))
-    require_same_sections(Blocks((turned,)), np.array([0.5, 4.5, 6.0, 8.9]), 1e-6)
-
-
 def test_moments_are_those_of_the_sections():
     blocks = Blocks((FINGER, Bar(disc(9.0, (0.0, 4.5)), ((-3.0, 9.0),))))
     z = (np.arange(2000) + 0.5) * blocks.bounds_mm[1, 2] / 2000.0
@@ -93,37 +68,6 @@ def test_moments_are_those_of_the_sections():
     step = blocks.bounds_mm[1, 2] / 2000.0
     assert blocks.moments[0] == pytest.approx(step * areas.sum(), rel=1e-3)
     assert blocks.moments[3] == pytest.approx(step * (areas * z).sum(), rel=1e-3)
-
-
-def test_a_box_around_a_finger_is_that_of_its_solid():
-    finger = Finger(np.array([2.0, 1.0]), 6.0, 8.0, np.array([-20.0, 9.0]), 3.0, 2.5)
-    low, high = np.array(finger.solid().bounding_box()).reshape(2, 3)
-    np.testing.assert_allclose(finger.bounds_mm, [low, high], atol=1e-6)
-    assert finger.bounds_mm[1] == pytest.approx([5.0, 10.5, 8.0], abs=0.01)
-
-
-def test_a_box_around_a_turned_block_is_that_of_its_solid() -> None:
-    """Turned about z it is as high as before."""
-    turned = Turned(FINGER, 0.7, np.array([5.0, -2.0]))
-    np.testing.assert_allclose(turned.bounds_mm, np.array(turned.solid().bounding_box()).reshape(2, 3), atol=1e-6)
-    assert turned.bounds_mm[:, 2].tolist() == [0.0, 9.0]
-
-
-def test_a_box_around_a_bar_in_two_pieces_is_around_both() -> None:
-    """From 3 to 5 and from -4 to 1 along y, in either order."""
-    pieces = ((3.0, 5.0), (-4.0, 1.0))
-    for order in (pieces, pieces[::-1]):
-        bar = Bar(rectangle((20.0, 4.0), (10.0, 2.0)), order)
-        assert bar.bounds_mm.tolist() == [[0.0, -4.0, 0.0], [20.0, 5.0, 4.0]]
-
-
-def test_a_level_finger_is_a_stadium_at_every_height() -> None:
-    """The hull of two discs of 6 mm, 20 mm apart, up to its top."""
-    finger = Finger(np.zeros(2), 6.0, 4.0, np.array([20.0, 0.0]), 6.0, 4.0)
-    for contours in finger.contours_at(np.array([0.0, 2.0, 3.999])):
-        assert CrossSection(contours).area() == pytest.approx(20.0 * 6.0 + np.pi * 9.0, rel=1e-3)
-    assert finger.contours_at(np.array([-0.001, 4.0])) == [[], []]
-    assert finger.solid().volume() == pytest.approx(4.0 * (20.0 * 6.0 + np.pi * 9.0), rel=1e-3)
 
 
 def test_outlines_span_what_is_seen_from_above() -> None:
@@ -147,10 +91,3 @@ def test_blocks_of_the_same_numbers_are_equal_and_others_are_not():
     assert hash(blocks()) == hash(blocks())
     assert len({blocks(), blocks(width=8.1), blocks(tip=4.1), blocks(angle=0.8), blocks(removed=2.1),
                 blocks(place=(0.1, 0.0)), blocks(place=(0.0, 0.1))}) == 7  # fmt: skip
-
-
-def test_what_differs_in_any_number_is_another_finger() -> None:
-    places = [{name: getattr(FINGER, name) + step} for name in ("root_mm", "tip_mm") for step in 0.1 * np.eye(2)]
-    sizes = ("root_diameter_mm", "root_height_mm", "tip_diameter_mm", "tip_height_mm")
-    others = [replace(FINGER, **change) for change in (*places, *({name: 4.7} for name in sizes))]
-    assert len({one.key for one in (FINGER, *others)}) == 1 + 8

@@ -1,6 +1,5 @@
 """Faults that a written mesh can have, each made on purpose."""
 
-import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold, OpType
@@ -55,17 +54,3 @@ def test_stacks_in_two_directions_finish_as_one_part():
     web = rectangle((10.0, 14.0)).extrude(4.0)
     solid = finished(Manifold.batch_boolean([*rails, toe, web], OpType.Add))
     assert faults(stl(to_trimesh(solid))) == []
-
-
-def test_a_mesh_has_the_solids_own_corners_those_that_meet_too():
-    """Two cubes that touch along an edge: eight corners each, though two of them are at the same places."""
-    boxes = [Manifold.cube((1, 1, 1)), Manifold.cube((1, 1, 1)).translate((1, 1, 0))]
-    mesh = to_trimesh(Manifold.batch_boolean(boxes, OpType.Add))
-    assert (len(mesh.vertices), len(mesh.faces)) == (16, 24)
-    assert len(np.unique(mesh.vertices, axis=0)) == 14
-
-
-def test_meshes_keep_full_precision():
-    solid = Manifold.cube((1.0 / 3.0, 1.0, 1.0))
-    assert to_trimesh(solid).vertices[:, 0].max() == 1.0 / 3.0
-    assert to_trimesh(solid).vertices.dtype == np.float64

@@ -68,10 +68,6 @@ def test_contours_inside_others_are_holes_whatever_their_direction():
     assert outline.polygon(square[::-1], 2 + square / 5.0).area() == pytest.approx(96.0)
 
 
-def test_a_ring_has_both_diameters():
-    assert outline.ring(10.0, 6.0).area() == pytest.approx(math.pi * 16.0, rel=5e-3)
-
-
 def test_impossible_sizes_are_refused():
     with pytest.raises(JumpcadError, match="diameter of 0 mm must be more than 0"):
         outline.disc(0.0)
@@ -79,16 +75,6 @@ def test_impossible_sizes_are_refused():
         with pytest.raises(JumpcadError, match=rf"D-bore of 3 mm cannot be {across:g} mm"):
             outline.d_bore(3.0, across)
     assert outline.d_bore(3.0, 1.51).area() == pytest.approx(math.pi * 1.5**2 / 2.0, rel=0.01)
-
-
-def test_regions_made_alike_have_one_key():
-    assert outline.corners_key(outline.ring(9.0, 4.0)) == outline.corners_key(outline.ring(9.0, 4.0))
-    keys = {outline.corners_key(outline.ring(9.0, bore, at)) for bore in (4.0, 4.1) for at in ((0, 0), (0, 1))}
-    assert len(keys) == 4
-    # the same corners in one contour or in two are not the same
-    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    apart = outline.polygon(square, square + 5.0)
-    assert len(outline.corners_key(apart)) == 2
 
 
 def test_what_a_ring_contains_is_between_its_circles():
@@ -100,27 +86,6 @@ def test_what_a_ring_contains_is_between_its_circles():
         np.testing.assert_array_equal(
             outline.contained(about, points)[clear], ((distance > 2.0) & (distance < 5.0))[clear]
         )
-
-
-@pytest.mark.parametrize("size", [(6.0, 6.0), (6.5, 10.0), (10.0, 6.5), (6.0, 10.0)])
-def test_rounded_corners_may_take_up_a_whole_side(size: tuple[float, float]) -> None:
-    """A rectangle loses (4 - pi) r² at its corners; with none of a side left it is a bar with round ends, or a disc."""
-    area = outline.rectangle(size, corner_radius_mm=3.0).area()
-    assert area == pytest.approx(size[0] * size[1] - (4.0 - math.pi) * 9.0, rel=2e-3)
-
-
-@pytest.mark.parametrize("size", [(5.9, 10.0), (10.0, 5.9)])
-def test_corners_that_do_not_fit_are_refused(size: tuple[float, float]) -> None:
-    with pytest.raises(JumpcadError, match="corners of 3 mm radius do not fit"):
-        outline.rectangle(size, corner_radius_mm=3.0)
-
-
-def test_strips_that_cross_cover_their_crossing_once():
-    """Two of 4 mm at right angles share 4 x 4 mm; three through one place are full there too."""
-    cross = outline.strips([(-10.0, 0.0), (0.0, -10.0)], [(10.0, 0.0), (0.0, 10.0)], 4.0)
-    assert cross.area() == pytest.approx(2 * 80.0 - 16.0)
-    star = outline.strips([(-10.0, 0.0), (0.0, -10.0), (-10.0, -10.0)], [(10.0, 0.0), (0.0, 10.0), (10.0, 10.0)], 4.0)
-    assert (outline.disc(3.9) - star).area() == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("ends", [[(0.0, 0.0)], [(0.0, 0.0), (-20.0, 10.0)]])
@@ -170,26 +135,3 @@ def test_gaps_and_walls_of_a_fiftieth_of_a_millimetre_are_slivers(wide_mm, kept)
     clean = outline.without_slivers(walled)
     assert clean.area() == pytest.approx(40.0 + 2.0 * wide_mm * kept, abs=1e-3)
     assert outline.without_slivers(blocks[0]).bounds() == pytest.approx((-10.0, -2.0, 0.0, 2.0), abs=1e-6)
-
-
-def test_a_point_is_in_a_triangle_on_one_side_of_its_slope() -> None:
-    """A right angle of two sides of 4: half way up, the slope is at x = 2."""
-    triangle = outline.polygon([(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)])
-    points = np.array([[1.9, 2.0], [2.1, 2.0], [0.9, 3.0], [1.1, 3.0]])
-    assert outline.contained(triangle, points).tolist() == [True, False, True, False]
-
-
-@pytest.mark.parametrize(("x", "y", "apart"), [(9.0, 0.0, True), (-9.0, 0.0, True), (0.0, 9.0, True), (0.0, -9.0, True),
-                                               (3.0, 1.0, False), (0.0, 3.0, False), (0.0, -3.0, False)])  # fmt: skip
-def test_boxes_are_apart_that_pass_each_other_on_any_side(x: float, y: float, apart: bool) -> None:
-    assert outline.boxes_apart(outline.rectangle((4.0, 4.0)), outline.rectangle((4.0, 4.0), (x, y))) == apart
-
-
-def test_the_middle_of_a_region_is_that_of_its_box() -> None:
-    triangle = outline.polygon([(2.0, 1.0), (8.0, 1.0), (2.0, 7.0)])
-    assert outline.middle_of(triangle) == pytest.approx([5.0, 4.0])
-
-
-def test_a_box_around_a_region_is_larger_by_the_margin_on_all_four_sides():
-    region = outline.rectangle((6.0, 4.0), (10.0, -7.0)) - outline.disc(2.0, (10.0, -7.0))
-    assert outline.box_around(region, 1.5).bounds() == pytest.approx((5.5, -10.5, 14.5, -3.5), abs=1e-6)

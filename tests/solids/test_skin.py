@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from manifold3d import CrossSection
 
-from jumpcad.solids.skin import GRID_MM, _chains, _conforming, _hits, skin
+from jumpcad.solids.skin import GRID_MM, _chains, _conforming, skin
 
 SQUARE = np.array([[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]])
 HOLE = np.array([[2.0, 2.0], [2.0, 6.0], [6.0, 6.0], [6.0, 2.0]])
@@ -59,17 +59,6 @@ def test_every_edge_has_two_faces_however_near_outlines_are(gap_mm):
     assert set(edges.values()) == {2}
     assert np.array_equal(vertices[:, :2], np.rint(vertices[:, :2] / GRID_MM) * GRID_MM)
     assert trimesh.Trimesh(vertices.astype(np.float32), faces).is_watertight
-
-
-@pytest.mark.parametrize("corner", [(10.0, 4.0), (10.0, 5.0), (-2.0, 4.0)])
-def test_a_side_whose_middle_is_as_high_as_a_corner_beside_it_is_outside(corner):
-    """A triangle with that corner and an upright side 4 mm away on a square whose upright sides have theirs at 4 mm."""
-    away = 4.0 if corner[0] > 0.0 else -4.0
-    ends = [(corner[0] + away, corner[1] + side * np.sign(away)) for side in (-2.0, 2.0)]
-    beside = mesh([(0.0, 1.0), (1.0, 2.0)], [[SQUARE], [np.array([corner, *ends])]])
-    assert beside.is_volume
-    assert beside.body_count == 2
-    assert beside.volume == pytest.approx(64 + 4 * 4 / 2)
 
 
 def stars(rng, count):
@@ -128,35 +117,3 @@ def test_edges_meet_in_their_ends_alone_and_pass_no_point_within_half_a_step(see
             np.sign(run[:, 0] * (at - start)[:, 1] - run[:, 1] * (at - start)[:, 0]) for at in (start[one], end[one])
         ]
         assert not ((side[0] * side[1] < 0) & (other[0] * other[1] < 0)).any()
-
-
-def test_the_grid_is_a_micrometre_that_32_bit_floats_hold_up_to_16_metres():
-    """They have 24 bits: a power of two below a micrometre and 16 m over it, no finer."""
-    assert pytest.approx(1e-3, rel=0.03) == GRID_MM
-    for far in (0.0, 300.0, 16000.0):
-        points = far + GRID_MM * np.arange(-50, 51)
-        assert np.array_equal(points.astype(np.float32).astype(float), points)
-
-
-def test_corners_go_to_the_nearest_point_of_the_grid():
-    """Whole micrometres stay what they are, though a float may be a little less; others move by half of one at most."""
-    rng = np.random.default_rng(5)
-    for _ in range(20):
-        low, high = np.sort(rng.integers(-90_000, 90_000, (2, 2)), axis=0) * GRID_MM
-        for off in (0.0, 0.4 * GRID_MM, -0.4 * GRID_MM):
-            corners = np.array([low, [high[0], low[1]], high, [low[0], high[1]]])
-            vertices, _ = skin([(0.0, 1.0)], [[corners + off]])
-            assert np.ptp(vertices[:, :2], axis=0) == pytest.approx(high - low, abs=1e-9)
-            assert vertices[:, :2].min(axis=0) == pytest.approx(low, abs=1e-9)
-
-
-@pytest.mark.parametrize(("long", "high"), [(1000, 1), (900, 7), (7, 900)])
-def test_an_edge_hits_the_squares_that_it_passes_through(long, high):
-    """Squares of one step around the points of the grid: by the separating line of edge and square."""
-    x, y = np.meshgrid(np.arange(long + 1), np.arange(high + 1))
-    points = np.column_stack([x.ravel(), y.ravel()])
-    last = len(points) - 1
-    edge, point = _hits(points, np.array([[0, last]]))
-    assert set(edge) == {0}
-    away = np.abs(points @ np.array([high, -long])) / (long + high)  # of the middle, in half diagonals across the edge
-    assert set(point) == set(np.flatnonzero(away <= 0.5)) - {0, last}

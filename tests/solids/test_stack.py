@@ -23,41 +23,12 @@ def test_overlapping_slabs_count_once():
     np.testing.assert_allclose(stack.bounds_mm, [[-5, -5, 0], [10, 5, 6]])
 
 
-def test_a_stack_of_a_stacks_slabs_is_that_stack():
-    """At their own heights, above the bed and below it."""
-    stack = Stack.of([(-3, 1.5, rectangle((10, 10))), (2, 6, disc(8))])
-    again = Stack.of(stack.slabs)
-    assert [(slab.z0_mm, slab.z1_mm) for slab in again.slabs] == [(-3, 1.5), (2, 6)]
-    assert again.volume_mm3 == stack.volume_mm3
-
-
-def test_the_order_of_slabs_does_not_matter():
-    slabs = [(0, 3, disc(10)), (1, 5, rectangle((4, 30))), (2, 4, disc(6, (5, 5)))]
-    assert Stack.of(slabs).volume_mm3 == pytest.approx(Stack.of(slabs[::-1]).volume_mm3)
-
-
 def test_cuts_leave_the_rest():
     stack = Stack.of([(0, 5, rectangle((20, 20)))]).through(rectangle((4, 4))).minus([(3, 9, rectangle((8, 8)))])
     assert stack.volume_mm3 == pytest.approx(5 * 400 - 3 * 16 - 2 * 64)
     assert stack.plus([(5, 6, rectangle((2, 2), (8, 8)))]).volume_mm3 == pytest.approx(stack.volume_mm3 + 4)
     with pytest.raises(JumpcadError, match="nothing is left"):
         stack.minus([(0, 5, rectangle((30, 30)))])
-
-
-@pytest.mark.parametrize(("inward_mm", "tops_mm"), [(1e-8, [3.0]), (1e-7, [3.0]), (1e-3, [3.0, 5.0])])
-def test_what_clipping_leaves_between_two_outlines_is_no_slab(inward_mm, tops_mm):
-    """A corner on an oblique side is off it by the grid of the polygons; by a micrometre it is meant so."""
-    far, near = np.array([7.1, 0.3]), np.array([2.2, 5.7])
-    corner = 0.6 * far + 0.4 * near - inward_mm * np.array([5.4, 4.9]) / np.hypot(5.4, 4.9)
-    cut = polygon([(0.0, 0.0), far, corner, near])
-    block = Stack.of([(0, 3, rectangle((20, 20))), (3, 5, polygon([(0.0, 0.0), far, near]))])
-    assert [slab.z1_mm for slab in block.minus([(3, 5, cut)]).slabs] == tops_mm
-
-
-def test_what_is_cut_through_at_half_height_is_two_slabs_with_nothing_between():
-    stack = Stack.of([(0, 5, rectangle((10, 10)))]).minus([(2, 3, rectangle((20, 20)))])
-    assert [(slab.z0_mm, slab.z1_mm) for slab in stack.slabs] == [(0, 2), (3, 5)]
-    assert stack.volume_mm3 == pytest.approx(400.0)
 
 
 def test_a_moved_turned_part_keeps_its_mass_and_turns_its_tensor():
@@ -91,48 +62,6 @@ def test_a_chamfer_is_the_slope_sampled_in_the_middle_of_each_layer():
     assert max(np.hypot(*contour.T).min() for contour in bored.slabs[0].region.to_polygons()[1:]) > 3.24
     with pytest.raises(JumpcadError, match=r"bottom slab of 0\.3 mm is too thin"):
         Stack.of([(0, 0.3, disc(9))]).chamfered(0.35, 0.2)
-
-
-def test_a_chamfer_as_deep_as_the_bottom_slab_leaves_nothing_of_it():
-    block = Stack.of([(0, 0.4, rectangle((20, 20))), (0.4, 3, disc(10))]).chamfered(0.4, 0.2)
-    np.testing.assert_allclose([(slab.z0_mm, slab.z1_mm) for slab in block.slabs], [(0.0, 0.2), (0.2, 0.4), (0.4, 3.0)])
-    below = 0.2 * ((20.0 - 2 * 0.3) ** 2 + (20.0 - 2 * 0.1) ** 2)
-    assert block.volume_mm3 == pytest.approx(below + 2.6 * disc(10).area(), rel=1e-4)
-    assert block.bounds_mm[:, :2].tolist() == [[-9.9, -9.9], [9.9, 9.9]]  # of its upper step
-
-
-def test_a_step_of_a_chamfer_ends_where_the_bottom_slab_does():
-    """0.35 mm of slab and of chamfer, in layers of 0.2 mm."""
-    block = Stack.of([(0, 0.35, rectangle((20, 20))), (0.35, 3, disc(10))]).chamfered(0.35, 0.2)
-    np.testing.assert_allclose([(slab.z0_mm, slab.z1_mm) for slab in block.slabs], [(0, 0.2), (0.2, 0.35), (0.35, 3)])
-
-
-def test_at_the_edge_of_two_slabs_a_section_is_the_upper_ones():
-    """At the bottom that of the lowest; at the top nothing."""
-    stack = Stack.of([(0, 2, rectangle((10, 10))), (2, 5, disc(4))])
-    areas = [region.area() for region in stack.regions_at([-1e-9, 0.0, 2.0 - 1e-9, 2.0, 5.0])]
-    assert areas == pytest.approx([0.0, 100.0, 100.0, disc(4).area(), 0.0])
-
-
-def test_steps_of_a_chamfer_are_one_outline_set_back():
-    block = Stack.of([(0, 3, rectangle((20, 20))), (3, 5, disc(10))]).chamfered(0.35, 0.2)
-    outlines, which, inset, _ = block.sections_at([0.1, 0.3, 1.0, 4.0, 5.0])
-    assert which.tolist()[:3] == [which[0]] * 3
-    assert inset == pytest.approx([0.25, 0.05, 0.0, 0.0, 0.0])
-    assert [outlines[number].area() for number in which] == pytest.approx([400, 400, 400, disc(10).area(), 0])
-
-
-def test_what_a_pocket_divides_stays_one_outline():
-    block = Stack.of([(0, 6, rectangle((20, 20)))]).minus([(2, 4, disc(8))])
-    for shape in (block, block.flipped(), block.rotated(30).moved(1, 2, 0)):
-        assert shape.sections_at([1.0, 3.0, 5.0]).which.tolist() == [0, 1, 0]
-
-
-def test_slabs_of_one_number_have_one_outline():
-    for seed in range(10):
-        stack = random_stack(np.random.default_rng(seed))
-        areas = {(slab.number, slab.outline.area()) for slab in stack.slabs}
-        assert len(areas) == len({number for number, _ in areas})
 
 
 def test_stacks_that_are_made_alike_are_equal_and_others_are_not():
@@ -170,10 +99,6 @@ def test_corners_survive_32_bits():
     assert len(np.unique(vertices.astype(np.float32), axis=0)) == len(vertices)
 
 
-def test_the_same_stack_gives_the_same_bytes():
-    assert stl(random_stack(np.random.default_rng(9))) == stl(random_stack(np.random.default_rng(9)))
-
-
 def test_a_pocket_cuts_what_subtracting_it_cuts():
     block = Stack.of([(0, 6, rectangle((30, 20))), (6, 9, rectangle((20, 20)))]).through(disc(3)).chamfered(0.4, 0.2)
     pockets = [(2, 3, disc(4, (6, 0))), (3, 7, disc(5, (6, 0))), (8, 9, disc(5, (-6, 0)))]
@@ -188,18 +113,3 @@ def test_a_pocket_cuts_what_subtracting_it_cuts():
     assert made.solid().volume() == pytest.approx(cut.solid().volume())
     assert made.solid().status() == Error.NoError
     assert made == block.pocketed(pockets) != block.pocketed([(2, 3, disc(4, (6, 1))), *pockets[1:]])
-
-
-def test_sections_of_pocketed_stacks_are_outlines_less_pockets():
-    """The pocketed layers are numbered after the outlines; each is told as an outline's number and its pocket."""
-    block = Stack.of([(0, 6, rectangle((30, 20))), (6, 9, rectangle((20, 20)))])
-    pockets = [(2, 3, disc(4, (6, 0))), (3, 7, disc(5, (6, 0)))]
-    made = block.pocketed(pockets)
-    heights = np.array([1.0, 2.5, 4.0, 5.0, 6.5, 8.0, 9.5])
-    outlines, which, _, hollow = made.sections_at(heights)
-    assert [outlines[number].area() for number in which[[0, 5, 6]]] == pytest.approx([600.0, 400.0, 0.0])
-    found = [hollow[number - len(outlines)] for number in which[1:5]]
-    assert [outlines[number].area() for number, _ in found] == pytest.approx([600.0, 600.0, 600.0, 400.0])
-    assert [pocket.area() for _, pocket in found] == pytest.approx([disc(4).area(), *[disc(5).area()] * 3])
-    assert which[2] == which[3]
-    assert len(hollow) == 3

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 from manifold3d import Manifold, OpType
-from support.each import each
 
 from jumpcad.solids.outline import disc, rectangle, ring
 from jumpcad.solids.stack import Stack
@@ -36,26 +35,6 @@ def test_it_is_the_union_of_all_positions(path: tuple[float, float, float]) -> N
     positions = [PLATE.solid().translate(tuple(-share * np.array(path))) for share in np.linspace(0.0, 1.0, 100)]
     union = Manifold.batch_boolean(positions, OpType.Add)
     assert room.volume_mm3 == pytest.approx(union.volume(), rel=0.005)
-
-
-@pytest.mark.parametrize("path", [(3.0, 4.0, 0.0), (0.0, 0.0, 5.0), (0.0, 0.0, -5.0)])
-def test_it_comes_from_before_its_place_and_does_not_go_beyond(path: tuple[float, float, float]) -> None:
-    stack = Stack.of([(0.0, 1.0, disc(4.0))])
-    room = swept(stack, np.array(path))
-    assert room is not None
-    low, high = stack.bounds_mm
-    assert room.bounds_mm[0] == pytest.approx(np.minimum(low, low - path))
-    assert room.bounds_mm[1] == pytest.approx(np.maximum(high, high - path))
-
-
-@each("length_mm", [1e-3, 1.0, 1e3])
-@each(("off", "is_swept"), [(1e-7, True), (-1e-7, True), (1e-5, False), (-1e-5, False)])
-def test_a_path_may_be_oblique_by_rounding_alone_however_long_it_is(
-    off: float, is_swept: bool, length_mm: float
-) -> None:
-    """Of angles in radians: a ten-millionth is rounding, a hundred-thousandth is not."""
-    for path in ((off, 0.0, 1.0), (0.0, off, -1.0), (0.6, -0.8, off)):
-        assert (swept(PLATE, length_mm * np.array(path)) is not None) == is_swept
 
 
 def test_an_oblique_path_is_not_swept() -> None:

@@ -1,8 +1,5 @@
 """The motion at any time: the report's moments, and between them a linkage that stays closed."""
 
-from types import SimpleNamespace
-from typing import Any
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -10,8 +7,6 @@ from support.built import built
 
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.settings import Settings
-from jumpcad.studio import playback as module
 from jumpcad.studio.playback import Playback, ShownMoment, playback
 
 ROBOT = "kenan-2.0"
@@ -26,18 +21,6 @@ def point(moment: ShownMoment, body: str, x_mm: float) -> np.ndarray:
     """Return a point on the x axis of a body's frame in the world (m)."""
     seven = moment.frames[body]
     return seven[:3] + Rotation.from_quat(seven[3:]).apply([x_mm / 1000.0, 0.0, 0.0])
-
-
-def test_it_is_the_jump_of_the_first_engine_that_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[Any] = []
-    jump = SimpleNamespace(trajectory="path", takeoff_time_s=0.03)
-    for name, made in (
-        ("default_engine", lambda: "mujoco"), ("simulate", lambda *given: asked.append(given) or jump),
-        ("motion", lambda *given: {"given": given}), ("turning_parts", lambda robot: [robot]),
-    ):  # fmt: skip
-        monkeypatch.setattr(module, name, made)
-    assert playback("robot") == Playback({"given": ("robot", "path", 0.03)}, ["robot"])  # type: ignore[arg-type]
-    assert asked == [("robot", Settings(flight="simulated", trajectory=True), "mujoco")]
 
 
 def test_it_begins_at_rest_and_ends_in_the_air_beyond_the_start(played: Playback) -> None:

@@ -1,8 +1,6 @@
 """Only the studio's own page may connect: a page from elsewhere in the same browser may not change files here."""
 
 import http.client
-import logging
-import socket
 from collections.abc import Iterator
 
 import pytest
@@ -54,12 +52,3 @@ def test_the_own_page_connects(server: "viser.ViserServer") -> None:
 )  # fmt: skip
 def test_other_pages_are_refused(server: "viser.ViserServer", origin: str) -> None:
     assert handshake(server, origin) == 403
-
-
-def test_what_is_no_request_for_a_web_socket_is_no_error(server: "viser.ViserServer") -> None:
-    """The server closes a connection like that of `curl -I`, goes on, and says nothing of it."""
-    with socket.create_connection(("127.0.0.1", server.get_port()), timeout=10.0) as connection:
-        connection.sendall(b"HEAD / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
-        assert connection.recv(1) == b""
-    assert handshake(server, None) == 101
-    assert not logging.getLogger("websockets.server").isEnabledFor(logging.ERROR)

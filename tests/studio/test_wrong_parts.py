@@ -2,9 +2,8 @@
 
 from support.built import built, checked, geared
 
-from jumpcad.findings import bare
 from jumpcad.scene.visuals import visuals
-from jumpcad.studio.wrong_parts import LIMITS_OF, wrong_parts
+from jumpcad.studio.wrong_parts import LIMITS_OF
 
 ELSEWHERE = {
     "foot_clearance", "leg_bar_strength", "leg_socket_strength", "leg_bar_bond", "leg_bar_flex", "front_bar_buckling",
@@ -26,9 +25,3 @@ def test_strengths_of_a_robot_have_a_part() -> None:
     named = {limit for limits in LIMITS_OF.values() for limit in limits}
     strengths = {one.name for one in checked("best-bo") if one.unit == "MPa"}
     assert strengths <= named
-
-
-def test_errors_alone_are_red() -> None:
-    weak, strong = bare("leg_axle_strength", "error", -1.0, "MPa"), bare("plate_seat", "info", 1.0, "MPa")
-    assert wrong_parts([weak, strong]) == {"leg_axle"}
-    assert wrong_parts([]) == set()
