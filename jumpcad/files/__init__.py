@@ -21,20 +21,4 @@ if TYPE_CHECKING:
     from jumpcad.files.templates import template_names as template_names
     from jumpcad.files.templates import templates_folder as templates_folder
 
-_HOMES = {
-    "Contradiction": "records",
-    "Record": "records",
-    "TomlTable": "records",
-    "did_you_mean": "complaints",
-    "find_template": "templates",
-    "read_bytes": "reading",
-    "read_json": "reading",
-    "read_text": "reading",
-    "read_toml": "reading",
-    "template_names": "templates",
-    "templates_folder": "templates",
-    "to_toml": "reading",
-}
-
-__all__ = list(_HOMES)
-__getattr__, __dir__ = lazy_exports(__name__, _HOMES)
+__getattr__, __dir__, __all__ = lazy_exports(__name__)

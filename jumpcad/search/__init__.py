@@ -49,30 +49,4 @@ if TYPE_CHECKING:
     from jumpcad.search.study.table import write_table as write_table
     from jumpcad.search.study.trial import Trial as Trial
 
-_PARTS = {
-    "explore": "components feasibility_map importance sample sweep",
-    "fronts": "COSTS Cost energy_j front hypervolume",
-    "models": "CapsuleModel MODELS PrintedModel PublishedModel RobotModel robot_model",
-    "optimization": "optimize",
-    "parameter": "SearchParameter",
-    "phases": "METHODS",
-    "pick.robust": "ActiveBound Candidate",
-    "report.figures": "save_figure",
-    "report.plots": "plots",
-    "report.study_plots": "plot_study",
-    "space": "Space",
-    "study.evaluator": "Evaluator",
-    "study.objective": "Evaluation OBJECTIVES Objective find_objective",
-    "study.pool": "Pool dask_pool local_pool",
-    "study.request": "Request",
-    "study.result": "Result",
-    "study.run": "run_study",
-    "study.store": "StudyStore",
-    "study.table": "write_table",
-    "study.trial": "Trial",
-}
-"""Public names of each module."""
-_HOMES = {name: home for home, names in _PARTS.items() for name in names.split()}
-
-__all__ = list(_HOMES)
-__getattr__, __dir__ = lazy_exports(__name__, _HOMES)
+__getattr__, __dir__, __all__ = lazy_exports(__name__)

@@ -17,16 +17,4 @@ if TYPE_CHECKING:
     from jumpcad.simulation.uncertain import Uncertainty as Uncertainty
     from jumpcad.simulation.uncertain import uncertain_jump as uncertain_jump
 
-_HOMES = {
-    "ENGINES": "engines",
-    "Jump": "jump",
-    "Settings": "simulator",
-    "Uncertainty": "uncertain",
-    "default_engine": "engines",
-    "load_settings": "simulator",
-    "simulate": "simulator",
-    "uncertain_jump": "uncertain",
-}
-
-__all__ = list(_HOMES)
-__getattr__, __dir__ = lazy_exports(__name__, _HOMES)
+__getattr__, __dir__, __all__ = lazy_exports(__name__)
