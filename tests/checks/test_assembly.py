@@ -8,12 +8,10 @@ import numpy as np
 import pytest
 from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, checked, placed
-from support.documented import documented_bases
 
 from jumpcad.building import assembly, build
 from jumpcad.checks import assembly as checked_assembly
 from jumpcad.checks.assembly import (
-    BASIS,
     Blocked,
     _tool,
     assembly_findings,
@@ -184,7 +182,3 @@ def test_a_blocked_path_is_no_blocked_tool(monkeypatch: pytest.MonkeyPatch, path
 def test_what_may_meet_may_do_so_whichever_of_the_two_moves(one: str, other: str, meet: bool) -> None:
     """A screw cuts its thread, whether it comes to the plate or the plate to it."""
     assert may_share(one, other) == may_share(other, one) == meet
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -9,6 +9,7 @@ from fnmatch import fnmatchcase
 
 import pytest
 from support.built import LONG_TOES, built, checked
+from support.documented import documented_bases
 from support.each import each
 from support.places import ROOT
 
@@ -41,7 +42,8 @@ def test_they_stand_with_the_check_that_makes_the_finding() -> None:
             assert {name for name in names if not any(fnmatchcase(name, known) for known in check.basis)} == set()
 
 
-def test_no_name_is_left_over() -> None:
+def test_the_reference_tells_each_once() -> None:
+    assert documented_bases(BASES) == BASES
     page = (ROOT / "docs" / "reference" / "checks.md").read_text(encoding="utf-8")
     blocks = dict(re.findall(r"^### `([^`]+)`\n(.*?)(?=^##|\Z)", page, re.S | re.M))
     assert set(blocks) == set(BASES)

@@ -4,11 +4,10 @@ from dataclasses import replace
 
 import pytest
 from support.built import built, geared
-from support.documented import documented_bases
 from support.said import well_told
 from support.strengths import changed
 
-from jumpcad.checks.blocked import BASIS, BLOCKED_FACTOR, blocked_findings
+from jumpcad.checks.blocked import BLOCKED_FACTOR, blocked_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
@@ -74,7 +73,3 @@ def test_weak_gears_do_not_bear_a_blocked_motor() -> None:
     few, more = blocked_findings(softest)
     assert few.value < 1.0
     assert (few.value / teeth, more.value / dog) == pytest.approx((stalls[0] / stalls[1],) * 2)
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -3,9 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from support.documented import documented_bases
 
-from jumpcad.checks.engraving import BASIS, engraving_findings
+from jumpcad.checks.engraving import engraving_findings
 from jumpcad.robot import Robot
 
 
@@ -19,7 +18,3 @@ def test_letters_that_the_font_lacks_are_said(kenan: Robot, name: str, lacking: 
 
 def test_greek_and_cyrillic_can_be_engraved(kenan: Robot) -> None:
     assert engraving_findings(replace(kenan, name="Жук αβ")) == []
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

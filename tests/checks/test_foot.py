@@ -6,10 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import LONG_TOES, built
-from support.documented import documented_bases
 from support.strengths import changed, helped
 
-from jumpcad.checks.foot import BASIS, _toe_joint_mpa, foot_findings
+from jumpcad.checks.foot import _toe_joint_mpa, foot_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.robot import Robot
 
@@ -118,7 +117,3 @@ def test_toes_that_are_screwed_on_bear_beside_the_workshops_own_holes(kenan: Rob
 def test_what_is_advised_to_lower_or_to_raise_helps_the_foot(strongest: Robot) -> None:
     found = helped(strongest, lambda robot: foot_findings(LoadCase(robot)))
     assert {"toe_strength", "rail_strength", "rail_twist", "toe_landing", "leg_sideways"} <= found
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from manifold3d import Manifold
 from support.built import body_in_plane
-from support.documented import documented_bases
 from support.said import ways, well_told
 
 from jumpcad.checks import ground
-from jumpcad.checks.ground import BASIS, foot_findings, ground_findings
+from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import Piece, Position, pieces_of, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
@@ -131,7 +130,3 @@ def test_whatever_is_on_the_foot_may_come_too_near(kenan: Robot, name: str) -> N
     (finding,) = foot_findings(replace(kenan, hardware=tuple(hardware)))
     assert (finding.severity, finding.value) == ("error", 0.0)
     assert "battery" in finding.message
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import pytest
 from support.built import built
-from support.documented import documented_bases
 
-from jumpcad.checks.holding import BASIS, holding_findings
+from jumpcad.checks.holding import holding_findings
 from jumpcad.checks.load_case import LoadCase
 
 
@@ -35,7 +34,3 @@ def test_of_what_is_tied_the_heaviest_is_named_where_ties_hold_less_than_straps(
     pull = 2.0 * heaviest.mass_kg * LoadCase(robot).landing_n / robot.mass_kg
     assert (finding.value, finding.limit) == pytest.approx((pull, 0.1))
     assert f"the {heaviest.name} pulls with {pull:.1f} N on its cable tie, which holds 0.1 N" in finding.message
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -6,12 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import checked, in_body
-from support.documented import documented_bases
 from support.said import well_told
 
 from jumpcad.checks import interference
 from jumpcad.checks.interference import (
-    BASIS,
     Piece,
     Position,
     interference_findings,
@@ -145,7 +143,3 @@ def test_teeth_that_mesh_go_the_same_way_equally_far(kenan: Robot, pairs: int) -
         assert driver * pair.pinion.teeth == pytest.approx(-driven * pair.wheel.teeth)
     assert turn("motor_shaft", position) == turns[-1]
     assert turn("cam", position) == pytest.approx(0.21)
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

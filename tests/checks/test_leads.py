@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 import shapely
 from support.built import built
-from support.documented import documented_bases
 
 from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.checks import leads
-from jumpcad.checks.leads import BASIS, lead_findings
+from jumpcad.checks.leads import lead_findings
 from jumpcad.layout.room import disc
 from jumpcad.parts.leads import way_in
 
@@ -111,7 +110,3 @@ def test_leads_from_outside_pass_their_plate_square_to_it(part: str) -> None:
     assert outside[[0, 2]] == pytest.approx(hole)
     assert min(outside[1], inside[1]) < low < high < max(outside[1], inside[1])
     assert abs(inside[1]) < abs(outside[1])
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 from support.built import built
-from support.documented import documented_bases
 from support.said import well_told
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import constraint_findings, leg_bar
-from jumpcad.checks.leg_bar import BASIS, _bent_nmm, leg_bar_findings
+from jumpcad.checks.leg_bar import _bent_nmm, leg_bar_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.findings import Finding
 from jumpcad.layout.leg_bars import BarPlace
@@ -273,7 +272,3 @@ def test_glue_bears_the_pull_along_a_bar_and_the_twist_of_a_landing_on_one_toe(l
     shear = bar_shear_mpa(bar, case.torque_nmm / design.l2_mm + 1.5 * mouth / (place.mouth_mm - place.floor_mm), twist)
     worst = max(bent, across, shear * bar.strength_mpa / bar.shear_mpa)
     assert found["leg_bar_strength"].value == pytest.approx(worst, rel=1e-6)
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

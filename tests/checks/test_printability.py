@@ -6,12 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from support.documented import documented_bases
 from support.each import each
 from support.said import well_told
 
 from jumpcad.checks.printability import (
-    BASIS,
     _mesh_undersides,
     _undersides,
     bed_findings,
@@ -216,7 +214,3 @@ def test_the_roof_of_a_socket_that_is_open_at_one_end_is_a_bridge(
     shop = load_workshop()
     found = list(_undersides(drawing, shop.fits, shop.process))
     assert found == [(bridge, pytest.approx(size_mm, abs=0.05))]
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

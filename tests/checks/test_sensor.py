@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 from support.built import built, geared, placed
-from support.documented import documented_bases
 
 from jumpcad.building import build
 from jumpcad.bundle.firmware import numbers
-from jumpcad.checks.sensor import BASIS, sensor_findings
+from jumpcad.checks.sensor import sensor_findings
 from jumpcad.design import load_design
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -100,7 +99,3 @@ def test_scatter_beyond_the_switchs_travel_is_an_error(seats: dict[str, float], 
     robot = build(load_design("best-bo"), workshop(seats=seats))
     wrong = [finding.name for finding in sensor_findings(robot) if finding.severity == "error"]
     assert (name in wrong) if name else not wrong
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

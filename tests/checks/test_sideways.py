@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 import shapely
 import shapely.affinity
-from support.documented import documented_bases
 
 from jumpcad.building import build
 from jumpcad.checks.interference import Position, pieces_of, pose_of
-from jumpcad.checks.sideways import BASIS, play_rad, rolls, sideways_findings, stance_deg
+from jumpcad.checks.sideways import play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
@@ -164,7 +163,3 @@ def test_the_workshops_reserve_is_what_must_be_left(kenan: Robot, reserve_deg: f
     left = min(roll.margin_deg for roll in rolls(kenan))
     assert (found.limit, found.margin) == (reserve_deg, pytest.approx(left - reserve_deg))
     assert (found.severity == "info") == (left >= reserve_deg)
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

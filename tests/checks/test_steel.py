@@ -6,14 +6,12 @@ from dataclasses import replace
 
 import pytest
 from support.built import built
-from support.documented import documented_bases
 from support.fits import LOADS
 from support.strengths import changed, helped, margins
 
 from jumpcad.building import build
 from jumpcad.checks import steel
 from jumpcad.checks.load_case import LoadCase
-from jumpcad.checks.steel import BASIS
 from jumpcad.checks.strength import strength_findings
 from jumpcad.robot import Robot
 
@@ -163,7 +161,3 @@ def test_a_rod_has_its_yield_stress_over_0_78_as_tensile_strength(kenan: Robot, 
     lasts = math.exp((1.0 - of_way) * math.log(0.77 * tensile) + of_way * math.log(endless))
     allowed = min(2.0 / (1.0 / lasts + 1.0 / tensile), 0.78 * tensile)
     assert finding.limit == pytest.approx(allowed / LOADS)
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

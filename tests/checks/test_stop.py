@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import built, placed
-from support.documented import documented_bases
 
 from jumpcad.building import build
 from jumpcad.checks import check, constraint_findings
-from jumpcad.checks.stop import BASIS, stop_findings
+from jumpcad.checks.stop import stop_findings
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
@@ -198,7 +197,3 @@ def test_bare_feet_are_allowed_and_stand_on_plastic() -> None:
     assert bare.foot_depth_m == pytest.approx(bare.layout.sections.foot_depth_mm / 1000.0)
     assert not [item for item in bare.hardware if item.name.startswith(("nose_pad", "toe_"))]
     assert shop.ground.model_copy(update={"pad": ""}).foot_friction == shop.ground.bare_friction
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

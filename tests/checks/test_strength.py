@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.documented import documented_bases
 from support.each import each
 from support.fits import LOADS, with_fits_apart
 from support.said import well_told
@@ -16,7 +15,7 @@ from jumpcad.building import build
 from jumpcad.checks.blocked import blocked_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.checks.stop import stop_findings
-from jumpcad.checks.strength import BASIS, strength_findings
+from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.robot import Robot
@@ -298,7 +297,3 @@ def test_what_grows_for_a_finding_is_what_helps_it(strongest: Robot) -> None:
                 helped.add(found.name)
     assert helped == {name for name, found in usual.items() if found.grows in GROWING}
     assert {"leg_flex", "leg_strength", "lever_strength", "eye_strength", "toe_landing", "leg_sideways"} <= helped
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -4,7 +4,6 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from support.documented import documented_bases
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks.wiring import BASIS, wiring_findings
@@ -179,7 +178,3 @@ def test_a_contact_gets_the_current_of_its_pull_up_or_of_the_pins_own() -> None:
     assert weak.severity == "warning"
     dry = chosen.components["sensor"].model_copy(update={"least_a": None})
     assert "wiring_contact" not in found(replace(chosen, components=chosen.components | {"sensor": dry}))
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -7,12 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import built
-from support.documented import documented_bases
 from support.each import each
 from support.limits import default_limits
 from support.said import well_told
 
-from jumpcad.drive.cam_findings import BASIS, LIMITS, SCALES, Limit, _found, cam_findings, missed
+from jumpcad.drive.cam_findings import LIMITS, SCALES, Limit, _found, cam_findings, missed
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, measure
 
@@ -129,7 +128,3 @@ def test_what_is_found_of_a_cam_has_value_and_limit_in_words(name: str) -> None:
     findings = built(name).layout.drive.cam.findings
     assert [finding.message for finding in findings if not well_told(finding)] == []
     assert [finding.name for finding in findings] == [checked.name for checked in LIMITS]
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from support.built import built, geared
 from support.decimals import decimals
-from support.documented import documented_bases
 from support.said import well_told
 
 from jumpcad import build, load_design, load_workshop
@@ -15,7 +14,7 @@ from jumpcad.building.limits import release_limits
 from jumpcad.building.releasing import release_of
 from jumpcad.drive import release as release_module
 from jumpcad.drive.corner import roll_over
-from jumpcad.drive.release import BASIS, Release, _kick_limit_nm, _told_apart
+from jumpcad.drive.release import Release, _kick_limit_nm, _told_apart
 from jumpcad.drive.rolling import ReleaseParts, Rolled, _Release, roll
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
@@ -312,7 +311,3 @@ def test_the_worst_of_both_corners_and_both_motors_counts(worst: int, monkeypatc
     assert of["release_energy"].value == pytest.approx(80.0)
     reserve = 1.0 + robot.workshop.safety.kick_reserve
     assert of["release_kick"].value == pytest.approx(1000.0 * reserve * found.kick_nm)
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -5,13 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.documented import documented_bases
 from support.each import each
 from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
-from jumpcad.drive.spring import BASIS, inner_fibre, torsion_spring
+from jumpcad.drive.spring import inner_fibre, torsion_spring
 from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
 
@@ -141,7 +140,3 @@ def test_a_made_spring_that_is_stressed_too_much_asks_for_a_softer_design():
         assert (finding.value, finding.limit) == pytest.approx((made.stress_mpa, made.allowable_mpa))
         assert asked in finding.remedy
         assert ("stiffness_nmm_per_deg" in finding.remedy) == (stock == "")
-
-
-def test_formulas_and_limits_are_those_of_the_reference():
-    assert documented_bases(BASIS) == BASIS

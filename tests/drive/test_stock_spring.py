@@ -5,7 +5,6 @@ import re
 from dataclasses import replace
 
 import pytest
-from support.documented import documented_bases
 from support.limits import default_limits
 
 from jumpcad.building import build
@@ -15,7 +14,7 @@ from jumpcad.checks.interference import interference_findings
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import TorsionSpring
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM
-from jumpcad.drive.stock_spring import BASIS, fitted_spring, of_stock, springs_on_leg
+from jumpcad.drive.stock_spring import fitted_spring, of_stock, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
@@ -222,7 +221,3 @@ def test_no_refusal_or_finding_names_a_stiffness_that_decides_nothing() -> None:
     remedies = [found.remedy for found in quick_findings(build(KENAN, workshop))]
     assert any("weaker bought.spring" in remedy for remedy in remedies)
     assert not any("stiffness_nmm_per_deg" in remedy for remedy in remedies)
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -7,7 +7,6 @@ import re
 
 import pytest
 from support.built import built, geared
-from support.documented import documented_bases
 from support.limits import LP6, default_limits
 from support.said import well_told
 
@@ -17,7 +16,7 @@ from jumpcad.drive import train as train_module
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
-from jumpcad.drive.train import BASIS, _gear_findings, finished_train, synthesise_train
+from jumpcad.drive.train import _gear_findings, finished_train, synthesise_train
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
@@ -237,7 +236,3 @@ def test_what_is_to_be_changed_makes_a_trains_margins_greater():
     assert "a stronger motor" in plain["motor_torque"].remedy
     assert "a slower motor" in plain["cam_speed"].remedy
     assert "a stronger motor" in plain["cam_gear_room"].remedy  # it needs a smaller ratio
-
-
-def test_formulas_and_limits_are_those_of_the_reference():
-    assert documented_bases(BASIS) == BASIS

@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.documented import documented_bases
 from support.each import each
 from support.places import DATA
 
@@ -209,7 +208,3 @@ def test_both_steps_are_among_the_findings(name: str) -> None:
     assert set(found) == set(BASIS) - {"winding"}, "it takes the place of `loop`"
     assert found["loop"] == geometry_findings(robot.design)[0]
     assert found["too_weak"] == statics_findings(robot)[1]
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -6,7 +6,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support import needs
-from support.documented import documented_bases
 from support.flights import Flight
 from support.machines import one_sided
 
@@ -17,7 +16,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation import planar_kernel as kernel
-from jumpcad.simulation.planar import BASIS, PlanarEngine, PlanarRun, PlanarWorld
+from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld
 from jumpcad.simulation.planar_state import PlanarMotion
 
 FINE = load_settings("fine")
@@ -250,7 +249,3 @@ def test_a_robot_is_carried_by_nose_by_toes_or_by_its_belly(
     contact = SimpleNamespace(first_ns=first, second_ns=second)
     world = SimpleNamespace(moment=SimpleNamespace(contact=contact, belly_gap_m=belly_gap_m))
     assert PlanarWorld.loaded(world) == loaded  # type: ignore[arg-type]
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS

@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support import needs
-from support.documented import documented_bases
 from support.flights import Flight, make_lopsided
 from support.machines import let_go, rubbing
 
@@ -24,7 +23,7 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import State
-from jumpcad.simulation.run import BASIS, Run
+from jumpcad.simulation.run import Run
 
 needs.package("pybullet")
 
@@ -489,7 +488,3 @@ def test_a_robot_flies_that_rises_and_has_cleared_the_ground(
         velocity_m_s=lambda _: np.array([3.0, 0.0, up_m_s]), clearance_m=lambda _: clear_m
     )
     assert run._flies(None) == flies  # type: ignore[arg-type]
-
-
-def test_formulas_and_limits_are_those_of_the_reference() -> None:
-    assert documented_bases(BASIS) == BASIS
