@@ -1,7 +1,6 @@
 """Kits that fit, and what is said of those that do not: every finding with which range misses which."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -12,11 +11,9 @@ from support.said import well_told
 
 from jumpcad.building import build
 from jumpcad.checks.electronics import _voltage, electronics_findings, links
-from jumpcad.checks.wiring import wiring_findings
 from jumpcad.design import load_design
 from jumpcad.electronics.chain import Link
 from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.workshop import Workshop, load_workshop
@@ -47,10 +44,6 @@ def found(shop_toml: str) -> dict[str, Finding]:
         path.write_text(shop_toml, encoding="utf-8")
         robot = build(load_design("kenan-2.0"), load_workshop(path))
     return {finding.name: finding for finding in electronics_findings(robot)}
-
-
-def wiring(shop: Workshop) -> Wiring:
-    return wiring_of(chosen_parts(shop), shop.bought.pins)
 
 
 @pytest.mark.parametrize("kit", KITS)
@@ -103,95 +96,6 @@ def test_a_battery_whose_current_nobody_states_is_named() -> None:
     assert finding.severity == "warning"
     assert "0.44 A" in finding.message
     assert "not known" in finding.message
-
-
-@pytest.mark.parametrize("kit", KITS)
-def test_every_board_has_supply_and_ground_and_every_pin_one_use(kit: str, workshop: Write) -> None:
-    shop = workshop(f'[bought]\nkit = "{kit}"')
-    nets = wiring(shop).nets
-    where: dict[str, list[str]] = {}
-    for net in nets:
-        for terminal in net.terminals:
-            where.setdefault(str(terminal), []).append(net.kind)
-    assert all(len(kinds) == 1 for kinds in where.values())
-    for role, board in chosen_parts(shop).boards.items():
-        kinds = {kind for terminal, (kind,) in where.items() if terminal.startswith(role + " ")}
-        assert "ground" in kinds
-        assert kinds & {"supply", "logic"}
-        printed = {terminal.removeprefix(role + " ") for terminal in where if terminal.startswith(role + " ")}
-        assert printed <= {*board.pins, *board.supply_v}
-
-
-def test_two_cells_leave_the_pads_of_one_cell_empty(workshop: Write) -> None:
-    used = {str(t) for net in wiring(workshop('[bought]\nkit = "strong-2s"')).nets for t in net.terminals}
-    assert "controller 5V" in used
-    assert not used & {"controller BAT+", "controller BAT-"}
-
-
-@pytest.mark.parametrize("kit", KITS)
-def test_strapping_pins_are_left_alone_and_the_divider_stays_in_range(kit: str, workshop: Write) -> None:
-    """GPIO 2, 8 and 9 of an ESP32-C3 choose how it boots: D0, D8 and D9 of the board; GPIO 3 and 4 have ADC1."""
-    shop = workshop(f'[bought]\nkit = "{kit}"')
-    wired = wiring(shop)
-    assert not set(wired.pins.values()) & {"D0", "D8", "D9"}
-    assert wired.pins["battery"] in ("D1", "D2")
-    assert chosen_parts(shop).battery.range_v[1] / wired.divider <= 2.5
-
-
-OWN = '[bought]\ncontroller = "mine"\n[boards.mine]\nlike = "xiao-esp32c3"\nsource = "x"\nbutton = ""\npins = %s\n'
-FED = OWN.replace("pins = %s", 'supply_v = { VSYS = [%s] }\ndiode_at = ["VSYS"]')
-"""A board without pads for a cell, whose supply is behind a diode of its USB socket, as on a Raspberry Pi Pico."""
-
-
-@pytest.mark.parametrize(
-    ("text", "name", "severity", "words"),
-    [
-        (OWN % '{ GND = ["ground"], D1 = ["gpio1", "adc", "pwm"] }', "wiring_pins", "error", "no pin left"),
-        (OWN % '{ D1 = ["gpio1", "pwm"], D2 = ["gpio2"] }', "wiring_ground", "error", "no ground at controller"),
-        ('[bought]\ncapacitor = ""', "wiring_capacitor", "warning", "no capacitor"),
-        ('[bought]\nkit = "strong-2s"\ndiode = ""', "wiring_diode", "error", "needs a diode at 5V"),
-        (FED % "1.8, 5.5", "wiring_diode", "error", "it would charge the battery without a charger"),
-        ('[bought]\nsensor = ""', "wiring_pins", "error", "no sensor"),
-        ('[bought]\nswitch = ""', "wiring_cut_off", "error", "no switch: a motor that the program does not stop"),
-        ('[bought]\nplug = ""', "wiring_cut_off", "error", "no plug: a motor that the program does not stop"),
-    ],
-)
-def test_what_is_missing_is_named(text: str, name: str, severity: str, words: str, workshop: Write) -> None:
-    shop = workshop(text)
-    findings = {f.name: f for f in wiring_findings(chosen_parts(shop), wiring(shop))}
-    assert findings[name].severity == severity
-    assert words in findings[name].message
-    assert findings[name].remedy
-
-
-@pytest.mark.parametrize("kit", KITS)
-def test_the_contact_opens_when_pressed_and_gets_its_least_current(kit: str, workshop: Write) -> None:
-    """Omron rates the D2HW from 1 mA; 2.2 kOhm at 3.3 V give 1.5 mA, also 5 % higher and lower."""
-    shop = workshop(f'[bought]\nkit = "{kit}"')
-    wired, nets = wiring(shop), {net.name: [str(t) for t in net.terminals] for net in wiring(shop).nets}
-    assert wired.ready_level == 1
-    assert nets["ready"] == [f"controller {wired.pins['ready']}", "sensor NC", "pull-up resistor 1"]
-    assert nets["logic supply"] == ["controller 3V3", "pull-up resistor 2"]
-    assert "sensor COM" in nets["ground"]
-    assert wired.pull_up_ohm is not None
-    assert 0.95 * 3.3 / (1.05 * wired.pull_up_ohm) > 0.001
-
-
-def test_a_sensor_that_only_closes_reads_the_other_way_round(workshop: Write) -> None:
-    chosen = chosen_parts(workshop("[bought]"))
-    sensor = chosen.components["sensor"].model_copy(update={"terminals": ("COM", "NO")})
-    wired = wiring_of(replace(chosen, components=chosen.components | {"sensor": sensor}), {})
-    assert wired.ready_level == 0
-    assert "sensor NO" in {str(t) for net in wired.nets for t in net.terminals}
-
-
-def test_a_contact_without_its_least_current_is_named(workshop: Write) -> None:
-    """A controller without a pin that supplies 3.3 V: its own pull-up of 45 kOhm gives 0.07 mA."""
-    shop = workshop(OWN % '{ GND = ["ground"], D1 = ["gpio1", "adc", "pwm"], D2 = ["gpio3"], D3 = ["gpio4", "pwm"] }')
-    finding = {f.name: f for f in wiring_findings(chosen_parts(shop), wiring(shop))}["wiring_contact"]
-    assert (finding.severity, finding.limit) == ("warning", 1.0)
-    assert finding.value == pytest.approx(3.3 / 45.0, rel=0.05)
-    assert "pull-up resistor" in finding.remedy
 
 
 def test_charging_is_measured_against_the_battery() -> None:

@@ -28,7 +28,7 @@ from jumpcad.workshop import load_workshop
 Slabs = list[tuple[float, float, Region]]
 
 BLOCK = rectangle((30.0, 20.0))
-HOLE, TONGUE = rectangle((14.0, 14.0)), rectangle((5.0, 4.0), (-4.5, 0.0))
+HOLE = rectangle((14.0, 14.0))
 
 
 def robot_of(kenan: Robot, shape: Stack | Blocks) -> Robot:

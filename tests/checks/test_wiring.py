@@ -54,6 +54,8 @@ def test_what_is_left_out_is_missed() -> None:
         assert (finding.severity, finding.remedy) == ("error", f"name one in bought.{role}")
     apart = board(chosen, "controller", diode_at=[])
     assert found(without(apart, "diode"))["wiring_diode"].severity == "info"
+    fed = board(parts("light-1s"), "controller", supply_v={"VSYS": (1.8, 5.5)}, diode_at=["VSYS"])
+    assert found(fed)["wiring_diode"].severity == "error", "USB would charge the battery without a charger"
 
 
 def test_a_second_supply_that_no_wire_reaches_is_named() -> None:
@@ -94,18 +96,6 @@ def test_a_board_without_ground_is_named() -> None:
         others = {name: does for name, does in pins if not {"ground", "reverse"} & set(does)}
         finding = found(board(chosen, role, pins=others))["wiring_ground"]
         assert (finding.severity, finding.message) == ("error", f"no ground at {role}")
-
-
-@pytest.mark.parametrize("role", ["battery", "controller", "driver"])
-def test_what_hangs_on_no_ground_net_is_named(role: str) -> None:
-    chosen = parts("light-1s")
-    wiring = wiring_of(chosen, {})
-    nets = tuple(
-        replace(net, terminals=tuple(one for one in net.terminals if one.part != role)) if net.kind == "ground" else net
-        for net in wiring.nets
-    )
-    finding = next(one for one in wiring_findings(chosen, replace(wiring, nets=nets)) if one.name == "wiring_ground")
-    assert (finding.severity, finding.message) == ("error", f"no ground at {role}")
 
 
 def test_too_few_pins_and_a_driver_that_cannot_be_driven() -> None:

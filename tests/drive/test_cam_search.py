@@ -9,10 +9,10 @@ import pytest
 from support.limits import default_limits
 
 from jumpcad.drive.cam_findings import LIMITS as CAM_LIMITS
-from jumpcad.drive.cam_findings import ROWS, SCALES
+from jumpcad.drive.cam_findings import ROWS
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import measure
-from jumpcad.drive.cam_search import _Shapes, synthesise_cam
+from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.errors import CannotBuildError
 
 LIMITS = default_limits().cam
@@ -80,17 +80,6 @@ def test_rounding_the_smallest_cam_refuses_none():
         assert cam.contact_pressure_mpa <= limits.pressure_mpa + 1e-6
 
 
-def test_a_found_cam_fits_its_limits_and_a_much_smaller_one_does_not():
-    law = CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad)
-    cam = synthesise_cam(law, LIMITS)
-    gap = cam.geometry.axis_distance_mm - cam.lever_length_mm
-    shape = np.array([cam.lever_length_mm, gap, cam.geometry.lead_rad])
-    shapes = _Shapes(law, LIMITS)
-    shapes.reserve = 0.0 * shapes.reserve
-    assert shapes._fits(np.log(1.05 * shape))
-    assert not shapes._fits(np.log(0.8 * shape))
-
-
 def test_no_neighbour_on_the_grid_is_a_cam_smaller_by_a_step_that_fits():
     """Steps of 10 µm and 0.01°: of the eight around the optimum the smallest that meets every limit is taken."""
     for compression_deg, stiffness in ((50, 0.6), (45, 1.0), (35, 0.8)):
@@ -126,90 +115,6 @@ def test_the_findings_of_a_cam_are_those_of_its_own_shape():
         assert cam.min_convex_radius_mm == pytest.approx(numbers["convex_radius"][0])
         assert cam.outer_radius_mm == pytest.approx(outer[0], abs=0.01)
         assert cam.core_radius_mm == pytest.approx(np.hypot(*cam.profile_mm.T).min())
-
-
-def shapes_and_cam() -> tuple[_Shapes, np.ndarray]:
-    law = CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad)
-    cam = synthesise_cam(law, LIMITS)
-    gap = cam.geometry.axis_distance_mm - cam.lever_length_mm
-    return _Shapes(law, LIMITS), np.array([cam.lever_length_mm, gap, cam.geometry.lead_rad])
-
-
-@pytest.mark.parametrize(("gap_mm", "core_mm", "least_mm"), [(9.0, 5.0, 9.0), (5.0, 9.0, 9.0)])
-def test_shapes_keep_off_the_axle_and_around_the_core(gap_mm: float, core_mm: float, least_mm: float) -> None:
-    """From the lever's circle to the cam's axis; the lever reaches around hub, roller and the clearance."""
-    limits = replace(LIMITS, gap_min_mm=gap_mm, core_radius_mm=core_mm, hub_radius_mm=6.0, clearance_mm=0.7)
-    shapes = _Shapes(CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad), limits)
-    assert np.exp(shapes.lower[:2]) == pytest.approx([6.0 + limits.roller_radius_mm + 0.7, least_mm])
-    assert limits.overshoot_rad < np.exp(shapes.lower[2]) < limits.overshoot_rad + 0.001  # else there is no hollow
-    assert np.exp(shapes.upper) == pytest.approx([limits.lever_max_mm, limits.gap_max_mm, limits.lead_max_rad])
-
-
-def test_the_outer_radius_counts_most_then_lever_and_distance_of_the_axis():
-    """A millimetre more of lever or gap is a part of a millimetre of radius, and never makes a cam smaller."""
-    search, shape = shapes_and_cam()
-    shapes = shape + np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    outer, _, _ = measure(search.law, search.limits, shapes, 25)
-    plain, lever, gap = search._size_and_margins(np.log(shapes), 25)[0] - outer
-    assert 0.0 < gap - plain < lever - plain < 0.5
-
-
-@pytest.mark.parametrize("pressure_mpa", [90.0, 10.0])
-def test_a_search_starts_from_the_smallest_that_fits_or_from_what_misses_least(pressure_mpa: float) -> None:
-    """Of each lever's shapes on the grid; a softer material is pressed too hard by all of them."""
-    law = CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad)
-    shapes = _Shapes(law, replace(LIMITS, pressure_mpa=pressure_mpa))
-    grid = np.array(list(itertools.product(*np.linspace(shapes.lower, shapes.upper, 7).T)))
-    size, margins = shapes._size_and_margins(grid, samples=12)
-    fits = (margins >= 0.0).all(axis=0)
-    assert fits.any() == (pressure_mpa == 90.0)
-    first, *_ = shapes._coarse()
-    (at,) = np.flatnonzero((grid == first).all(axis=1))
-    if fits.any():
-        assert fits[at]
-        assert size[at] == size[fits].min()
-    else:
-        missing = np.log1p(np.maximum(-margins, 0.0)).sum(axis=0)
-        assert missing[at] == missing.min()
-
-
-def test_what_coarse_samples_hide_is_held_in_reserve():
-    """With it the coarse margins of a shape are at most the true ones, by little; of what misses, by as much again."""
-    search, shape = shapes_and_cam()
-    _, true, _ = measure(search.law, search.limits, shape[None], 181)
-    true = true[:, 0] / SCALES
-
-    def coarse() -> np.ndarray:
-        search.known.clear()
-        return search._at(np.log(shape))[2]
-
-    hidden = coarse() + search.reserve - true
-    search.allow_for(shape, true * SCALES)
-    assert (coarse() <= true - 1e-5).all()
-    assert (coarse() >= true - search.RESERVE - 2e-4 - 0.06 * np.abs(hidden)).all()
-    missed = np.full(len(SCALES), -0.01)
-    search.allow_for(shape, missed * SCALES)
-    assert (coarse() <= 3.0 * missed + 1e-9).all()
-
-
-def test_a_cam_that_was_hoped_to_fit_is_looked_for_again_by_what_the_nearest_shape_misses(
-    monkeypatch: pytest.MonkeyPatch,
-):
-    law, asked, allow = CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad), [], _Shapes.allow_for
-
-    def spied(search: _Shapes, shape: np.ndarray, margin: np.ndarray) -> None:
-        asked.append((shape, margin))
-        allow(search, shape, margin)
-
-    monkeypatch.setattr(_Shapes, "RESERVE", -0.02)
-    monkeypatch.setattr(_Shapes, "allow_for", spied)
-    cam = synthesise_cam.__wrapped__(law, LIMITS)
-    assert asked
-    for shape, margin in asked:
-        _, true, _ = measure(law, LIMITS, shape[None], 181)
-        assert margin == pytest.approx(true[:, 0], abs=1e-9)
-        assert margin.min() < 0.0
-    assert min(finding.margin for finding in cam.findings) > 0.0
 
 
 @pytest.mark.parametrize(

@@ -10,14 +10,11 @@ from support.limits import default_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.gear_choice import _area, _printable, _strong, by_cost, least_tip_mm
+from jumpcad.drive.gear_choice import _printable, by_cost, least_tip_mm
 from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.gears import Gear, least_shift
 from jumpcad.drive.motor import winding_s
 from jumpcad.drive.train import NoTrainError, synthesise_train
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.supply import supply_of
-from jumpcad.workshop import load_workshop
 
 MOTORS = list(load_catalogue().motors.values())
 SHARE = 0.25 * 0.95 / 1.1
@@ -191,57 +188,3 @@ def test_gears_that_are_offered_print_and_hold_their_shafts(count, changed):
             assert pair.module_mm in limits.modules_mm
             offered += 1
     assert offered
-
-
-@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
-def test_what_time_costs_is_that_of_the_battery(kit):
-    """A motor of 6 V on one cell winds more slowly: its gears are chosen by the time that it then takes."""
-    shop, law = load_workshop(), law_of("best-ga")
-    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump())
-    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": bought})))
-    limits, costs = dataclasses.replace(LIMITS, seconds_per_gram=0.3, supply=supply), []
-    for motor, stages in by_cost(law, MOTORS, limits, 2):
-        slower = supply.driven(motor, supply.nominal_v, limits.blocked_nm)
-        radii = [gear.pitch_radius_mm for pair in stages for gear in (pair.pinion, pair.wheel)]
-        grams = 1.27e-3 * math.pi * sum(radius**2 for radius in radii) * limits.face_width_mm
-        seconds = winding_s(law, slower, math.prod(pair.ratio for pair in stages), limits.efficiency(2))
-        costs.append(motor.mass_g + grams + seconds / 0.3)
-    assert len(costs) > 12
-    assert costs == pytest.approx(sorted(costs))
-
-
-@pytest.mark.parametrize(("tip_min", "root_min"), [(0.45, 2.9), (0.6, 0.0), (0.0, 6.0), (0.0, 8.0)])
-def test_pinions_begin_where_their_tips_print_and_their_root_holds_a_shaft(tip_min, root_min):
-    """All pinions from 12 to 45 teeth that have both, and with each all wheels from as many teeth to 90."""
-    table = _printable((1.0, 1.5), 0.15, tip_min, root_min)
-    for module in (1.0, 1.5):
-        fits = [
-            teeth for teeth in range(12, 46)
-            if (gear := gear_pair(teeth, 90, module, 1.0, 0.15).pinion).root_radius_mm >= root_min
-            and Gear(teeth, module, gear.shift, 1.0, 0.075).tip_thickness_mm >= tip_min
-        ]  # fmt: skip
-        rows = table[table["module"] == module]
-        assert sorted(set(rows["pinion"])) == fits
-        assert set(rows["least_teeth"]) == {fits[0]}
-        assert len(rows) == sum(91 - max(13, teeth) for teeth in fits)
-
-
-def test_a_pair_is_strong_enough_up_to_its_pinions_lewis_stress():
-    """Of any module, with what its wheel bears."""
-    for module in (0.8, 1.0, 1.5):
-        rows = _printable((module,), 0.15, 0.45, 2.9)
-        pair = rows[len(rows) // 2 : len(rows) // 2 + 1]
-        pinion, wheel = int(pair["pinion"][0]), int(pair["wheel"][0])
-        gear = Gear(pinion, module, max(0.0, least_shift(pinion)), LIMITS.face_width_mm, 0.075)
-        stress = gear.lewis_stress_mpa(0.4 * pinion / wheel)
-        for share, strong in ((1.001, True), (0.999, False)):
-            limits = dataclasses.replace(LIMITS, stress_mpa=share * stress)
-            assert bool(_strong(pair, 0.4, limits)[0]) == strong
-
-
-def test_gears_are_as_large_as_the_squares_of_their_pitch_circles():
-    table = _printable((0.8, 1.25), 0.15, 0.45, 2.9)[::200]
-    for row, area in zip(table, _area(table), strict=True):
-        pair = gear_pair(int(row["pinion"]), int(row["wheel"]), float(row["module"]), 1.0, 0.15)
-        circles = [2.0 * gear.pitch_radius_mm for gear in (pair.pinion, pair.wheel)]
-        assert area == pytest.approx(sum(diameter**2 for diameter in circles))

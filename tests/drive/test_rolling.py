@@ -180,53 +180,6 @@ def test_the_cam_has_run_ahead_by_an_angle_at_the_first_index_at_or_beyond_it() 
     assert release._index(1.0) == release.last
 
 
-@pytest.mark.parametrize(("rate", "left"), [(0.7, 0.0), (-0.7, -0.7)])
-def test_what_a_rebound_gives_the_leg_is_lost(monkeypatch: pytest.MonkeyPatch, rate: float, left: float) -> None:
-    """The roller leaves the corner with the leg on its way up, or down."""
-    release, times = _Release(arc(0.2), parts()), []
-
-    def thrown(stop: int) -> None:
-        release.at, release.touches, release.rate = stop, False, rate
-        times.append(release.at)
-
-    monkeypatch.setattr(release, "_push_to", thrown)
-    release._push_off(0)
-    assert release.rate == left
-    assert times == [400], "once, to the corner's end"
-
-
-@pytest.mark.parametrize("steps", [0, 1, 7])
-def test_after_a_rebound_the_release_goes_on_from_where_it_was_and_at_least_by_a_step(
-    monkeypatch: pytest.MonkeyPatch, steps: int
-) -> None:
-    """A roller that leaves the corner again and again comes to its end all the same."""
-    release, begun = _Release(arc(0.2), parts()), []
-
-    def thrown(stop: int) -> None:
-        begun.append(release.at)
-        release.at, release.touches = min(release.at + steps, stop), False
-
-    monkeypatch.setattr(release, "_push_to", thrown)
-    release._push_off(300)
-    assert begun == list(range(0, 400, max(steps, 1)))
-
-
-@pytest.mark.parametrize(("at", "touches", "fallen"), [(3, False, [300]), (350, False, [350]), (3, True, [])])
-def test_a_roller_that_is_off_the_corner_meets_it_where_the_rotor_joins_or_later(
-    monkeypatch: pytest.MonkeyPatch, at: int, touches: bool, fallen: list[int]
-) -> None:
-    release, falls = _Release(arc(0.2), parts()), []
-
-    def pushed(stop: int) -> None:
-        release.at, release.touches = stop, True
-
-    monkeypatch.setattr(release, "_push_to", pushed)
-    monkeypatch.setattr(release, "_fall_to", falls.append)
-    release.at, release.touches = at, touches
-    release._push_off(300)
-    assert (falls, release.at) == (fallen, 400)
-
-
 def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:
     """With the leg's moment of inertia where the roller leaves."""
     robot = built("best-ga")
@@ -242,22 +195,6 @@ def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:
     assert (rolled.blow_nm, rolled.kick_nm) == (release.blow_nm, release.kick_nm)
     assert (rolled.wind_rad, rolled.wind_rad_s) == (release.wind, release.rate)
     assert rolled.held_j == given.spring.stored_j(-given.held_rad(float(corner.wind_rad.max())))
-
-
-@pytest.mark.parametrize(("impact_nm", "met_nm", "kick_nm"), [(5.0, 0.1, 5.0), (5.0, 9.0, 9.0)])
-def test_the_larger_of_a_cams_impact_and_of_what_it_meets_later_is_the_kick(
-    monkeypatch: pytest.MonkeyPatch, impact_nm: float, met_nm: float, kick_nm: float
-) -> None:
-    """The gear strikes the rotor, and the corner, still below the roller, pushes cam and gear on to it."""
-    monkeypatch.setattr(rolling, "largest_torques_nm", lambda *_: (1.0, impact_nm))
-    joined: list[float] = []
-    monkeypatch.setattr(_Release, "_join", lambda self, inertia: joined.append(inertia) or met_nm)
-    monkeypatch.setattr(_Release, "_push_off", lambda self, end: None)
-    given = parts(play_rad=0.1, backlash_rad=0.05)
-    release = _Release(arc(0.1), given)
-    release.run()
-    assert (release.blow_nm, release.kick_nm) == (1.0, kick_nm)
-    assert joined == [given.gear_kg_m2, given.rotor_kg_m2]
 
 
 @pytest.mark.parametrize(
@@ -296,19 +233,3 @@ def test_a_leg_that_falls_to_the_corner_has_what_the_springs_and_itself_had(belo
     assert release.wind == min(begin, here)
     assert release.rate == pytest.approx(-math.sqrt(max(rate**2 + 2.0 * lost / float(release.leg_inertia[at]), 0.0)))
     assert (lost < 0.0) == below
-
-
-def test_an_impact_is_that_of_the_cams_speed_against_a_motor_that_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Masses from cam to rotor, speeds of cam and motor, then backlash, stiffness and rebound of what is between."""
-    seen = []
-    monkeypatch.setattr(rolling, "largest_torques_nm", lambda *given: seen.append(given) or (0.0, 0.0))
-    given = parts(
-        play_rad=0.1, backlash_rad=0.05, cam_rad_s=2.0, cam_kg_m2=1e-6, gear_kg_m2=3e-6, rotor_kg_m2=7e-6,
-        train_nm_per_rad=11.0, rebound=0.3,
-    )  # fmt: skip
-    release = _Release(arc(0.2), given)
-    release.run()
-    ((masses, speed, *others),) = seen
-    assert masses == (1e-6, 3e-6, 7e-6)
-    assert speed > 2.0  # the corner drives the cam on
-    assert others == [2.0, 0.05, 11.0, 0.3]

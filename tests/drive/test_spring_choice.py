@@ -17,9 +17,6 @@ from jumpcad.drive.spring_choice import (
     _arms_between,
     _arms_of,
     _finished,
-    _fits,
-    _least_index,
-    _product_mm,
     _smallest_arms,
     synthesise_spring,
 )
@@ -39,48 +36,6 @@ def spring_of(name: str, limits: SpringLimits = LIMITS) -> tuple[Design, Torsion
     """Return a template's design and the spring that is made for it."""
     design = load_design(name)
     return design, synthesise_spring(springs_on_leg(design), -math.radians(design.rest_angle_deg), WIRE, limits)
-
-
-@pytest.mark.parametrize("index", [4.0, 5.5, 9.0, 30.0])
-def test_the_least_index_is_that_whose_stress_factor_is_what_is_left(index: float) -> None:
-    """q = (w + 0.07)/(w - 0.75) of EN 13906-3, whose scope begins at w = 4; no coil is as weak as straight wire."""
-    assert _least_index((index + 0.07) / (index - 0.75)) == pytest.approx(index)
-    assert _least_index(1.3) == _least_index(5.0) == 4.0
-    assert _least_index(1.0) == _least_index(0.5) == math.inf
-    assert _least_index(1.0001) > 5000.0
-
-
-@pytest.mark.parametrize(("d", "stiffness"), [(0.5, 0.02), (1.2, 0.3), (2.0, 1.5)])
-def test_each_of_two_wires_bends_as_softly_as_half_of_both_springs(d: float, stiffness: float) -> None:
-    """A wire of length pi·D·n in pure bending turns by M·l/(E·I)."""
-    product = _product_mm(d, Spring("leg", stiffness, 0.5), WIRE)
-    second = math.pi * d**4 / 64.0
-    assert WIRE.modulus_mpa * second / (math.pi * product) == pytest.approx(1000.0 * stiffness / 2.0)
-
-
-@pytest.mark.parametrize(
-    ("mean", "d", "outer", "fits"),
-    [
-        (16.0, 1.0, 17.0, True),
-        (16.0, 1.0, 16.99, False),
-        (16.01, 1.0, 40.0, False),
-        (31.9, 2.0, 40.0, True),
-        (32.1, 2.0, 40.0, False),
-    ],
-)
-def test_a_coil_fits_by_its_outer_diameter_and_its_index(mean: float, d: float, outer: float, fits: bool) -> None:
-    """Makers wind up to an index of 16; the room counts with the wire."""
-    assert _fits(Arms(mean, d, 3.0, 10.0), replace(LIMITS, outer_max_mm=outer)) == fits
-
-
-@pytest.mark.parametrize("least_mm", [0.0, 40.0])
-def test_arms_reach_their_pins_from_outside_of_the_coil(least_mm: float) -> None:
-    """A coil of 10 mm of 2 mm wire; the pin, of 4 mm, is half of the wire and half of its own from the tangent."""
-    limits = replace(LIMITS, pin_mm=4.0, pin_radius_min_mm=least_mm, arm_reach_mm=7.0)
-    arms = _arms_of(10.0, 2.0, limits)
-    radius = max(6.0 + 7.0, least_mm)
-    assert (arms.mean_mm, arms.wire_mm, arms.pin_mm) == (10.0, 2.0, 4.0)
-    assert arms.lever_mm == pytest.approx(math.sqrt(radius**2 - (5.0 + 1.0 + 2.0) ** 2))
 
 
 def test_the_turns_of_a_coil_follow_from_the_stiffness() -> None:
@@ -114,53 +69,6 @@ def test_turns_and_both_arms_lead_from_one_pin_to_the_other(between: float, prel
     at_least = product / 8.0 - least.arm_turns
     most = (TURN * at_least + 2.0 * least.turn_rad + preload - between) / TURN
     assert round(whole) == math.floor(most)
-
-
-def test_a_coil_that_meets_its_pins_already_stays_as_it_is() -> None:
-    on_leg, least = Spring("leg", 0.4, 0.5), _arms_of(8.0, 1.2, LIMITS)
-    turns = _product_mm(1.2, on_leg, WIRE) / 8.0 - least.arm_turns
-    between = (TURN * turns + 2.0 * least.turn_rad) % TURN
-    arms = _arms_between(least, on_leg, between, WIRE, LIMITS)
-    assert arms is not None
-    assert arms.mean_mm == pytest.approx(8.0, abs=2e-6)
-
-
-@pytest.mark.parametrize(("turns", "found"), [(3.1, True), (3.0 - 1e-3, False)])
-def test_a_coil_has_three_turns_at_least(turns: float, found: bool) -> None:
-    """The scope of EN 13906-3; of a coil that meets its pins as it is."""
-    limits = replace(LIMITS, outer_max_mm=60.0)
-    least = _arms_of(9.0, 1.2, limits)
-    stiffness = WIRE.modulus_mpa * 1.2**4 / (64.0 * 500.0 * 9.0 * (turns + least.arm_turns))
-    between = (TURN * turns + 2.0 * least.turn_rad) % TURN
-    arms = _arms_between(least, Spring("leg", stiffness, 0.3), between, WIRE, limits)
-    assert (arms is not None) == found
-
-
-def test_a_coil_that_is_too_wide_for_its_room_once_it_meets_the_pins_is_none() -> None:
-    on_leg, wide = Spring("leg", 0.4, 0.5), replace(LIMITS, outer_max_mm=30.0)
-    arms = _arms_between(_arms_of(8.0, 1.2, wide), on_leg, 1.0, WIRE, wide)
-    assert arms is not None
-    for more, found in ((1e-3, True), (-1e-3, False)):
-        narrow = replace(wide, outer_max_mm=arms.mean_mm + 1.2 + more)
-        assert (_arms_between(_arms_of(8.0, 1.2, narrow), on_leg, 1.0, WIRE, narrow) is not None) == found
-
-
-@pytest.mark.parametrize(
-    "changed",
-    [
-        {"length": 1.2 * (1.0 + 0.5 / TURN)},  # as short as the wire and what it winds up by
-        {"tensile": 100.0},  # less than straight wire of it bears
-        {"stiffness": 40.0},  # nothing of the coil is left beside its arms
-        {"mandrel": 1000.0},  # no coil is as wide
-    ],
-)
-def test_a_wire_that_cannot_make_the_spring_is_none(changed: dict[str, float]) -> None:
-    given = {"length": 30.0, "tensile": 2000.0, "stiffness": 0.4, "mandrel": 4.0}
-    for values, found in ((given, True), (given | changed, False)):
-        limits = replace(LIMITS, mandrel_min_mm=values["mandrel"])
-        on_leg = Spring("leg", values["stiffness"], 0.5)
-        arms = _smallest_arms(1.2, values["tensile"], on_leg, WIRE, limits, values["length"])
-        assert (arms is not None) == found
 
 
 @each("stiffness", [0.1, 0.4, 0.7])
@@ -341,31 +249,3 @@ def test_no_coil_is_wider_or_longer_than_its_room(stiffness: float) -> None:
             assert spring.body_length_mm <= length + 1e-6
     assert found > 5
     assert refused > 20
-
-
-@each("name", NAMES)
-@each("preload_deg", [0.0, 15.0])
-def test_the_smallest_coil_of_a_wire_is_at_one_of_its_limits(name: str, preload_deg: float) -> None:
-    """Index, stress, length or bushing: no coil of that wire is narrower, whatever its whole turns."""
-    design, preload = load_design(name), math.radians(preload_deg)
-    on_leg, found = springs_on_leg(design, None, preload), 0
-    for d, tensile in zip(WIRE.diameters_mm, WIRE.tensile_strength_mpa, strict=True):
-        arms = _smallest_arms(d, tensile, on_leg, WIRE, LIMITS, LENGTH_MM)
-        if arms is None:
-            continue
-        found += 1
-        mean = arms.mean_mm
-        beside, radius = (mean + d + LIMITS.pin_mm) / 2, (mean + d) / 2 + LIMITS.arm_reach_mm
-        lever = math.sqrt(radius**2 - beside**2)
-        turns = WIRE.modulus_mpa * d**4 / (64 * 500 * on_leg.stiffness_nm_per_rad * mean) - 2 * lever / (
-            3 * math.pi * mean
-        )
-        loaded = turns + (design.compression_rad + preload) / (2 * math.pi)
-        moment = 500 * design.stiffness_nm_per_rad * (design.compression_rad + preload)
-        stress = inner_fibre(mean / d) * 32 * moment / (math.pi * d**3)
-        room = [
-            mean / d - 4, 1 - stress / (LIMITS.stress_share * tensile), LENGTH_MM - (loaded + 1) * d,
-            mean * turns / loaded - d - LIMITS.mandrel_min_mm - LIMITS.mandrel_clearance_mm,
-        ]  # fmt: skip
-        assert min(room) == pytest.approx(0.0, abs=1e-5)
-    assert found

@@ -14,7 +14,7 @@ from jumpcad.checks.interference import interference_findings
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import TorsionSpring
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM
-from jumpcad.drive.stock_spring import fitted_spring, of_stock, springs_on_leg
+from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
@@ -89,21 +89,6 @@ def test_arms_that_are_too_short_are_refused() -> None:
     for more, words in ((-0.01, f"do not reach the pins; {needed:.1f} mm are needed"), (0.01, "there is room from")):
         with pytest.raises(CannotBuildError, match=words):
             fitted(STOCK.model_copy(update={"arm_length_mm": needed + more}))
-
-
-def test_an_arm_angle_that_no_pin_fits_is_refused() -> None:
-    words = r"arms 270° apart, the plate's pin must be between \d+° and \d+° from forward; there is room from 55°"
-    with pytest.raises(CannotBuildError, match=words):
-        fitted(STOCK.model_copy(update={"turns": 5.75, "arm_angle_deg": 270.0}))
-
-
-def test_the_arm_angle_that_is_advised_fits() -> None:
-    odd = STOCK.model_copy(update={"turns": 5.75, "arm_angle_deg": 270.0})
-    with pytest.raises(CannotBuildError) as refused:
-        fitted(odd)
-    advised = float(re.search(r"arms about (\d+)° apart", str(refused.value))[1])  # type: ignore[index]
-    turns = 5.0 + (0.5 - advised / 360.0) % 1.0
-    assert fitted(odd.model_copy(update={"turns": turns, "arm_angle_deg": advised})).arms.mean_mm > 0.0
 
 
 def test_a_coil_that_grips_its_bushing_is_refused() -> None:
@@ -189,23 +174,6 @@ def test_where_several_directions_of_the_plates_pin_are_free_the_shortest_arms_a
         found = fitted(STOCK, limits=replace(LIMITS, plate_pins_rad=tuple(order)))
         assert found.arms.lever_mm == shortest
         assert found.plate_pin_rad == angles[alone.index(shortest)]
-
-
-@pytest.mark.parametrize(
-    ("made", "bought"),
-    [
-        ("lower stiffness_nmm_per_deg or compression_ratio",
-         "choose a weaker bought.spring or lower compression_ratio"),
-        ("raise stiffness_nmm_per_deg or compression_ratio, or allow a slower motor",
-         "choose a stronger bought.spring or raise compression_ratio, or allow a slower motor"),
-        ("lower stiffness_nmm_per_deg (a smaller spring)", "choose a weaker bought.spring (a smaller spring)"),
-        ("a smaller bearing, or a lower stiffness_nmm_per_deg", "a smaller bearing, or a weaker bought.spring"),
-        ("choose a thicker axle", "choose a thicker axle"),
-    ],
-)  # fmt: skip
-def test_remedies_name_the_spring_that_is_bought(made: str, bought: str) -> None:
-    """The stiffness of a design decides nothing there: the springs have the rate that they have."""
-    assert of_stock(made) == bought
 
 
 def test_no_refusal_or_finding_names_a_stiffness_that_decides_nothing() -> None:

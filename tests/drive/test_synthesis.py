@@ -7,12 +7,9 @@ import numpy as np
 import pytest
 from support.limits import default_limits
 
-from jumpcad.catalogue import load_catalogue
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
-from jumpcad.drive import DriveLimits, synthesis, synthesise
+from jumpcad.drive import synthesis, synthesise
 from jumpcad.drive.corner import clear_window_rad
-from jumpcad.drive.train import NoTrainError
-from jumpcad.drive.train_limits import TrainLimits
 from jumpcad.errors import CannotBuildError
 
 LIMITS = default_limits()
@@ -182,43 +179,6 @@ def test_the_cams_axis_makes_room_for_one_pair_at_the_least_gap_that_is_enough(n
     assert found.cam.cam_axis_mm.tolist() == first.cam.cam_axis_mm.tolist()
 
 
-def test_a_drive_of_which_little_is_said_has_slack_springs_and_the_usual_clearances():
-    """Springs that rest on their pins, 0.8 mm around spacers of 6.4 mm, 50 ms in which the leg falls."""
-    plain = DriveLimits(LIMITS.spring, LIMITS.cam, LIMITS.train, LIMITS.motors, LIMITS.dog_mm)
-    assert (plain.gap_mm, plain.axle_radius_mm, plain.fall_s) == (0.8, 6.4 / 2.0, 0.05)
-    drive = synthesise(load_design("kenan-2.0"), plain)
-    check(load_design("kenan-2.0"), drive)
-    assert drive.spring.preload_rad == drive.cam.law.preload_rad == 0.0
-    assert drive.spring.stock == ""
-
-
-def test_springs_from_stock_say_their_rate_beside_the_drives_other_limits():
-    """Two of 26.36 N·mm/° where the design asks for 9.20; springs made to order have the design's."""
-    stock = dataclasses.replace(default_limits("kenan-1.0"), stock_spring=load_catalogue().springs["9271K589"])
-    design = load_design("kenan-1.0")
-    rates = {
-        limits.stock_spring and limits.stock_spring.name: [
-            finding.message for finding in synthesise(design, limits).findings if finding.name == "spring_rate"
-        ]
-        for limits in (LIMITS, stock)
-    }
-    assert rates[None] == []
-    (said,) = rates["9271K589"]
-    assert "52.72 N·mm/°" in said
-    assert "9.20" in said
-
-
-def test_a_leg_that_is_too_short_for_the_pin_of_its_springs_is_refused_by_what_is_missing():
-    """Half of the leg, 17.5 mm, may hold the pin."""
-    stock = dataclasses.replace(default_limits("kenan-1.0"), stock_spring=load_catalogue().springs["9271K589"])
-    with pytest.raises(CannotBuildError, match=r"in a leg of 35\.0 mm at most 17\.5 mm") as refused:
-        synthesise(load_design("kenan-1.0").model_copy(update={"carrying_link_mm": 35.0}), stock)
-    needed = float(str(refused.value).partition("leg's pin ")[2].partition(" mm")[0])
-    assert (refused.value.limit, refused.value.unit) == ("spring_pin", "mm")
-    assert refused.value.margin == pytest.approx(17.5 - needed, abs=0.051)
-    assert refused.value.margin < -1.0
-
-
 def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):
     """However often a farther axis is tried for one pair: a farther one is larger and heavier."""
     design = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 27.5, 36.353])
@@ -232,55 +192,3 @@ def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):
     farther = synthesise(design, dataclasses.replace(limits, more_gap_mm=(14.0,)))
     assert tried.cam.geometry.axis_distance_mm == only.cam.geometry.axis_distance_mm
     assert tried.cam.geometry.axis_distance_mm < farther.cam.geometry.axis_distance_mm
-
-
-def test_where_no_gears_fit_near_and_no_cam_is_possible_far_the_gears_are_told(monkeypatch):
-    """Wider teeth may help them: for each width gears are looked for again, and the last width's refusal is told."""
-    tried, near = [], LIMITS.cam.gap_min_mm
-
-    def cam(law, limits):
-        if limits.gap_min_mm > near:
-            raise CannotBuildError("no cam is possible there")
-
-    def train(law, motors, limits):
-        tried.append(limits.face_width_mm)
-        raise NoTrainError(f"no gears of {limits.face_width_mm:g} mm")
-
-    monkeypatch.setattr(synthesis, "synthesise_cam", cam)
-    monkeypatch.setattr(synthesis, "_train_limits", lambda cam, limits: limits.train)
-    monkeypatch.setattr(synthesis, "synthesise_train", train)
-    with pytest.raises(NoTrainError, match="no gears of 8 mm"):
-        synthesise(load_design("kenan-2.0"), LIMITS)
-    assert tried == [5.0, 6.5, 8.0]
-
-
-def test_the_cam_turns_no_farther_while_the_leg_falls_than_its_window_less_its_play():
-    """What is left of the gap in the cam, after the angle by which the cam runs ahead of its gear."""
-    drive, slow = synthesise(load_design("kenan-2.0"), LIMITS), 0.2  # s, in which no cam may turn that far
-    found = synthesis._train_limits(drive.cam, dataclasses.replace(LIMITS, fall_s=slow))
-    _, window = clear_window_rad(drive.cam.geometry)
-    turned = found.cam_speed_max_rad_s * slow
-    assert drive.dog.play_rad > 0.1
-    assert math.radians(2.0) < window - drive.dog.play_rad - turned < math.radians(4.0)  # 3° in reserve
-
-
-@pytest.mark.parametrize("wanted", [0.0, 500.0])
-def test_gears_keep_the_larger_of_what_is_asked_for_and_what_the_cam_needs(wanted: float) -> None:
-    """Beside the cam: its outside and a gap; for an idler's axle that axle too. The gear keeps them off the hub."""
-    cam, gap, axle = synthesise(load_design("kenan-2.0"), LIMITS).cam, 0.7, 3.1
-
-    def beside_cam(**asked: float) -> TrainLimits:
-        train = dataclasses.replace(LIMITS.train, **asked)
-        return synthesis._train_limits(
-            cam, dataclasses.replace(LIMITS, train=train, gap_mm=gap, axle_radius_mm=axle, fall_s=0.2)
-        )
-
-    around = cam.outer_radius_mm + gap
-    assert beside_cam(cam_room_mm=wanted).cam_room_mm == pytest.approx(max(wanted, around))
-    found = beside_cam(idler_distance_min_mm=wanted, motor_distance_min_mm=900.0)
-    assert found.idler_distance_min_mm == pytest.approx(max(wanted, around + axle))
-    assert found.motor_distance_min_mm == 900.0
-    room = math.hypot(*cam.cam_axis_mm) - axle - gap
-    assert beside_cam(cam_gear_tip_max_mm=wanted).cam_gear_tip_max_mm == pytest.approx(min(wanted, room))
-    speed = beside_cam(cam_speed_max_rad_s=900.0).cam_speed_max_rad_s
-    assert beside_cam(cam_speed_max_rad_s=wanted).cam_speed_max_rad_s == pytest.approx(min(wanted, speed))

@@ -8,11 +8,9 @@ import re
 import pytest
 from support.built import built, geared
 from support.limits import LP6, default_limits
-from support.said import well_told
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
-from jumpcad.drive import train as train_module
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
@@ -129,16 +127,6 @@ def test_a_jump_costs_electricity_of_the_order_that_was_measured():
         assert law.energy_j / train.electrical_j < train.efficiency
 
 
-def test_what_a_motor_does_and_may_do_is_told_in_degrees_and_millinewton_metres():
-    train = synthesise_train(law_of("kenan-2.0"), MOTORS, LIMITS)
-    told = {finding.name: finding for finding in train.findings}
-    speed, torque = told["cam_speed"], told["motor_torque"]
-    degrees = [f"{math.degrees(rate):.0f} °/s" for rate in (train.cam_speed_rad_s, LIMITS.cam_speed_max_rad_s)]
-    assert speed.message == f"the unloaded cam turns at {degrees[0]}; {degrees[1]} are allowed"
-    given, allowed = (f"{1000.0 * value:.1f} mN·m" for value in (train.motor_torque_nm, torque.limit))
-    assert torque.message == f"{train.motor.name} gives {given} at most; {allowed} are allowed"
-
-
 def test_a_motor_that_turns_the_cam_at_no_ratio_is_refused():
     weak = [load_catalogue().motors["n20-30"]]
     with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it needs 164 mN·m.*stronger motor") as refused:
@@ -171,34 +159,12 @@ def test_a_motor_is_strong_enough_if_it_turns_the_cam_through_the_losses_of_a_pa
         synthesise_train(other, [motor], nothing_fits)
 
 
-def test_a_train_that_misses_a_limit_is_passed_over(monkeypatch):
-    """Whatever comes first as the lightest: here teeth that break, or a motor that is too fast or too weak."""
-    law, motor = law_of("kenan-2.0"), load_catalogue().motors["n20-298"]
-    good = synthesise_train(law, MOTORS, LIMITS)
-    (stage,) = good.stages
-    thin = gear_pair(stage.pinion.teeth, stage.wheel.teeth, stage.module_mm, 0.2, 0.15)
-    equal = gear_pair(20, 20, stage.module_mm, 5.0, 0.15)
-    for bad in ((good.motor, (thin,)), (motor, (equal,))):
-        monkeypatch.setattr(train_module, "by_cost", lambda *_, bad=bad: iter([bad, (good.motor, good.stages)]))
-        assert synthesise_train(law, MOTORS, LIMITS).stages == good.stages
-        monkeypatch.setattr(train_module, "by_cost", lambda *_, bad=bad: iter([bad]))
-        with pytest.raises(CannotBuildError, match="no motor turns the cam"):
-            synthesise_train(law, MOTORS, LIMITS)
-
-
 def test_the_gear_that_needs_room_beside_the_cam_is_the_cams_own():
     """Of two pairs it is the last one's wheel."""
     for robot in (built("kenan-2.0"), geared()):
         train = robot.layout.drive.train
         (room,) = (finding for finding in train.findings if finding.name == "cam_gear_room")
         assert room.value == pytest.approx(train.stages[-1].wheel.tip_radius_mm)
-
-
-@pytest.mark.parametrize("make", [lambda: built("kenan-2.0"), lambda: built("best-bo"), geared])
-def test_what_is_found_of_a_train_has_value_and_limit_in_words(make):
-    findings = make().layout.drive.train.findings
-    assert [finding.message for finding in findings if not well_told(finding)] == []
-    assert sum(finding.value is not None for finding in findings) >= 4
 
 
 @pytest.mark.parametrize("cut", [0.0, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5])

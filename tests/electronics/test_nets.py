@@ -10,10 +10,8 @@ from jumpcad.electronics.chosen import Chosen, chosen_of
 from jumpcad.electronics.nets import (
     AT,
     LOWER_OHM,
-    PULL_UP_OHMS,
     UPPER_OHMS,
     Wiring,
-    _pull_up_ohm,
     gpio,
     logic_range,
     wiring_of,
@@ -21,7 +19,6 @@ from jumpcad.electronics.nets import (
 
 CATALOGUE = load_catalogue()
 KITS = ("light-1s", "strong-2s")
-E12 = {10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82}
 
 
 def parts(kit: str) -> Chosen:
@@ -146,22 +143,6 @@ def test_of_several_outputs_of_a_driver_one_is_wired_to_each_pole() -> None:
         assert nets[pole] == [f"driver {chosen.driver.with_function(pole)[0]}", f"motor {pole[-1]}"]
 
 
-def test_without_a_divider_a_volt_is_a_volt() -> None:
-    chosen = parts("light-1s")
-    bare = replace(chosen, controller=chosen.controller.model_copy(update={"adc_max_v": None}))
-    wiring = wiring_of(bare, {})
-    assert (wiring.divider, wiring.upper_ohm) == (1.0, None)
-    assert "battery" not in wiring.pins
-
-
-def test_resistors_can_be_bought() -> None:
-    """E12, of which E6 is every other one: two digits, and zeros."""
-    wiring = wiring_of(parts("strong-2s"), {})
-    for ohm in (*UPPER_OHMS, *PULL_UP_OHMS, *wiring.resistors.values()):
-        digits = str(ohm).rstrip("0").ljust(2, "0")
-        assert int(digits) in E12 | {20}  # 200 kOhm: E24
-
-
 @pytest.mark.parametrize("kit", KITS)
 def test_a_closed_contact_carries_its_least_current_even_with_five_per_cent_off(kit: str) -> None:
     chosen = parts(kit)
@@ -172,26 +153,6 @@ def test_a_closed_contact_carries_its_least_current_even_with_five_per_cent_off(
     assert 0.95 * volts / (1.05 * wiring.pull_up_ohm) >= 0.995 * sensor.least_a
     assert volts / (10.0**0.2 * wiring.pull_up_ohm) < 1.1 * sensor.least_a  # the next of the series is too large
     assert wiring.resistors["pull-up resistor"] == wiring.pull_up_ohm
-
-
-@pytest.mark.parametrize(("most_ohm", "chosen"), [(2250.0, 2200), (2150.0, 1500), (1010.0, 1000), (990.0, None)])
-def test_a_pull_up_is_the_largest_that_gives_a_tenth_more_than_the_contact_needs(
-    most_ohm: float, chosen: int | None
-) -> None:
-    """Resistor and supply may both be off by 5 %."""
-    found = parts("light-1s")
-    volts, sensor = found.controller.logic_v, found.components["sensor"]
-    assert volts is not None
-    needs = sensor.model_copy(update={"least_a": volts / (1.1 * most_ohm)})
-    assert _pull_up_ohm(replace(found, components=found.components | {"sensor": needs})) == chosen
-
-
-def test_no_sensor_and_no_supply_are_pulled_up() -> None:
-    chosen = parts("light-1s")
-    others = {role: part for role, part in chosen.components.items() if role != "sensor"}
-    assert _pull_up_ohm(replace(chosen, components=others)) is None
-    dark = chosen.controller.model_copy(update={"logic_v": None})
-    assert _pull_up_ohm(replace(chosen, controller=dark)) is None
 
 
 def test_a_controller_that_supplies_nothing_reads_the_contact_by_its_own_pull_up() -> None:

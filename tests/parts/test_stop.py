@@ -2,25 +2,14 @@
 
 import numpy as np
 import pytest
-import shapely
-import trimesh
 from support.built import built, cut, part, placed, region
-from support.fits import with_fits_apart
 
-from jumpcad.parts.body_plate import _openings
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 
 
 @pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
 def robot(request: pytest.FixtureRequest) -> Robot:
     return built(request.param)
-
-
-def across(robot: Robot, height_mm: float) -> shapely.Geometry:
-    """The bar's section at a height along the leg: x is the robot's left, y points towards the leg."""
-    mesh = part(robot, "stop_bar").mesh
-    return region(trimesh.intersections.mesh_plane(mesh, [0.0, 0.0, 1.0], [0.0, 0.0, height_mm])[:, :, :2])
 
 
 def test_tabs_stand_in_the_plates_slots(robot: Robot) -> None:
@@ -30,16 +19,6 @@ def test_tabs_stand_in_the_plates_slots(robot: Robot) -> None:
         tab, around = (region(cut(placed(robot, name), y)) for name in ("stop_bar", f"body_plate_{side}"))
         assert tab.intersection(around).area < 1e-3
         assert tab.buffer(robot.workshop.fits.press_mm + 0.01, join_style="mitre").intersection(around).length > 17.9
-
-
-def test_the_slots_of_tabs_have_the_fit_of_tight_bores(robot: Robot) -> None:
-    """0.05 mm on every side, where eyes and lying holes have more."""
-    layout, stop = robot.layout, robot.layout.stop
-    holes = HoleSizes.of(with_fits_apart(robot.workshop), layout.hub_bearing)
-    for side in ("left", "right"):
-        outlines = map(shapely.Polygon, _openings(layout, holes, side).to_polygons())
-        (slot,) = (one for one in outlines if one.contains(shapely.Point(stop.tab_mm)))
-        assert slot.area == pytest.approx(5.1 * 4.1, abs=1e-3)
 
 
 def test_the_pad_lies_in_its_seat_before_the_bar(robot: Robot) -> None:

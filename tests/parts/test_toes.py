@@ -1,17 +1,13 @@
 """Separate toes, and holes that print lying."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.built import LONG_TOES, built, placed
 
-from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.toes import (
     lying_hole,
-    on_the_foot,
-    toes,
 )
 from jumpcad.solids.outline import hole
 
@@ -39,17 +35,3 @@ def test_toes_apart_are_mirror_images() -> None:
     np.testing.assert_allclose(left.center_mass * [1, -1, 1], right.center_mass, atol=2e-3)
     signs = np.array([[1, -1, 1], [-1, 1, -1], [1, -1, 1]])
     np.testing.assert_allclose(left.moment_inertia * signs, right.moment_inertia, rtol=1e-3, atol=100.0)
-
-
-def test_screws_of_toes_cut_their_thread_into_the_stubs() -> None:
-    """Holes as wide as the workshop taps for M3, at 16 and 30 mm from the root of either toe."""
-    robot = built(LONG_TOES)
-    holes = HoleSizes.of(robot.workshop, None)
-    holes = replace(holes, fits=holes.fits.model_copy(update={"m3_tap_mm": 2.7}))
-    _, cuts = on_the_foot(robot.layout, holes)
-    assert len(cuts) == 2
-    for toe, stub in zip(toes(robot.layout), cuts, strict=True):
-        (x0, y0, _), (x1, y1, _) = stub.block.bounds_mm  # type: ignore[attr-defined]
-        assert (x0, x1) == pytest.approx((16.0 - 1.35, 30.0 + 1.35), abs=0.01)
-        assert y0 == -y1 < -robot.layout.sections.toe_width_mm / 2.0
-        assert (stub.angle_rad, stub.place_mm) == (toe.angle_rad, pytest.approx(toe.root_mm))  # type: ignore[attr-defined]

@@ -1,8 +1,6 @@
 """The printed mass against arithmetic on paper; against a slicer it is tested in tests/clients."""
 
-import gc
 import math
-import weakref
 
 import numpy as np
 import pytest
@@ -150,15 +148,6 @@ def test_equal_shapes_are_weighed_once():
     assert mass_properties(one, 1.0, PROCESS, 0.4) is mass_properties(same, 1.0, PROCESS, 0.4)
     assert grams(other) > grams(one)
     assert grams(one, infill=1.0) > grams(one)
-
-
-def test_what_is_known_of_a_shape_is_kept_as_long_as_the_shape():
-    shape = Stack.of([(0, 4, disc(12.5))])
-    grams(shape)
-    gone = weakref.ref(shape)
-    del shape
-    gc.collect()
-    assert gone() is None
 
 
 class Turned:

@@ -49,17 +49,6 @@ def writing(gcode):
     return f'while [ "$1" != --output ]; do shift; done\ncat > "$2" <<\'END\'\n{gcode}END'
 
 
-def test_settings_are_the_workshops_in_prusaslicers_words():
-    settings = slicer_settings(WORKSHOP.printer, WORKSHOP.process, MATERIAL)
-    assert float(settings["layer_height"]) == WORKSHOP.process.layer_height_mm
-    assert float(settings["fill_density"].rstrip("%")) == pytest.approx(100.0 * WORKSHOP.process.infill)
-    assert settings["fill_pattern"] == WORKSHOP.process.infill_pattern
-    solid = slicer_settings(WORKSHOP.printer, WORKSHOP.process.model_copy(update={"infill": 1.0}), MATERIAL)
-    assert solid["fill_pattern"] == "rectilinear", "the only pattern that PrusaSlicer fills 100 % with"
-    for extra in ("skirts", "brim_width", "elefant_foot_compensation", "support_material"):
-        assert settings[extra] == "0"
-
-
 def test_the_bed_is_a_rectangle_of_the_printers_sides():
     """Four corners in turn, in PrusaSlicer's order; beds are not all square."""
     printer = WORKSHOP.printer.model_copy(update={"bed_mm": (250.0, 210.0, 200.0)})

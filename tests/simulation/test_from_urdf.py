@@ -3,9 +3,9 @@
 import itertools
 import json
 import os
-import random
 import re
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,6 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import RollerOff
 from jumpcad.robot import Robot
 from jumpcad.simulation.from_urdf import _require_inertia, _require_mechanism, robot_from_urdf
 
@@ -30,8 +29,6 @@ URDF, LOOP = write_urdf(KENAN), write_loop(KENAN)
 HEAD = '<?xml version="1.0" encoding="utf-8"?>\n'
 LAUGHS = "".join(f'<!ENTITY a{n + 1} "{f"&a{n};" * 10}">' for n in range(9))
 LEG_TURN = r'(?s)(<joint name="leg".*?)rpy="[^"]*"'
-TRIES = 60
-"""Mutations of each kind; thousands were tried when this was written."""
 
 
 @pytest.fixture
@@ -58,12 +55,8 @@ def element(tag: str, **attributes: str) -> str:
     ("urdf", "reason"),
     [
         (element("mass", value="0"), "body: mass: value = 0: must be 1e-06…1000"),
-        (element("mass", value="-0.1"), "mass: value = -0.1: must be"),
         (element("mass", value="nan"), "mass: value = 'nan': must be 1 finite number"),
-        (element("mass", value="1e400"), "must be 1 finite number"),
         (element("mass", value="light"), "mass: value = 'light': must be 1 finite number"),
-        (element("mass", value="0.1 light"), "must be 1 finite number"),
-        (element("mass", value="1_0"), "must be 1 finite number"),
         (element("inertia", ixx="0"), "principal moments 0, .* must be more than 0"),
         (element("inertia", izz="-1e-5"), "principal moments -1e-05, .* must be more than 0"),
         (element("inertia", iyy="1e-9"), "none more than the other two together"),
@@ -72,31 +65,23 @@ def element(tag: str, **attributes: str) -> str:
         (element("inertia", ixy="inf"), "ixy = 'inf': must be 1 finite number"),
         (element("origin", xyz="0 0"), "xyz = '0 0': must be 3 finite numbers"),
         (element("origin", xyz="100 0 0"), "its origin is further than 10 m away"),
-        (element("sphere", radius="-1"), "radius = -1: must be 1e-06…10"),
-        (element("sphere", radius="0"), "radius = 0: must be"),
         (element("sphere", radius="10.1"), "radius = 10.1: must be"),
         (element("origin", xyz="0 0 -10.1"), "its origin is further than 10 m away"),
         (element("origin", rpy="0 6.3 0"), "or turned by more than 2π"),
         (element("axis", xyz="1 0 0"), "joint leg: must be revolute about the axis 0 1 0"),
         (element("limit", effort="-1"), r"joint leg: effort = -1: must be 0…1e\+06"),
-        (element("limit", effort="1.1e6"), r"joint leg: effort = 1.1e\+06: must be"),
         (element("limit", velocity="0"), r"joint leg: velocity = 0: must be 1e-06…1e\+06"),
         (element("parent", link="foot"), "joint leg: its origin is not that .* from body to main_leg"),
         (element("parent", link="x" * 1001), r"parent: link = 'x{56}[.]{3}: is missing, too long"),
         (re.sub(LEG_TURN, r'\g<1>rpy="0.1 0 0"', URDF, count=1), "joint leg: must be revolute .* rpy 0 ANGLE 0"),
         (re.sub(LEG_TURN, r'\g<1>rpy="0 0 0.1"', URDF, count=1), "joint leg: must be revolute .* rpy 0 ANGLE 0"),
         (URDF.replace('link name="foot"', 'link name="fot"'), "its links must be .*, each once, not .*'fot'"),
-        (URDF.replace('link name="foot"', 'link name="body"'), "its links must be .*, each once, not .*"),
         (re.sub(r'<joint name="ankle".*?</joint>', "", URDF, flags=re.DOTALL), "its joints must be leg, front, "),
         (re.sub(r"<inertial>.*?</inertial>", "", URDF, count=1, flags=re.DOTALL), "body: has no inertial, needs one"),
         (re.sub(r'<joint name="leg" type="revolute">\s*<origin xyz="-0\.0', r"\g<0>1", URDF), "origin is not that"),
         (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r [<!ENTITY a0 "ha">{LAUGHS}]>').replace("kenan", "&a9;"), "type decl"),
-        (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r [<!ENTITY e SYSTEM "file:///etc/passwd">]>'), "type decl"),
-        (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r SYSTEM "http://localhost/r.dtd">'), "type decl"),
-        (f"{HEAD}<robot name='x'>{'<link>' * 70_000}{'</link>' * 70_000}</robot>", "link: name = '': is missing"),
         (URDF.replace("utf-8", "no-such-code"), "broken XML"),
         (URDF + " " * (1 << 20), "is larger than 1 MiB"),
-        ("", "broken XML"),
         ("<a/>", "its root is 'a', not 'robot'"),
     ],
 )  # fmt: skip
@@ -121,7 +106,6 @@ def changed(value: Any, *path: str | int) -> str:
     ("loop", "reason"),
     [
         (changed(float("nan"), "foot_depth_m"), "NaN is no number"),
-        (changed(float("inf"), "spring", "wind_rad"), "Infinity is no number"),
         (changed(10**400, "spring", "wind_rad"), "wind_rad = 1000"),
         (changed(-1.0, "spring", "stiffness_nm_per_rad"), "must be at least 0.0001"),
         (changed("ankle", "spring", "joint"), "spring.joint = 'ankle': must be 'leg'"),
@@ -136,7 +120,6 @@ def changed(value: Any, *path: str | int) -> str:
         (changed("ice", "surfaces", "back"), "surfaces.back = 'ice': must be 'foot' or 'body'"),
         (changed({}, "surfaces"), "collision 'back_pivot': has no surface"),
         (changed(1, "self"), "self: unknown key"),
-        (changed(-0.1, "spring", "preload_rad"), "spring.preload_rad = -0.1: must be at least 0"),
         (changed(1, "spring", "one_sided"), "spring.one_sided = 1: must be"),
         (changed({"joint": "leg", "angle_rad": 0.1, "stiffness_nm_per_rad": 0.0}, "stop"), "must be at least"),
         (changed({"joint": "foot", "angle_rad": 0.1, "stiffness_nm_per_rad": 1.0}, "stop"), "must be 'leg'"),
@@ -145,7 +128,6 @@ def changed(value: Any, *path: str | int) -> str:
         (changed({"foot": 0.8, "body": 0.3, "pin": 0.2, "pin_radius_m": [0.1]}, "friction"), "pin_radius_m.1: missing"),
         ("[]", "is not a table of values"),
         ("[" * 5000 + "]" * 5000, "nested deeper than 20 levels"),
-        ("9" * 6000, "not valid JSON"),
         (b"\xff", "not a text file in UTF-8"),
     ],
 )
@@ -164,35 +146,6 @@ def test_pipes_and_devices_do_not_block(tmp_path: Path) -> None:
     (tmp_path / "k.urdf").symlink_to("/dev/zero")
     with pytest.raises(JumpcadError, match="is a pipe or a device"):
         robot_from_urdf(tmp_path / "k.urdf")
-
-
-def spoilt(text: str, seed: int) -> bytes:
-    """A text with flipped bytes, cut short, or with a piece left out or repeated."""
-    chance, content = random.Random(seed), bytearray(text.encode())
-    start = chance.randrange(len(content))
-    end = start + chance.randrange(1, 400)
-    if seed % 4 == 0:
-        for _ in range(chance.randrange(1, 8)):
-            content[chance.randrange(len(content))] ^= 1 << chance.randrange(8)
-    elif seed % 4 == 1:
-        del content[start:]
-    elif seed % 4 == 2:
-        del content[start:end]
-    else:
-        content[start:start] = content[start:end]
-    return bytes(content)
-
-
-@pytest.mark.parametrize("file", ["urdf", "loop"])
-def test_accidents_are_one_line_or_harmless(read: Callable[..., Robot], file: str) -> None:
-    refused = []
-    for seed in range(TRIES):
-        try:
-            read(**{file: spoilt({"urdf": URDF, "loop": LOOP}[file], seed)})
-        except JumpcadError as error:
-            refused.append(str(error))
-    assert len(refused) > TRIES // 2
-    assert all(told.isprintable() for told in refused)
 
 
 def test_springs_are_read_as_they_were_written(read: Callable[..., Robot]) -> None:
@@ -254,17 +207,6 @@ def test_bodies_are_read_back_with_tensors_that_are_turned_out_of_their_frames(r
             np.testing.assert_allclose(one.centre_m, other.centre_m, atol=1e-9)
 
 
-@pytest.mark.parametrize(("radius_m", "refused"), [(9.99, False), (10.01, True), (1.01e-5, False), (0.99e-5, True)])
-def test_a_shell_is_a_body_from_a_hundredth_of_a_millimetre_to_ten_metres(radius_m: float, refused: bool) -> None:
-    """All of its mass is at its radius, the radius of gyration about its centre; 2·m·r²/3 about each axis."""
-    tensor = 2.0 / 3.0 * 0.1 * radius_m**2 * np.eye(3)
-    if refused:
-        with pytest.raises(JumpcadError, match=f"a radius of gyration of {radius_m:g} m: .* 1e-05…10"):
-            _require_inertia("body", 0.1, tensor)
-    else:
-        _require_inertia("body", 0.1, tensor)
-
-
 @pytest.mark.parametrize("machine", [stopped, let_go, rubbing, one_sided], ids=lambda make: make.__name__)
 def test_what_a_robot_has_beside_its_links_is_read_back_each_without_the_others(
     read: Callable[..., Robot], machine: Callable[[Robot], Robot]
@@ -278,48 +220,20 @@ def test_what_a_robot_has_beside_its_links_is_read_back_each_without_the_others(
     assert found.spring == robot.spring
 
 
-@pytest.mark.parametrize(("share", "refused"), [(1.0, False), (1.001, True), (0.5, False)])
-def test_a_jump_begins_where_the_springs_are_loaded_or_later(share: float, refused: bool) -> None:
-    off = RollerOff(-share * KENAN.spring.wind_rad, 1.0, 0.9)
-    robot = replace(KENAN, roller_off=off)
-    if refused:
-        with pytest.raises(JumpcadError, match="begins before the springs"):
-            _require_mechanism(robot)
-    else:
-        _require_mechanism(robot)
-
-
-@pytest.mark.parametrize("joint", ["leg", "front", "ankle"])
-def test_joints_are_those_of_the_design_to_a_thousandth_of_a_millimetre(joint: str) -> None:
+def test_joints_are_those_of_the_design_to_a_thousandth_of_a_millimetre() -> None:
     """And to a millionth of a radian, between the same bodies; so are the ends of the loop."""
-
-    def changed(**values: Any) -> Robot:
-        joints = tuple(replace(one, **values) if one.name == joint else one for one in KENAN.joints)
-        return replace(KENAN, joints=joints)
-
-    one = KENAN.joint(joint)
-    for off, refused in ((0.9e-6, False), (1.1e-6, True), (-1.1e-6, True)):
-        for values in (
-            {"origin_m": one.origin_m + np.array([off, 0.0, 0.0])},
-            {"origin_m": one.origin_m + np.array([0.0, 0.0, off])},
-            {"rest_angle_rad": one.rest_angle_rad + off},
-        ):  # fmt: skip
-            if refused:
-                with pytest.raises(JumpcadError, match=f"joint {joint}: its origin is not that of the design"):
-                    _require_mechanism(changed(**values))
-            else:
-                _require_mechanism(changed(**values))
-    with pytest.raises(
-        JumpcadError, match=f"joint {joint}: its origin is not that .* from {one.parent} to {one.child}"
-    ):
-        _require_mechanism(changed(parent=one.child))
-    for end in ("point_a_m", "point_b_m"):
-        for off, refused in ((0.9e-6, False), (1.1e-6, True)):
-            moved = replace(
-                KENAN, loop=replace(KENAN.loop, **{end: getattr(KENAN.loop, end) + np.array([0.0, 0.0, off])})
+    aside = np.array([0.6e-6, 0.0, 0.6e-6])
+    for share, refused in ((1.0, False), (2.0, True), (-2.0, True)):
+        wrong = [
+            replace(KENAN, joints=tuple(replace(one, **change) if one is joint else one for one in KENAN.joints))
+            for joint in KENAN.joints
+            for change in (
+                {"origin_m": joint.origin_m + share * aside}, {"rest_angle_rad": joint.rest_angle_rad + share * 0.9e-6}
             )
-            if refused:
-                with pytest.raises(JumpcadError, match="the points of the loop are not those of the design"):
-                    _require_mechanism(moved)
-            else:
-                _require_mechanism(moved)
+        ]  # fmt: skip
+        for end in ("point_a_m", "point_b_m"):
+            moved = replace(KENAN.loop, **{end: getattr(KENAN.loop, end) + share * aside})
+            wrong.append(replace(KENAN, loop=moved))
+        for robot in wrong:
+            with pytest.raises(JumpcadError, match=r"not th(at|ose) of the design") if refused else nullcontext():
+                _require_mechanism(robot)

@@ -12,8 +12,7 @@ from support.machines import PAD_NM_PER_RAD, STOP_RAD, let_go, machine, one_side
 from jumpcad.building import build
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Mechanism
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY_NAMES, FOOT, Mechanism
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.simulation import Jump, Settings, load_settings, simulate
 from jumpcad.simulation.engines import engine_named
@@ -50,16 +49,6 @@ def test_three_engines_agree(name: str) -> None:
     assert max(ranges) == pytest.approx(min(ranges), rel=0.004)
     ratios = [jump.takeoff_energy_ratio for jump in jumps.values()]
     assert max(ratios) == pytest.approx(min(ratios), abs=0.01)
-
-
-def test_touchdown_counts_from_where_the_robot_stood_with_loaded_springs() -> None:
-    """Not from where the body is when the roller has left the cam, 0.1 mm further; of the jump in the trajectory."""
-    robot = built("best-bo")
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True), "planar")
-    body = jump.trajectory.position_m[:, jump.trajectory.body_names.index(BODY), 0]
-    stood = body_poses(robot, 1.0)[BODY][0, 3]
-    assert jump.touchdown_distance_m == pytest.approx(body[-1] - stood, abs=1e-6)
-    assert abs(body[0] - stood) > 1e-5
 
 
 def test_pins_take_from_a_jump_what_their_forces_take(engine: str) -> None:

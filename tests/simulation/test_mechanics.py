@@ -9,7 +9,6 @@ from support import needs
 from support.flights import Flight
 from support.machines import let_go
 
-from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.robot import Robot
@@ -84,21 +83,6 @@ def test_energy_of_a_known_motion(lopsided: Robot) -> None:
     assert energies.spring_j == pytest.approx(0.5 * lopsided.spring.stiffness_nm_per_rad * 0.04, rel=1e-12)
 
 
-def test_principal_axes_are_proper_and_give_the_tensor_back(lopsided: Robot) -> None:
-    for tensor in [body.inertia_kg_m2 for body in lopsided.bodies.values()]:
-        moments, axes = principal_axes(tensor)
-        np.testing.assert_allclose(np.sort(moments), np.linalg.eigvalsh(tensor), rtol=1e-12)
-        np.testing.assert_allclose(np.linalg.det(axes), 1.0, rtol=1e-14)
-        np.testing.assert_allclose(axes * moments @ axes.T, tensor, rtol=1e-12, atol=1e-15 * np.trace(tensor))
-
-
-def test_principal_axes_of_a_tensor_that_no_body_has_are_found_too() -> None:
-    """Symmetric, with negative moments: a guess may be one."""
-    tensor = np.array([[-2.0, 0.3, 0.0], [0.3, -1.0, 0.1], [0.0, 0.1, 0.5]])
-    moments, axes = principal_axes(tensor)
-    np.testing.assert_allclose(axes * moments @ axes.T, tensor, rtol=1e-12, atol=1e-14)
-
-
 def test_loop_gap_is_the_distance_of_its_ends(kenan: Robot) -> None:
     with engine_named("pybullet").world(kenan, Settings()) as world:
         state = world.state()
@@ -118,16 +102,6 @@ def test_the_loaded_state_is_that_of_an_engine_before_anything_moves(lopsided: R
     mechanics = Mechanics(lopsided, 9.81)
     assert mechanics.energies(here).spring_j == pytest.approx(lopsided.spring.energy_j)
     assert mechanics.energies(here).kinetic_j == 0.0
-
-
-def test_a_standing_robot_is_no_distance_from_the_ground(lopsided: Robot) -> None:
-    """Whose centres of mass are beside its frames: its lowest sphere touches; raised by 1 cm it is 1 cm above."""
-    with engine_named("planar").world(lopsided, Settings()) as world:
-        state = world.state()
-    mechanics = Mechanics(lopsided, 9.81)
-    assert mechanics.clearance_m(state) == pytest.approx(0.0, abs=1e-6)
-    raised = replace(state, com_m=state.com_m + np.array([0.0, 0.0, 0.01]))
-    assert mechanics.clearance_m(raised) == pytest.approx(0.01, abs=1e-6)
 
 
 @pytest.mark.parametrize("turn_deg", [-70.0, 25.0, 160.0])

@@ -1,7 +1,5 @@
 """The MuJoCo back end: settings that it does not have are rejected; it begins where the planar engine does."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from support import needs
@@ -12,7 +10,6 @@ from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named
-from jumpcad.simulation.mujoco import MujocoWorld
 from jumpcad.strength.loads import pin_torque_nm
 
 
@@ -33,32 +30,6 @@ def test_what_counts_as_carried_is_a_share_of_the_weight(kenan: Robot) -> None:
     assert carried[0] / carried[1] == pytest.approx(1.62 / 9.81)
 
 
-@pytest.mark.parametrize(
-    ("normals_n", "loaded"),
-    [([[0.5], [0.2]], False), ([[2.0], [0.2]], True), ([[0.2], [2.0]], True), ([[0.6, 0.6], []], True), ([], False)],
-)
-def test_the_ground_carries_a_robot_that_it_presses_in_any_of_mujocos_own_steps(
-    normals_n: list[list[float]], loaded: bool
-) -> None:
-    """All contacts together against 1 N; what slides loses force times speed times the time of an own step.
-
-    Contacts are the last constraints, with a row for the normal and two along the ground.
-    """
-    world, lost_j = object.__new__(MujocoWorld), 0.0
-    world._loaded, world._carried_n, world._rows, world._dt_s, world.slip_j = False, 1.0, 3, 0.25, 0.0
-    others = [99.0, 98.0]  # of joints
-    for forces in normals_n:
-        rows = [row for normal in forces for row in (normal, -0.3 * normal, 0.1)]
-        world.data = SimpleNamespace(
-            ne=1, nf=0, nl=1, nefc=2 + len(rows), efc_force=np.array(others + rows),
-            efc_vel=np.array(others + [7.0, 0.5, 2.0] * len(forces)),
-        )  # fmt: skip
-        world._touch()
-        lost_j += 0.25 * sum(0.3 * normal * 0.5 - 0.1 * 2.0 for normal in forces)
-    assert world.loaded() == loaded
-    assert world.slip_j == pytest.approx(lost_j)
-
-
 @pytest.mark.parametrize("turning", [False, True])
 def test_mujoco_begins_where_the_planar_engine_does(kenan: Robot, turning: bool) -> None:
     """Places, turns and both velocities of all four bodies; standing loaded, and as the roller leaves the cam."""
@@ -73,14 +44,6 @@ def test_mujoco_begins_where_the_planar_engine_does(kenan: Robot, turning: bool)
         np.testing.assert_allclose(getattr(one, key), getattr(other, key), atol=1e-5, err_msg=key)
     assert one.leg_rad == pytest.approx(other.leg_rad, abs=1e-9)
     assert (np.abs(one.velocity_m_s).max() > 0.01) == turning
-
-
-def test_the_pad_pushes_against_the_legs_opening(kenan: Robot) -> None:
-    needs.package("mujoco")
-    with engine_named("mujoco").world(kenan, Settings()) as world:
-        world._pad = SimpleNamespace(torque_nm=lambda leg_rad, leg_rad_s: 0.25)
-        world.advance(1)
-        assert world.data.qfrc_applied[world._leg_dof] == -0.25
 
 
 def test_the_pad_stops_the_leg_in_mujoco_and_not_its_limit(kenan: Robot) -> None:

@@ -267,13 +267,6 @@ def test_dry_friction_of_a_joint_acts_by_its_rate(either: Robot, leg_rad: float)
     assert torque - model.pins_nm == pytest.approx(0.004 * turned, rel=1e-6)
 
 
-def test_pin_friction_takes_what_a_separate_study_found(kenan: Robot) -> None:
-    """Friction 0.25 in pins of 3 mm takes about 2 % of the springs' energy (`loads` gives the same pin forces)."""
-    world = PlanarWorld(rubbing(kenan, pin=0.25), FINE)
-    found = world.push_off()
-    assert 0.012 < found.moment.losses.friction_j / kenan.spring.energy_j < 0.028
-
-
 def test_a_one_sided_spring_does_not_pull_back(kenan: Robot) -> None:
     """Same push-off; beyond rest the leg goes on without springs."""
     both, one = (PlanarWorld(robot, FINE) for robot in (kenan, one_sided(kenan)))
@@ -495,24 +488,6 @@ def test_dry_friction_brakes_the_leg_or_holds_it(either: Robot, height_m: float 
     assert 0 < held < 80
 
 
-def test_the_stop_in_the_air_takes_no_momentum_from_a_leg_with_friction_either(kenan: Robot) -> None:
-    """Pad and dry friction act between leg and body alone; what is lost is what they and nothing else took."""
-    seconds, robot = 0.02, stopped(one_sided(kenan))
-    settings = replace_damping(FINE).model_copy(update={"joint_friction_nm": 0.002})
-    world = world_at(robot, moving(model_of(kenan), -0.05), settings)
-    mechanics, before = Mechanics(kenan, 9.81), world.state()
-    energy = kernel.energy(world.model, world.moment)
-    reach = max(world.advance(1) for _ in range(round(seconds / FINE.dt_s)))
-    assert reach > STOP_RAD
-    after, losses = world.state(), world.moment.losses
-    change = mechanics.velocity_m_s(after) - mechanics.velocity_m_s(before)
-    np.testing.assert_allclose(change, [0.0, 0.0, -9.81 * seconds], atol=5e-4)
-    assert spin(mechanics, after) == pytest.approx(spin(mechanics, before), rel=1e-3)
-    assert sum(losses) == pytest.approx(energy - kernel.energy(world.model, world.moment), rel=0.01)
-    assert losses.friction_j > 1e-4
-    assert losses.stop_j > 1e-4
-
-
 def test_what_a_flat_fall_takes_is_the_impact(kenan: Robot) -> None:
     """Both ends of the foot strike at once, the springs loaded: the energy that is missing is the impact's alone."""
     model = model_of(kenan, replace_damping(FINE))
@@ -581,18 +556,6 @@ def test_the_energy_at_take_off_is_audited_however_seldom_others_are(kenan: Robo
     assert -0.5 * kenan.spring.energy_j < found.worst_gain_j < 0.0
 
 
-def test_the_energy_is_audited_as_often_as_is_asked_for(kenan: Robot) -> None:
-    """What damping takes grows: the earlier the first audit, the less is missing there, and that is the worst."""
-    world, worst = PlanarWorld(kenan, replace_damping(FINE, 0.001)), []
-    start = kernel.energy(world.model, world.moment)
-    for every in (1, 60):
-        found = kernel.push_off(world.model, world.moment, FINE.dt_s, 0.004, 0.0, 0.1, FINE.max_time_s, every)
-        moment = kernel.advance(world.model, world.moment, FINE.dt_s, every)
-        assert found.worst_gain_j == pytest.approx(kernel.energy(world.model, moment) - start, abs=1e-12)
-        worst.append(found.worst_gain_j)
-    assert worst[1] < worst[0] < 0.0
-
-
 def test_a_robot_whose_leg_stops_before_its_springs_are_at_rest_flies(kenan: Robot) -> None:
     """Against a hard stop 0.1 rad before rest: the leg extends no further, and the springs push on nothing else."""
     world = PlanarWorld(stopped(kenan, -0.1, 1e4), replace_damping(FINE))
@@ -615,14 +578,3 @@ def test_a_push_off_tells_how_near_the_body_came_to_the_ground(kenan: Robot) -> 
     assert found.belly_gap_m == pytest.approx(min(gaps), rel=1e-12)
     assert found.belly_gap_m < 0.8 * found.moment.belly_gap_m
     assert found.moment == moment  # it leaves after as many steps
-
-
-def test_how_near_the_body_comes_in_the_air_is_not_told(kenan: Robot) -> None:
-    """Of a robot that sinks: only the first step off the ground counts."""
-    model = model_of(kenan)
-    sinking = moving(model, -0.5)._replace(speed=PlanarMotion(-1.0j, 0.0, 0.0))
-    first = kernel.advance(model, sinking, FINE.dt_s, 1)
-    found = kernel.push_off(model, sinking, FINE.dt_s, 1.0, 0.0, 1.0, 0.01, 16)
-    assert not found.flown
-    assert found.belly_gap_m == first.belly_gap_m
-    assert found.moment.belly_gap_m < first.belly_gap_m - 0.005

@@ -111,14 +111,6 @@ def test_an_efficiency_of_springs_that_is_given_is_the_middle_of_what_varies(rob
     assert given[0] == pytest.approx(efficiency)
 
 
-def test_every_jump_is_simulated_by_the_engine_that_is_asked_for(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked, jump = [], simulate(robot, engine="planar")
-    monkeypatch.setattr(uncertain, "simulate", lambda *given: asked.append(given[2]) or jump)
-    monkeypatch.setattr(uncertain, "RESAMPLES", 2)
-    uncertain_jump(robot, Settings(), "mujoco", samples=8)
-    assert asked == ["mujoco"] * 8
-
-
 def test_draws_of_a_calibration_are_taken_in_pairs(robot: Robot) -> None:
     """Each as often as the others, the efficiency with the friction that was drawn with it."""
     draws = Draws(spring_efficiency=(0.9, 0.95, 1.0, 0.8), pin_friction=(0.1, 0.2, 0.3, 0.4))
@@ -170,52 +162,3 @@ def test_shares_of_a_resample_are_those_of_its_jumps_alone() -> None:
     assert found == pytest.approx(_first_order(inputs, 100.0 + 7.0 * figures, rows))
     assert found[0, 0] > 0.7 > 0.4 > found[1, 0]
     assert found[1, 1] > 0.95
-
-
-def test_shares_do_not_depend_on_the_units_of_inputs() -> None:
-    rng = np.random.default_rng(4)
-    inputs = {"a": rng.normal(size=(64, 2)), "b": rng.random((64, 1))}
-    figures = np.column_stack([inputs["a"][:, 0] + 0.3 * rng.normal(size=64), inputs["b"][:, 0] ** 3])
-    scaled = {"a": inputs["a"] * [1e-6, 1e3], "b": 2.0 - 1e-5 * inputs["b"]}
-    shares = (_first_order(given, figures, np.arange(64)) for given in (inputs, scaled))
-    assert next(shares) == pytest.approx(next(shares), abs=1e-6)
-
-
-def test_eight_of_ten_resamples_lie_in_the_interval(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of a hundred that count from 0 to 99, those from 9.9 to 89.1; the share itself is that of the whole sample."""
-    asked: list[int] = []
-
-    def shares(inputs: dict[str, np.ndarray], figures: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        asked.append(len(asked))
-        return np.full((len(inputs), figures.shape[1]), float(asked[-1]))
-
-    monkeypatch.setattr(uncertain, "_first_order", shares)
-    monkeypatch.setattr(uncertain, "_jump", lambda *_: (0.2, 0.1))
-    found = uncertain_jump(robot, Settings(), "planar", samples=16)
-    assert len(asked) == 101
-    for group in found.first_order:
-        assert set(found.first_order[group].values()) == {100.0}
-        assert all(ends == pytest.approx([9.9, 89.1]) for ends in found.interval[group].values())
-
-
-def test_groups_vary_independently_of_each_other(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each of the nine inputs has points of its own, evenly spread; a jump is changed by one row of each group."""
-    rows: list[np.ndarray] = []
-
-    def jump(
-        asked: Robot, settings: Settings, engine: str, changes: list[tuple[object, np.ndarray]]
-    ) -> tuple[float, ...]:
-        assert (asked, engine) == (robot, "planar")
-        rows.append(np.concatenate([value for _, value in changes]))
-        return (float(len(rows) % 4 > 0), 0.1)
-
-    monkeypatch.setattr(uncertain, "_jump", jump)
-    found = uncertain_jump(robot, Settings(), "planar", samples=128)
-    values = np.array(rows)
-    assert values.shape == (128, 9)
-    correlations = np.corrcoef(values.T) - np.eye(9)
-    assert np.abs(correlations).max() < 0.15
-    assert (found.jumps, found.jumps_share, found.calibrated) == (128, 0.75, False)
-    assert found.quantiles["com_rise_m"] == pytest.approx([0.1] * 3)
-    draws = Draws(spring_efficiency=(0.9, 0.95), pin_friction=(0.1, 0.2))
-    assert uncertain_jump(robot, Settings(draws=draws), "planar", samples=4).calibrated
