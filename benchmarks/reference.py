@@ -11,6 +11,7 @@ from pathlib import Path
 
 from reference_checks import check_glossary
 from reference_commands import commands
+from reference_figures import figures
 from reference_files import files_and_json
 from reference_page import EXAMPLE
 from reference_workshop import workshop_keys
@@ -24,6 +25,7 @@ PAGES = {
     "reference/commands.md": commands,
     "reference/workshop.md": workshop_keys,
     "reference/checks.md": check_glossary,
+    "reference/figures.md": figures,
     "reference/files.md": files_and_json,
     DRAWING: lambda: parameter_drawing(jumpcad.load_design(EXAMPLE)),
 }

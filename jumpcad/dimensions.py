@@ -100,8 +100,9 @@ KEY_UNITS = {
     "nmm_per_deg": "N·mm/°", "nm_per_rad": "N·m/rad", "n_per_mm": "N/mm", "kg_m2": "kg·m²", "g_cm3": "g/cm³",
     "eur_per_kg": "EUR/kg", "area_mm2": "mm²", "mm": "mm", "deg": "°", "mpa": "MPa", "nm": "N·m", "n": "N", "g": "g",
     "c": "°C", "v": "V", "a": "A", "ma": "mA", "mah": "mAh", "ohm": "Ω", "rpm": "1/min", "uf": "µF", "eur": "EUR",
+    "deg_s": "°/s", "m_s": "m/s", "kg": "kg", "j": "J", "s": "s", "m": "m",
 }  # fmt: skip
-"""Units of a design's and a workshop's values by the end of their keys, the longest ends first."""
+"""Units of values by the end of their keys, the longest ends first."""
 
 
 def unit_of_key(key: str) -> str:

@@ -43,7 +43,7 @@ def reference() -> ModuleType:
         sys.path.pop(0)
 
 
-@pytest.mark.parametrize("page", ["commands.md", "workshop.md"])
+@pytest.mark.parametrize("page", ["commands.md", "workshop.md", "figures.md"])
 def test_reference_is_what_the_program_gives(reference: ModuleType, page: str) -> None:
     name = f"reference/{page}"
     assert (DOCS / name).read_text(encoding="utf-8") == reference.PAGES[name]()
