@@ -2,11 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
+from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import Design
 from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
@@ -43,6 +44,8 @@ FIGURES = JUMP_FIGURES | {
     "motor_energy_j": "… of it, the motor's",
     "boards_energy_j": "… of it, the boards' while winding",
     "winding_time_s": "time to wind",
+    "jumps_per_charge": "jumps of a full battery",
+    "rights_itself": "share of attitudes from which winding puts it on its feet, at least; where it is required",
     "body_mass_kg": "mass of the body",
     "main_leg_mass_kg": "mass of the main leg",
     "front_link_mass_kg": "mass of the front link",
@@ -82,6 +85,13 @@ class EvaluationResult:
         Unlike `fitness` it does not grow when the links are shortened about a battery that stays as large.
         """
         return self.metrics["body_lengths"]
+
+    @cached_property
+    def rights_itself(self) -> float:
+        """Share of attitudes from which the winding robot comes to stand on its feet, at least: its stable poses."""
+        from jumpcad.landing.stable_poses import share_on_feet
+
+        return share_on_feet(self.robot)
 
     def __repr__(self) -> str:
         rejected = ", ".join(finding.name for finding in errors(self.findings))[:80]
@@ -162,4 +172,5 @@ def _metrics(robot: Robot, jump: Jump) -> dict[str, float]:
         "motor_energy_j": train.motor_j,
         "boards_energy_j": train.boards_j,
         "winding_time_s": train.winding_s,
+        "jumps_per_charge": float(jumps_per_charge(robot)),
     } | masses

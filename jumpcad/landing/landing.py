@@ -44,9 +44,13 @@ class Landing:
 
 @dataclass(frozen=True)
 class Landings:
-    """Landings of a robot's own jumps, the forces of their hardest blows, and what the part hit hardest bears."""
+    """Landings of a robot's own jumps, the forces of their hardest blows, and what the part hit hardest bears.
+
+    `drops_righted` is the share of as many drops in any attitude after which the winding robot stands on its feet.
+    """
 
     tries: tuple[Landing, ...]
+    drops_righted: float = 0.0
     forces: tuple[PartForce, ...] = ()
     strength: Finding | None = None
 
@@ -71,7 +75,12 @@ class Landings:
             {name: value for name, value in vars(one).items() if name != "blows"} | {"hits_first": one.blows[0].part}
             for one in self.tries
         ]
-        figures = {"share_on_feet": self.share_on_feet, "share_righted": self.share_righted, "rests_on": self.rests_on}
+        figures: dict[str, Any] = {
+            "drops_righted": self.drops_righted,
+            "share_on_feet": self.share_on_feet,
+            "share_righted": self.share_righted,
+            "rests_on": self.rests_on,
+        }
         strength = None if self.strength is None else self.strength.to_dict()
         forces = [asdict(one) for one in self.forces]
         return figures | {"forces": forces, "landing_strength": strength, "tries": tries}
@@ -79,7 +88,7 @@ class Landings:
 
 @check_arguments
 def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None = None) -> Landings:
-    """Let a robot jump and land a number of times, each with another attitude, spin and floor.
+    """Let a robot jump and land a number of times, each with another attitude, spin and floor; then drop it as often.
 
     Parameters
     ----------
@@ -102,7 +111,8 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
     arena, rng = Arena(robot, settings), np.random.default_rng(seed)
     found = tuple(_land(arena, rng) for _ in range(tries))
     forces = part_forces(robot, (blow for one in found for blow in one.blows))
-    return Landings(found, tuple(forces), landing_strength(robot, forces))
+    righted = share_righted(robot, tries, rng, settings)
+    return Landings(found, righted, tuple(forces), landing_strength(robot, forces))
 
 
 def share_righted(robot: Robot, drops: int, rng: np.random.Generator, settings: Settings | None = None) -> float:

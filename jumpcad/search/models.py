@@ -36,6 +36,7 @@ PUBLISHED_FIGURES = ("fitness", "base_distance_m", "base_height_m", "spring_ener
 """Figures of a jump of the published robot."""
 FULL_FLIGHT = "touchdown_distance_m"
 """A figure that settings with the whole flight add."""
+RIGHTS_ITSELF = "rights_itself"
 ESTIMATE_STEP_S = 0.002
 """Time step of the planar engine for an estimate: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
 LENGTH_MM = 0.2
@@ -100,6 +101,10 @@ class RobotModel:
         if not isinstance(self, CapsuleModel | PrintedModel):
             raise JumpcadError(f"require: does not apply to the {self.name} robot; leave it out")
         return replace(self, requirements=found)
+
+    def requires(self, name: str) -> bool:
+        """Whether a figure is required."""
+        return any(one.name == name for one in self.requirements)
 
     def required(self, found: Evaluation, on_floors: Iterable[Mapping[str, float]] = ()) -> Evaluation:
         """Return an evaluation with the findings of all requirements, also of its figures on other floors."""
@@ -246,6 +251,8 @@ class PrintedModel(RobotModel):
         if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
         figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
+        if not self.perturbation and self.requires(RIGHTS_ITSELF):
+            figures[RIGHTS_ITSELF] = result.rights_itself  # takes as long as an evaluation
         others: list[dict[str, float]] = []
         if not self.perturbation:  # of what is made otherwise the floor is one
             others = self.on_floors(robot, self.settings or Settings(), self.estimate_engine)

@@ -16,6 +16,7 @@ from jumpcad.plural import counted
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.phases import FRONTS
+from jumpcad.search.pick.righting import kept_righting
 from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report.axes import evenly
@@ -93,7 +94,14 @@ def _cards(store: StudyStore, found: StudySummary) -> dict[str, str]:
         "designs around the best": str(len(trials) - count),
         "seed": str(identity["seed"]),
         "time of all evaluations": f"{sum(trial.duration_s for trial in trials):.0f} s",
-    }
+    } | _righting(store, found)
+
+
+def _righting(store: StudyStore, found: StudySummary) -> dict[str, str]:
+    """Return how the winner rights itself, where that was simulated."""
+    shares = kept_righting(store, found.winner)
+    named = {"drops": "winner stands after drops", "landings": "… after its own landings"}
+    return {words: f"{100.0 * shares[name]:.0f} %" for name, words in named.items() if shares}
 
 
 def _stages(store: StudyStore) -> list[str]:

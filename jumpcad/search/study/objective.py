@@ -208,6 +208,12 @@ OBJECTIVES: dict[str, Objective] = {
             "m/J",
             lambda m: _range_m(m) / m["spring_energy_j"],
         ),
+        Objective(
+            "metres-per-charge",
+            "range of all jumps of a full battery",
+            "m",
+            lambda m: _range_m(m) * m["jumps_per_charge"],
+        ),
         Objective("jumps-per-joule", "jumps per joule of electricity", "1/J", lambda m: 1.0 / m["electrical_energy_j"]),
     )
 }

@@ -1,7 +1,7 @@
 """`Result`: what a study found, as values, as plain data, and as a design file."""
 
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +48,9 @@ class Result:
         How many robots were built and simulated in all, those of the robust pick included.
     converged
         Whether the search ended before all of its evaluations, because its last steps gained too little.
+    righting
+        Where `rights_itself` is required, simulated for the winner: `tries`, and the shares of as many `drops` and
+        `landings` after which it stands.
     """
 
     request: Request
@@ -58,6 +61,7 @@ class Result:
     notes: list[str]
     evaluations: int
     converged: bool = False
+    righting: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def winner(self) -> Trial | None:
@@ -176,6 +180,8 @@ class Result:
             "active_bounds": [asdict(bound) for bound in self.bounds],
             "notes": [*self.notes, *filter(None, [self.why_none])],
         }
+        if self.righting:
+            data["righting"] = dict(self.righting)
         if self.request.is_front:
             data |= {"against": self.request.against, "front": [trial.to_dict() for trial in self.front]}
             data["hypervolume"] = self.hypervolume

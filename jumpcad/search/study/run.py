@@ -15,6 +15,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
 from jumpcad.search.fronts import front
 from jumpcad.search.phases import METHODS, SEARCH_PHASES
+from jumpcad.search.pick.righting import simulated_righting
 from jumpcad.search.pick.robust import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.study.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.study.picks import keep_pick, pick_run
@@ -120,12 +121,14 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         picking, best = True, best_trial(trials)
         worth = request.pick and best is not None and (request.is_front or not is_flat(trials))
         candidates, bounds = _picked(request, evaluator) if worth else ([], [])
+        result = Result(request, trials, best, candidates, bounds, [], len(evaluator.trials), converged)
+        righting = simulated_righting(request.model, store, result.winner)
         notes = store.notes()
         if timed or cut:
             where = f"before {counted(request.searched, 'design')}" if timed else "during the robust pick"
             notes.append(f"ended after {request.hours:g} h, {where}: the same command goes on")
         store.remember(ENDED, _end(request, len(trials), converged, timed or cut))
-        return Result(request, trials, best, candidates, bounds, notes, len(evaluator.trials), converged)
+        return replace(result, notes=notes, righting=righting)
 
 
 def _picked(request: Request, evaluator: Evaluator) -> tuple[list[Candidate], list[ActiveBound]]:

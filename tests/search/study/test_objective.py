@@ -13,6 +13,7 @@ JUMP = {
     "com_rise_m": 0.3,
     "spring_energy_j": 0.6,
     "electrical_energy_j": 2.0,
+    "jumps_per_charge": 400.0,
 }
 
 
@@ -30,6 +31,7 @@ def finding(name, severity, margin):
         ("range-per-joule", 0.45),
         ("range-per-spring-joule", 1.5),
         ("jumps-per-joule", 0.5),
+        ("metres-per-charge", 360.0),
     ],
 )
 def test_scores_of_a_jump(name, score):

@@ -10,8 +10,14 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES
 from jumpcad.findings import errors
+from jumpcad.landing.landing import land
+from jumpcad.landing.stable_poses import share_on_feet
 from jumpcad.search.models import robot_model
+from jumpcad.search.pick import righting
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.requirement import Requirement, requirements_of, violations
+from jumpcad.search.study.store import StudyStore
+from jumpcad.search.study.trial import Trial
 from jumpcad.settings import Settings
 from jumpcad.simulation.prior import floors
 
@@ -48,7 +54,7 @@ def test_margins_are_the_distance_to_each_limit() -> None:
 
 def test_figures_that_may_be_required_are_those_of_an_evaluation() -> None:
     given = robot_model("printed")(load_design("kenan-2.0")).metrics
-    assert set(FIGURES) == set(given) - {"touchdown_distance_m"}
+    assert set(FIGURES) - {"rights_itself"} == set(given) - {"touchdown_distance_m"}
     capsule = robot_model("capsule")(load_design("kenan-2.0")).metrics
     assert set(JUMP_FIGURES) == set(capsule) - {"touchdown_distance_m"}
 
@@ -66,6 +72,29 @@ def test_a_robot_that_lands_upright_on_one_floor_alone_is_rejected() -> None:
     assert not errors(model(load_design("kenan-2.0")).findings)
     assert model(load_design("best-printable")).reasons
     assert model.digest != robot_model("printed").digest
+
+
+def test_righting_is_a_figure_where_it_is_required() -> None:
+    """The share of stable poses of the same robot."""
+    design, share = load_design("best-bo"), share_on_feet(built("best-bo"))
+    for least, kept in ((share - 0.02, True), (share + 0.02, False)):
+        found = robot_model("printed").requiring({"rights_itself": (least, None)})(design)
+        assert found.metrics["rights_itself"] == pytest.approx(share, abs=0.01)
+        assert found.feasible == kept
+
+
+def test_the_righting_of_a_winner_is_simulated_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("mujoco")
+    monkeypatch.setattr(righting, "TRIES", 2)
+    model = robot_model("printed").requiring(["rights_itself>=0.1"])
+    winner = Trial("bo", 0, 0, load_design("best-bo"), Evaluation("jump"), 1.0, "", 0.0, {})
+    with StudyStore.write(None, {}) as store:
+        assert righting.simulated_righting(robot_model("printed"), store, winner) == {}
+        shares = righting.simulated_righting(model, store, winner)
+        own = land(built("best-bo"), 2)
+        assert shares == {"tries": 2.0, "drops": own.drops_righted, "landings": own.share_righted}
+        monkeypatch.setattr(righting, "land", None)
+        assert righting.simulated_righting(model, store, winner) == shares
 
 
 def test_the_winner_of_a_search_keeps_what_was_required() -> None:
