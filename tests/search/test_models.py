@@ -13,7 +13,7 @@ from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.paper import published
 from jumpcad.search import models
 from jumpcad.search.estimate.refusal import room_findings
-from jumpcad.search.models import CapsuleModel, PrintedModel, robot_model
+from jumpcad.search.models import PrintedModel, robot_model
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.variant import Variant
@@ -174,59 +174,6 @@ def test_a_refusal_says_by_how_much_its_limit_was_missed(monkeypatch):
         assert (found.verdict, found.margins["room_tray"]) == ("cannot_build", -2.5)
 
 
-def test_a_variant_is_laid_out_in_its_own_workshop(monkeypatch):
-    """What has no room there is a verdict, as are values that do not go together."""
-    asked = []
-
-    def layout_of(design, workshop):
-        asked.append((design, workshop.process.infill))
-        raise CannotBuildError("no room")
-
-    monkeypatch.setattr("jumpcad.building.layout_of", layout_of)
-    model, design = robot_model(), load_design("kenan-2.0")
-    for values, infill in (({}, model.workshop.process.infill), ({"process.infill": 0.123}, 0.123)):
-        found = model.laid_out(Variant(design, values))
-        assert (found.verdict, found.detail) == ("cannot_build", "no room")
-        assert asked[-1] == (design, infill)
-    for found in (model.laid_out(Variant(design, {"process.infill": 7.0})), model(design, {"process.infill": 7.0})):
-        assert found.verdict == "workshop"
-        assert "infill" in found.detail
-    assert len(asked) == 2
-
-
-def test_what_estimates_refuse_is_told_with_the_margins_of_its_geometry(monkeypatch):
-    """In the model's own workshop and settings."""
-    asked, refused = (
-        [],
-        (Finding("tips", "error", -20.0, "mm", "", ""), Finding("too_weak", "error", -1.0, "J", "", "")),
-    )
-    monkeypatch.setattr("jumpcad.search.models.statics_refusal", lambda *given: asked.append(given) or refused)
-    light, fine, design = load_workshop("light"), load_settings("fine"), load_design("kenan-2.0")
-    found = robot_model("printed", light, fine)(design)
-    assert asked == [(design, light, fine)]
-    assert found == Evaluation("tips", findings=(*geometry_findings(design), *refused))
-
-
-def test_quick_scores_are_those_of_a_capsule_robot_by_the_engine_of_guesses(monkeypatch):
-    """By the objective; by fitness where it has no such figure; limits do not matter."""
-    asked, verdict = [], "jump"
-    figures = {"fitness": 2.0, "com_rise_m": 0.4, "ballistic_range_m": 0.3}
-    wrong = (Finding("audit", "error", -1.0, "", "", ""),)
-
-    def capsule(self, _):
-        asked.append((self.name, self.engine, self.settings))
-        return Evaluation(verdict, figures, wrong)
-
-    monkeypatch.setattr(CapsuleModel, "_evaluated", capsule)
-    model, design = robot_model("printed", None, None, "mujoco"), load_design("kenan-2.0")
-    scores = {name: model.quick_score(design, find_objective(name)) for name in ("rise", "body_lengths")}
-    assert scores == {"rise": find_objective("rise").figure(figures), "body_lengths": 2.0}
-    assert set(asked[0][:2]) == {"capsule", "planar"}
-    assert asked[0][2] == load_settings("screening")
-    verdict = "no_takeoff"
-    assert model.quick_score(design, find_objective("rise")) == -math.inf
-
-
 def test_settings_that_were_changed_to_what_cannot_be_are_refused():
     with pytest.raises(JumpcadError, match="dt_s"):
         robot_model("capsule", None, load_settings("default").model_copy(update={"dt_s": -1.0}))
@@ -262,17 +209,6 @@ def test_guesses_and_quick_scores_have_settings_of_their_own():
     assert (rolling.estimate_engine, rolling.estimate_settings.dt_s) == ("mujoco", 0.002)
     slow = replace(plain, settings=plain.settings.model_copy(update={"dt_s": 0.004}))
     assert slow.estimate_settings.dt_s == 0.004
-
-
-@pytest.mark.parametrize("field", ["workshop", "settings", "engine", "stand_in"])
-def test_a_model_is_made_of_what_it_says(field):
-    """A name is no workshop: `robot_model` takes names."""
-    with pytest.raises(JumpcadError, match=field):
-        PrintedModel(**{field: 5 if field == "engine" else "light"})
-
-
-def test_a_printed_robot_without_a_workshop_is_made_as_exactly_as_a_capsule() -> None:
-    assert PrintedModel().making == Tolerances(0.2)
 
 
 def test_every_objective_is_for_printed_robots_and_for_others_what_they_have() -> None:

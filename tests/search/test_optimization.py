@@ -1,7 +1,6 @@
 """`jumpcad.optimize`: the search of the command line, in one call."""
 
 import json
-from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -10,7 +9,6 @@ from typer.testing import CliRunner
 import jumpcad
 from jumpcad.cli.commands import app
 from jumpcad.errors import JumpcadError
-from jumpcad.workshop import load_workshop
 
 WEAK = {"stiffness_nmm_per_deg": 5, "compression_ratio": 0.1}
 QUICK = {"model": "capsule", "settings": "screening", "workers": 0}
@@ -53,70 +51,28 @@ def test_the_space_is_given_by_numbers():
     assert {trial.design.d_coef for trial in best.trials} == {0.7, 0.8}
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"method": "gaa"}, "did you mean ga"),
+def test_wrong_arguments_are_one_line_and_leave_nothing(folder):
+    """What is checked alike on the command line has its tests there."""
+    for options, message in (
         ({"method": 5}, r"optimize\(\) takes a text as method"),
-        ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
         ({"evaluations": 1.5}, "takes a whole number as evaluations, not 1.5"),
-        ({"fixed": {"c_coeff": 1}}, "did you mean c_coef"),
         ({"fixed": {"c_coef": "1"}}, r"c_coef = '1' \(str\) is not a number"),
         ({"fixed": {"c_coef": 10**400}}, "c_coef = .* is outside"),
         ({"fixed": {"c_coef": float("nan")}}, "c_coef = nan is outside"),
-        ({"fixed": {5: 1}}, "5 is not a parameter of a design"),
-        ({"fixed": [1]}, "takes a table as fixed"),
+        ({"fixed": {5: 1}}, "5 is not a parameter of a design"), ({"fixed": [1]}, "takes a table as fixed"),
         ({"bounds": {"c_coef": 1.0}}, "give several numbers"),
-        ({"bounds": {"c_coef": (1.1, 0.9)}}, "empty range"),
         ({"bounds": {"c_coef": (0.9, 1.0, 1.1)}}, "c_coef has 3 bounds"),
+        ({"bounds": {"c_coef": "ab"}}, r"^c_coef = 'ab' \(str\): must be a list of values$"),
         ({"choices": {"c_coef": []}}, "no values to choose from"),
+        ({"choices": {"c_coef": "abc"}}, r"^c_coef = 'abc' \(str\): must be a list of values$"),
+        ({"only": "range"}, r"^optimize\(\) takes a list of str as only, not 'range' \(str\)$"),
         ({"fixed": {"c_coef": 1}, "bounds": {"c_coef": (0.9, 1.1)}}, "given twice"),
-        ({"workers": 1, "dask": "tcp://x"}, "exclude each other"),
-        ({"engine": "ode"}, "not an engine"),
-        ({"study": "none/s.db"}, "none/s.db"),
-        ({"study": "s.sqlite"}, "a study file must end in .db"),
-    ],
-)
-def test_wrong_arguments_are_one_line(folder, options, message):
-    with pytest.raises(JumpcadError, match=message) as error:
-        jumpcad.optimize(**({"model": "capsule", "evaluations": 2} | options))
-    assert "\n" not in str(error.value)
-    assert list(folder.iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    ("method", "more"),
-    [
-        ("bo", {"batch": 3, "until_percent": 1.0}),
-        ("ga", {"screen": True, "preset": "published"}),
-        ("nsga2", {"against": "mass"}),
-    ],
-)
-def test_each_option_reaches_the_search(monkeypatch, method, more):
-    """Every value is another than the usual one; the workshop's own spring is one to choose."""
-    monkeypatch.setattr("jumpcad.search.optimization.run_study", lambda *study: study)
-    monkeypatch.setattr("jumpcad.search.optimization.open_pool", lambda *how: nullcontext(how))
-    more |= {"evaluations": 60, "seed": 4, "prior": Path("before.db"), "hours": 2.0}
-    more |= {"objective": "rise"}
-    how = {"workers": 3, "limit_s": 7.0, "engine": "planar", "study": "mine.db"}
-    near = {"around": "kenan-2.0", "only": ["c_coef", "rest_angle_deg"], "within_percent": 5}
-    request, path, pool = jumpcad.optimize(method, **more, **how, **near)
-    assert request.space == jumpcad.search.Space.make(**near | {"around": jumpcad.load_design("kenan-2.0")})
-    assert [parameter.name for parameter in request.space.free] == near["only"]
-    assert {name: getattr(request, name) for name in more} == more
-    assert (request.method, request.model.engine, path, pool) == (method, "planar", Path("mine.db"), (3, None, 7.0))
-
-
-def test_what_a_workshop_has_is_chosen_in_that_workshop(monkeypatch):
-    monkeypatch.setattr("jumpcad.search.optimization.run_study", lambda request, *_: request)
-    shop = load_workshop()
-    own = shop.catalogue.springs["9271K619"].model_copy(update={"name": "own"})
-    shop = shop.model_copy(update={"springs": {**shop.springs, "own": own}}).revalidated()
-    choices = {"bought.spring": ["own", "9271K619"]}
-    with pytest.raises(JumpcadError, match="own"):
-        jumpcad.optimize(choices=choices, workers=0)
-    (parameter,) = jumpcad.optimize(choices=choices, workshop=shop, workers=0).space.of_workshop
-    assert parameter.names == ("own", "9271K619")
+        ({"study": "none/s.db"}, "none/s.db"), ({"study": "s.sqlite"}, "a study file must end in .db"),
+    ):  # fmt: skip
+        with pytest.raises(JumpcadError, match=message) as error:
+            jumpcad.optimize(**({"model": "capsule", "evaluations": 2} | options))
+        assert "\n" not in str(error.value)
+        assert list(folder.iterdir()) == []
 
 
 def test_a_search_is_around_a_design_however_it_is_named(folder, monkeypatch):
@@ -129,23 +85,3 @@ def test_a_search_is_around_a_design_however_it_is_named(folder, monkeypatch):
         for around in ("best-ga", "own.toml", Path("own.toml"), folder / "own.toml", design)
     ]
     assert spaces == [jumpcad.search.Space.parse(around=design, within_percent=10)] * 5
-
-
-@pytest.mark.parametrize("name", ["best.toml", "robot.urdf", "study"])
-def test_a_study_is_a_file_of_its_own_kind_as_on_the_command_line(tmp_path, name):
-    with pytest.raises(JumpcadError, match=f"{name}: a study file must end in .db$"):
-        jumpcad.optimize(evaluations=3, model="capsule", study=tmp_path / name, workers=0)
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"only": "range"}, r"^optimize\(\) takes a list of str as only, not 'range' \(str\)$"),
-        ({"choices": {"c_coef": "abc"}}, r"^c_coef = 'abc' \(str\): must be a list of values$"),
-        ({"bounds": {"c_coef": "ab"}}, r"^c_coef = 'ab' \(str\): must be a list of values$"),
-    ],
-)
-def test_a_text_is_not_taken_for_a_list_of_its_letters(changes, message):
-    with pytest.raises(JumpcadError, match=message):
-        jumpcad.optimize(evaluations=3, model="capsule", around="kenan-2.0", workers=0, **changes)

@@ -148,28 +148,3 @@ def test_a_step_is_read_whole_or_not_at_all(evaluator, tmp_path):
     found = again.finished("ga", 2, 3)
     assert [trial.place for trial in found] == [0, 1, 2]
     assert again.trials == found
-
-
-def test_what_is_read_from_the_study_file_is_told_apart_from_what_is_computed(evaluator, tmp_path):
-    first = evaluator(tmp_path / "s.db")
-    first.evaluate(designs(3), "ga", 0)
-    first.store.close()
-    again, seen = evaluator(tmp_path / "s.db"), []
-    again._watch = lambda trial, computed: seen.append((trial.step, trial.place, computed))
-    again.evaluate(designs(3), "ga", 0)
-    again.evaluate(designs(5), "ga", 1)
-    assert seen == [(0, 0, False), (0, 1, False), (0, 2, False), (1, 0, True), (1, 1, True)]
-    assert len(again.trials) == 5
-    again.store.close()
-    whole, seen = evaluator(tmp_path / "s.db"), []
-    whole._watch = lambda trial, computed: seen.append((trial.step, trial.place, computed))
-    assert whole.finished("ga", 0, 3) is not None
-    assert seen == [(0, 0, False), (0, 1, False), (0, 2, False)]
-
-
-def test_a_place_of_this_run_is_taken_too(evaluator):
-    one = evaluator()
-    one.evaluate(designs(2), "ga", 0)
-    with pytest.raises(JumpcadError, match="proposes other designs"):
-        one.evaluate(designs(2, seed=1), "ga", 0)
-    assert len(one.store.trials()) == 2

@@ -1,7 +1,6 @@
 """What a study is asked for, and its stages."""
 
 import hashlib
-import inspect
 import json
 from collections import Counter
 from dataclasses import replace
@@ -11,8 +10,6 @@ import pytest
 from support.hills import SMALL, Hill
 from support.studies import trials
 
-import jumpcad
-from jumpcad.cli import optimize
 from jumpcad.errors import JumpcadError
 from jumpcad.search.models import robot_model
 from jumpcad.search.pick.tolerances import Tolerances
@@ -93,22 +90,6 @@ def test_the_studys_stages_have_an_evaluation_each():
     }  # fmt: skip
 
 
-def test_what_is_not_said_is_the_same_in_python_and_on_the_command_line():
-    """Random seed 0, one proposal at a time, no limit of time, no guesses."""
-    plain = vars(Request(SMALL, Hill()))
-    usual = {"seed": 0, "preset": "recommended", "batch": 1, "hours": 0.0, "screen": False}
-    usual |= {"method": "bo", "evaluations": plain["evaluations"], "until_percent": plain["until_percent"]}
-    assert {name: plain[name] for name in usual} == usual
-    called = {name: one.default for name, one in inspect.signature(jumpcad.optimize).parameters.items()}
-    assert {name: called[name] for name in usual} == usual
-    typed = {name: one.default for name, one in inspect.signature(optimize.optimize).parameters.items()}
-    assert typed.pop("until") == usual["until_percent"]
-    common = usual.keys() - {"method", "until_percent"}  # which a command's help names
-    assert {name: typed[name] for name in common} == {name: usual[name] for name in common}
-    assert typed["limit"] == called["limit_s"] == 60.0
-    assert typed["model"] == called["model"] == "printed"
-
-
 @pytest.mark.parametrize(("prior", "first"), [(0, 9), (4, 5), (20, 0)])
 def test_designs_of_a_prior_study_stand_for_first_ones(prior, first):
     """Of three for each of three free parameters."""
@@ -172,16 +153,6 @@ def test_a_study_s_identity_is_all_that_decides_its_trials():
     assert replace(plain, method="paper", batch=1, evaluations=80).default_name() != replace(
         plain, method="paper", batch=1
     ).default_name()  # fmt: skip
-
-
-def test_a_request_is_told_by_method_robot_and_objective():
-    plain = Request(SMALL, Hill(), "range", "ga", 40)
-    assert plain.title == "ga on the hill robot, range"
-    assert repr(plain) == "<Request ga on the hill robot, range: 40 evaluations, 3 parameters free>"
-    assert (plain.pick, plain.searched, plain.is_front, plain.estimated) == (10, 30, False, False)
-    front = Request(SMALL, Hill(), "range", "nsga2", 40)
-    assert (front.pick, front.searched, front.is_front) == (10, 30, True)
-    assert front.title == "nsga2 on the hill robot, range against spring-energy"
 
 
 def test_what_is_not_asked_for_follows_from_method_and_robot():

@@ -14,13 +14,12 @@ from support.places import TESTS
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.phases import Method
 from jumpcad.search.propose.local_search import gains
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool
-from jumpcad.search.study.request import Request, Stage
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import _read_prior, run_study
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial
@@ -110,26 +109,6 @@ def test_a_robust_pick_ends_with_the_time_and_the_same_request_goes_on(tmp_path,
     assert again.evaluations == whole.evaluations
     assert [one.to_dict() for one in again.candidates] == [one.to_dict() for one in whole.candidates]
     assert again.bounds == whole.bounds
-
-
-def test_a_search_stops_for_its_pick_whose_time_has_come(monkeypatch):
-    """After 20 evaluations what is left is just enough for the pick, which is made in full."""
-    request = replace(REQUEST, method="ga", evaluations=60, hours=1.0)
-    seen = []
-
-    class Timed(study.Clock):
-        def see(self, computed):
-            seen.append(computed)
-
-        def is_over(self, following=0):
-            return following == request.pick and len(seen) >= 20
-
-    assert request.pick > 0
-    monkeypatch.setattr(study, "Clock", Timed)
-    result = run(request)
-    assert 20 <= len(result.trials) < request.searched
-    assert any(trial.neighbours for trial in result.candidates)
-    assert result.notes == [f"ended after 1 h, before {request.searched} designs: the same command goes on"]
 
 
 def contents(path):
@@ -289,34 +268,6 @@ def test_a_study_remembers_what_ended_it_and_forgets_it_while_it_goes_on(tmp_pat
     assert held()["by"] == ended["by"]
 
 
-def test_what_ended_a_search_is_told_by_what_was_left():
-    """Of 40 evaluations 30 are the search's."""
-    plain = Request(SMALL, Hill(), method="ga", evaluations=40)
-    for changes, designs, converged, timed, ended in (
-        ({}, 30, False, False, {"by": "evaluations"}), ({}, 29, False, False, {"by": "proposals"}),
-        ({"space": FEW}, 2, False, False, {"by": "space"}), ({"space": FEW}, 1, False, False, {"by": "proposals"}),
-        ({"hours": 2.0}, 29, True, True, {"by": "hours", "hours": 2.0}),
-        ({"until_percent": 0.05}, 30, True, False, {"by": "until", "until_percent": 0.05}),
-    ):  # fmt: skip
-        assert study._end(replace(plain, **changes), designs, converged, timed) == ended
-
-
-@pytest.mark.thorough
-def test_it_ends_when_its_time_is_over_and_the_same_request_goes_on(tmp_path):
-    for method, evaluations, least in (("ga", 40, 20), ("bo", 16, 8), ("ga+bo", 24, 6)):
-        request = replace(REQUEST, method=method, evaluations=evaluations)
-        begun = run(replace(request, hours=1e-12), tmp_path / f"{method}.db")
-        assert least <= len(begun.trials) < evaluations
-        said = [f"ended after 1e-12 h, before {request.searched} designs: the same command goes on"]
-        whole = len(begun.trials) == request.searched
-        said = ["ended after 1e-12 h, during the robust pick: the same command goes on"] if whole else said
-        assert (method, begun.notes) == (method, said)
-        assert begun.evaluations == len(begun.trials)
-        whole = run(request, tmp_path / f"{method}.db")
-        assert not any("ended after" in note for note in whole.notes)
-        assert [trial.key for trial in whole.trials] == [trial.key for trial in run(request).trials]
-
-
 @pytest.mark.thorough
 @pytest.mark.parametrize("method", ["ga", "ga+bo", "pareto"])
 def test_a_finished_study_is_read_whole_however_short_the_time(tmp_path, method):
@@ -402,32 +353,6 @@ def test_a_prior_study_of_another_program_is_said_to_be_one(tmp_path):
     for _ in range(2):
         (note,) = run(request, tmp_path / "new.db").notes
         assert "old.db was made by another program" in note
-
-
-def test_bounds_of_the_winner_are_examined_with_what_its_pick_leaves(monkeypatch):
-    """Of the most robust candidate, whatever scores best."""
-    asked, rank = [], study.rank_candidates
-    monkeypatch.setattr(study, "rank_candidates", lambda *given: rank(*given)[::-1])
-    monkeypatch.setattr(study, "active_bounds", lambda _, trial, left, run: asked.append((trial, left)) or [])
-    request = replace(REQUEST, method="ga", evaluations=80)
-    found = run(request)
-    used = found.evaluations - len(found.trials)
-    assert 0 < used < request.pick == 20
-    assert asked == [(found.winner, request.pick - used)]
-    assert found.winner is not found.best
-
-
-def test_each_stage_is_asked_for_what_the_request_says(monkeypatch):
-    """Its share of the evaluations, first designs where it learns; only the last one ends early, if it can."""
-    asked = []
-    monkeypatch.setattr(Method, "run", lambda self, evaluator, stage: asked.append(stage) or False)
-    given = {"seed": 7, "batch": 3, "until_percent": 2.0}
-    two = Request(SMALL, Hill(), method="ga+bo", evaluations=90, preset="published", **given)
-    one = Request(SMALL, Hill(), method="bo", evaluations=90, **given)
-    for request in (two, one):
-        run(request)
-    assert asked[:2] == [Stage(two, "ga", 22), Stage(two, "bo", 46, least_gain=0.02)]
-    assert asked[2:] == [Stage(one, "bo", 68, initial=9, least_gain=0.02)]
 
 
 @pytest.mark.thorough

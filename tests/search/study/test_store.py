@@ -121,16 +121,6 @@ def test_files_that_are_no_studies(tmp_path):
         StudyStore.write(tmp_path / "missing" / "s.db", IDENTITY)
 
 
-def test_damaged_study(tmp_path):
-    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
-        store.append(trials(40))
-    content = bytearray((tmp_path / "s.db").read_bytes())
-    content[4096:12288] = b"\xff" * 8192
-    (tmp_path / "s.db").write_bytes(content)
-    with pytest.raises(JumpcadError, match="is damaged"):
-        StudyStore.read(tmp_path / "s.db")
-
-
 def edited(path, *statements):
     """Make a study of trials of two phases, then change it as another program would."""
     with StudyStore.write(path, IDENTITY) as store:
@@ -340,14 +330,6 @@ def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path):
         words = f"holds a front against {named}, not {asked}: say --against {named}, or name another file$"
         with pytest.raises(JumpcadError, match=words):
             StudyStore.write(path, IDENTITY | mine)
-
-
-def test_a_study_is_written_ahead_and_no_batch_waits_for_the_disk(tmp_path):
-    """Others read it meanwhile; only a power cut can lose the last batches."""
-    for _ in range(2):
-        with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
-            assert store._connection.execute("PRAGMA journal_mode").fetchone() == ("wal",)
-            assert store._connection.execute("PRAGMA synchronous").fetchone() == (1,)
 
 
 def test_a_study_of_another_program_says_how_one_goes_on(tmp_path):

@@ -7,7 +7,6 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
-from jumpcad.search.phases import LEARNING_PHASES
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import (
     Trial,
@@ -16,7 +15,6 @@ from jumpcad.search.study.trial import (
     feasible_trials,
     in_order,
     searched,
-    trial_numbers,
 )
 
 
@@ -32,11 +30,6 @@ def test_the_best_is_the_first_of_equals_and_none_where_all_are_rejected(trial: 
     assert [found.place for found in feasible_trials(trials)] == [2, 4, 0, 3]
     assert best_trial(trials) is trials[2]
     assert best_trial([trials[1]]) is None
-
-
-def test_who_proposes_by_a_surrogate_learns() -> None:
-    """Bayesian optimisation of a figure or of two; genetic algorithms do not, though all may end a search."""
-    assert set(LEARNING_PHASES) == {"bo", "pareto"}
 
 
 def test_trials_stand_in_the_order_of_phases_runs_steps_and_places(trial: Trial) -> None:
@@ -69,12 +62,6 @@ def test_a_rejected_design_has_no_fitness_in_its_record(trial: Trial) -> None:
     assert (rejected["fitness"], rejected["score"], rejected["verdict"]) == (0.0, None, "loop")
 
 
-def test_trials_are_numbered_from_one_in_the_studys_order(trial: Trial) -> None:
-    """As the rows of an exported table."""
-    trials = [replace(trial, phase=phase, step=step) for phase, step in (("ga", 0), ("ga", 1), ("robust", 0))]
-    assert [trial_numbers(trials)[one.position] for one in trials] == [1, 2, 3]
-
-
 def test_a_record_has_every_figure_under_its_name_and_the_workshop_where_one_varied(trial: Trial) -> None:
     limits = (Finding("loop", "info", 0.25, "", "", ""), Finding("leg_flex", "warning", -0.5, "mm", "", ""))
     told = Evaluation("jump", {"fitness": 3.0, "mass_kg": 0.125}, limits, "a detail")
@@ -89,8 +76,3 @@ def test_a_record_has_every_figure_under_its_name_and_the_workshop_where_one_var
     assert varied.to_dict()["workshop"] == {"body.plate_mm": 2.0}
     assert varied.key == (*trial.design.to_vector(), 2.0)
     assert varied.variant.workshop == varied.workshop
-
-
-def test_a_trial_tells_its_place_and_its_score_or_what_rejects_it(trial: Trial) -> None:
-    lost = replace(trial, phase="bo", step=3, place=2, evaluation=Evaluation("loop"), score=None)
-    assert (repr(trial), repr(lost)) == ("<Trial ga 0.0: score 4>", "<Trial bo 3.2: loop>")
