@@ -17,7 +17,8 @@ def environment() -> Environment:
     """Return the environment of all templates of texts.
 
     Its filters: `n(digits)` rounds to so many decimals, `g` writes a number as short as possible, `plain` escapes text
-    for Markdown, `html` for HTML, `capital` and `small` change a sentence's first letter alone.
+    for Markdown, `html` for HTML, `capital` and `small` change a sentence's first letter alone, `places` writes points
+    (n, 2) for SVG.
     """
     found = Environment(
         loader=FileSystemLoader(templates_folder()),
@@ -30,6 +31,7 @@ def environment() -> Environment:
     filters: dict[str, Callable[..., str]] = {
         "n": lambda value, digits=0: f"{float(value):.{digits}f}",
         "g": lambda value: f"{float(value):g}",
+        "places": lambda points, digits=1: " ".join(f"{x:.{digits}f},{y:.{digits}f}" for x, y in points),
         "plain": plain,
         "html": escape,
         "capital": lambda text: text[:1].upper() + text[1:],

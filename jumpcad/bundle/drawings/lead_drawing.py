@@ -2,9 +2,9 @@
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from html import escape
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ import numpy.typing as npt
 from jumpcad.bundle.drawings.lead_lines import Lead, leads_of
 from jumpcad.dimensions import TRAY_MM
 from jumpcad.exporters.dxf import sheet
+from jumpcad.files.rendering import fill
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.parts.fittings import wire_hole_mm
@@ -50,24 +51,21 @@ def leads_svg(robot: Robot) -> str:
     """Return the drawing: the left plate seen from the left, the right one from the right, the trays from above."""
     leads = leads_of(robot)
     width = (WIDTH_MM - 3.0 * MARGIN_MM) / 2.0
-    left, below_left = _plate(robot, leads, "left", MARGIN_MM, width)
-    right, below_right = _plate(robot, leads, "right", 2.0 * MARGIN_MM + width, width)
-    trays, height = _trays(robot.layout, leads, max(below_left, below_right) + MARGIN_MM)
-    return "\n".join(
-        [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH_MM:.1f} {height:.1f}" '
-            f'width="{4 * WIDTH_MM:.0f}" font-family="sans-serif" font-size="3">',
-            f'<rect width="{WIDTH_MM:.1f}" height="{height:.1f}" fill="#ffffff"/>',
-            *left,
-            *right,
-            *trays,
-            "</svg>",
-            "",
-        ]
-    )
+    places = {"left": MARGIN_MM, "right": 2.0 * MARGIN_MM + width}
+    plates = [plate for side, left in places.items() if (plate := _plate(robot, leads, side, left, width))]
+    trays = _trays(robot.layout, leads, max((plate["bottom"] + 4.0 for plate in plates), default=0.0) + MARGIN_MM)
+    values = {
+        "width": WIDTH_MM,
+        "plates": plates,
+        "trays": trays,
+        "text_y": MARGIN_MM + 3.0,
+        "badge": BADGE_MM,
+        "n": _n,
+    }
+    return fill("drawings/leads.svg.j2", values)
 
 
-def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float) -> tuple[list[str], float]:
+def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float) -> dict[str, Any] | None:
     """Return the view of a plate from outside, and its lower edge: leads inside are dashed.
 
     A bundle of some of a robot's parts may lack the plate: nothing is drawn then.
@@ -75,29 +73,28 @@ def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float
     layout, sign = robot.layout, -1.0 if side == "left" else 1.0
     part = next((part for part in robot.parts if part.name == f"body_plate_{side}"), None)
     if part is None:
-        return [], 0.0
+        return None
     y = layout.lateral.left_plate if side == "left" else layout.lateral.right_plate
     region = sheet(part, y[1] - y[0])[0].simplify(FINE_MM)
     low_x, low_z, high_x, high_z = region.bounds()
     scale = width / (high_x - low_x)
     view = Projection(scale * np.array([[sign, 0.0, 0.0], [0.0, 0.0, -1.0]]),
                 np.array([left - scale * low_x, MARGIN_MM + TITLE_MM + scale * high_z]))  # fmt: skip
-    outline = [[(sign * x, 0.0, z) for x, z in contour] for contour in region.to_polygons()]
-    drawn = [
-        _text((left, MARGIN_MM + 3.0), f"{side} plate, seen from the {side}: leads inside it are dashed", size=3.6)
-    ]
-    drawn.append(_outline([view.on(*contour) for contour in outline]))
-    drawn += [_circle(view.on([x, 0.0, z])[0], scale * HEAD_MM) for x, z in layout.standoffs_mm]
-    drawn += [shape for words, box in _inside(layout) for shape in _box(view, box, words if "tray" in words else "")]
     mine = [lead for lead in leads if any(plate_of(layout, part) == side for part in lead.parts)]
     outside = (y[1], np.inf) if side == "left" else (-np.inf, y[0])
-    drawn += [line for lead in mine for line in _lines(view, lead, 1, outside)]
-    drawn += _badges(view, mine, None)
-    for words, at in _named(layout, side):
-        drawn.append(_text(view.on(at)[0], words, "middle", halo=True))
-    front = (left, "← front", "start") if side == "left" else (left + width, "front →", "end")
-    bottom = float(view.on([0.0, 0.0, low_z])[0][1])
-    return [*drawn, _text((front[0], bottom + 3.0), front[1], front[2])], bottom + 4.0
+    return {
+        "side": side,
+        "left": left,
+        "outline": [view.on(*[(sign * x, 0.0, z) for x, z in contour]) for contour in region.to_polygons()],
+        "heads": [view.on([x, 0.0, z])[0] for x, z in layout.standoffs_mm],
+        "head": scale * HEAD_MM,
+        "boxes": [_box(view, box, words if "tray" in words else "") for words, box in _inside(layout)],
+        "leads": [_lines(view, lead, 1, outside) for lead in mine],
+        "badges": _badges(view, mine, None),
+        "names": [(words, view.on(at)[0]) for words, at in _named(layout, side)],
+        "front": (left, "← front", "start") if side == "left" else (left + width, "front →", "end"),
+        "bottom": float(view.on([0.0, 0.0, low_z])[0][1]),
+    }
 
 
 def _named(layout: Layout, side: str) -> Iterator[tuple[str, list[float]]]:
@@ -125,7 +122,7 @@ def _inside(layout: Layout) -> Iterator[tuple[str, tuple[Array, Array]]]:
         yield name, (least, least + size)
 
 
-def _trays(layout: Layout, leads: list[Lead], top: float) -> tuple[list[str], float]:
+def _trays(layout: Layout, leads: list[Lead], top: float) -> dict[str, Any]:
     """Return the view of the trays from above, and its lower edge: what is below the upper tray is dashed."""
     (x, z), (low, high), (along, across) = layout.tray_mm, layout.lateral.outside, BESIDE_TRAYS_MM
     holes = [place[0] for place in (layout.fittings.left_mm, layout.fittings.right_mm)]
@@ -139,32 +136,42 @@ def _trays(layout: Layout, leads: list[Lead], top: float) -> tuple[list[str], fl
     view = Projection(scale * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]),
                 np.array([left - scale * back, upper + scale * (high + across)]))  # fmt: skip
     frame = view.on([back, high + across, 0.0], [front, low - across, 0.0])
-    drawn = [_text((left, top + 3.0), "trays and plates from above: leads below the upper tray are dashed", size=3.6)]
+    plates = []
     for side, hole in zip(("left", "right"), holes, strict=True):
         y = layout.lateral.left_plate if side == "left" else layout.lateral.right_plate
-        drawn += _box(view, (np.array([back, y[0], 0.0]), np.array([front, y[1], 0.0])), "", "#d5d8dc")
-        drawn += _box(view, (np.array([hole - 2.5, y[0], 0.0]), np.array([hole + 2.5, y[1], 0.0])), "", "#ffffff")
-        drawn.append(_text(view.on([back + 0.6, sum(y) / 2.0 - 0.4, 0.0])[0], f"{side} plate", halo=True))
-        aside = y[1] + 3.0 if side == "left" else y[0] - 4.0
-        drawn.append(_text(view.on([hole + 3.5, aside, 0.0])[0], f"wire hole of the {side} plate", halo=True))
-        part = "sensor" if side == "left" else "motor"
-        drawn.append(_text(view.on([back + 0.6, aside, 0.0])[0], f"← to the {part}, outside", halo=True))
-    for words, box in _inside(layout):
-        fill = {"upper tray": "#eef2f7", "lower tray": None, "battery": None}.get(words, "#e3ead9")
-        drawn += _box(view, box, "" if words.endswith("tray") else words, fill)
+        spans = {(back, front): "#d5d8dc", (hole - 2.5, hole + 2.5): "#ffffff"}
+        aside, outside = (y[1] + 3.0, "sensor") if side == "left" else (y[0] - 4.0, "motor")
+        names = {
+            f"{side} plate": (back + 0.6, sum(y) / 2.0 - 0.4),
+            f"wire hole of the {side} plate": (hole + 3.5, aside),
+            f"← to the {outside}, outside": (back + 0.6, aside),
+        }
+        drawn = [
+            _box(view, (np.array([first, y[0], 0.0]), np.array([last, y[1], 0.0])), "", colour)
+            for (first, last), colour in spans.items()
+        ]
+        plates.append({"boxes": drawn, "names": [(words, view.on([*at, 0.0])[0]) for words, at in names.items()]})
+    fills = {"upper tray": "#eef2f7", "lower tray": None, "battery": None}
+    boxes = [
+        _box(view, box, "" if words.endswith("tray") else words, fills.get(words, "#e3ead9"))
+        for words, box in _inside(layout)
+    ]
     switch, place = layout.fittings.switch, layout.fittings.switch_mm
     if switch is not None and place is not None:
         size = np.array([switch.length_mm or 0.0, switch.height_mm or 0.0])
         least = np.array([place[0] - size[0] / 2.0, layout.lateral.inside[0], 0.0])
-        drawn += _box(view, (least, least + np.array([*size, 0.0])), "switch")
+        boxes.append(_box(view, (least, least + np.array([*size, 0.0])), "switch"))
     above = (z + layout.electronics.upper_tray_mm, np.inf)
-    drawn += [
-        *_clipped((line for lead in leads for line in _lines(view, lead, 2, above)), frame),
-        *_badges(view, leads, frame),
-    ]
-    bottom = float(frame[1][1])
-    drawn.append(_text((float(frame[1][0]), bottom + 3.0), "front →", "end"))
-    return drawn, bottom + MARGIN_MM
+    return {
+        "left": left,
+        "top": top,
+        "plates": plates,
+        "boxes": boxes,
+        "frame": frame,
+        "leads": [_lines(view, lead, 2, above) for lead in leads],
+        "badges": _badges(view, leads, frame),
+        "height": float(frame[1][1]) + MARGIN_MM,
+    }
 
 
 def _ys_between(points_mm: Array, back: float, front: float) -> Iterator[float]:
@@ -176,75 +183,36 @@ def _ys_between(points_mm: Array, back: float, front: float) -> Iterator[float]:
                 yield float(at[1])
 
 
-def _lines(view: Projection, lead: Lead, axis: int, open_mm: Interval) -> Iterator[str]:
-    """Yield a lead's line in pieces, dashed outside the interval of an axis that is open to view; dots are its ends."""
-    points, stroke = view.on(*lead.points_mm), STROKES[lead.colour]
+def _lines(view: Projection, lead: Lead, axis: int, open_mm: Interval) -> dict[str, Any]:
+    """Return a lead's line in pieces, and which are seen: in the interval of an axis that is open to view."""
+    points = view.on(*lead.points_mm)
     seen = (lead.points_mm[:, axis] > open_mm[0]) & (lead.points_mm[:, axis] < open_mm[1])
     both = [bool(a and b) for a, b in itertools.pairwise(seen)]
+    pieces = []
     for shown, group in itertools.groupby(range(len(both)), lambda index: both[index]):
         indices = list(group)
-        corners_on = " ".join(f"{_n(x)},{_n(y)}" for x, y in points[indices[0] : indices[-1] + 2])
-        dashes = "" if shown else ' stroke-dasharray="1.6 1"'
-        yield (
-            f'<polyline points="{corners_on}" fill="none" stroke="{stroke}" stroke-width="0.55" '
-            f'stroke-linejoin="round"{dashes}/>'
-        )
-    for x, y in (points[0], points[-1]):
-        yield f'<circle cx="{_n(x)}" cy="{_n(y)}" r="0.7" fill="{stroke}"/>'
+        pieces.append((points[indices[0] : indices[-1] + 2], shown))
+    return {"stroke": STROKES[lead.colour], "pieces": pieces, "ends": (points[0], points[-1])}
 
 
-def _badges(view: Projection, leads: list[Lead], frame: Array | None) -> Iterator[str]:
-    """Yield every lead's number in a circle on its line, apart from the others; in the frame (2, 2) if there is one."""
-    taken: list[Array] = []
+def _badges(view: Projection, leads: list[Lead], frame: Array | None) -> list[dict[str, Any]]:
+    """Return every lead's number and its place on its line, apart from the others; in the frame (2, 2) if any."""
+    badges: list[dict[str, Any]] = []
     for lead in leads:
         points = view.on(*lead.points_mm)
         pieces = sorted(itertools.pairwise(points), key=lambda ends: -round(math.dist(*ends), 3))
         places = [a + share * (b - a) for a, b in pieces for share in (0.5, 0.3, 0.7, 0.15, 0.85)]
         if frame is not None:
             places = [at for at in places if ((at > frame[0] + 2.0) & (at < frame[1] - 2.0)).all()] or places
-        free = [at for at in places if all(math.dist(at, other) > BADGES_APART_MM for other in taken)]
-        at = (free or places)[0]
-        taken.append(at)
-        yield (
-            f'<circle cx="{_n(at[0])}" cy="{_n(at[1])}" r="{BADGE_MM:g}" fill="#ffffff" '
-            f'stroke="{STROKES[lead.colour]}" stroke-width="0.4"/>'
-        )
-        yield _text((at[0], at[1] + 0.8), str(lead.number), "middle", size=2.3)
+        free = [at for at in places if all(math.dist(at, other["at"]) > BADGES_APART_MM for other in badges)]
+        badges.append({"at": (free or places)[0], "stroke": STROKES[lead.colour], "number": lead.number})
+    return badges
 
 
-def _box(view: Projection, box: tuple[Array, Array], words: str, fill: str | None = None) -> Iterator[str]:
-    """Yield a box by its least and largest corner; without a fill dashed."""
+def _box(view: Projection, box: tuple[Array, Array], words: str, fill: str | None = None) -> dict[str, Any]:
+    """Return a box by its least and largest corner; without a fill it is dashed."""
     low, high = (np.array(end) for end in zip(*(sorted(pair) for pair in view.on(*box).T), strict=True))
-    look = f'fill="{fill}"' if fill else 'fill="none" stroke-dasharray="1 0.8"'
-    yield (
-        f'<rect x="{_n(low[0])}" y="{_n(low[1])}" width="{_n(high[0] - low[0])}" height="{_n(high[1] - low[1])}" '
-        f'{look} stroke="#7b8794" stroke-width="0.25"/>'
-    )
-    if words:
-        yield _text((low[0] + 0.6, high[1] - 0.7), words, size=2.4, halo=True)
-
-
-def _outline(contours: Iterable[Array]) -> str:
-    path = " ".join("M " + " L ".join(f"{_n(x)},{_n(y)}" for x, y in contour) + " Z" for contour in contours)
-    return f'<path d="{path}" fill="#e6e8eb" fill-rule="evenodd" stroke="#7b8794" stroke-width="0.25"/>'
-
-
-def _circle(at: Array, radius: float) -> str:
-    where = f'cx="{_n(at[0])}" cy="{_n(at[1])}" r="{_n(radius)}"'
-    return f'<circle {where} fill="#c3c9d1" stroke="#7b8794" stroke-width="0.25"/>'
-
-
-def _clipped(parts: Iterable[str], frame: Array) -> Iterator[str]:
-    (x0, y0), (x1, y1) = frame
-    where = f'x="{_n(x0)}" y="{_n(y0)}" width="{_n(x1 - x0)}" height="{_n(y1 - y0)}"'
-    yield f'<clipPath id="trays"><rect {where}/></clipPath>'
-    yield from ('<g clip-path="url(#trays)">', *parts, "</g>")
-
-
-def _text(at: Iterable[float], words: str, anchor: str = "start", size: float = 3.0, halo: bool = False) -> str:
-    x, y = at
-    around = ' stroke="#ffffff" stroke-width="0.7" paint-order="stroke"' if halo else ""
-    return f'<text x="{_n(x)}" y="{_n(y)}" text-anchor="{anchor}" font-size="{size:g}"{around}>{escape(words)}</text>'
+    return {"low": low, "high": high, "words": words, "fill": fill}
 
 
 def _n(value: float) -> str:

@@ -5,14 +5,14 @@ and a table of its requirements.
 """
 
 import math
-from collections.abc import Iterator, Sequence
-from html import escape
+from collections.abc import Iterator
 
 import numpy as np
 
 from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
+from jumpcad.files.rendering import fill
 from jumpcad.parts.spring_wire import ORDERED
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array
@@ -24,8 +24,6 @@ PAGE_MM = (297.0, 210.0)
 END_VIEW_MM, SIDE_VIEW_MM = (75.0, 70.0), (200.0, 70.0)
 ROOM_MM = (8.0, 21.0, 284.0, 116.5)
 """Left, upper, right and lower edge of the room for both views, between their titles and the table."""
-LEGEND_MM = 20.6
-"""Line of the words on the arms, between the titles and both views."""
 CROSS_MM = 30.0
 """Reach of the middle lines of the side view."""
 VIEWS_APART_MM = 5.0
@@ -53,20 +51,29 @@ def scale_in_words(spring: TorsionSpring) -> str:
 
 
 def _sheet(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> str:
-    width, height = PAGE_MM
-    rows, scale = requirements(robot, spring, side, hand), scale_of(spring)
-    return "\n".join(
-        [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}mm" '
-            f'height="{height:g}mm" font-family="sans-serif" font-size="4">',
-            f'<rect width="{width:g}" height="{height:g}" fill="#ffffff"/>',
-            *_end_view(spring, hand, scale),
-            *_side_view(spring, hand, scale),
-            *_table(rows),
-            "</svg>",
-            "",
-        ]
-    )
+    scale = scale_of(spring)
+    middle = _middle_mm(spring, hand, scale)
+    lines = (*arms_of(spring, hand), arms_of(spring, hand, spring.wound_rad)[0])
+    far, near, loaded = ((scale * line + middle).ravel().tolist() for line in lines)
+    values = {
+        "spring": spring,
+        "page_mm": PAGE_MM,
+        "rows": [(name, allowed(value)) for name, value in requirements(robot, spring, side, hand)],
+        "middle": middle.tolist(),
+        "side_view": SIDE_VIEW_MM,
+        "cross_mm": CROSS_MM,
+        "mean": scale * spring.arms.mean_mm,
+        "wire": scale * spring.wire_mm,
+        "outer": scale * spring.outer_diameter_mm,
+        "turns": math.ceil(spring.turns),
+        "far": far,
+        "near": near,
+        "loaded": loaded,
+        "free_deg": math.degrees(spring.free_arm_angle_rad),
+        "scale": scale_in_words(spring),
+        "hand": hand,
+    }
+    return fill("drawings/spring_sheet.svg.j2", values)
 
 
 def requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> list[tuple[str, str]]:
@@ -94,26 +101,6 @@ def requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> l
         ("body length, loaded", f"{spring.body_length_mm:.1f} mm at most"),
         ("inside, loaded", f"runs on a mandrel of {spring.mandrel_mm:.2f} mm"),
     ]
-
-
-def _end_view(spring: TorsionSpring, hand: str, scale: float) -> Iterator[str]:
-    """Yield the view along the axis: a right-hand coil goes away from the viewer clockwise."""
-    middle = _middle_mm(spring, hand, scale)
-    x, y = middle
-    mean, wire = scale * spring.arms.mean_mm, scale * spring.wire_mm
-    yield f'<circle cx="{x:g}" cy="{y:g}" r="{mean / 2:.2f}" fill="none" stroke="#9aa0a8" stroke-width="{wire:.2f}"/>'
-    far, near = arms_of(spring, hand)
-    for line, colour in ((far, "#c3c7cc"), (near, "#4d535c")):
-        yield _line(scale * line + middle, colour, wire)
-    yield from _cross(x, y, mean / 2.0 + 6.0)
-    loaded = _line(scale * arms_of(spring, hand, spring.wound_rad)[0] + middle, "#4d535c", 0.4)
-    yield loaded.replace("/>", ' stroke-dasharray="2 1"/>')
-    apart = f"{math.degrees(spring.free_arm_angle_rad):.0f}°"
-    yield _text(
-        16.0, LEGEND_MM, f"arms: dark the nearer, pale the farther, {apart} from it; dashed: where it is loaded"
-    )
-    title = f"along the axis, {scale_in_words(spring)}; d = {spring.wire_mm:g}, Di = {spring.inside_diameter_mm:.2f}"
-    yield _text(END_VIEW_MM[0] - 30.0, 16.0, title)
 
 
 def _drawn_mm(spring: TorsionSpring, hand: str, scale: float) -> Array:
@@ -171,46 +158,3 @@ def arms_of(spring: TorsionSpring, hand: str, closed_rad: float = 0.0) -> tuple[
         line = np.stack([point, point + outwards * length * along])
         made.append(line * (1.0, -1.0))
     return made[0], made[1]
-
-
-def _side_view(spring: TorsionSpring, hand: str, scale: float) -> Iterator[str]:
-    """Yield the side view of the body, axis upright: in front the wire of a right-hand coil rises to the right."""
-    x, y = SIDE_VIEW_MM
-    wire, outer = scale * spring.wire_mm, scale * spring.outer_diameter_mm
-    count = math.ceil(spring.turns)
-    rise = wire / 2.0 * (1.0 if hand == "right" else -1.0)
-    for number in range(count):
-        middle = y + (number - (count - 1) / 2.0) * wire
-        line = np.array([[x - outer / 2.0, middle + rise], [x + outer / 2.0, middle - rise]])
-        yield _line(line, "#4d535c", 0.85 * wire)
-    yield from _cross(x, y, CROSS_MM)
-    side = "right" if hand == "right" else "left"
-    yield _text(x - 40.0, 16.0, f"from the side, axis upright: in front the wire rises to the {side}")
-
-
-def _table(rows: Sequence[tuple[str, str]]) -> Iterator[str]:
-    for number, (name, value) in enumerate(rows):
-        y = 124.0 + 6.4 * number
-        weight = ' font-weight="bold"' if "LOADED" in name else ""
-        yield f'<line x1="15" y1="{y + 1.8:.1f}" x2="282" y2="{y + 1.8:.1f}" stroke="#cccccc" stroke-width="0.2"/>'
-        yield f'<text x="16" y="{y:.1f}"{weight}>{escape(name)}</text>'
-        yield f'<text x="90" y="{y:.1f}"{weight}>{escape(allowed(value))}</text>'
-
-
-def _cross(x: float, y: float, reach: float) -> Iterator[str]:
-    for dx, dy in ((reach, 0.0), (0.0, reach)):
-        yield (
-            f'<line x1="{x - dx:.2f}" y1="{y - dy:.2f}" x2="{x + dx:.2f}" y2="{y + dy:.2f}" stroke="#222" '
-            'stroke-width="0.2" stroke-dasharray="4 1 1 1"/>'
-        )
-
-
-def _line(points: Array, colour: str, width: float) -> str:
-    (x0, y0), (x1, y1) = points
-    return (
-        f'<line x1="{x0:.2f}" y1="{y0:.2f}" x2="{x1:.2f}" y2="{y1:.2f}" stroke="{colour}" stroke-width="{width:.2f}"/>'
-    )
-
-
-def _text(x: float, y: float, words: str) -> str:
-    return f'<text x="{x:.2f}" y="{y:.2f}">{escape(words)}</text>'

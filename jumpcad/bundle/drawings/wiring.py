@@ -1,12 +1,12 @@
 """wiring.svg: every net with its terminals as the boards name them; the list of wires."""
 
-from collections.abc import Iterator
-from html import escape
+from typing import Any
 
 from jumpcad.bundle.drawings.lead_drawing import STROKES, leads_svg
 from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.nets import Net, Terminal, Wiring
+from jumpcad.files.rendering import fill
 from jumpcad.parts.leads import lead_lengths
 from jumpcad.robot import Robot
 
@@ -14,6 +14,7 @@ ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
            ("controller", "sensor", "upper resistor", "lower resistor", "pull-up resistor"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
+Point = tuple[float, float]
 
 
 def drawings_of(robot: Robot) -> dict[str, str]:
@@ -28,24 +29,11 @@ def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
 
 def wiring_svg(robot: Robot) -> str:
     """Return a drawing of the net list: parts as boxes with their terminals, every net in a lane of its own (mm)."""
-    chosen = robot.electrical_parts
-    wiring = robot.wiring
-    boxes, ends, height = _boxes(wiring.nets, _titles(chosen, wiring, robot))
-    lanes = {net.name: index for index, net in enumerate(wiring.nets)}
-    width = MARGIN_MM + COLUMN_MM * (len(COLUMNS) - 1) + BOX_MM + 4.0 * len(lanes) + 2.0 * MARGIN_MM
-    width += 2.0 * 2.0 * len(lanes)
-    lines = [line for net in wiring.nets for line in _net_lines(net, ends, lanes[net.name])]
-    return "\n".join(
-        [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.1f} {height:.1f}" width="{4 * width:.0f}" '
-            'font-family="sans-serif" font-size="3.2">',
-            f'<rect width="{width:.1f}" height="{height:.1f}" fill="#ffffff"/>',
-            *lines,
-            *boxes,
-            "</svg>",
-            "",
-        ]
-    )
+    nets = robot.wiring.nets
+    boxes, ends, height = _boxes(nets, _titles(robot.electrical_parts, robot.wiring, robot))
+    width = COLUMN_MM * (len(COLUMNS) - 1) + BOX_MM + 8.0 * len(nets) + 3.0 * MARGIN_MM
+    drawn = [_lines(net, ends, lane) for lane, net in enumerate(nets)]
+    return fill("drawings/wiring.svg.j2", {"width": width, "height": height, "nets": drawn, "boxes": boxes})
 
 
 def _titles(chosen: Chosen, wiring: Wiring, robot: Robot) -> dict[str, str]:
@@ -56,51 +44,34 @@ def _titles(chosen: Chosen, wiring: Wiring, robot: Robot) -> dict[str, str]:
     return titles | {name: f"{name}: {ohm / 1000:g} kΩ" for name, ohm in wiring.resistors.items()}
 
 
-def _boxes(
-    nets: tuple[Net, ...], titles: dict[str, str]
-) -> tuple[list[str], dict[Terminal, tuple[float, float]], float]:
+def _boxes(nets: tuple[Net, ...], titles: dict[str, str]) -> tuple[list[dict[str, Any]], dict[Terminal, Point], float]:
     """Return the boxes, where each terminal's wire starts (right edge of its box), and the drawing's height."""
     terminals: dict[str, list[Terminal]] = {}
     for terminal in dict.fromkeys(terminal for net in nets for terminal in net.terminals):
         terminals.setdefault(terminal.part, []).append(terminal)
     pitch = COLUMN_MM + 2.0 * len(nets)
-    boxes, ends, height = [], {}, 0.0
+    boxes: list[dict[str, Any]] = []
+    ends: dict[Terminal, Point] = {}
+    height = 0.0
     for column, parts in enumerate(COLUMNS):
         x, y = MARGIN_MM + column * pitch, MARGIN_MM
         for part in (part for part in parts if part in terminals):
-            size = ROW_MM * (len(terminals[part]) + 1)
-            boxes.append(
-                f'<rect x="{x:.1f}" y="{y:.1f}" width="{BOX_MM:.1f}" height="{size:.1f}" fill="#f4f4f4" '
-                'stroke="#444444" stroke-width="0.3"/>'
-            )
-            boxes.append(f'<text x="{x + 2:.1f}" y="{y + 4.5:.1f}" font-weight="bold">{escape(titles[part])}</text>')
-            for row, terminal in enumerate(terminals[part], start=1):
-                at = (x + BOX_MM, y + ROW_MM * (row + 0.3))
-                ends[terminal] = at
-                boxes.append(f'<text x="{at[0] - 2:.1f}" y="{at[1] + 1:.1f}" text-anchor="end">{terminal.pin}</text>')
-            y += size + ROW_MM
+            starts = {one: (x + BOX_MM, y + ROW_MM * (row + 1.3)) for row, one in enumerate(terminals[part])}
+            ends |= starts
+            size = BOX_MM, ROW_MM * (len(starts) + 1)
+            pins = [(one.pin, *at) for one, at in starts.items()]
+            boxes.append({"x": x, "y": y, "size": size, "title": titles[part], "pins": pins})
+            y += size[1] + ROW_MM
         height = max(height, y)
     return boxes, ends, height + 4.0 * len(nets) + MARGIN_MM
 
 
-def _net_lines(net: Net, ends: dict[Terminal, tuple[float, float]], lane: int) -> Iterator[str]:
-    """Yield a net's lines: from each terminal to the right, down a track of its own, along a lane below all parts."""
-    stroke = STROKES[net.colour]
-    places = [ends[terminal] for terminal in net.terminals]
-    tracks = sorted({x + 4.0 + 2.0 * lane for x, _ in places})
-    below = max(y for _, y in ends.values()) + ROW_MM + 4.0 * lane
-    bottom = below if len(tracks) > 1 else max(y for _, y in places)
-    for terminal in net.terminals:
-        x, y = ends[terminal]
-        track = x + 4.0 + 2.0 * lane
-        yield _path([(x, y), (track, y), (track, bottom)], stroke)
-        yield f'<circle cx="{track:.1f}" cy="{y:.1f}" r="0.6" fill="{stroke}"/>'
-    if len(tracks) > 1:
-        yield _path([(tracks[0], bottom), (tracks[-1], bottom)], stroke)
-        at = f'x="{tracks[0] + 1:.1f}" y="{bottom - 0.8:.1f}"'
-        yield f'<text {at} font-size="2.6" fill="{stroke}">{escape(net.name)}</text>'
-
-
-def _path(points: list[tuple[float, float]], stroke: str) -> str:
-    shown = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-    return f'<polyline points="{shown}" fill="none" stroke="{stroke}" stroke-width="0.6"/>'
+def _lines(net: Net, ends: dict[Terminal, Point], lane: int) -> dict[str, Any]:
+    """Return a net's lines: from each terminal to the right, down a track of its own, along a lane below all parts."""
+    starts = [ends[terminal] for terminal in net.terminals]
+    tracks = [x + 4.0 + 2.0 * lane for x, _ in starts]
+    several = len(set(tracks)) > 1
+    bottom = max(y for _, y in ends.values()) + ROW_MM + 4.0 * lane if several else max(y for _, y in starts)
+    wires = [[(x, y), (track, y), (track, bottom)] for (x, y), track in zip(starts, tracks, strict=True)]
+    along = [(min(tracks), bottom), (max(tracks), bottom)] if several else []
+    return {"name": net.name, "stroke": STROKES[net.colour], "wires": wires, "lane": along}
