@@ -15,10 +15,8 @@ from support.places import ROOT
 from support.workshops import changed
 
 from jumpcad.building import build
-from jumpcad.building.assembly import _sensor_needs, layout_of
-from jumpcad.catalogue import load_catalogue
+from jumpcad.building.assembly import layout_of
 from jumpcad.design import Design, load_design
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
@@ -48,17 +46,6 @@ def test_frames_of_the_joints_close_the_loop(name: str) -> None:
             by_cosines = body_in_plane(robot, body, wind)
             np.testing.assert_allclose(1000.0 * frames[body][[0, 2], 3], by_cosines[:2, 2], atol=1e-9)
             np.testing.assert_allclose(frames[body][[0, 2], 0], by_cosines[:2, 0], atol=1e-12)
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_the_leg_goes_from_loaded_springs_into_its_stop_as_far_as_it_gives(name: str) -> None:
-    robot = built(name)
-    leg = robot.joint(robot.spring.joint)
-    assert leg.lower_rad == -robot.design.compression_rad
-    assert robot.stop is not None
-    assert robot.stop_blow is not None
-    assert robot.stop_blow.give_rad > 0.0
-    assert leg.upper_rad == pytest.approx(robot.stop.angle_rad + robot.stop_blow.give_rad)
 
 
 def test_the_foot_lies_flat_when_the_body_is_tilted_by_beta() -> None:
@@ -152,36 +139,11 @@ def test_screws_as_axles_have_one_size_and_a_thinner_one_is_no_way_out() -> None
         layout_of(KENAN, changed(bought={"axle_mm": 6.0, "leg_bearing": "", "retention": "nuts"}))
 
 
-def test_springs_that_are_bought_are_as_stiff_as_their_maker_says() -> None:
-    """Two of them, whatever stiffness the design has."""
-    stock = load_catalogue().springs["9271K589"]
-    robot = build(load_design("kenan-1.0"), changed(bought={"spring": stock.name}))
-    assert math.radians(robot.spring.stiffness_nm_per_rad * 1000.0) == pytest.approx(2.0 * stock.rate_nmm_per_deg)
-    assert robot.design.stiffness_nmm_per_deg != pytest.approx(2.0 * stock.rate_nmm_per_deg, rel=0.01)
-
-
 def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     """Spacers of 6.4 mm with 0.2 mm of play and walls of 0.8 mm hold axles of 4.4 mm."""
     with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
         layout_of(KENAN, changed(bought={"axle_mm": 4.5, "leg_bearing": ""}))
     assert caught.value.exit_code == 2
-
-
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-def test_the_sensors_place_knows_the_workshops_errors_and_how_far_the_cam_runs_on(name: str) -> None:
-    """From contact to standstill the cam turns as fast as with a full battery; errors and reserve as they are named."""
-    robot = built(name)
-    seats, needs = robot.workshop.seats, robot.layout.sensor.needs
-    assert needs.stop_rad == pytest.approx(robot.layout.drive.train.cam_speed_rad_s * seats.sensor_stop_s, rel=1e-4)
-    assert (needs.axial_mm, needs.along_mm) == (seats.sensor_axial_mm, seats.sensor_along_mm)
-    assert needs.reserve_rad == pytest.approx(math.radians(seats.sensor_reserve_deg))
-    assert needs.layer_mm == robot.workshop.process.layer_height_mm
-    assert needs.part.name == robot.workshop.bought.sensor
-    late = changed(seats={"sensor_stop_s": 0.08})
-    slower = _sensor_needs(late, chosen_parts(late), robot.layout.drive)
-    assert slower.stop_rad == pytest.approx(0.08 / seats.sensor_stop_s * needs.stop_rad, rel=1e-4)
-    thick = changed(process={"first_layer_mm": 0.3, "layer_height_mm": 0.15})
-    assert _sensor_needs(thick, chosen_parts(thick), robot.layout.drive).layer_mm == 0.15
 
 
 def test_nothing_that_is_printed_is_left_out() -> None:

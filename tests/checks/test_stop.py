@@ -17,8 +17,6 @@ from jumpcad.checks.stop import stop_findings
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
-from jumpcad.layout.stop import stop_angle_rad
-from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -161,23 +159,6 @@ def test_a_pad_that_is_too_thin_is_refused_with_what_misses() -> None:
         build(load_design("kenan-2.0"), workshop(stop_pad="sj5632"))
     with pytest.raises(JumpcadError, match=r"body.stop_pad.*a pad of at least 1.5 mm: name one of"):
         build(load_design("kenan-2.0"), workshop(stop_pad=""))
-
-
-def test_a_pad_that_gives_too_much_is_an_error() -> None:
-    shop = load_workshop()
-    jelly = shop.catalogue.pads["rubber-2"].model_copy(update={"modulus_mpa": 0.5, "name": "jelly"})
-    shop = workshop(stop_pad="jelly").model_copy(update={"pads": {"jelly": jelly}})
-    failed = {finding.name for finding in errors(stop_findings(build(load_design("best-bo"), shop)))}
-    assert {"stop_pad", "stop_clearance"} <= failed
-
-
-def test_a_loop_that_does_not_reach_the_stop_is_refused_with_what_misses() -> None:
-    """Foot and front link reach as far as the leg's 5° past rest; a stop at 3° with its pad needs 6°."""
-    robot = built("best-bo")
-    linkage = Linkage(robot.design)
-    linkage.l3 = float(linkage.diagonal_mm(math.radians(5.0))) - linkage.l4
-    with pytest.raises(CannotBuildError, match=r"no rest stop: .* mm too short to close the loop .* 6.0° past rest"):
-        stop_angle_rad(linkage, robot.layout.sections, math.radians(5.0))
 
 
 @pytest.mark.parametrize(("angle", "findings"), [(4.0, constraint_findings), (6.0, check)])

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from support.each import each
 from support.fits import LOADS, with_fits_apart
-from support.said import well_told
 from support.strengths import changed, helped, margins, with_own
 
 from jumpcad.building import build
@@ -147,26 +146,6 @@ def test_the_plates_bear_what_axles_and_the_springs_pin_push(robot: str, request
     assert seat.value == pytest.approx(max(pressed.values()) / strong.layout.axle_mm)
 
 
-def test_pins_for_a_few_jumps_may_bear_their_yield_and_no_more(kenan: Robot) -> None:
-    """Up to 1e3 cycles the limit is the yield point (Shigley, 6-8)."""
-    few = changed(kenan, "safety", jumps=1000.0, steel_yield_mpa=900.0)
-    (axle,) = (finding for finding in strength_findings(few) if finding.name == "axle_fatigue")
-    # and the reserves
-    assert axle.limit == pytest.approx(
-        400.0 / LOADS if "foot" in axle.message or "leg pin" in axle.message else 900.0 / LOADS
-    )
-
-
-@pytest.mark.parametrize("robot", ["kenan", "strongest"])
-def test_a_margin_is_what_is_left_to_the_limit(robot: str, request: pytest.FixtureRequest) -> None:
-    """In the finding's own unit: of a stress, a force or a share of energy."""
-    findings = [one for one in strength_findings(request.getfixturevalue(robot)) if one.value is not None]
-    assert {"leg_strength", "leg_flex"} <= {one.name for one in findings}
-    for one in findings:
-        assert abs(one.margin) == pytest.approx(abs(one.limit - one.value), rel=1e-9, abs=1e-9), one.name
-        assert well_told(one), one.name
-
-
 def test_what_is_advised_to_lower_or_to_raise_helps(strongest: Robot) -> None:
     links = {"leg_strength", "lever_strength", "leg_flex", "front_link_strength", "eye_strength", "foot_lug_strength"}
     assert links <= helped(strongest, strength_findings)
@@ -185,15 +164,6 @@ def test_the_leg_takes_its_share_of_the_springs_energy(kenan: Robot) -> None:
     bent = np.trapezoid(moment**2 / (2.0 * case.workshop.material("links").modulus_mpa * second), x)
     assert flex.value == pytest.approx(100.0 * bent / (1000.0 * kenan.spring.energy_j), rel=2e-3)
     assert flex.limit == pytest.approx(100.0 * kenan.workshop.safety.leg_flex_share)
-
-
-def test_a_thinner_axle_presses_harder_on_the_plates(kenan: Robot) -> None:
-    """By projected area: 3 to 2."""
-    thin = replace(kenan, layout=replace(kenan.layout, axle_mm=2.0))
-    usual, pressed = (
-        next(one.value for one in strength_findings(robot) if one.name == "plate_seat") for robot in (kenan, thin)
-    )
-    assert pressed == pytest.approx(1.5 * usual)
 
 
 @pytest.mark.parametrize("axle_mm", [2.0, 3.0])
@@ -250,19 +220,6 @@ def test_what_is_pulled_along_and_at_its_eyes_by_hand(robot: str, request: pytes
     assert found["eye_strength"].value == pytest.approx(eye(largest, thick, 2.0 * sections.eye_radius_mm, bore))
     lug = eye(force / 2.0, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, axle + 2.0 * fits.lying_mm)
     assert found["foot_lug_strength"].value == pytest.approx(lug)
-
-
-def test_eyes_bear_the_largest_force_at_whichever_pin_it_is(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The lugs are not pulled at landing, which pushes them down."""
-    found = {}
-    for forces in ((60.0, 20.0, 20.0), (20.0, 60.0, 20.0), (20.0, 20.0, 60.0), (20.0, 20.0, 20.0)):
-        for name, force in zip(("ankle_n", "front_n", "landing_n"), forces, strict=True):
-            monkeypatch.setattr(LoadCase, name, force)
-        stresses = {one.name: one.value for one in strength_findings(kenan)}
-        found[forces] = [stresses["eye_strength"], stresses["foot_lug_strength"]]
-    ankle, front, landing, alike = found.values()
-    assert ankle == front == pytest.approx([3.0 * value for value in alike])
-    assert landing == [ankle[0], alike[1]]
 
 
 def test_legs_with_a_bar_are_checked_as_bars(kenan: Robot) -> None:
