@@ -1,113 +1,11 @@
-"""The firmware's logic against a simulated motor, cam, sensor and battery, none of which uses its code.
+"""The firmware's logic on a simulated robot."""
 
-The cam turns at the motor's speed times the share of PWM. The sensor is pressed over the last 12° before the drop, and
-bounces at each change of its state; the leg falls at the drop and lands some time later. The sensor's contact opens
-when pressed, so that a broken lead reads as pressed.
-"""
-
-import importlib.util
 import math
-import random
 from itertools import pairwise
-from types import ModuleType, SimpleNamespace
 
 import pytest
+from support.bench_robot import NUMBERS, PRESSED_DEG, STEP_MS, TURN, WINDER, World, jumped, wound
 from support.each import each
-
-from jumpcad.files import templates_folder
-
-PRESSED_DEG, TURN = 12.0, 360.0
-STEP_MS = 2
-NUMBERS = SimpleNamespace(
-    PWM_CAP=0.9, BATTERY_MIN_V=3.5, BATTERY_EMPTY_V=3.3, BATTERY_SAG_V=0.05, LOW_MS=200, WIND_MIN_MS=900,
-    WIND_MAX_MS=4000, RELEASE_MAX_MS=1000, AFTER_RELEASE_MS=60, SETTLE_MS=10, LANDING_MS=1500, RAMP_MS=100,
-    REST_MS=2000, BUTTON_DELAY_MS=3000,
-)  # fmt: skip
-
-
-def firmware(name: str = "winder") -> ModuleType:
-    """Return a module of the firmware, as the controller loads it."""
-    spec = importlib.util.spec_from_file_location(name, templates_folder() / "firmware" / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-WINDER = firmware()
-
-
-class World:
-    """A robot on the bench, stepped in time (ms, degrees, V)."""
-
-    def __init__(self, speed_deg_s: float = 180.0, jitter_ms: int = 0, bounce_ms: int = 4, seed: int = 1) -> None:
-        self.winder = WINDER.Winder(NUMBERS)
-        self.now_ms, self.cam_deg, self.drops, self.power = 0.0, 0.0, 0, 0.0
-        self.speed_deg_s, self.jitter_ms, self.bounce_ms = speed_deg_s, jitter_ms, bounce_ms
-        self.battery_v: float | None = 4.0
-        self.drain_v_s = 0.0
-        self.stuck_at_deg: float | None = None
-        self.shaken_until_ms = -1.0
-        self.dead_switch: bool | None = None
-        self.breaks_at_deg: float | None = None
-        self.changed_ms, self.was_closed = -1e9, False
-        self.powers: list[float] = []
-        self.random = random.Random(seed)
-
-    def pressed(self) -> bool:
-        """Return the switch as a pin reads it."""
-        if self.dead_switch is not None:
-            return self.dead_switch
-        if self.breaks_at_deg is not None and self.cam_deg >= self.breaks_at_deg:
-            return True
-        true = self.cam_deg % TURN >= TURN - PRESSED_DEG
-        if true != self.was_closed:
-            self.was_closed, self.changed_ms = true, self.now_ms
-        bouncing = self.now_ms - self.changed_ms < self.bounce_ms or self.now_ms < self.shaken_until_ms
-        return self.random.random() < 0.5 if bouncing else true
-
-    def step(self, **commands: bool) -> None:
-        """Advance one step of the program."""
-        dt = STEP_MS + self.random.uniform(0, self.jitter_ms)
-        before = int(self.cam_deg // TURN)
-        if self.stuck_at_deg is None or self.cam_deg < self.stuck_at_deg:
-            self.cam_deg += self.power * self.speed_deg_s * dt / 1000.0
-        self.drops += int(self.cam_deg // TURN) - before
-        if self.battery_v is not None and self.power:
-            self.battery_v -= self.drain_v_s * dt / 1000.0
-        self.now_ms += dt
-        self.power = self.winder.step(round(self.now_ms), self.pressed(), self.battery_v, **commands)
-        self.powers.append(self.power)
-
-    def until(self, *states: str, limit_s: float = 20.0) -> float:
-        """Step until a state is reached, and return how long it took (s)."""
-        start = self.now_ms
-        while self.winder.state not in states:
-            assert self.now_ms - start < 1000.0 * limit_s, f"still {self.winder.state}: {self.winder.said}"
-            self.step()
-        return (self.now_ms - start) / 1000.0
-
-    def wait(self, seconds: float) -> None:
-        """Step for a time."""
-        end = self.now_ms + 1000.0 * seconds
-        while self.now_ms < end:
-            self.step()
-
-
-def wound(**options: float) -> World:
-    world = World(**options)  # type: ignore[arg-type]
-    world.step(wind=True)
-    world.until(WINDER.READY)
-    return world
-
-
-def jumped() -> World:
-    """Return a robot that has just jumped."""
-    world = wound()
-    world.step(jump=True)
-    world.until(WINDER.IDLE)
-    return world
 
 
 @each("seed", range(20))
@@ -130,17 +28,6 @@ def test_it_winds_to_the_sensor_waits_releases_and_stops(speed: float, jitter: i
     assert world.cam_deg - TURN <= 0.9 * speed * (0.060 + 0.010 + 0.030) + 1.0
     world.wait(3.0)
     assert world.power == 0.0
-
-
-def test_many_jumps_are_counted_one_by_one() -> None:
-    world = World(jitter_ms=5, bounce_ms=5)
-    for number in range(1, 9):
-        world.step(wind=True)
-        world.until(WINDER.READY)
-        world.step(jump=True)
-        world.until(WINDER.IDLE)
-        assert (world.drops, world.winder.jumps) == (number, number)
-        world.wait(2.0)
 
 
 @pytest.mark.parametrize("at_deg", [0.0, 100.0, 340.0])
@@ -293,14 +180,6 @@ def test_a_short_dip_of_the_battery_at_the_start_is_borne() -> None:
     world.wait(0.15)
     world.battery_v = 3.9
     world.until(WINDER.READY)
-
-
-def test_what_is_wound_is_released_even_on_a_low_battery() -> None:
-    world = wound()
-    world.battery_v = 3.0
-    world.step(jump=True)
-    world.until(WINDER.IDLE)
-    assert world.winder.jumps == 1
 
 
 def test_after_a_restart_what_is_wound_is_released_even_on_a_low_battery() -> None:

@@ -45,3 +45,9 @@ def kenan() -> Robot:
 def lopsided(kenan: Robot) -> Robot:
     """A robot whose bodies have no symmetry: centres of mass off every axis, tensors turned out of their frames."""
     return make_lopsided(kenan)
+
+
+@pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
+def either(request: pytest.FixtureRequest) -> Robot:
+    """A robot whose bodies have no symmetry, with equal links and with others."""
+    return make_lopsided(capsule_robot(load_design(request.param)))
