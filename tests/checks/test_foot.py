@@ -10,6 +10,7 @@ from support.strengths import changed, helped
 
 from jumpcad.checks.foot import _toe_joint_mpa, foot_findings
 from jumpcad.checks.load_case import LoadCase
+from jumpcad.findings import errors
 from jumpcad.robot import Robot
 
 
@@ -117,3 +118,8 @@ def test_toes_that_are_screwed_on_bear_beside_the_workshops_own_holes(kenan: Rob
 def test_what_is_advised_to_lower_or_to_raise_helps_the_foot(strongest: Robot) -> None:
     found = helped(strongest, lambda robot: foot_findings(LoadCase(robot)))
     assert {"toe_strength", "rail_strength", "rail_twist", "toe_landing", "leg_sideways"} <= found
+
+
+def test_weak_plastic_does_not_hold_toes_that_are_screwed_on() -> None:
+    weak = changed(built(LONG_TOES), "links", strength_in_plane_mpa=0.3)
+    assert "toe_joint_strength" in {one.name for one in errors(foot_findings(LoadCase(weak)))}

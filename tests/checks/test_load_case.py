@@ -143,16 +143,6 @@ def test_the_springs_torque_is_rate_times_turn(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-bo"])
-def test_a_blow_on_one_toe_meets_less_than_the_whole_mass(name: str) -> None:
-    """A body struck at x, y: 1/(1 + x²/k_y² + y²/k_x²) of it, with radii of gyration from its tensor."""
-    case = LoadCase(built(name))
-    body = case.robot.bodies["body"]
-    x, y = (mm / 1000.0 for mm in _toe_from_body_mm(case.robot))
-    turned = 1.0 + body.mass_kg * (x**2 / body.inertia_kg_m2[1, 1] + y**2 / body.inertia_kg_m2[0, 0])
-    assert case.toe_blow_n == pytest.approx(case.landing_n / turned)
-
-
-@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-bo"])
 def test_pins_and_toes_bear_the_most_that_a_push_off_has(name: str) -> None:
     """On its way the pins' forces change; the ankle bears the springs' torque over the leg, and the force along it."""
     case, design = LoadCase(built(name)), load_design(name)

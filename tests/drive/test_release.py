@@ -11,10 +11,12 @@ from support.said import well_told
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.building.limits import release_limits
+from jumpcad.building.releasing import release_of
 from jumpcad.drive.corner import roll_over
 from jumpcad.drive.release import Release, _kick_limit_nm
 from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
 from jumpcad.errors import JumpcadError
+from jumpcad.findings import errors
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
@@ -230,3 +232,12 @@ def test_the_contact_is_as_stiff_about_the_pivot_as_its_lever_arm_says(name: str
     expected = 1000.0 * robot.workshop.release.contact_n_per_mm * arm_m**2
     for parts in robot.release.parts:
         assert parts.contact_nm_per_rad == pytest.approx(expected, rel=0.05)
+
+
+def test_a_motor_as_quick_as_a_fan_brings_the_next_lift_under_the_roller() -> None:
+    robot = built("kenan-2.0")
+    train = robot.layout.drive.train
+    quick = replace(train, cam_speed_rad_s=10.0 * train.cam_speed_rad_s)
+    layout = replace(robot.layout, drive=replace(robot.layout.drive, train=quick))
+    found = release_of(layout, robot.workshop, robot.parts, robot.hardware, robot.bodies, robot.spring)
+    assert [finding.name for finding in errors(found.findings)] == ["release_window"]

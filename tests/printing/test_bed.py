@@ -24,17 +24,6 @@ def test_a_part_lies_along_the_bed_with_the_least_side_left_as_margin():
     assert fit(100.0, 100.0, 95.0).margin_mm == pytest.approx(5.0)
 
 
-def test_a_thin_part_as_long_as_the_diagonal_lies_askew():
-    diagonal = math.hypot(*BED[:2])
-    askew = fit(diagonal - 8.0, 5.0)
-    assert askew.margin_mm >= 0.0
-    assert 0.0 < askew.angle_deg < 90.0
-    angle = math.radians(askew.angle_deg)
-    assert (diagonal - 8.0) * math.cos(angle) + 5.0 * math.sin(angle) <= BED[0]
-    assert (diagonal - 8.0) * math.sin(angle) + 5.0 * math.cos(angle) <= BED[1]
-    assert fit(diagonal + 1.0, 5.0).margin_mm < 0.0
-
-
 def test_a_slanting_bar_is_turned_to_the_diagonal():
     """A bar at -30° and as long as the diagonal but 2 mm fits at a turn of 30° and the diagonal's own angle."""
     end = 214.0 * np.array([math.cos(math.radians(30.0)), -math.sin(math.radians(30.0))])

@@ -61,15 +61,6 @@ def test_a_full_plate_is_followed_by_another():
     assert [plate.name for plate in plates] == ["plate-1-PLA", "plate-2-PLA", "plate-3-PLA"]
 
 
-def test_a_long_part_lies_askew():
-    (plate,) = packed([box("leg", (230, 10, 6))], (180.0, 180.0, 180.0), 5.0)
-    low, high = corners(plate.items[0])
-    assert np.all(high - low <= 180.0 + 1e-6)
-    turn = plate.items[0].T_bed_part[:3, :3]
-    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
-    assert np.linalg.det(turn) == pytest.approx(1.0)
-
-
 @pytest.mark.parametrize("size", [(205, 10, 6), (10, 205, 6), (12, 198, 6)])
 def test_a_long_part_lies_along_the_diagonal_of_a_narrow_bed(size):
     """By 34° or by 56°, as the diagonal of 180 x 120 mm does: less or more than half of a right angle."""
