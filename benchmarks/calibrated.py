@@ -8,6 +8,7 @@ import effects
 import numpy as np
 
 from jumpcad.building import build
+from jumpcad.calibration import calibrate, load_subject, predicted_jump
 from jumpcad.design import load_design
 from jumpcad.files import to_toml
 from jumpcad.simulation import Settings, uncertain_jump
@@ -68,6 +69,7 @@ def of_calibration() -> dict[str, str]:
         f"{_share(ballistic['below_share'])} and {_share(rest['below_share'])} of the predictions. To explain it, "
         f"Kenan 2.0 would need {energy['needed'] / energy['predicted']:.1f} times the springs' energy over its mass, "
         f"or {travel['needed']:.0f} mm of travel after landing",
+        "calibrated landing": _landed(),
         "uncertain": _uncertain(),
     }
 
@@ -96,6 +98,17 @@ def comparisons() -> dict[str, str]:
         )
         for name, other, key in pairs
     }
+
+
+def _landed() -> str:
+    """Return the resting place of Kenan 2.0 by simulated landings, calibrated on Kenan 1.0."""
+    other = load_subject("kenan-2.0").landing()
+    rows = predicted_jump(calibrate(["kenan-1.0"], SEED, landing=True), other, SEED).beside()
+    (rest,) = (one for one in rows if one["as"] == "resting-place")
+    return (
+        f"a travel of {other.travel.first:.0f} ± {other.travel.second:.0f} mm, and a resting place at "
+        f"{_mm(rest['predicted'])}; the measured 350 mm is above {_share(rest['below_share'])} of the predictions"
+    )
 
 
 def _calibrated(found: dict[str, Any]) -> str:

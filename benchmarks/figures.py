@@ -26,7 +26,7 @@ from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
-from jumpcad.landing.landing import land
+from jumpcad.landing.landing import Landings, land
 from jumpcad.landing.stable_poses import share_on_feet
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
@@ -174,8 +174,21 @@ def _prototype(row: PublishedResult) -> dict[str, tuple[str, str]]:
         "the real robot, measured by the study": (mm(row.measured.distance_m), mm(row.measured.height_m)),
         "the study's simulation (`--published`)": (mm(again.distance_m), mm(again.base_height_m)),
         "jumpcad, printed robot": (mm(jump.ballistic_range_m), mm(jump.com_rise_m)),
+        "jumpcad, printed robot, where it comes to rest (`--landing`)": (_rests(row.template), ""),
         "jumpcad, the study's masses (`--capsule`)": (mm(capsules.ballistic_range_m), mm(capsules.com_rise_m)),
     }
+
+
+def _rests(name: str) -> str:
+    """Return quantiles of the distance at which a robot rests after its jumps."""
+    low, middle, high = np.quantile([one.rest_m for one in landings(name).tries], (0.1, 0.5, 0.9))
+    return f"{1000.0 * low:.0f}…{1000.0 * middle:.0f}…{mm(high)}"
+
+
+@cache
+def landings(name: str) -> Landings:
+    """Return landings of a template."""
+    return land(built(name)[0], LANDINGS)
 
 
 def _least_energy_share(row: PublishedResult) -> float:
@@ -252,13 +265,13 @@ def of_landings() -> dict[str, str]:
     rows = []
     for name in ROBOTS:
         robot, jump, _ = built(name)
-        landings = land(robot, LANDINGS)
-        rests = sorted(one.rest_m for one in landings.tries)
-        side, often = next(iter(landings.rests_on.items()))
+        found = landings(name)
+        rests = sorted(one.rest_m for one in found.tries)
+        side, often = next(iter(found.rests_on.items()))
         rows.append(
             (f"`{name}`", f"{jump.turn_deg:.0f}°", f"{jump.touchdown_pitch_deg:.0f}°", f"{jump.clears_bar_mm:.0f} mm",
              f"{jump.lands_on_mm:.0f} mm", f"{rests[0]:.2f} to {rests[-1]:.2f} m", f"{side} ({often} of {LANDINGS})",
-             f"{landings.share_righted * LANDINGS:.0f} of {LANDINGS}", percent([share_on_feet(robot)]))
+             f"{found.share_righted * LANDINGS:.0f} of {LANDINGS}", percent([share_on_feet(robot)]))
         )  # fmt: skip
     head = ("design", "turn", "pitch at touchdown", "bar", "step", "rests after", "mostly on",
             "stands when wound again", "stable poses on the feet")  # fmt: skip

@@ -137,7 +137,7 @@ class CalibrationModel:
                 )
             if any("resting-place" in datum.readings for datum in self.data if datum.subject == subject.name):
                 key = f"travel:{subject.name}"
-                own[key] = CalibrationParameter(key, f"{subject.name}: travel after landing (mm)", priors.TRAVEL_MM)
+                own[key] = CalibrationParameter(key, f"{subject.name}: travel after landing (mm)", subject.travel)
         return [*shared, *own.values()]
 
     def values(self, z: Array) -> dict[str, Array]:

@@ -111,7 +111,7 @@ class CalibrationPosterior:
 
 
 @check_arguments
-def calibrate(files: Sequence[str | Path], seed: int = 0) -> CalibrationPosterior:
+def calibrate(files: Sequence[str | Path], seed: int = 0, landing: bool = False) -> CalibrationPosterior:
     """Calibrate on the measurements of one or several robots.
 
     Parameters
@@ -120,6 +120,8 @@ def calibrate(files: Sequence[str | Path], seed: int = 0) -> CalibrationPosterio
         Templates' names or TOML files, one a robot.
     seed
         Random seed of the sampler.
+    landing
+        Whether the travel after landing is that of simulated landings (MuJoCo), not anything up to some 200 mm.
 
     Raises
     ------
@@ -134,6 +136,8 @@ def calibrate(files: Sequence[str | Path], seed: int = 0) -> CalibrationPosterio
     require_each_once(files)
     subjects = renamed([load_subject(file) for file in files])
     require_pairs(subjects)
+    if landing:
+        subjects = [subject.landing() for subject in subjects]
     return sampled(CalibrationModel(subjects), seed)
 
 

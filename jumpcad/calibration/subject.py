@@ -12,7 +12,7 @@ import numpy as np
 from jumpcad.building import build
 from jumpcad.calibration.contradictions import contradictions
 from jumpcad.calibration.measurements import Measurements, lengths, load_measurements
-from jumpcad.calibration.priors import FLOOR, Prior, modelled_mass, tested_floor, weighed_mass
+from jumpcad.calibration.priors import FLOOR, TRAVEL_MM, Prior, modelled_mass, tested_floor, weighed_mass
 from jumpcad.calibration.surface import Surface, surface_of
 from jumpcad.calibration.tracks import read_points
 from jumpcad.calibration.video import TakeoffSeen, seen_takeoff
@@ -20,6 +20,7 @@ from jumpcad.design import load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
+from jumpcad.landing.landing import travels_m
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
@@ -29,6 +30,8 @@ from jumpcad.workshop import Workshop, load_workshop
 
 LANDINGS = (0.7, 0.85, 1.0, 1.2, 1.5)
 """Spring energies over the model's at which the touchdown is simulated."""
+TRIES = 8
+"""Landings at each of them, where they are simulated."""
 UNITS = {
     "mass": ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?")),
     "part": ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?")),
@@ -50,12 +53,13 @@ MOST_ENERGY_SHARE = 1.1
 
 @dataclass(frozen=True, repr=False)
 class Subject:
-    """A robot with its measurements; `seen` has the take-off of each of its videos."""
+    """A robot with its measurements; `seen` has the take-off of each of its videos, `travel` is that after landing."""
 
     name: str
     measured: Measurements
     robot: Robot
     seen: tuple[TakeoffSeen, ...]
+    travel: Prior = TRAVEL_MM
 
     @cached_property
     def surface(self) -> Surface:
@@ -82,6 +86,14 @@ class Subject:
         other = replace(self, measured=measured, seen=seen)
         vars(other).update({name: getattr(self, name) for name in ("surface", "standing_m", "beyond_m")})
         return other
+
+    def landing(self) -> "Subject":
+        """Return the robot with the travel of simulated landings: normal, with their mean and deviation (MuJoCo)."""
+        rng, found = np.random.default_rng(0), []
+        for energy in LANDINGS:
+            found += travels_m(with_spring_factor(self.robot, energy), TRIES, rng)
+        mean, deviation = 1000.0 * float(np.mean(found)), 1000.0 * float(np.std(found))
+        return replace(self, travel=Prior("normal", mean, deviation, "simulated landings", 0.0))
 
     @property
     def electrical_j(self) -> float:

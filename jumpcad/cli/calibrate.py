@@ -26,6 +26,9 @@ def calibrate(
         typer.Option("-o", "--output", help="Write settings for simulate and optimize.", metavar=str(SETTINGS)),
     ] = None,
     seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0,
+    landing: Annotated[
+        bool, typer.Option("--landing", help="Resting places from simulated landings (MuJoCo), not from a free travel.")
+    ] = False,
     plots: PlotsOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
@@ -45,7 +48,8 @@ def calibrate(
     require_each_once([*files, *(predict or ())])
     others = [load_subject(name) for name in predict or ()]
     with status("simulating the robots, sampling the posterior …"):
-        posterior = run(files, seed)
+        posterior = run(files, seed, landing)
+        others = [other.landing() if landing else other for other in others]
         known = posterior.model.subjects
         robots = renamed([*known, *others])  # no robot has the name of another
         require_pairs(robots)

@@ -115,6 +115,19 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
     return Landings(found, righted, tuple(forces), landing_strength(robot, forces))
 
 
+def travels_m(robot: Robot, tries: int, rng: np.random.Generator) -> list[float]:
+    """Return how much farther than it touches down the robot comes to rest, in as many of its own jumps (m).
+
+    Raises
+    ------
+    JumpcadError
+        If the robot does not leave the floor, or MuJoCo is not installed.
+    """
+    arena = Arena(robot)
+    found = (_fly_and_rest(arena, rng) for _ in range(tries))
+    return [rest - touchdown for touchdown, rest in found]
+
+
 def share_righted(robot: Robot, drops: int, rng: np.random.Generator, settings: Settings | None = None) -> float:
     """Return the share of drops in any attitude after which the winding robot stands on its feet."""
     arena, stood = Arena(robot, settings), 0
@@ -130,6 +143,13 @@ def share_righted(robot: Robot, drops: int, rng: np.random.Generator, settings: 
 
 
 def _land(arena: Arena, rng: np.random.Generator) -> Landing:
+    blows = Blows(arena)
+    touchdown_m, rest_m = _fly_and_rest(arena, rng, blows)
+    return Landing(touchdown_m, rest_m, arena.rests_on, _righted(arena), tuple(blows.all))
+
+
+def _fly_and_rest(arena: Arena, rng: np.random.Generator, watch: Blows | None = None) -> tuple[float, float]:
+    """Jump and come to rest on another floor; return how far away it touches down and rests (m)."""
     arena.stand_on(scattered_floor(rng))
     arena.stand()
     start = arena.centre_of_mass_m
@@ -143,10 +163,10 @@ def _land(arena: Arena, rng: np.random.Generator) -> Landing:
         if not touched and arena.data.ncon:
             touched.append(_away_m(arena, start))
 
-    arena.watch = blows = Blows(arena)
+    arena.watch = watch
     arena.rest(look)
     arena.watch = None
-    return Landing(touched[0], _away_m(arena, start), arena.rests_on, _righted(arena), tuple(blows.all))
+    return touched[0], _away_m(arena, start)
 
 
 def _righted(arena: Arena) -> bool:

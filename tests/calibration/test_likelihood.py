@@ -11,6 +11,7 @@ import pytest
 from scipy import stats
 from support.places import ROOT
 
+from jumpcad.calibration import priors
 from jumpcad.calibration.likelihood import (
     ANGLE_DEG,
     BODY_ANGLE_DEG,
@@ -175,7 +176,7 @@ def measured_robot(name: str = "a", **said: Any) -> Any:
     return SimpleNamespace(
         name=name, pair=measured.spring.pair or name, measured=measured, surface=SimpleNamespace(at=at),
         seen=(video,) * len(measured.videos), electrical_j=2.0, beyond_m=(0.02, 0.005), standing_m=0.1,
-        mass=Prior("normal", 1.0, 0.2, "model", 0.1), floor=Prior("uniform", 0.3, 1.0, ""),
+        travel=priors.TRAVEL_MM, mass=Prior("normal", 1.0, 0.2, "model", 0.1), floor=Prior("uniform", 0.3, 1.0, ""),
         rate=Prior("normal", 1.0, 0.03, "measured" if measured.spring.rate_nmm_per_deg else "workshop", 0.3),
     )  # fmt: skip
 

@@ -11,6 +11,7 @@ import pytest
 
 from jumpcad.calibration import subject as subject_module
 from jumpcad.calibration import surface as surface_module
+from jumpcad.calibration.likelihood import CalibrationModel
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.subject import (
     LARGEST_FACTOR,
@@ -26,6 +27,7 @@ from jumpcad.calibration.subject import (
 )
 from jumpcad.errors import JumpcadError
 from jumpcad.files import templates_folder
+from jumpcad.landing.landing import land
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
@@ -477,3 +479,16 @@ def test_parts_that_the_workshop_has_weighed_stay_so_and_those_of_the_measuremen
     }  # fmt: skip
     assert _with_weights(weighed, {}) is weighed
     assert weighed.mass.weighed_g == {"cam": 1.5, "foot": 9.0}
+
+
+def test_simulated_landings_take_the_place_of_a_free_travel() -> None:
+    """Those of forty jumps with weaker and stronger springs; other landings of the robot agree with their mean."""
+    pytest.importorskip("mujoco")
+    kenan = load_subject("kenan-2.0")
+    landed = kenan.landing()
+    free, simulated = ({one.key: one.prior for one in CalibrationModel([one]).parameters} for one in (kenan, landed))
+    key = f"travel:{kenan.name}"
+    assert (free[key].shape, simulated[key].shape) == ("half-normal", "normal")
+    assert {**free, key: None} == {**simulated, key: None}
+    others = [1000.0 * (one.rest_m - one.touchdown_m) for one in land(kenan.robot, 8, seed=5).tries]
+    assert sum(others) / len(others) == pytest.approx(landed.travel.first, abs=landed.travel.second)
