@@ -43,8 +43,9 @@ class Candidate:
 
     ``parameters_score`` and ``print_score`` are the 10th percentiles of the score when every parameter varies by ±1 %,
     and within the tolerances of making: printed lengths, springs' rate, mass and the floor's friction. Each is the
-    lowest of ten neighbours or fewer, and a rejected one counts 0, or less than any other where scores are negative.
-    ``rejections`` counts why neighbours were rejected, of ``neighbours`` that were evaluated, half of each kind.
+    lowest of ten neighbours or fewer, and a rejected one counts 0, or less than any other where some are negative.
+    ``rejections`` counts why neighbours were rejected, of ``neighbours`` that were evaluated, half of each kind. The
+    design ``fails`` where a percentile is no more than a rejected one's score: it may not jump as it is made.
     """
 
     trial: Trial
@@ -52,6 +53,7 @@ class Candidate:
     print_score: float
     rejections: dict[str, int]
     neighbours: int
+    fails: bool = False
 
     @property
     def robust_score(self) -> float:
@@ -67,6 +69,7 @@ class Candidate:
             "print_score": self.print_score,
             "refusals": self.rejections,
             "neighbours": self.neighbours,
+            "fails": self.fails,
             "design": self.trial.design.model_dump(),
             **({"workshop": dict(self.trial.workshop)} if self.trial.workshop else {}),
         }
@@ -169,11 +172,12 @@ def rank_candidates(
 
 
 def _ranked(field: Sequence["_Examined"], left: Sequence["_Examined"]) -> list["_Examined"]:
-    """Return all candidates, the most robust first.
+    """Return all candidates, the most robust first, by as many neighbours of each as all of the field have.
 
     Who got further has been examined more, and stands before those that were left behind, unless it fails.
     """
-    ranked = [*sorted(field, key=lambda one: -one.robust_score), *left]
+    shared = min((one.examined for one in field), default=0) // 2
+    ranked = [*sorted(field, key=lambda one: -one.robust_score(shared)), *left]
     return sorted(ranked, key=lambda one: one.fails)
 
 
@@ -189,18 +193,17 @@ class _Examined:
 
     @property
     def fails(self) -> bool:
-        """Whether so many neighbours are rejected that its lower percentile is a rejected one's score."""
-        return bool(self.rejections) and self.robust_score <= self.rejected_score
+        """Whether the lower percentile of its neighbours is no more than a rejected one's score."""
+        return self.examined > 0 and self.robust_score() <= self.rejected_score
 
     @property
     def examined(self) -> int:
         """How many neighbours are known."""
         return sum(map(len, self.scores.values()))
 
-    @property
-    def robust_score(self) -> float:
-        """The lower percentile; the own score as long as no neighbour is known."""
-        return min(map(self._tenth, self.scores))
+    def robust_score(self, most: int | None = None) -> float:
+        """Return the lower percentile of at most so many neighbours of each kind; the own score where none is known."""
+        return min(self._tenth(kind, most) for kind in self.scores)
 
     def neighbours(self, new: int, seed: int, making: Tolerances) -> list[tuple[str, Variant]]:
         """Return the next neighbours, half of each kind."""
@@ -215,10 +218,11 @@ class _Examined:
     def candidate(self) -> Candidate:
         """Return the result."""
         rejections = dict(sorted(self.rejections.items()))
-        return Candidate(self.trial, self._tenth("parameters"), self._tenth("print"), rejections, self.examined)
+        percentiles = self._tenth("parameters"), self._tenth("print")
+        return Candidate(self.trial, *percentiles, rejections, self.examined, self.fails)
 
-    def _tenth(self, kind: str) -> float:
-        scores = self.scores[kind]
+    def _tenth(self, kind: str, most: int | None = None) -> float:
+        scores = self.scores[kind][:most]
         return tenth(scores) if scores else self.trial.score or 0.0
 
 
@@ -227,14 +231,14 @@ def _examine(
 ) -> None:
     """Evaluate `new` more neighbours of each, in a run and step of the pick.
 
-    A rejected one scores 0, or where scores are negative as far below the worst as the best is above it.
+    A rejected one scores 0, or where some score is negative as far below the worst as the best is above it.
     """
     run, step = at
     asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, making)]
     limit = 0 if evaluator.expired() else None
     found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step, limit, run=run)
     scores = [trial.score for trial in evaluator.trials if trial.score is not None]
-    rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0
+    rejected = 2.0 * min(scores) - max(scores) if min(scores) < 0.0 else 0.0
     for (one, kind, _), trial in zip(asked, found, strict=True):
         if trial is not None:
             one.rejected_score = rejected

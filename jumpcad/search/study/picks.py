@@ -23,6 +23,7 @@ class _Candidate(TomlTable):
     print_score: Figure
     rejections: dict[Word, Count]
     neighbours: Count
+    fails: bool = False
 
 
 class _Pick(TomlTable):

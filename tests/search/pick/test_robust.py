@@ -13,6 +13,7 @@ from jumpcad.search.models import robot_model
 from jumpcad.search.pick.robust import (
     NOT_EXAMINED,
     _Examined,
+    _ranked,
     active_bounds,
     best_apart,
     plan_rounds,
@@ -123,11 +124,11 @@ class Late(Hill):
         return Evaluation("loop") if off > self.kept + 1e-9 else Evaluation("jump", {"fitness": 9.0})
 
 
-@pytest.mark.parametrize("below", [0.0, 100.0])
+@pytest.mark.parametrize("below", [0.0, 7.0, 100.0])
 def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below):
     """The better one keeps its first neighbours and loses most of the others; the plateau's all jump.
 
-    Also where all scores are negative.
+    Also where some or all scores are negative.
     """
     fine, edge = (SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"rest_angle_deg": a}) for a in (30.0, 60.0))
     edge = edge.model_copy(update={"stiffness_nmm_per_deg": 20.0})
@@ -140,6 +141,30 @@ def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below
     ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [fine, edge]
     assert ranked[1].neighbours > ranked[0].neighbours == 2
+
+
+def known(index, score, **neighbours):
+    """Return a candidate of which the scores of some neighbours of each kind are known."""
+    one = _Examined(index, Trial("bo", 0, index, load_design("best-ga"), Evaluation("jump"), score, "m", 0.0))
+    one.scores |= neighbours
+    return one
+
+
+def test_candidates_are_compared_on_as_many_neighbours_as_all_of_them_have():
+    """The more neighbours, the lower the lowest: who has joined with one of each kind is no better for having few."""
+    joined = known(0, 0.22, parameters=[0.210], print=[0.211])
+    older = known(1, 0.23, parameters=[0.215, 0.205], print=[0.220, 0.219])
+    assert older.robust_score() < joined.robust_score()
+    assert _ranked([joined, older], []) == [older, joined]
+
+
+def test_neighbours_that_score_nothing_are_a_failure_and_a_winner_is_told_so():
+    """Whether they are rejected or an objective gives them nothing."""
+    fragile = known(0, 0.2237, parameters=[0.0], print=[0.0])
+    sound = known(1, 0.2197, parameters=[0.2144], print=[0.2176])
+    assert _ranked([fragile], [sound]) == [sound, fragile]
+    assert [one.candidate().fails for one in (fragile, sound, known(2, 0.0))] == [True, False, False]
+    assert _ranked([fragile], [])[0].candidate().to_dict()["fails"]
 
 
 def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):

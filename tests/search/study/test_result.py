@@ -135,7 +135,7 @@ def test_plain_data_has_every_figure_under_its_name() -> None:
     assert first.pop("design") == result.trials[1].design.model_dump()
     assert first == {
         "score": 4.0, "robust_score": 3.25, "parameters_score": 3.5, "print_score": 3.25,
-        "refusals": {"tips": 2, "loop": 1}, "neighbours": 16,
+        "refusals": {"tips": 2, "loop": 1}, "neighbours": 16, "fails": False,
     }  # fmt: skip
     assert (second["score"], second["robust_score"], second["neighbours"]) == (5.0, 1.5, 8)
     assert data == {
