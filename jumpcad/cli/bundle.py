@@ -14,6 +14,7 @@ from jumpcad.cli.subjects import (
     bundle_of,
     completion,
     design_file,
+    name_of,
     note_template,
     printed_robot,
 )
@@ -113,19 +114,17 @@ def render(
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     note_template(subject)
-    if output is not None:
-        require_writable(output)
     names = [*(f"{name}.png" for name in RENDERS), GIF]
     bundle = bundle_of(subject, workshop) if output is None else None
+    folder = output or (Path(subject, PICTURES) if bundle else Path(f"{name_of(subject)}-{PICTURES}"))
     if bundle:
         require_unedited(bundle, [f"{PICTURES}/{name}" for name in names], force)
-    with status(f"building {subject} …"):
-        robot = printed_robot(subject, workshop)
-    folder = output or (Path(subject, PICTURES) if bundle else Path(f"{robot.name}-{PICTURES}"))
-    if not bundle:
+    else:
+        require_writable(folder)
         for name in names:
             require_free(folder / name, force)
-        require_writable(folder)
+    with status(f"building {subject} …"):
+        robot = printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, status
-from jumpcad.cli.subjects import WorkshopOption, bundle_of, note_template, printed_robot, reject_workshop
+from jumpcad.cli.subjects import WorkshopOption, bundle_of, name_of, note_template, printed_robot, reject_workshop
 from jumpcad.errors import without_controls
 
 PAGE = "report.html"
@@ -60,15 +60,13 @@ def _robot_page(subject: str, output: Path | None, workshop: str | None, force: 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     note_template(subject)
     bundle = bundle_of(subject, workshop) if output is None else None
+    page = output or (bundle.folder / PAGE if bundle else Path(f"{name_of(subject)}-{PAGE}"))
     if bundle:
         require_unedited(bundle, [PAGE], force)
-    elif output is not None:
-        require_target(output, (".html",), force)
+    else:
+        require_target(page, (".html",), force)
     with status(f"building {subject} …"):
         robot = printed_robot(subject, workshop)
-    page = output or (bundle.folder / PAGE if bundle else Path(f"{robot.name}-{PAGE}"))
-    if not bundle and output is None:
-        require_target(page, (".html",), force)
     with status(f"drawing {robot.name} …"):
         text = report_page(robot, bundle.files if bundle else ())
     if bundle:

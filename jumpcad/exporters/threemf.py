@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from html import escape  # xml.sax.saxutils imports all of HTTP and TLS
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -19,10 +20,10 @@ import trimesh
 from jumpcad.catalogue import Pad
 from jumpcad.exporters.xml import allowed
 from jumpcad.files import templates_folder
-from jumpcad.files.rendering import render
-from jumpcad.parts.pads import PrintedPad, printed_pads
-from jumpcad.printing.plates import PlacedCopy, Printable, PrintPlate, packed
-from jumpcad.printing.project import pad_settings, project_settings
+from jumpcad.files.rendering import fill, render
+from jumpcad.parts.pads import printed_pads
+from jumpcad.printing.plates import Printable, PrintPlate, packed
+from jumpcad.printing.project import project_settings
 from jumpcad.robot import Robot, carried
 from jumpcad.scene.camera import View
 from jumpcad.scene.renderer import Renderer
@@ -30,8 +31,6 @@ from jumpcad.scene.visuals import PRINTED_COLOURS, Colour
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
-CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
-XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 PADS = "pads"
 """Kind of the plates of pads."""
@@ -44,7 +43,8 @@ BED: Colour = (0.80, 0.81, 0.83)
 def print_plates(robot: Robot) -> tuple[PrintPlate, ...]:
     """Return a robot's print plates, packed on its workshop's bed, those of pads last."""
     pads = printed_pads(robot.hardware, robot.workshop)
-    return (*_packed(robot.parts, robot.workshop), *(pad_plates(pads, robot.workshop) if pads else ()))
+    plates = _packed(robot.parts, robot.workshop)
+    return (*plates, *(replace(plate, kind=PADS) for plate in _packed(pads, robot.workshop)))
 
 
 def threemf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
@@ -58,11 +58,6 @@ def plate_files(parts: Iterable[Printable], workshop: Workshop) -> Iterator[tupl
     yield from _files(_packed(parts, workshop), workshop, {})
 
 
-def pad_plates(pads: Iterable[PrintedPad], workshop: Workshop) -> list[PrintPlate]:
-    """Return the plates of pads, each of one kind of pad."""
-    return [replace(plate, kind=PADS) for plate in _packed(pads, workshop)]
-
-
 def _packed(parts: Iterable[Printable], workshop: Workshop) -> list[PrintPlate]:
     return packed(parts, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
 
@@ -73,25 +68,31 @@ def _files(
     """Yield path and content of print plates, and of `print/README.md`; `kinds` are those of pads, by material."""
     printer, process = workshop.printer, workshop.process
     for plate in plates:
-        if plate.kind == PADS:
-            settings = pad_settings(printer, process, kinds[plate.material])
-        else:
-            settings = project_settings(printer, process, workshop.materials[plate.material], plate.material)
+        pad = kinds[plate.material] if plate.kind == PADS else None
+        material = pad or workshop.materials[plate.material]
+        settings = project_settings(printer, process, material, pad.name if pad else plate.material)
         yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
     yield "print/README.md", _in_words(plates, workshop, kinds)
 
 
 def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes) -> bytes:
     """Return the 3MF file of a plate with PrusaSlicer's settings and a PNG picture; equal inputs give equal bytes."""
+    copies = Counter(placed.part.name for placed in plate.items)
+    parts = {placed.part.name: placed.part for placed in plate.items}
+    objects = [_object(number, part, copies[name]) for number, (name, part) in enumerate(parts.items(), start=1)]
+    numbers = {name: number for number, name in enumerate(parts, start=1)}
+    # 3MF multiplies row vectors, so poses are written transposed
+    items = [(numbers[one.part.name], one.T_bed_part[:3].T.ravel().tolist()) for one in plate.items]
+    values = {"title": allowed(plate.name), "objects": objects, "items": items}
     buffer, fixed = io.BytesIO(), templates_folder() / "print"
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as package:
         for name, content in (
             ("[Content_Types].xml", (fixed / "content_types.xml").read_bytes()),
             ("_rels/.rels", (fixed / "relationships.xml").read_bytes()),
-            ("3D/3dmodel.model", _model(plate)),
+            ("3D/3dmodel.model", fill("print/model.xml.j2", values)),
             ("Metadata/thumbnail.png", picture),
             ("Metadata/Slic3r_PE.config", "".join(f"; {key} = {value}\n" for key, value in settings.items())),
-            ("Metadata/Slic3r_PE_model.config", _objects(plate)),
+            ("Metadata/Slic3r_PE_model.config", fill("print/objects.xml.j2", values)),
         ):
             entry = zipfile.ZipInfo(name, FIXED_DATE)
             entry.compress_type = zipfile.ZIP_DEFLATED
@@ -100,47 +101,16 @@ def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes
     return buffer.getvalue()
 
 
-def _model(plate: PrintPlate) -> str:
-    """Return the model: each part once as an object, each copy as an item to build."""
-    numbers: dict[str, int] = {}
-    objects, items = [], []
-    for placed in plate.items:
-        name = placed.part.name
-        if name not in numbers:
-            numbers[name] = len(numbers) + 1
-            objects.append(_object(numbers[name], placed.part))
-        items.append(_item(numbers[name], placed))
-    return (
-        f'{XML}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}">\n'
-        f'<metadata name="Title">{escape(allowed(plate.name), quote=False)}</metadata>\n'
-        '<metadata name="Application">jumpcad</metadata>\n'
-        f"<resources>\n{''.join(objects)}</resources>\n<build>\n{''.join(items)}</build>\n</model>\n"
-    )
-
-
-def _object(number: int, part: Printable) -> str:
+def _object(number: int, part: Printable, copies: int) -> dict[str, Any]:
     """Return a part as an object; nine digits hold a 32-bit float exactly."""
-    vertices = _lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.mesh.vertices.astype(np.float32))
-    triangles = _lines('<triangle v1="%d" v2="%d" v3="%d"/>\n', part.mesh.faces)
-    return (
-        f'<object id="{number}" type="model" name="{escape(allowed(part.name))}">\n<mesh>\n'
-        f"<vertices>\n{vertices}</vertices>\n<triangles>\n{triangles}</triangles>\n</mesh>\n</object>\n"
-    )
-
-
-def _objects(plate: PrintPlate) -> str:
-    """Return PrusaSlicer's list of objects: each is one volume, of all its triangles."""
-    copies = Counter(placed.part.name for placed in plate.items)
-    parts = {placed.part.name: placed.part for placed in plate.items}
-    rows = []
-    for number, (name, part) in enumerate(parts.items(), start=1):
-        named = f'key="name" value="{escape(allowed(name))}"/>'
-        rows.append(
-            f'<object id="{number}" instances_count="{copies[name]}">\n<metadata type="object" {named}\n'
-            f'<volume firstid="0" lastid="{len(part.mesh.faces) - 1}">\n<metadata type="volume" {named}\n'
-            "</volume>\n</object>\n"
-        )
-    return f"{XML}<config>\n{''.join(rows)}</config>\n"
+    return {
+        "number": number,
+        "name": escape(allowed(part.name)),
+        "copies": copies,
+        "vertices": _lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.mesh.vertices.astype(np.float32)),
+        "triangles": _lines('<triangle v1="%d" v2="%d" v3="%d"/>\n', part.mesh.faces),
+        "last": len(part.mesh.faces) - 1,
+    }
 
 
 def _in_words(plates: Iterable[PrintPlate], workshop: Workshop, kinds: Mapping[str, Pad]) -> str:
@@ -162,12 +132,6 @@ def _in_words(plates: Iterable[PrintPlate], workshop: Workshop, kinds: Mapping[s
 def _lines(line: str, rows: npt.NDArray[np.generic]) -> str:
     """Return a line for every row (n, 3), all formatted at once, which is faster than one by one."""
     return line * len(rows) % tuple(rows.ravel().tolist())
-
-
-def _item(number: int, placed: PlacedCopy) -> str:
-    """Return a copy to build; 3MF multiplies row vectors, so the pose is written transposed."""
-    rows = placed.T_bed_part[:3].T.ravel().tolist()
-    return f'<item objectid="{number}" transform="{" ".join(f"{value:.9g}" for value in rows)}"/>\n'
 
 
 def thumbnail(plate: PrintPlate, bed_mm: Sequence[float]) -> bytes:

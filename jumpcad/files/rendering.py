@@ -8,8 +8,10 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from jumpcad.files.markdown import plain
 from jumpcad.files.templates import templates_folder
+
+SIGNS = re.compile(r"[\\|<&`\[\]]")
+"""Characters that begin a table's cell, HTML, code, a link or an escape in Markdown."""
 
 
 @cache
@@ -32,7 +34,7 @@ def environment() -> Environment:
         "n": lambda value, digits=0: f"{float(value):.{digits}f}",
         "g": lambda value: f"{float(value):g}",
         "places": lambda points, digits=1: " ".join(f"{x:.{digits}f},{y:.{digits}f}" for x, y in points),
-        "plain": plain,
+        "plain": lambda text: SIGNS.sub(r"\\\g<0>", text),
         "html": escape,
         "capital": lambda text: text[:1].upper() + text[1:],
         "small": lambda text: text[:1].lower() + text[1:],

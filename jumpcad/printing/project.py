@@ -14,24 +14,19 @@ LAYERS = "first_layer_", ""
 """Beginnings of the keys of temperatures: of the first layer, and of the others."""
 
 
-def project_settings(printer: Printer, process: Process, material: Material, filament: str) -> dict[str, str]:
+def project_settings(printer: Printer, process: Process, material: Material | Pad, filament: str) -> dict[str, str]:
     """Return PrusaSlicer's settings of a print; `filament` is the material's name.
 
-    Temperatures that the workshop does not know are left out.
+    Temperatures that the workshop does not know are left out. Pads are printed as parts are, but solid, as their mass
+    is computed.
     """
+    if isinstance(material, Pad):
+        process, heats = process.model_copy(update={"infill": 1.0}), {}
+    else:
+        heats = {"temperature": material.nozzle_c, "bed_temperature": material.bed_c}
     settings = slicer_settings(printer, process, material)
-    heats = {"temperature": material.nozzle_c, "bed_temperature": material.bed_c}
     return {
         **{key: value for key, value in settings.items() if key not in OF_THE_PRINTER},
         "filament_type": filament,
         **{f"{layer}{key}": f"{heat:g}" for key, heat in heats.items() if heat is not None for layer in LAYERS},
-    }
-
-
-def pad_settings(printer: Printer, process: Process, pad: Pad) -> dict[str, str]:
-    """Return PrusaSlicer's settings of pads: as those of parts, but solid, as their mass is computed."""
-    settings = slicer_settings(printer, process.model_copy(update={"infill": 1.0}), pad)
-    return {
-        **{key: value for key, value in settings.items() if key not in OF_THE_PRINTER},
-        "filament_type": pad.name,
     }

@@ -3,7 +3,7 @@
 import pytest
 
 from jumpcad.exporters.threemf import plate_files
-from jumpcad.printing.project import pad_settings, project_settings
+from jumpcad.printing.project import project_settings
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -50,4 +50,4 @@ def test_a_pad_is_printed_as_parts_are_but_solid_and_of_its_own_filament() -> No
         "fill_density": "100%", "fill_pattern": "rectilinear",
         "filament_density": f"{pad.density_g_cm3:g}", "filament_type": "tpu-2",
     }  # fmt: skip
-    assert pad_settings(shop.printer, process, pad) == part | own
+    assert project_settings(shop.printer, process, pad, pad.name) == part | own
