@@ -29,7 +29,7 @@ MAPPINGS = {
     "design", "deviation", "first_order", "importance", "interval", "margins", "readings", "refused", "sweeps",
 }  # fmt: skip
 """Fields that map names to like things, though their names look like fields."""
-WHOLE, ELSEWHERE = {"engines", "evaluated", "identity"}, {"studies"}
+WHOLE, ELSEWHERE = {"differs", "engines", "evaluated", "identity"}, {"studies"}
 """Mappings that are not taken apart, and lists of what another table has."""
 
 
@@ -46,6 +46,7 @@ def files_and_json() -> str:
             f"jumpcad simulate {EXAMPLE} --published --json": _json("simulate", EXAMPLE, "--published"),
             "jumpcad reproduce --json": _json("reproduce"),
             f"jumpcad check {EXAMPLE} --json": _json("check", EXAMPLE),
+            "jumpcad compare A B --json": _json("compare", EXAMPLE, "kenan-1.0", "-o", f"{folder}/c.html"),
             "jumpcad verify BUNDLE --json": _json("verify", f"{folder}/bundle"),
             "jumpcad slice BUNDLE --json": _slice_document(Path(folder) / "bundle"),
             "jumpcad coupon --json": _json("coupon", "-o", f"{folder}/coupon"),

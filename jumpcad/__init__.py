@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from jumpcad.api import export as export
     from jumpcad.api import simulate as simulate
     from jumpcad.bundle.manifest import Bundle as Bundle
+    from jumpcad.comparison import compare as compare
     from jumpcad.design import SEARCH_BOUNDS as SEARCH_BOUNDS
     from jumpcad.design import Design as Design
     from jumpcad.design import load_design as load_design
@@ -38,3 +39,35 @@ if TYPE_CHECKING:
 
 __getattr__, __dir__, _names = lazy_exports(__name__)
 __all__ = ["__version__", *_names]
+_HOMES = {
+    "Bundle": "bundle.manifest",
+    "CannotBuildError": "errors",
+    "Design": "design",
+    "EvaluationResult": "evaluation",
+    "Finding": "findings",
+    "Jump": "simulation",
+    "JumpcadError": "errors",
+    "Robot": "robot",
+    "SEARCH_BOUNDS": "design",
+    "Settings": "settings",
+    "Workshop": "workshop",
+    "build": "api",
+    "capsule_robot": "api",
+    "check": "api",
+    "compare": "comparison",
+    "evaluate": "api",
+    "export": "api",
+    "jumps": "landing.series",
+    "land": "landing.landing",
+    "load_design": "design",
+    "load_robot": "simulation.robot_file",
+    "load_settings": "settings",
+    "load_workshop": "workshop",
+    "optimize": "search.optimization",
+    "published": "paper.published",
+    "search": "search",
+    "simulate": "api",
+}
+
+__all__ = ["__version__", *_HOMES]
+__getattr__, __dir__ = lazy_exports(__name__, _HOMES)

@@ -25,7 +25,7 @@ def workshop_value(workshop: Workshop, key: str) -> Value:
     JumpcadError
         If there is no such key, or what it names is no single number or name.
     """
-    known = _leaves(workshop.model_dump())
+    known = leaves(workshop.model_dump())
     if key in known and _varies(key, known[key]):
         found: Value = known[key]
         return found
@@ -85,7 +85,7 @@ def _varies(key: str, value: Any) -> bool:
     return isinstance(value, int | float | str) and key.split(".")[-1] not in WORDS
 
 
-def _leaves(table: Mapping[str, Any]) -> dict[str, Any]:
+def leaves(table: Mapping[str, Any]) -> dict[str, Any]:
     """Return what is no table, by dotted key."""
 
     def walk(part: Mapping[str, Any], start: str) -> Iterator[tuple[str, Any]]:

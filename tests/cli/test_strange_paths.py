@@ -114,6 +114,7 @@ def test_every_command_and_every_reader_is_at_home_there(
         ("build", design, "--workshop", shop, "-o", bundle, "--ros2"),
         ("verify", bundle),
         ("check", design, "--workshop", shop),
+        ("compare", bundle, design, "-o", place / "vergleich ä.html"),
         ("simulate", bundle, "--engine", "both"),
         ("simulate", bundle / "urdf" / "mein Käfer.urdf"),
         ("render", bundle),

@@ -1,0 +1,182 @@
+"""Robots side by side: figures, what differs in design and workshop, and a page on which they jump to one scale."""
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from jumpcad.arguments import check_arguments
+from jumpcad.building import build
+from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.inputs import kept_design, kept_workshop
+from jumpcad.bundle.lanes import lane, lanes_values
+from jumpcad.bundle.limits import limits_of, ordered, used
+from jumpcad.bundle.manifest import open_bundle
+from jumpcad.design import Design, load_design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files import template_names
+from jumpcad.files.rendering import fill
+from jumpcad.files.templates import templates_folder
+from jumpcad.findings import Finding
+from jumpcad.landing.series import jumps
+from jumpcad.robot import Robot
+from jumpcad.settings import Settings
+from jumpcad.simulation import Jump, simulate
+from jumpcad.simulation.engines import default_engine
+from jumpcad.studio.points import Points
+from jumpcad.version import __version__
+from jumpcad.workshop import Workshop
+from jumpcad.workshop.varied import leaves
+
+HOPS = 10
+"""Jumps in a row from which the metres of a charge are computed."""
+FIGURES = {
+    "ballistic_range_m": ("range", "mm", 1000.0, 0),
+    "com_rise_m": ("rise", "mm", 1000.0, 0),
+    "turn_deg": ("turn forwards", "°", 1.0, 0),
+    "mass_kg": ("mass", "g", 1000.0, 1),
+    "spring_energy_j": ("spring energy", "mJ", 1000.0, 0),
+    "electrical_energy_j": ("energy of a jump", "J", 1.0, 2),
+    "winding_time_s": ("winding", "s", 1.0, 1),
+    "metres_per_charge": ("metres per charge", "m", 1.0, 0),
+    "cost_eur": ("cost, as far as known", "€", 1.0, 2),
+}
+"""Label, unit, factor from SI and digits of each figure that is compared."""
+
+
+@dataclass(frozen=True)
+class ComparedRobot:
+    """A robot under its label, with its jump and what is compared of it."""
+
+    label: str
+    robot: Robot
+    jump: Jump
+
+    @cached_property
+    def findings(self) -> list[Finding]:
+        """Its limits that count, the violated ones first, then the tightest."""
+        return [one for one in ordered(limits_of(self.robot)) if one.counts and not one.is_note]
+
+    @cached_property
+    def figures(self) -> dict[str, float | None]:
+        """Return `FIGURES` of the robot; None where it has none, as the way of one that stays on the ground."""
+        train, jump = self.robot.layout.drive.train, self.jump
+        way = jumps(self.robot, HOPS).metres_per_charge if jump.verdict == "jump" else None
+        found = {"electrical_energy_j": train.electrical_j, "winding_time_s": train.winding_s,
+                 "metres_per_charge": way, "cost_eur": bill_of_materials(self.robot).cost_eur}  # fmt: skip
+        return {name: found[name] if name in found else getattr(jump, name) for name in FIGURES}
+
+    @property
+    def violated(self) -> list[str]:
+        """The names of its violated limits."""
+        return [one.name for one in self.findings if one.severity != "info"]
+
+    @property
+    def tightest(self) -> str:
+        """Its worst limit and how much of it is used, in words."""
+        return f"{self.findings[0].name}, {used(self.findings[0])}"
+
+    @cached_property
+    def values(self) -> dict[str, Any]:
+        """The eight numbers of its design and all values of its workshop, by name."""
+        return self.robot.design.model_dump() | leaves(self.robot.workshop.model_dump())
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Robots side by side."""
+
+    robots: tuple[ComparedRobot, ...]
+
+    def __repr__(self) -> str:
+        return f"<Comparison: {', '.join(one.label for one in self.robots)}>"
+
+    def _repr_html_(self) -> str:
+        return fill("report/comparison_table.html.j2", {"comparison": self})
+
+    @cached_property
+    def differs(self) -> dict[str, list[Any]]:
+        """What differs in designs and workshops: a value of each robot by name, None where it has no such value."""
+        names = dict.fromkeys(name for one in self.robots for name in one.values)
+        values = {name: [one.values.get(name) for one in self.robots] for name in names}
+        return {name: found for name, found in values.items() if any(value != found[0] for value in found)}
+
+    def rows(self) -> Iterator[list[str]]:
+        """Yield the table: a label and what it says of each robot."""
+        yield ["verdict", *(one.jump.verdict for one in self.robots)]
+        for name, (label, unit, factor, digits) in FIGURES.items():
+            figures = [one.figures[name] for one in self.robots]
+            shown = ["–" if value is None else f"{factor * value:.{digits}f}" for value in figures]
+            yield [f"{label} ({unit})", *shown]
+        yield ["tightest limit", *(one.tightest for one in self.robots)]
+        yield ["violated limits", *(str(len(one.violated)) for one in self.robots)]
+        for name, values in self.differs.items():
+            yield [name, *("–" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+                           for value in values)]  # fmt: skip
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        robots = [
+            {"name": one.label, "verdict": one.jump.verdict, **one.figures, "violated": one.violated,
+             "tightest": one.findings[0].name}
+            for one in self.robots
+        ]  # fmt: skip
+        return {"robots": robots, "differs": self.differs}
+
+    def to_html(self) -> str:
+        """Return the page: one file, without network, with the tables and the jumps side by side to one scale."""
+        lanes = [lane(one.label, one.robot, one.jump.trajectory) for one in self.robots]
+        style = (templates_folder() / "report" / "style.css").read_text(encoding="ascii")
+        values = {"comparison": self, "style": style, "version": __version__} | lanes_values(lanes)
+        return fill("report/comparison.html.j2", values)
+
+
+@check_arguments
+def compare(robots: Sequence[Robot | Design | str | Path], workshop: Workshop | None = None) -> Comparison:
+    """Compare robots: their jumps, masses, energies, costs and limits, and what differs in what they are built from.
+
+    Parameters
+    ----------
+    robots
+        Robots, designs, templates' names, files of designs, bundles, and trials of a study as `F.db#28`.
+    workshop
+        In which designs are built; the default without. Bundles and trials have their own.
+
+    Raises
+    ------
+    JumpcadError
+        If there are less than two, or one cannot be read or built; the message names it.
+    """
+    if len(robots) < 2:
+        raise JumpcadError(f"compare takes two robots or more, not {len(robots)}")
+    found: dict[str, ComparedRobot] = {}
+    for number, one in enumerate(robots, start=1):
+        label = str(one) if isinstance(one, str | Path) else one.name if isinstance(one, Robot) else "robot"
+        label = f"{label} ({number})" if label in found else label
+        try:
+            robot = _robot(one, workshop)
+        except CannotBuildError as refusal:
+            raise CannotBuildError(f"{label}: {refusal}", refusal.limit, refusal.margin, refusal.unit) from None
+        jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
+        found[label] = ComparedRobot(label, robot, jump)
+    return Comparison(tuple(found.values()))
+
+
+def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot:
+    if isinstance(one, Robot):
+        return one
+    if isinstance(one, Design):
+        return build(one, workshop)
+    file, mark, number = str(one).rpartition("#")
+    if mark and file.endswith(".db"):
+        if not number.isdecimal():
+            raise JumpcadError(f"{one}: a trial is named by its number in the study, as in {file}#28")
+        points = Points(Path(file))
+        trial = points.trial(int(number))
+        return build(trial.design, points.workshop_of(trial), f"{Path(file).stem}-{number}")
+    if os.path.isdir(one) and str(one) not in template_names("robots"):
+        bundle = open_bundle(one)
+        return build(kept_design(bundle), kept_workshop(bundle), bundle.name)
+    return build(load_design(one), workshop, Path(one).name.removesuffix(".toml"))

@@ -1,0 +1,32 @@
+"""`jumpcad compare`."""
+
+import json
+from pathlib import Path
+
+import pytest
+from support.built import built
+from support.commands import Run
+
+import jumpcad
+from jumpcad import checks, comparison
+
+
+def test_figures_are_those_of_the_robots_and_what_differs_is_named(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
+    monkeypatch.setattr(comparison, "HOPS", 1)
+    kenan = jumpcad.load_design("kenan-2.0")
+    (tmp_path / "stiff.toml").write_text(
+        kenan.model_copy(update={"stiffness_nmm_per_deg": 12.0}).to_toml(), encoding="utf-8"
+    )
+    code, out, err = run("compare", "kenan-2.0", tmp_path / "stiff.toml", "-o", tmp_path / "c.html", "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    assert found["differs"] == {"stiffness_nmm_per_deg": [9.2, 12.0]}
+    first, second = found["robots"]
+    assert second["spring_energy_j"] / first["spring_energy_j"] == pytest.approx(12.0 / 9.2)  # U = k·δ²/2
+    jump, way = jumpcad.simulate(built("kenan-2.0")), jumpcad.jumps(built("kenan-2.0"), 1)
+    assert first["ballistic_range_m"] == pytest.approx(jump.ballistic_range_m)
+    assert first["metres_per_charge"] == pytest.approx(way.metres_per_charge)
+    assert "<h2>kenan-2.0</h2>" in (tmp_path / "c.html").read_text(encoding="utf-8")
