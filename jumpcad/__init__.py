@@ -39,35 +39,3 @@ if TYPE_CHECKING:
 
 __getattr__, __dir__, _names = lazy_exports(__name__)
 __all__ = ["__version__", *_names]
-_HOMES = {
-    "Bundle": "bundle.manifest",
-    "CannotBuildError": "errors",
-    "Design": "design",
-    "EvaluationResult": "evaluation",
-    "Finding": "findings",
-    "Jump": "simulation",
-    "JumpcadError": "errors",
-    "Robot": "robot",
-    "SEARCH_BOUNDS": "design",
-    "Settings": "settings",
-    "Workshop": "workshop",
-    "build": "api",
-    "capsule_robot": "api",
-    "check": "api",
-    "compare": "comparison",
-    "evaluate": "api",
-    "export": "api",
-    "jumps": "landing.series",
-    "land": "landing.landing",
-    "load_design": "design",
-    "load_robot": "simulation.robot_file",
-    "load_settings": "settings",
-    "load_workshop": "workshop",
-    "optimize": "search.optimization",
-    "published": "paper.published",
-    "search": "search",
-    "simulate": "api",
-}
-
-__all__ = ["__version__", *_HOMES]
-__getattr__, __dir__ = lazy_exports(__name__, _HOMES)

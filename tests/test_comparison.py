@@ -62,8 +62,9 @@ def test_a_trial_is_named_by_its_number(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("checked_once")
 def test_a_robot_of_a_study_is_that_of_its_trial(tmp_path: Path) -> None:
     study = tmp_path / "s.db"
+    numbers = built("kenan-2.0").design.model_dump(exclude={"stiffness_nmm_per_deg"})
     best = jumpcad.optimize(
-        "ga", model="printed", evaluations=2, fixed=built("kenan-2.0").design.model_dump(exclude={"stiffness_nmm_per_deg"}),
+        "ga", model="printed", evaluations=2, fixed=numbers,
         bounds={"stiffness_nmm_per_deg": (9.0, 10.0)}, study=study, workers=0,
     )  # fmt: skip
     assert best.design is not None
