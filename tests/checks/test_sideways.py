@@ -11,7 +11,6 @@ import shapely.affinity
 from jumpcad.building import build
 from jumpcad.checks.interference import Position, pieces_of, pose_of
 from jumpcad.checks.sideways import play_rad, rolls, sideways_findings, stance_deg
-from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
@@ -137,12 +136,6 @@ def test_narrow_toes_tip_and_bars_across_them_help() -> None:
     assert sorted(tips) == pytest.approx([-0.030, 0.030])
     foot = next(part for part in wide.parts if part.name == "foot")
     assert np.abs(foot.mesh.bounds[:, 1]) == pytest.approx([32.5, 32.5], abs=0.1)  # a tip is 5 mm wide
-
-
-def test_the_bar_across_a_toe_is_checked() -> None:
-    wide = build(NARROW, workshop(toe_half_width_mm=60.0))
-    (bar,) = (found for found in strength_findings(wide) if found.name == "toe_bar_strength")
-    assert bar.value > 0.0
 
 
 def test_landing_is_in_the_worst_pose_from_one_end_of_the_play_to_the_other(strongest: Robot) -> None:

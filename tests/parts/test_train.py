@@ -118,17 +118,6 @@ def test_span_over_teeth_is_the_textbooks(wheel: Measured) -> None:
     assert wheel.caliper_mm(k) == pytest.approx(span - BACKLASH_MM / 2 * math.cos(ALPHA), abs=0.006)
 
 
-@pytest.mark.parametrize(
-    ("which", "name"), [("one pair", "cam_gear"), ("two pairs", "cam_gear"), ("two pairs", "idler wheel")]
-)
-def test_neighbouring_spans_differ_by_the_base_pitch(which: str, name: str) -> None:
-    """Of wheels with teeth enough for a caliper to reach their involutes over more than one number of teeth."""
-    wheel = Measured(robots()[which], name)
-    k = span_teeth(wheel)
-    base_pitch = math.pi * wheel.spec.module_mm * math.cos(ALPHA)
-    assert wheel.caliper_mm(k + 1) - wheel.caliper_mm(k) == pytest.approx(base_pitch, abs=0.01)
-
-
 def test_size_over_pins_is_the_textbooks(wheel: Measured) -> None:
     """ISO 21771, 4.6: the pins' middles lie where inv(a_K) = inv(a) + d/d_b - half the gap's angle at the pitch."""
     z, m, x = wheel.teeth, wheel.spec.module_mm, wheel.spec.shift
@@ -139,38 +128,6 @@ def test_size_over_pins_is_the_textbooks(wheel: Measured) -> None:
     angle = brentq(lambda a: involute(a) - value, 1e-3, 1.3)
     odd = math.cos(math.pi / (2 * z)) if z % 2 else 1.0
     assert wheel.over_pins_mm(pin) == pytest.approx(base / math.cos(angle) * odd + pin, abs=0.02)
-
-
-@pytest.mark.parametrize(
-    ("which", "driver", "driven"),
-    [
-        ("one pair", "motor_pinion", "cam_gear"),
-        ("two pairs", "motor_pinion", "idler wheel"),
-        ("two pairs", "idler pinion", "cam_gear"),
-    ],
-)
-def test_a_pair_turns_through_a_pitch_free_within_its_backlash(which: str, driver: str, driven: str) -> None:
-    robot = robots()[which]
-    pinion, gear = Measured(robot, driver), Measured(robot, driven)
-    apart = float(np.linalg.norm(pinion.axis - gear.axis))
-    base = (pinion.teeth + gear.teeth) * gear.spec.module_mm * math.cos(ALPHA) / 2
-    pitch_radius = apart * pinion.teeth / (pinion.teeth + gear.teeth)
-    # the play along the working pitch circle, from that along the line of action
-    play = BACKLASH_MM * math.cos(ALPHA) / (base / apart)
-
-    def shared(turn: float, more: float) -> float:
-        placed_gear = affinity.translate(affinity.rotate(gear.outline, turn, (0, 0), True), *gear.axis)
-        spun = -turn * gear.teeth / pinion.teeth + more
-        placed_pinion = affinity.translate(affinity.rotate(pinion.outline, spun, (0, 0), True), *pinion.axis)
-        return float(placed_gear.intersection(placed_pinion).area)
-
-    for turn in np.linspace(0, 2 * math.pi / gear.teeth, 13):
-        free = 0.5 * play / pitch_radius
-        assert shared(turn, 0.0) == 0.0
-        assert shared(turn, 0.93 * free) < 1e-4
-        assert shared(turn, -0.93 * free) < 1e-4
-        assert shared(turn, 1.15 * free) > 0
-        assert shared(turn, -1.15 * free) > 0
 
 
 def roller_gap(robot: Robot) -> Callable[[float, float], float]:
