@@ -174,11 +174,6 @@ def test_a_refusal_says_by_how_much_its_limit_was_missed(monkeypatch):
         assert (found.verdict, found.margins["room_tray"]) == ("cannot_build", -2.5)
 
 
-def test_settings_that_were_changed_to_what_cannot_be_are_refused():
-    with pytest.raises(JumpcadError, match="dt_s"):
-        robot_model("capsule", None, load_settings("default").model_copy(update={"dt_s": -1.0}))
-
-
 @pytest.mark.parametrize("name", ["printed", "capsule", "published"])
 def test_an_engine_that_there_is_not_is_refused_at_once(name):
     with pytest.raises(JumpcadError, match="'bulet' is not an engine; there are pybullet, mujoco and planar"):

@@ -224,10 +224,10 @@ class StudyStore:
     def _prepare(self, identity: Mapping[str, Any]) -> None:
         if self._connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0] == 0:
             self._connection.execute("PRAGMA journal_mode = WAL")
-            value = json.dumps(identity).replace("'", "''")
-            self._connection.executescript(
-                f"BEGIN IMMEDIATE; {SCHEMA} INSERT INTO study VALUES ('identity', '{value}'); COMMIT;"
-            )
+            with self._transaction():
+                for statement in filter(str.strip, SCHEMA.split(";")):
+                    self._connection.execute(statement)
+                self._connection.execute("INSERT INTO study VALUES ('identity', ?)", (json.dumps(identity),))
         self._check_format()
         # A commit does not wait for the disk: the file stays valid, and only a power cut can lose the last batches.
         self._connection.execute("PRAGMA synchronous = NORMAL")

@@ -268,16 +268,6 @@ def test_a_study_remembers_what_ended_it_and_forgets_it_while_it_goes_on(tmp_pat
     assert held()["by"] == ended["by"]
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("method", ["ga", "ga+bo", "pareto"])
-def test_a_finished_study_is_read_whole_however_short_the_time(tmp_path, method):
-    request = replace(REQUEST, method=method, evaluations=40)
-    whole = run(request, tmp_path / "s.db")
-    again = run(replace(request, hours=1e-12), tmp_path / "s.db")
-    assert again.trials == whole.trials
-    assert (again.winner, again.candidates) == (whole.winner, whole.candidates)
-
-
 def test_everything_refused_has_no_best():
     space = Space.parse(fix=["compression_ratio=0.75"])
     result = run(Request(space, Hill(), method="ga", evaluations=67))

@@ -178,35 +178,6 @@ def test_what_is_noted_once_stands_there_once(tmp_path):
         assert sorted(store.notes()) == ["ended", "failed", "failed", "none jumps"]
 
 
-def test_notes_steer_no_terminal(tmp_path):
-    path = edited(tmp_path / "s.db", "INSERT INTO notes VALUES ('a' || char(27) || '[31m' || char(10))")
-    assert read_all(path)[2] == [r"a\x1b[31m\n"]
-
-
-def test_a_study_in_a_folder_that_may_not_be_written_to(tmp_path):
-    """As the user `nobody` where the tests run as root, whom no permission stops."""
-    edited(tmp_path / "s.db").chmod(0o444)
-    above = [place for place in tmp_path.parents if place.stat().st_uid == os.geteuid() and len(place.parts) > 2]
-    before = {place: place.stat().st_mode for place in above}
-    tmp_path.chmod(0o555)
-    root = os.geteuid() == 0
-    try:
-        if root:
-            for place in above:
-                place.chmod(0o755)
-            os.seteuid(65534)
-        with pytest.raises(PermissionError):
-            (tmp_path / "new").touch()
-        assert len(read_all(tmp_path / "s.db")[0]) == 9
-    finally:
-        if root:
-            os.seteuid(0)
-        for place, mode in before.items():
-            place.chmod(mode)
-        tmp_path.chmod(0o755)
-    assert os.listdir(tmp_path) == ["s.db"]
-
-
 def test_a_study_of_another_format_is_refused(tmp_path):
     for number in (0, FORMAT - 1, FORMAT + 1):
         path = edited(tmp_path / "s.db", f"PRAGMA user_version = {number}")
@@ -276,23 +247,6 @@ def test_of_very_many_notes_the_newest_are_read_in_their_order(tmp_path):
         store.note("first")
         store.note("x" * 5000)
         assert store.notes() == ["first", "x" * 1000]
-
-
-def test_what_is_remembered_is_recalled_and_replaced():
-    with StudyStore.write(None, IDENTITY) as store:
-        assert store.recall("screen") is None
-        assert store.recall("stages", [1]) == [1]
-        for value in ({"rows": 3}, {"rows": 4, "plain": [0.5]}):
-            store.remember("screen", value)
-            assert store.recall("screen") == value
-        assert store.identity == IDENTITY
-
-
-def test_an_apostrophe_is_no_end_of_an_identity(tmp_path):
-    identity = IDENTITY | {"note": "it's ''); DROP TABLE trials; --"}
-    for _ in range(2):
-        with StudyStore.write(tmp_path / "s.db", identity) as store:
-            assert store.identity == identity
 
 
 def test_a_study_for_which_there_is_no_space_or_that_cannot_be_opened_leaves_no_file(tmp_path, monkeypatch):
