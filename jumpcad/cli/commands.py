@@ -27,6 +27,7 @@ from jumpcad.cli import (
     slicing,
     studio,
     study,
+    validate,
 )
 from jumpcad.cli.output import OutputClosed, complain, print_json, standard_output
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -56,6 +57,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "coupon": coupon.coupon,
     "simulate": simulate.simulate,
     "calibrate": calibrate.calibrate,
+    "validate": validate.validate,
     "reproduce": reproduce.reproduce,
     "explore": explore.explore,
     "optimize": optimize.optimize,

@@ -248,14 +248,21 @@ def robot_from_toml(path: Path) -> Mechanism | Chain:
     """
     file = RobotFile.from_toml(path)
     try:
-        robot = _five_bar(file) if file.design is not None else _chain(file)
+        robot = five_bar_robot(file) if file.design is not None else _chain(file)
         _require_masses(file, robot)
         return robot
     except JumpcadError as error:
         raise JumpcadError(f"{path}: {error}") from None
 
 
-def _five_bar(file: RobotFile) -> Mechanism:
+def five_bar_robot(file: RobotFile) -> Mechanism:
+    """Return the five-bar of a file, whose masses are not compared with the stated one.
+
+    Raises
+    ------
+    JumpcadError
+        If a value of the design is out of range, or its springs do not hold the stated energy.
+    """
     design = Design(**file.design)  # type: ignore[arg-type]
     assert file.foot.radius_mm is not None
     radius = file.foot.radius_mm / 1000.0

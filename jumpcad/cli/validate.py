@@ -1,0 +1,41 @@
+"""`jumpcad validate`: robots that others measured, beside what the engines compute of them."""
+
+from typing import Annotated
+
+import typer
+
+from jumpcad.cli.output import JsonFlag, print_json, print_text, status
+from jumpcad.errors import JumpcadError
+
+
+def validate(
+    figure: Annotated[
+        list[str] | None,
+        typer.Option(help="A figure that you read in its paper, ROBOT.NAME=VALUE; may be repeated.", metavar="FIGURE"),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0,
+    as_json: JsonFlag = False,
+) -> None:
+    """Compare the engines with robots that others built and measured.
+
+    Tiers are never mixed: what a mechanism does, flights, whole robots, bounds.
+    A figure that is only remembered decides nothing.
+    """
+    from jumpcad.validation.facts import TIERS
+    from jumpcad.validation.table import validate as compare
+
+    entered = dict(_entered(one) for one in figure or ())
+    with status("simulating robots of which dimensions are unknown …"):
+        robots = compare(entered, seed)
+    if as_json:
+        print_json({"seed": seed, "entered": entered, "robots": robots})
+    else:
+        print_text("validate", tiers=TIERS, robots=robots)
+
+
+def _entered(text: str) -> tuple[str, float]:
+    key, _, value = text.partition("=")
+    try:
+        return key, float(value)
+    except ValueError:
+        raise JumpcadError(f"--figure {text}: give ROBOT.NAME=VALUE, as kovac-2008.spring_energy_j=0.154") from None

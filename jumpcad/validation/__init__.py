@@ -1,0 +1,1 @@
+"""The engines beside robots that others built and measured."""

@@ -1,0 +1,228 @@
+"""One table: what was measured on each robot, beside an interval that samples what is unknown of it."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import brentq
+
+from jumpcad.calibration.likelihood import CalibrationModel, predict
+from jumpcad.calibration.subject import load_subject
+from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_per_m
+from jumpcad.transforms import Array
+from jumpcad.validation.facts import Figure, RobotFacts, load_facts
+from jumpcad.validation.family import family, jump_of
+
+QUANTILES = (0.05, 0.5, 0.95)
+DRAWS, KENAN_DRAWS = 64, 4000
+"""Flights of each robot; draws from the priors of a whole robot."""
+SPEED_SHARE, ANGLE_DEG = 0.02, 3.0
+"""Half widths of what a published speed and a published angle may be off by: judgement."""
+DRAG_SHARE = 0.25, 1.2
+"""Drag area over the square of a robot's size: legs and gaps to a bluff body."""
+UNKNOWN_DRAG_M2 = 0.0, 50e-4
+"""Drag areas of a robot of unknown size."""
+TOLERANCE = {
+    "takeoff_speed_m_s": 0.05, "efficiency": 0.08, "height_m": 0.10, "jump_s": 0.08, "distance_m": 0.05, "flea": 0.30,
+    "strider": 0.10, "whole robot": 0.12,
+}  # fmt: skip
+"""By which a figure may lie outside its interval: what published figures of one robot differ by among themselves."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure: measured, and quantiles (5, 50, 95 %) of what is computed; `verdict` says how they compare.
+
+    It `agrees` or `differs`, by `tolerance` outside the interval; it lies `below the bound` or above; the robots were
+    `chosen by` it, so it is no test; it is `not judged` where it, or what the interval is computed from, is only
+    remembered; it is `measured only` where nothing is computed.
+    """
+
+    name: str
+    measured: float
+    confidence: str
+    source: str
+    low: float | None = None
+    median: float | None = None
+    high: float | None = None
+    tolerance: float | None = None
+    verdict: str = "measured only"
+    how: str = ""
+
+
+def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[dict[str, Any]]:
+    """Return every robot with its tier and figures, as plain data.
+
+    Parameters
+    ----------
+    entered
+        Figures read in the papers by the user, by `ROBOT.FIGURE`.
+    seed
+        Of all samples.
+
+    Raises
+    ------
+    JumpcadError
+        If a figure is unknown, in another unit, or would mean an efficiency above 1.
+    """
+    facts = load_facts(entered)
+    epfl = facts.robots["kovac-2008"]
+    members = family(
+        mass_g=epfl.value("mass_g"), spring_energy_j=epfl.value("spring_energy_j"),
+        takeoff_angle_deg=epfl.value("takeoff_angle_deg"), pushoff_ms=epfl.value("pushoff_ms"), seed=seed,
+    )  # fmt: skip
+    tables: dict[str, Callable[[RobotFacts, np.random.Generator], Iterator[Row]]] = {
+        "kovac-2008": lambda robot, generator: _mechanism(robot, members, generator),
+        "kovac-2009": lambda robot, _: _bound(robot, epfl, members),
+        "kovac-2010": lambda robot, _: _bound(robot, epfl, members),
+        "msu-2013": _range_from_height,
+        "seu-2012": _range_from_height,
+        "flea-2013": _flea,
+        "strider-2015": _strider,
+        "kenan-1.0": lambda _, generator: _whole("kenan-1.0", generator),
+        "kenan-2.0": lambda _, generator: _whole("kenan-2.0", generator),
+    }
+    found: list[dict[str, Any]] = []
+    for key, robot in facts.robots.items():
+        table = tables.get(key, _measured_only)
+        rows = list(table(robot, np.random.default_rng([seed, len(found)])))
+        found.append(
+            {"key": key, "name": robot.name, "tier": robot.tier, "leg": robot.leg, "unknown": list(robot.unknown),
+             "reason": robot.reason or robot.differs, "figures": [asdict(row) for row in rows]}
+        )  # fmt: skip
+    return found
+
+
+def thrown(speed_m_s: float, angle_deg: float, drag_m2: float, mass_g: float) -> Ballistics:
+    """Return the flight of a body that is thrown from the ground; its `deepest_s` is the time in the air."""
+    angle = np.radians(angle_deg)
+    velocity = speed_m_s * np.array([np.cos(angle), 0.0, np.sin(angle)])
+    per_m = drag_per_m(drag_m2, mass_g / 1000.0)
+    return ballistics(np.zeros(3), np.zeros(3), velocity, GRAVITY_M_S2, per_m)
+
+
+def _row(robot: RobotFacts, name: str, values: npt.ArrayLike, how: str, of: tuple[str, ...] = (),
+         kind: str = "") -> Row:  # fmt: skip
+    """Return the row of a figure, computed (n,) from the figures `of` the robot."""
+    row = _compared(name, robot.figures[name], values, TOLERANCE[kind or name], how)
+    if not robot.sure(name, *of):
+        return replace(row, verdict="not judged")
+    return row
+
+
+def _compared(name: str, figure: Figure, values: npt.ArrayLike, tolerance: float | None, how: str) -> Row:
+    """Return the row of a figure beside computed values (n,)."""
+    low, median, high = np.quantile(np.asarray(values, dtype=float), QUANTILES).tolist()
+    verdict = "chosen by"
+    if tolerance is not None:
+        within = low * (1.0 - tolerance) <= figure.value <= high * (1.0 + tolerance)
+        verdict = "agrees" if within else "differs"
+    return Row(name, figure.value, figure.confidence, figure.source, low, median, high, tolerance, verdict, how)
+
+
+def _mechanism(robot: RobotFacts, members: list[Any], generator: np.random.Generator) -> Iterator[Row]:
+    """Yield the figures of the mechanism, and of its flight."""
+    jumps = [one.jump for one in members]
+    energy = "spring_energy_j"
+    yield _row(
+        robot, "takeoff_speed_m_s", [jump.takeoff_speed_m_s for jump in jumps], "family of geometries", (energy,)
+    )
+    yield _row(robot, "efficiency", [one.efficiency for one in members], "family of geometries", (energy,))
+    for name, values in (
+        ("takeoff_angle_deg", [jump.takeoff_angle_deg for jump in jumps]),
+        ("pushoff_ms", [1000.0 * jump.takeoff_time_s for jump in jumps]),
+    ):
+        yield _compared(name, robot.figures[name], values, None, "family of geometries")
+    height, mass_g = robot.value("height_m"), robot.value("mass_g")
+    rises, times = [], []
+    for speed, angle, drag_m2 in _flights(robot, generator, _outline(robot)):
+        rises.append(thrown(speed, angle, drag_m2, mass_g).rise_m)
+        if thrown(speed, angle, 0.0, mass_g).rise_m > height:
+            area = brentq(lambda area: thrown(speed, angle, area, mass_g).rise_m - height, 0.0, 0.05, xtol=1e-6)  # noqa: B023
+            times.append(thrown(speed, angle, area, mass_g).deepest_s)
+    of = "takeoff_speed_m_s", "takeoff_angle_deg"
+    yield _row(robot, "height_m", rises, "flight from speed and angle, drag area from its size", (*of, "size_mm"))
+    yield _row(robot, "jump_s", times, "flight with the drag area that its height gives", (*of, "height_m"))
+
+
+def _bound(robot: RobotFacts, epfl: RobotFacts, members: list[Any]) -> Iterator[Row]:
+    """Yield the height, bounded by that without cage and drag."""
+    more_g = robot.value("mass_g") - epfl.value("mass_g")
+    jumps = [jump_of(one.values, epfl.value("mass_g"), epfl.value("spring_energy_j"), more_g) for one in members]
+    rises = [jump.com_rise_m for jump in jumps if jump and jump.com_rise_m is not None]
+    row = _compared("height_m", robot.figures["height_m"], rises, None, "robots of 2008, heavier, no cage, no drag")
+    assert row.high is not None
+    verdict = "below the bound" if row.measured <= row.high else "above the bound"
+    yield replace(row, verdict=verdict if epfl.sure("spring_energy_j") else "not judged")
+
+
+def _range_from_height(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
+    """Yield the distance that height and angle give."""
+    mass_g, height = robot.figures.get("mass_g"), robot.value("height_m")
+    grams, ranges = mass_g.value if mass_g else 25.0, []
+    for _, angle, drag_m2 in _flights(robot, generator, UNKNOWN_DRAG_M2):
+        speed = brentq(lambda v: thrown(v, angle, drag_m2, grams).rise_m - height, 0.5, 40.0, xtol=1e-4)  # noqa: B023
+        ranges.append(thrown(speed, angle, drag_m2, grams).range_m)
+    yield _row(robot, "distance_m", ranges, "flight from height and angle", ("height_m", "takeoff_angle_deg"))
+
+
+def _flea(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
+    """Yield the height that the speed gives in air; nothing is computed of the efficiency."""
+    rises = [
+        thrown(speed, generator.uniform(75.0, 90.0), drag_m2, robot.value("mass_g")).rise_m
+        for speed, _, drag_m2 in _flights(robot, generator, _outline(robot))
+    ]
+    of = "takeoff_speed_m_s", "size_mm", "mass_g"
+    yield _row(robot, "height_m", rises, "flight from the speed, drag area from its size", of, "flea")
+    yield from (row for row in _measured_only(robot, generator) if row.name == "efficiency")
+
+
+def _strider(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
+    """Yield the height that the speed gives without air."""
+    speeds = robot.value("takeoff_speed_m_s") + generator.uniform(-0.05, 0.05, DRAWS)  # as published, 1.6
+    rises = [thrown(speed, generator.uniform(80.0, 90.0), 0.0, 1.0).rise_m for speed in speeds]
+    yield _row(robot, "height_m", rises, "flight from the speed, without air", ("takeoff_speed_m_s",), "strider")
+
+
+def _whole(name: str, generator: np.random.Generator) -> Iterator[Row]:
+    """Yield distance and height of a printed robot under every reading, over the priors of a calibration."""
+    subject = load_subject(name)
+    model = CalibrationModel([subject])
+    values = model.values(generator.standard_normal((KENAN_DRAWS, len(model.parameters))))
+    predicted = predict(subject, values)
+    jumps = np.isfinite(predicted.jump.range_m)
+    how = f"printed robot, of unknown mass, springs, floor, release; the {jumps.mean():.0%} of draws that jump"
+    for datum in model.data:
+        for reading in datum.readings if datum.what != "battery" else ():
+            figure = Figure(value=round(datum.value, 9), confidence="read", source="study")
+            found = predicted.of(datum.what, reading)[jumps]
+            yield _compared(f"{datum.what}_m as {reading}", figure, found, TOLERANCE["whole robot"], how)
+
+
+def _measured_only(robot: RobotFacts, _: np.random.Generator) -> Iterator[Row]:
+    """Yield the figures of a robot beside which nothing is computed."""
+    for name, figure in robot.figures.items():
+        yield Row(name, figure.value, figure.confidence, figure.source)
+
+
+def _flights(
+    robot: RobotFacts, generator: np.random.Generator, drag_m2: tuple[float, float]
+) -> Iterator[tuple[float, float, float]]:
+    """Yield speeds, angles and drag areas that the published ones may stand for; 0 for one that is not published."""
+    speed, angle = (robot.figures.get(name) for name in ("takeoff_speed_m_s", "takeoff_angle_deg"))
+    for _ in range(DRAWS):
+        shares: Array = generator.uniform(-1.0, 1.0, 2)
+        yield (
+            speed.value * (1.0 + SPEED_SHARE * shares[0]) if speed else 0.0,
+            angle.value + ANGLE_DEG * shares[1] if angle else 0.0,
+            generator.uniform(*drag_m2),
+        )
+
+
+def _outline(robot: RobotFacts) -> tuple[float, float]:
+    """Return least and largest drag area of a robot, from its size."""
+    square_m2 = (robot.value("size_mm") / 1000.0) ** 2
+    return DRAG_SHARE[0] * square_m2, DRAG_SHARE[1] * square_m2
