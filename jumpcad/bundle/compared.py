@@ -12,16 +12,6 @@ from jumpcad.design import Design, load_design
 from jumpcad.files import Record, TomlTable, find_template, template_names
 from jumpcad.files.names import Name
 
-READINGS = {
-    ("distance", "centre-of-mass"): "distance, as ballistic range",
-    ("distance", "first-touchdown"): "distance, as first touchdown",
-    ("distance", "resting-place"): "distance, as resting place",
-    ("height", "rise"): "height, as rise of the centre of mass",
-    ("height", "absolute"): "height of the centre of mass above the floor",
-    ("battery", "battery"): "energy from the battery",
-}
-"""What was measured, and as what a length of which that is unknown may be read."""
-
 
 class Beside(TomlTable):
     """A measurement under one reading (m, J), quantiles of its prediction, and the share of predictions below it."""

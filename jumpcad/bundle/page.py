@@ -11,9 +11,8 @@ from typing import Any
 from urllib.parse import quote
 
 from jumpcad.bundle.bom import bill_of_materials, euros
-from jumpcad.bundle.compared import READINGS, compared_of
+from jumpcad.bundle.compared import compared_of
 from jumpcad.bundle.limits import limit_values, limits_of
-from jumpcad.bundle.uncertainty import GROUPS
 from jumpcad.bundle.viewer import viewer_values
 from jumpcad.dimensions import unit_of_key
 from jumpcad.exporters.xml import allowed
@@ -55,9 +54,7 @@ def write_report(
         "energy_words": ACCOUNT,
         "sure": sure,
         "sure_figures": FIGURES,
-        "uncertain_inputs": GROUPS,
         "beside": compared_of(robot.design),
-        "readings": READINGS,
         "pictures": {title: base64.b64encode(png).decode() for title, png in pictures.items()},
         "viewer": None if glb is None else viewer_values(robot, jump, glb),
         "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"),

@@ -9,13 +9,6 @@ from jumpcad.simulation.uncertain import Uncertainty
 ENGINE, JUMPS = "planar", 128
 """The engine that every platform has, and the number of jumps, which take two seconds where the engine is not compiled:
 the 10 and 90 % quantiles of kenan-2.0's range are within 3 mm of those of 1024 jumps."""
-GROUPS = {
-    "calibration": "springs' efficiency and friction of the pins",
-    "lengths": "lengths of the links, as printed",
-    "springs": "rate of the springs, as made",
-    "mass": "mass",
-    "floor": "friction of the floor",
-}
 
 
 def uncertainty_of(robot: Robot) -> Uncertainty | None:

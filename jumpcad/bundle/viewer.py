@@ -25,16 +25,11 @@ MICRONS = 6
 """Decimals of lengths in m."""
 CELL_MM = 50
 """Distance of the lines of the ground; judgement: a third of a robot."""
-KEYS = (
-    "Arrow keys turn the robot, with Shift they move it; + and − zoom, 0 shows it as at first; space plays and "
-    "pauses, comma and full stop go back and forth in the motion."
-)
 
 
 def viewer_values(robot: Robot, jump: Jump, glb: bytes) -> dict[str, Any]:
-    """Return what `templates/report/viewer.html.j2` needs: data, GLB file and program, and words on the keys."""
+    """Return what `templates/report/viewer.html.j2` needs: data, GLB file and program."""
     return {
-        "help": KEYS,
         "cell_mm": CELL_MM,
         "data": _embedded(viewer_data(robot, jump)),
         "glb": base64.b64encode(glb).decode(),

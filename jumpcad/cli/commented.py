@@ -10,36 +10,17 @@ if TYPE_CHECKING:
     from jumpcad.design import Design
     from jumpcad.workshop import Workshop
 
-MEANINGS = {
-    "carrying_link_mm": "main leg (l2), mm; longer: a longer push, a larger and heavier robot",
-    "c_coef": "front link over main leg (l3/l2); 1: the body keeps its tilt while it rises",
-    "d_coef": "foot link over main leg (l4/l2); also sets the distance of the legs on the body",
-    "e_coef": "toes over main leg (l5/l2); longer: stands firmer, weighs more",
-    "compression_ratio": "loaded part of the angle to a flat leg; the energy grows with its square",
-    "rest_angle_deg": "between body and legs with springs at rest, degrees; where the push ends",
-    "stiffness_nmm_per_deg": "both springs together, N·mm per degree; energy and all loads grow with it",
-    "ground_link_angle_deg": "each toe from the foot's centre line, degrees; larger: wider and shorter stance",
-}
-"""What each number of a design is, and what changing it does."""
-VALUE_WIDTH = 36
 LINE = re.compile(r"(?P<key>\w+)(?P<equals> = )(?P<value>.*?)(?P<comment>\s+#.*)?")
 
 
 def commented_design(design: "Design", origin: str, file: str) -> str:
     """Return the TOML document of a design with unit, searched range and effect of every number."""
-    from jumpcad.design import SEARCH_BOUNDS
+    from jumpcad.design import PARAMETERS, SEARCH_BOUNDS
+    from jumpcad.files.rendering import fill
 
-    quoted = shell_quoted(file)
-    lines = [
-        f"# A jumping robot in eight numbers, copied from {origin}.",
-        f"# How far it jumps: jumpcad simulate {quoted}; everything to print and buy: jumpcad build {quoted}",
-        "# A range is the one that a search goes through; numbers outside of it are allowed.",
-        "",
-    ]
-    for key, value in zip(MEANINGS, design.to_vector(), strict=True):
-        bounds = SEARCH_BOUNDS[key]
-        lines += [f"# {MEANINGS[key]}", f"{f'{key} = {value!r}':{VALUE_WIDTH}}# {bounds.lower:g} to {bounds.upper:g}"]
-    return "\n".join(lines) + "\n"
+    numbers = dict(zip(PARAMETERS, design.to_vector(), strict=True))
+    values = {"origin": origin, "file": shell_quoted(file), "numbers": numbers, "bounds": SEARCH_BOUNDS}
+    return fill("texts/design.toml.j2", values)
 
 
 def commented_workshop(workshop: "Workshop", origin: str) -> str:

@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
-from jumpcad.errors import without_controls
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 
 if TYPE_CHECKING:
     from jumpcad.workshop import Workshop
@@ -42,17 +41,8 @@ def coupon(
         facts = _written(workshop, output or FOLDER, force)
     if as_json:
         print_json(facts)
-    elif measured is None:
-        print(f"{without_controls(facts['folder'])}: {len(facts['files']) + 1} files, {facts['grams']:.1f} g to print")
-        print(f"next: read {without_controls(facts['folder'])}/coupon.md")
     else:
-        for key, change in facts["fits"].items():
-            print(f"{key:<28} {change['before']:.3f} -> {change['after']:.3f}")
-        for key in ("in_plane", "interlayer"):
-            for name, change in facts["strengths" if key == "in_plane" else "strengths_interlayer"].items():
-                print(f"{name} strength_{key}_mpa".ljust(28), f"{change['before']:.1f} -> {change['after']:.1f}")
-        change = "with these values" if facts["fits"] or facts["strengths"] else "unchanged"
-        print(f"{facts['workshop']}: {workshop} {change}")
+        print_text("coupon", **facts, base=workshop, measured=measured is not None)
 
 
 def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:

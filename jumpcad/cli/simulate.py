@@ -25,27 +25,6 @@ if TYPE_CHECKING:
 
 TRAJECTORY_SUFFIXES = (".csv", ".json")
 DEFAULT_SETTINGS = "default"
-LINES = (
-    ("ballistic range", "ballistic_range_m", "{:.4f} m"),
-    ("rise of the centre of mass", "com_rise_m", "{:.4f} m"),
-    ("touchdown distance", "touchdown_distance_m", "{:.4f} m"),
-    ("take-off speed", "takeoff_speed_m_s", "{:.3f} m/s"),
-    ("take-off angle", "takeoff_angle_deg", "{:.1f}°"),
-    ("take-off after", "takeoff_time_s", "{:.4f} s"),
-    ("air time", "air_time_s", "{:.3f} s"),
-    ("turn in flight, forwards", "turn_deg", "{:.0f}°"),
-    ("pitch at touchdown", "touchdown_pitch_deg", "{:.0f}°"),
-    ("highest bar that it passes over", "clears_bar_mm", "{:.0f} mm"),
-    ("highest step that it lands on", "lands_on_mm", "{:.0f} mm"),
-    ("centre of mass beside the leg, left", "lateral_offset_mm", "{:.1f} mm"),
-    ("energy released / spring energy", "release_energy_ratio", "{:.4f}"),
-    ("energy at take-off / spring energy", "takeoff_energy_ratio", "{:.4f}"),
-    ("spring energy", "spring_energy_j", "{:.4f} J"),
-    ("mass", "mass_kg", "{:.4f} kg"),
-    ("fitness (range / longest link)", "fitness", "{:.3f}"),
-)
-
-
 TRIES = 20
 """Landings that are tried unless asked for more."""
 
@@ -225,7 +204,7 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread:
 
     difference = _difference_percent(jumps)
     print_text(
-        "simulate", **heading, jumps=jumps, lines=LINES, account=ACCOUNT, spread=spread, figures=FIGURES,
+        "simulate", **heading, jumps=jumps, account=ACCOUNT, spread=spread, figures=FIGURES,
         difference=difference, counted=counted,
     )  # fmt: skip
 

@@ -8,6 +8,7 @@ from jumpcad.bundle.limits import JUST, ordered, used
 from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
+from jumpcad.files.rendering import fill
 from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
@@ -41,17 +42,16 @@ class Printed:
         """Return figures and limits as tables in Markdown, with the differences of the figures from another robot's."""
         if self.robot is None or self.jump is None:
             return f"**cannot be built**: {self.reason} (pale: the last robot that could be built)"
-        lines = [f"| printed robot | {self.jump.verdict} |", "|:--|--:|"]
         old = before.figures() if before else {}
-        for name, (value, unit) in self.figures().items():
-            change = f" ({value - old[name][0]:+.1f})" if name in old and abs(value - old[name][0]) >= 0.05 else ""
-            lines.append(f"| {name} | {value:.1f} {unit}{change} |")
-        lines += ["", "| tightest limits | used |", "|:--|--:|"]
         violated = sum(finding.severity != "info" for finding in self.findings)
-        for finding in self.findings[: max(SHOWN, violated)]:
-            share = used(finding).removesuffix(" used").removeprefix("margin ")
-            lines.append(f"| {'**' + finding.name + '**' if finding.severity != 'info' else finding.name} | {share} |")
-        return "\n".join(lines)
+        values = {
+            "verdict": self.jump.verdict,
+            "figures": [(name, value, unit, value - old.get(name, (value, ""))[0])
+                        for name, (value, unit) in self.figures().items()],
+            "limits": [(finding, used(finding).removesuffix(" used").removeprefix("margin "))
+                       for finding in self.findings[: max(SHOWN, violated)]],
+        }  # fmt: skip
+        return fill("texts/studio.md.j2", values)
 
     def figures(self) -> dict[str, tuple[float, str]]:
         """Return value and unit of each figure by its name; nothing for a robot that cannot be built."""

@@ -2,7 +2,7 @@
 
 import pytest
 
-from jumpcad.bundle.compared import READINGS, Beside, Compared
+from jumpcad.bundle.compared import Beside, Compared
 from jumpcad.files.rendering import fill
 
 
@@ -12,7 +12,7 @@ def row(what: str, reading: str, measured: float, predicted: tuple[float, float,
 
 def verdict(*rows: Beside) -> str:
     found = Compared.model_construct(design="a", calibrated_on="b", rows=rows)
-    return fill("report/compared.html.j2", {"beside": found, "readings": READINGS})
+    return fill("report/compared.html.j2", {"beside": found})
 
 
 @pytest.mark.parametrize(("measured", "holds"), [(0.19, False), (0.2, True), (0.3, True), (0.4, True), (0.41, False)])

@@ -2,7 +2,6 @@
 
 import xml.etree.ElementTree as ET
 
-from jumpcad.bundle.uncertainty import GROUPS
 from jumpcad.files.rendering import fill
 from jumpcad.simulation.uncertain import FIGURES, Uncertainty
 
@@ -18,7 +17,7 @@ FOUND = Uncertainty(
 
 def section(found: Uncertainty) -> ET.Element:
     """Return the section's tree; any tag that is not closed is an error."""
-    values = {"sure": found, "sure_figures": FIGURES, "uncertain_inputs": GROUPS}
+    values = {"sure": found, "sure_figures": FIGURES}
     return ET.fromstring(f"<section>{fill('report/uncertainty.html.j2', values)}</section>")
 
 
