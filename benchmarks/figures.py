@@ -27,10 +27,10 @@ from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
 from jumpcad.landing.landing import Landings, land
-from jumpcad.landing.stable_poses import share_on_feet
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
+from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose import bayesian
 from jumpcad.search.study.objective import find_objective

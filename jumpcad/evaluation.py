@@ -89,7 +89,7 @@ class EvaluationResult:
     @cached_property
     def rights_itself(self) -> float:
         """Share of attitudes from which the winding robot comes to stand on its feet, at least: its stable poses."""
-        from jumpcad.landing.stable_poses import share_on_feet
+        from jumpcad.scene.stable_poses import share_on_feet
 
         return share_on_feet(self.robot)
 

@@ -14,13 +14,14 @@ from jumpcad.drive import Drive
 from jumpcad.drive.stock_spring import of_stock, springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
+from jumpcad.layout.cage import with_cage
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout
 from jumpcad.layout.sensor import GEAR_PLAY_MM, SensorNeeds
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import five_bar
-from jumpcad.parts import axles, body_plate, foot, links, sensor, shopping, small, stop, toes, train, trays
+from jumpcad.parts import axles, body_plate, cage, foot, links, sensor, shopping, small, stop, toes, train, trays
 from jumpcad.parts.pads import pads
 from jumpcad.parts.part import Drawing, Part
 from jumpcad.robot import Robot
@@ -50,6 +51,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
             *shopping.bought_parts(layout, workshop),
             *pads(layout, workshop.foot_pad),
             *links.bars(layout, workshop),
+            *cage.cage_hardware(layout),
         )
         require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
@@ -134,7 +136,7 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
         settled.holes.fits.wall_min_mm,
         settled.holes.fits.sliding_mm,
     )
-    return make_layout(
+    layout = make_layout(
         settled.linkage,
         settled.sections,
         settled.drive,
@@ -150,6 +152,7 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
         sensor=_sensor_needs(workshop, carried, settled.drive),
         switch=parts.get("switch"),
     )
+    return with_cage(layout, workshop)
 
 
 def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNeeds | None:
@@ -203,6 +206,7 @@ def drawings(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
         *trays.trays(layout, workshop),
         stop.stop_bar(layout, workshop),
         *sensor.sensor_mount(layout, workshop),
+        *cage.cage_bars(layout, workshop),
     ]
     if layout.idler_mm is not None:
         cam_left = (layout.cam_axis_mm, lateral.gears[0][1] + GEAR_PLAY_MM, high)

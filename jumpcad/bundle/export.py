@@ -12,7 +12,7 @@ from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
-from jumpcad.bundle.facts import electronics_facts, joint_facts, release_facts, spring_facts, stop_facts
+from jumpcad.bundle.facts import cage_facts, electronics_facts, joint_facts, release_facts, spring_facts, stop_facts
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.bundle.guide.page import write_page
@@ -29,6 +29,7 @@ from jumpcad.exporters.glb import write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
 from jumpcad.robot import Robot, require_name
+from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import default_engine
 
@@ -144,6 +145,8 @@ def _facts(robot: Robot) -> dict[str, Any]:
         "electronics": electronics_facts(robot),
         "stop": stop_facts(robot),
         "joints": joint_facts(robot),
+        "cage": cage_facts(robot),
+        "rights_itself": {"static": round(share_on_feet(robot), 3)},
         "ground": {
             "friction": robot.workshop.ground.foot_friction,
             "pad": robot.workshop.ground.pad,

@@ -8,7 +8,10 @@ from jumpcad.checks.sideways import play_rad, rolls
 from jumpcad.drive.release import Release
 from jumpcad.drive.rolling import ReleaseParts
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Part
+from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
+from jumpcad.scene.hulls import CAGE
 
 DIGITS, ROLL_DIGITS = 6, 3
 
@@ -150,4 +153,28 @@ def joint_facts(robot: Robot) -> dict[str, Any]:
             roll.state: {"stance": round(roll.stance_deg, ROLL_DIGITS), "play": round(roll.play_deg, ROLL_DIGITS)}
             for roll in rolls(robot)
         },
+    }
+
+
+def cage_facts(robot: Robot) -> dict[str, Any] | None:
+    """Return the cage's rods, from end to end, and the mass of rods, bars and ties; None without a cage.
+
+    The horns belong to the body plates, and their mass to that of these.
+    """
+    cage = robot.layout.cage
+    if cage is None:
+        return None
+    pieces: list[Part | BoughtPart] = [*robot.parts, *robot.hardware]
+    return {
+        "rods": [
+            {
+                "name": arc.name,
+                "material": cage.rod.name,
+                "diameter_mm": cage.rod.diameter_mm,
+                "length_mm": round(arc.length_mm, 1),
+                "radius_mm": round(arc.radius_mm, 1),
+            }
+            for arc in cage.arcs
+        ],
+        "mass_kg": sum(piece.mass_kg for piece in pieces if piece.name.startswith(CAGE)),
     }

@@ -4,6 +4,7 @@ from jumpcad.catalogue.articles import Article, OwnParts
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.bars import LegBar
 from jumpcad.catalogue.boards import Board
+from jumpcad.catalogue.cage_rods import CageRod
 from jumpcad.catalogue.electrical import Battery, Component, ElectricalParts, Kit, Motor, Travel
 from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
@@ -13,6 +14,7 @@ __all__ = [
     "Battery",
     "Bearing",
     "Board",
+    "CageRod",
     "Catalogue",
     "ClevisPin",
     "Clip",

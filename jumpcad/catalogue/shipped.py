@@ -12,6 +12,7 @@ from jumpcad.catalogue.articles import AnyArticle
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.bars import LegBar
 from jumpcad.catalogue.boards import Board
+from jumpcad.catalogue.cage_rods import CageRod
 from jumpcad.catalogue.electrical import Battery, Component, Kit, Motor
 from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.errors import JumpcadError
@@ -135,6 +136,7 @@ class Catalogue:
     clips: PartsByName[Clip]
     clevis_pins: PartsByName[ClevisPin]
     bars: PartsByName[LegBar]
+    cage_rods: PartsByName[CageRod]
     wire: Wire
     rod_density_g_cm3: float
 
@@ -187,8 +189,8 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs", "pads", "axles", "bars")
-    motors, bearings, electronics, kits, fasteners, springs, pads, axles, bars = (
+    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs", "pads", "axles", "bars", "cage_rods")
+    motors, bearings, electronics, kits, fasteners, springs, pads, axles, bars, cage_rods = (
         read_toml(folder / f"{name}.toml")[0] for name in files
     )
     defaults = motors.pop("defaults")
@@ -209,6 +211,7 @@ def load_catalogue() -> Catalogue:
         clips=_by_name("clip", Clip, axles["clips"]),
         clevis_pins=_by_name("clevis pin", ClevisPin, axles["clevis_pins"]),
         bars=_articles("leg bar", LegBar, bars, bars.pop("defaults")),
+        cage_rods=_articles("cage rod", CageRod, cage_rods),
         wire=Wire.from_toml(folder / "wire.toml"),
         rod_density_g_cm3=fasteners["rods"]["density_g_cm3"],
     )

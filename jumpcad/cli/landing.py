@@ -16,7 +16,7 @@ def report_landing(
 ) -> None:
     """Let a robot land a number of times, and print where it rests, on what, and whether winding rights it."""
     from jumpcad.landing.landing import land
-    from jumpcad.landing.stable_poses import share_on_feet
+    from jumpcad.scene.stable_poses import share_on_feet
 
     found, static = land(robot, tries, seed, settings), share_on_feet(robot)
     if as_json:

@@ -10,6 +10,7 @@ import numpy as np
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, ContactSphere, Mechanism
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.scene.hulls import CAGE, Capsule
 from jumpcad.scene.visuals import Visual
 from jumpcad.transforms import Array
 
@@ -19,15 +20,6 @@ SLIM_TOE = 0.8
 """Radius of the toes' capsules over that of their spheres; judgement."""
 CLEAR_M = 0.001
 """Clearance between the body's box and the ground in the loaded pose; judgement."""
-
-
-@dataclass(frozen=True)
-class Capsule:
-    """A cylinder with rounded ends: its ends (3,) and radius (m), in its body's frame."""
-
-    start_m: Array
-    end_m: Array
-    radius_m: float
 
 
 @dataclass(frozen=True)
@@ -50,11 +42,11 @@ def capsules(mechanism: Mechanism, body: str) -> Iterator[Capsule]:
 
 
 def body_box(mechanism: Mechanism, visible: Sequence[Visual]) -> Box | None:
-    """Return a box around the body's parts, or None without visible parts or if no height is left.
+    """Return a box around the body's parts without the cage, or None without visible parts or if no height is left.
 
     Its lower face is raised until it is clear of the ground in the loaded pose: the body is round at its lower corners.
     """
-    corners = [_corners_m(shape) for shape in visible if shape.body == BODY]
+    corners = [_corners_m(shape) for shape in visible if shape.body == BODY and not shape.name.startswith(CAGE)]
     if not corners:
         return None
     every = np.round(np.concatenate(corners), 4)

@@ -32,7 +32,7 @@ from jumpcad.exporters.xml import Value, add, document, shorten, wxyz
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot import Robot
-from jumpcad.scene.hulls import body_hulls
+from jumpcad.scene.hulls import body_hulls, cage_capsules
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.solids.stl import write_stl
@@ -80,6 +80,9 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
             for number, link in enumerate(capsules(mechanism, body.name), start=1):
                 _collision(node, f"{body.name}_{number}", body, type="capsule", fromto=(*link.start_m, *link.end_m),
                            size=link.radius_m)  # fmt: skip
+        for number, link in enumerate(cage_capsules(mechanism) if body.name == BODY else (), start=1):
+            _collision(node, f"cage_{number}", body, type="capsule", fromto=(*link.start_m, *link.end_m),
+                       size=link.radius_m)  # fmt: skip
         for contact in body.contacts:
             _collision(node, f"{body.name}_{contact.name}", body, type="sphere", pos=contact.centre_m,
                        size=contact.radius_m)  # fmt: skip

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.exporters.collision import Capsule, body_box, capsules
+from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.mjcf_scene import HOLD
 from jumpcad.exporters.sdf import write_config, write_sdf
-from jumpcad.exporters.urdf import add_joint, add_link
+from jumpcad.exporters.urdf import add_cage, add_cylinder, add_joint, add_link
 from jumpcad.exporters.xml import add, document, shorten, written
 from jumpcad.files import templates_folder
 from jumpcad.mechanism.model import BODY, Mechanism
@@ -120,7 +120,8 @@ def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], me
     for body in robot.bodies.values():
         link = add_link(root, body, [shape for shape in visible if shape.body == body.name], meshes)
         for number, capsule in enumerate(capsules(robot, body.name), start=1):
-            _cylinder(link, f"{body.name}_{number}", capsule)
+            add_cylinder(link, f"{body.name}_{number}", capsule)
+    add_cage(root, robot)
     if box := body_box(robot, visible):
         collision = add(next(link for link in root if link.get("name") == BODY), "collision", name="body_box")
         add(collision, "origin", xyz=(box.low_m + box.high_m) / 2.0, rpy="0 0 0")
@@ -141,14 +142,3 @@ def _driven(limit: ET.Element, robot: Robot) -> None:
     """Let the leg turn no farther than its springs are wound, and its controller hold it there."""
     for name, value in (("lower", -robot.spring.wind_rad), ("effort", _hold_nm(robot))):
         limit.set(name, written(value))
-
-
-def _cylinder(link: ET.Element, name: str, capsule: Capsule) -> None:
-    """Append a capsule as a cylinder: URDF has no capsules; contact spheres are where its ends touch the ground."""
-    along = capsule.end_m - capsule.start_m
-    length = math.hypot(*along)
-    # roll, pitch, yaw that turn the cylinder's axis, z, to the capsule's
-    turns = 0.0, math.atan2(math.hypot(along[0], along[1]), along[2]), math.atan2(along[1], along[0])
-    collision = add(link, "collision", name=name)
-    add(collision, "origin", xyz=(capsule.start_m + capsule.end_m) / 2.0, rpy=turns)
-    add(add(collision, "geometry"), "cylinder", radius=capsule.radius_m, length=length)

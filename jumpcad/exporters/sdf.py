@@ -12,10 +12,11 @@ from collections.abc import Iterator, Sequence
 from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.xml import add, allowed, document, limits_rad, rpy
 from jumpcad.files.rendering import fill
-from jumpcad.mechanism.model import Body, Joint, Mechanism
+from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
+from jumpcad.scene.hulls import cage_capsules
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.strength.loads import pin_torque_nm
@@ -53,6 +54,14 @@ def write_sdf(
         link = add(model, "link", name=name)
         add(link, "pose", _six(pose))
         _fill(link, mechanism.bodies[name], [shape for shape in visible if shape.body == name], rubs, meshes)
+    for number, capsule in enumerate(cage_capsules(mechanism), start=1):
+        base = next(link for link in model.iter("link") if link.get("name") == BODY)
+        collision = add(base, "collision", name=f"cage_{number}")
+        add(collision, "pose", (*(capsule.start_m + capsule.end_m) / 2.0, *capsule.rpy))
+        shape = add(add(collision, "geometry"), "capsule")
+        add(shape, "radius", capsule.radius_m)
+        add(shape, "length", capsule.length_m)
+        _rubs(collision, rubs.contact("body"))
     for joint in mechanism.joints:
         _hinge(model, joint, mechanism, settings)
     loop = mechanism.loop
@@ -83,9 +92,13 @@ def _fill(link: ET.Element, body: Body, visible: list[Visual], rubs: Coefficient
         collision = add(link, "collision", name=contact.name)
         add(collision, "pose", (*contact.centre_m, 0.0, 0.0, 0.0))
         add(add(add(collision, "geometry"), "sphere"), "radius", contact.radius_m)
-        ode = add(add(add(collision, "surface"), "friction"), "ode")
-        for direction in ("mu", "mu2"):
-            add(ode, direction, rubs.contact(body.surface))
+        _rubs(collision, rubs.contact(body.surface))
+
+
+def _rubs(collision: ET.Element, friction: float) -> None:
+    ode = add(add(add(collision, "surface"), "friction"), "ode")
+    for direction in ("mu", "mu2"):
+        add(ode, direction, friction)
 
 
 def _hinge(model: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> None:

@@ -4,7 +4,7 @@ The leg's upper limit is the stop. Pin friction is one dry torque at the leg joi
 
 Link frames are the body frames of `Robot`. Inertial frames are along the principal axes, because PyBullet's own
 diagonalisation has an error of 1e-5. Visible are the parts' meshes (`meshes/NAME.stl`, in mm, scaled to metres); the
-collision shapes are the contact spheres.
+collision shapes are the contact spheres, and cylinders along the cage.
 """
 
 import json
@@ -16,13 +16,14 @@ from typing import TYPE_CHECKING
 from jumpcad.dimensions import MESH_FOLDER
 from jumpcad.exporters.xml import add, document, limits_rad, rpy
 from jumpcad.mechanism.mass import principal_axes
-from jumpcad.mechanism.model import Body, Joint, Mechanism
+from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings, coefficients
 from jumpcad.strength.loads import pin_torque_nm
 
 if TYPE_CHECKING:
     from jumpcad.robot import Robot
+    from jumpcad.scene.hulls import Capsule
     from jumpcad.scene.visuals import Visual
 
 
@@ -54,6 +55,7 @@ def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
     add(add(root, "mujoco"), "compiler", fusestatic="false", strippath="false", discardvisual="false")
     for body in mechanism.bodies.values():
         add_link(root, body, [shape for shape in visible if shape.body == body.name], MESH_FOLDER)
+    add_cage(root, mechanism)
     for joint in mechanism.joints:
         add_joint(root, joint, mechanism, settings)
     return document(root)
@@ -112,6 +114,22 @@ def add_link(root: ET.Element, body: Body, visible: "list[Visual]", meshes: str)
         add(collision, "origin", xyz=contact.centre_m, rpy="0 0 0")
         add(add(collision, "geometry"), "sphere", radius=contact.radius_m)
     return link
+
+
+def add_cage(root: ET.Element, mechanism: Mechanism) -> None:
+    """Append the cage's rods and bars to the link of the body, as cylinders that touch the ground."""
+    from jumpcad.scene.hulls import cage_capsules
+
+    link = next(link for link in root.iter("link") if link.get("name") == BODY)
+    for number, capsule in enumerate(cage_capsules(mechanism), start=1):
+        add_cylinder(link, f"cage_{number}", capsule)
+
+
+def add_cylinder(link: ET.Element, name: str, capsule: "Capsule") -> None:
+    """Append a capsule as a cylinder: URDF has no capsules."""
+    collision = add(link, "collision", name=name)
+    add(collision, "origin", xyz=(capsule.start_m + capsule.end_m) / 2.0, rpy=capsule.rpy)
+    add(add(collision, "geometry"), "cylinder", radius=capsule.radius_m, length=capsule.length_m)
 
 
 def add_joint(root: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> ET.Element:

@@ -5,7 +5,7 @@ In-plane places are in the body frame's x-z plane; intervals of y come from the 
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from jumpcad.catalogue import Bearing, Component, LegBar
 from jumpcad.design import Design
@@ -53,6 +53,9 @@ from jumpcad.strength.sizing import Sections, beside_leg_mm
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop
 
+if TYPE_CHECKING:
+    from jumpcad.layout.cage import Cage
+
 Retention = Literal["plates", "clips", "nuts"]
 """What keeps the axles in place: blind bores of the plates, clips in grooves, or screws as axles with lock nuts."""
 
@@ -96,6 +99,7 @@ class Layout:
     fittings: Fittings
     sensor: SensorPlace | None = None
     leg_bar: LegBar | None = None
+    cage: "Cage | None" = None
 
     @property
     def design(self) -> Design:

@@ -9,6 +9,7 @@ from jumpcad.dimensions import MOTOR_CLAMP_MM, TAB_MM, TRAY_MM
 from jumpcad.drive.socket import window_mm
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
+from jumpcad.parts.cage import horn_openings
 from jumpcad.parts.engraving import ENGRAVING_MM, letters_on
 from jumpcad.parts.fittings import fitting_openings
 from jumpcad.parts.holes import HoleSizes
@@ -75,6 +76,7 @@ def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
     cut += fitting_openings(layout.fittings, holes, side)
     cut.append(stop_slot(layout, 2.0 * holes.fits.press_mm))
     cut += [pin_hole(layout, layout.pin_hole.diameter_mm)] if side == "left" else []
+    cut += [horn_openings(layout, holes)] if layout.cage else []
     return union(cut)
 
 

@@ -10,6 +10,7 @@ from scipy.spatial import Delaunay
 from jumpcad.dimensions import PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, TAB_MM, TRAY_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.layout.stop import EAR_MM
+from jumpcad.parts.cage import horns
 from jumpcad.parts.fittings import fitting_pads
 from jumpcad.parts.motor_socket import socket_outline
 from jumpcad.parts.part import Face
@@ -131,7 +132,8 @@ def outline(layout: Layout, blank: Blank, side: Face) -> Region:
     around_pin = [pin_hole(layout, layout.pin_hole.pad_mm)] if side == "left" else []
     slot = rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)
     stop = hull([disc(axle, layout.hub_mm), base, slot, *around_pin])
-    return blank.hull - (blank.pockets - stop) + stop
+    whole = blank.hull - (blank.pockets - stop) + stop
+    return whole + horns(layout) if layout.cage else whole
 
 
 def pin_hole(layout: Layout, width_mm: float) -> Region:

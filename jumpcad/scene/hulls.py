@@ -1,24 +1,31 @@
-"""Convex hulls of what is there: the collision shapes of a robot's bodies."""
+"""Convex hulls of what is there, and capsules along the cage: the collision shapes of a robot's bodies."""
 
+import itertools
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from jumpcad.mechanism.model import BODY_NAMES, FOOT, Mechanism
+from jumpcad.robot import Robot
 from jumpcad.scene.visuals import Visual
+from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
     import trimesh
 
 SOLE_MM = 0.5
 """How far the foot's hull stays above its sole, so that a standing robot stands on its contact spheres alone."""
+CAGE = "cage_"
+"""Begins the names of all parts of a cage."""
 DIGITS = 4
 """Of a corner's coordinates (mm)."""
 
 
 def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> "dict[str, trimesh.Trimesh]":
-    """Return the convex hull of each body's parts in its own frame (mm); no entry for a body without parts."""
+    """Return the convex hull of each body's parts in its own frame (mm), without the cage; no entry without parts."""
     from trimesh.convex import convex_hull
 
     found = {}
@@ -26,7 +33,7 @@ def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> "dict[str, tr
         placed = [
             shape.mesh.vertices @ shape.T_body_mesh[:3, :3].T + 1000.0 * shape.T_body_mesh[:3, 3]
             for shape in visible
-            if shape.body == body
+            if shape.body == body and not shape.name.startswith(CAGE)
         ]
         if not placed:
             continue
@@ -34,4 +41,41 @@ def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> "dict[str, tr
         if body == FOOT:
             corners[:, 2] = np.maximum(corners[:, 2], SOLE_MM - 1000.0 * mechanism.foot_depth_m)
         found[body] = convex_hull(np.unique(np.round(corners, DIGITS), axis=0))
+    return found
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """A cylinder with rounded ends: its ends (3,) and radius (m), in its body's frame."""
+
+    start_m: Array
+    end_m: Array
+    radius_m: float
+
+    @property
+    def length_m(self) -> float:
+        """From end to end."""
+        return math.dist(self.start_m, self.end_m)
+
+    @property
+    def rpy(self) -> tuple[float, float, float]:
+        """Roll, pitch, yaw that turn the z axis along it."""
+        x, y, z = self.end_m - self.start_m
+        return 0.0, math.atan2(math.hypot(x, y), z), math.atan2(y, x)
+
+
+def cage_capsules(mechanism: Mechanism) -> list[Capsule]:
+    """Return the cage as capsules in the body's frame, along the pieces of its rods and along its bars."""
+    cage = mechanism.layout.cage if isinstance(mechanism, Robot) else None
+    if cage is None:
+        return []
+    found = []
+    for arc in cage.arcs:
+        points = np.round(arc.points_mm, DIGITS) / 1000.0
+        radius = cage.rod.diameter_mm / 2000.0
+        found += [Capsule(one, other, radius) for one, other in itertools.pairwise(points)]
+    for bar in cage.bars:
+        along = bar.half_mm * bar.T_body_bar[:3, 0]
+        ends = np.round(bar.T_body_bar[:3, 3] + np.array([-along, along]), DIGITS) / 1000.0
+        found.append(Capsule(ends[0], ends[1], cage.socket_mm / 2000.0))
     return found

@@ -57,6 +57,7 @@ SLOTS = {
     "bought.wire": Slot("components", "wire"),
     "bought.spring": Slot("springs", "spring", "springs made to order"),
     "bought.leg": Slot("bars", "leg bar", "printed legs"),
+    "cage.rod": Slot("cage_rods", "cage rod", "no cage"),
     "bought.axle": Slot("rods", "rod", ""),
     "ground.pad": Slot("pads", "pad"),
     "body.stop_pad": Slot("pads", "pad"),

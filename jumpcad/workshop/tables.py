@@ -137,6 +137,24 @@ class BodyPlates(TomlTable):
     toe_half_width_mm: Annotated[float, Field(ge=0, le=200)]
 
 
+class CageTable(TomlTable):
+    """The cage that rights the robot: two hoops of `rod` (empty: no cage) between cross bars, and a `bow` between both.
+
+    What is 0 follows from the height at which the loaded robot crouches. `arc_deg` and `lean_deg` are of the hoops,
+    which lean outwards; `rear_behind_mm` and `front_ahead_mm` are from the plates to the bars.
+    """
+
+    rod: OptionalName
+    bow: bool
+    lean_deg: Annotated[float, Field(ge=0, le=45)]
+    arc_deg: Annotated[float, Field(ge=0, le=310)]
+    rear_behind_mm: Annotated[float, Field(ge=0, le=100)]
+    front_ahead_mm: Annotated[float, Field(ge=0, le=100)]
+    rear_radius_mm: Annotated[float, Field(ge=0, le=250)]
+    front_radius_mm: Annotated[float, Field(ge=0, le=250)]
+    bar_mm: Annotated[float, Field(ge=4, le=20)]
+
+
 class Seats(TomlTable):
     """How exactly the sensor sits over its track, and what holds the electronics.
 

@@ -17,6 +17,7 @@ from jumpcad.catalogue import (
     Battery,
     Bearing,
     Board,
+    CageRod,
     Catalogue,
     LegBar,
     Motor,
@@ -32,6 +33,7 @@ from jumpcad.workshop.slots import SLOTS
 from jumpcad.workshop.tables import (
     BodyPlates,
     BoughtParts,
+    CageTable,
     Fits,
     Ground,
     Masses,
@@ -51,6 +53,8 @@ Role = Literal["links", "body", "gears"]
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
 STOP_PAD_MIN_MM = 1.5
 """Least thickness of the rest stop's pad; judgement: it gives way by 0.3 to 0.8 mm on the templates."""
+CAGE_LEAST = {"arc_deg": 200.0, "rear_radius_mm": 40.0, "front_radius_mm": 40.0}
+"""Of hoops that are given; judgement: less bulges nowhere, and no rod of the catalogue bends tighter."""
 OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs", "pads")
 """Tables of the user's own parts."""
 
@@ -69,6 +73,7 @@ class Workshop(Record):
     fits: Fits
     bought: BoughtParts
     body: BodyPlates
+    cage: CageTable
     seats: Seats
     ground: Ground
     pins: Pins
@@ -100,6 +105,11 @@ class Workshop(Record):
     def leg_bar(self) -> LegBar | None:
         """The bar of main leg and front link, or None where they are printed whole."""
         return self.catalogue.bars[self.bought.leg] if self.bought.leg else None
+
+    @property
+    def cage_rod(self) -> CageRod | None:
+        """The rod of the cage, or None without one."""
+        return self.catalogue.cage_rods[self.cage.rod] if self.cage.rod else None
 
     @property
     def foot_pad(self) -> Pad | None:
@@ -155,6 +165,7 @@ class Workshop(Record):
         yield from _not_ascending(fits, ("m2_tap_mm", "m2_clearance_mm"))
         yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
         yield from _release_contradictions(self.release)
+        yield from _cage_contradictions(self.cage)
         if not self.body.stop_pad:
             known = ", ".join(name for name, pad in self.catalogue.pads.items() if pad.thickness_mm >= STOP_PAD_MIN_MM)
             reason = f"the rest stop needs a pad of at least {STOP_PAD_MIN_MM:g} mm: name one of {known}"
@@ -217,6 +228,13 @@ def _release_contradictions(release: ReleaseTable) -> Iterator[Contradiction]:
         low, high = getattr(release, key)
         if low > high:
             yield ("release", key), low, f"must be at most {high:g}, the end of its range"
+
+
+def _cage_contradictions(cage: CageTable) -> Iterator[Contradiction]:
+    """Yield what is too small for any hoop, but 0, which means that it is found."""
+    for key, least in CAGE_LEAST.items():
+        if 0.0 < getattr(cage, key) < least:
+            yield ("cage", key), getattr(cage, key), f"must be at least {least:g}, or 0: found from the robot's height"
 
 
 def _not_ascending(fits: Fits, keys: tuple[str, ...]) -> Iterator[Contradiction]:

@@ -10,8 +10,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.landing import land, share_righted
 from jumpcad.landing.series import jumps
-from jumpcad.landing.stable_poses import share_on_feet
 from jumpcad.robot import Robot
+from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.mechanics import Mechanics, loaded_state

@@ -11,7 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES
 from jumpcad.findings import errors
 from jumpcad.landing.landing import land
-from jumpcad.landing.stable_poses import share_on_feet
+from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.search.models import robot_model
 from jumpcad.search.pick import righting
 from jumpcad.search.study.objective import Evaluation

@@ -1,0 +1,108 @@
+"""The cage: arcs by the rule of the chord, free of what moves, in every file alike."""
+
+import math
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+
+import jumpcad
+from jumpcad.errors import CannotBuildError
+from jumpcad.exporters.mjcf_robot import write_robot
+from jumpcad.exporters.sdf import write_sdf
+from jumpcad.exporters.urdf import write_urdf
+from jumpcad.layout.cage import SOCKET_MM
+from jumpcad.mechanism.model import BODY
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot import Robot
+from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
+from jumpcad.scene.visuals import visuals
+from jumpcad.workshop import load_workshop, varied
+
+FLAT = jumpcad.Design.from_vector([100, 0.9595, 0.7772, 0.8377, 0.8, 70, 30, 16.808])
+"""A robot that touches down nearly upright and crouches low."""
+
+
+def caged(**values: float | str | bool) -> Robot:
+    """Return that robot with a cage."""
+    table = {f"cage.{key}": value for key, value in {"rod": "glass-1.5", **values}.items()}
+    return jumpcad.build(FLAT, varied(load_workshop("default"), table))
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    """Return the robot with a bow, which has all that a cage can have."""
+    return caged(bow=True)
+
+
+def test_a_hoop_is_an_arc_whose_chord_is_twice_r_sin_of_half_its_angle(robot: Robot) -> None:
+    cage = robot.layout.cage
+    assert cage is not None
+    for arc in cage.arcs:
+        mouths = arc.points_mm[[1, -2]]
+        assert np.linalg.norm(mouths[1] - mouths[0]) == pytest.approx(
+            2.0 * arc.radius_mm * abs(math.sin(arc.angle_rad / 2.0))
+        )
+        assert arc.length_mm == pytest.approx(arc.radius_mm * arc.angle_rad + 24.0)
+        pieces = np.linalg.norm(np.diff(arc.points_mm, axis=0), axis=1)
+        assert pieces[[0, -1]] == pytest.approx([SOCKET_MM, SOCKET_MM])
+        assert 0.99 * arc.length_mm < pieces.sum() < arc.length_mm  # chords are shorter than their arcs
+
+
+def test_rods_weigh_what_their_length_weighs_and_lie_in_the_body(robot: Robot) -> None:
+    """Glass of 1.95 g/cm³: a millimetre of 1.5 mm rod weighs 3.446 mg."""
+    for item in (item for item in robot.hardware if item.name.startswith(("cage_hoop", "cage_bow"))):
+        length = float(item.article.split("cut ")[1].split(" mm")[0])
+        assert item.body == BODY
+        assert 1e6 * item.mass_kg == pytest.approx(3.446 * length, abs=1.8)
+    bare = jumpcad.build(FLAT)
+    assert 0.012 < robot.mass_kg - bare.mass_kg < 0.02
+
+
+def test_the_loaded_robot_stands_on_its_feet_alone(robot: Robot) -> None:
+    cage = robot.layout.cage
+    assert cage is not None
+    pose = body_poses(robot, 1.0)[BODY]
+    points = np.concatenate([arc.points_mm for arc in cage.arcs]) / 1000.0
+    assert (points @ pose[2, :3] + pose[2, 3]).min() > 0.003
+
+
+def test_two_hoops_make_its_feet_the_pose_in_which_it_lies() -> None:
+    assert share_on_feet(jumpcad.build(FLAT)) < 0.2
+    hoops = caged()
+    assert 0.8 < least_share_on_feet(hoops) <= share_on_feet(hoops)
+
+
+def test_every_simulation_file_has_the_rods(robot: Robot) -> None:
+    """Chords along every rod with its ends in the sockets, and both bars, welded to the body."""
+    cage = robot.layout.cage
+    assert cage is not None
+    number = len(cage.arcs) * (len(cage.arcs[0].points_mm) - 1) + 2
+    mjcf, urdf, sdf = (
+        ET.fromstring(text) for text in (write_robot(robot, visuals(robot)), write_urdf(robot), write_sdf(robot))
+    )
+    body = next(node for node in mjcf.iter("body") if node.get("name") == BODY)
+    capsules = [
+        node for node in body.findall("geom") if "cage_" in node.get("name", "") and node.get("type") == "capsule"
+    ]
+    assert len(capsules) == number
+    ends = np.array([[float(value) for value in (node.get("fromto") or "").split()] for node in capsules])
+    rods = ends[: number - 2]
+    assert np.linalg.norm(rods[:, 3:] - rods[:, :3], axis=1).sum() == pytest.approx(
+        sum(arc.length_mm for arc in cage.arcs) / 1000.0, rel=0.002
+    )
+    for root, kind in ((urdf, "cylinder"), (sdf, "capsule")):
+        link = next(node for node in root.iter("link") if node.get("name") == BODY)
+        assert sum(1 for _ in link.iter(kind)) == number
+
+
+def test_what_cannot_be_made_is_refused_with_the_number() -> None:
+    for values, told in (
+        ({"front_radius_mm": 45.0}, "cage.front_radius_mm = 45: cage_bar_front reaches"),
+        ({"rear_behind_mm": 100.0, "rear_radius_mm": 41.0, "arc_deg": 300.0}, "cage.rear_radius_mm = 41"),
+    ):
+        with pytest.raises(CannotBuildError, match=told):
+            caged(**values)
+    for key, value in (("arc_deg", 90.0), ("rear_radius_mm", 5.0), ("rod", "bamboo")):
+        with pytest.raises(jumpcad.JumpcadError, match=f"cage.{key}"):
+            caged(**{key: value})
