@@ -2,20 +2,16 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
-from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.paper import published
-from jumpcad.search import models
-from jumpcad.search.estimate.refusal import room_findings
-from jumpcad.search.models import PrintedModel, robot_model
+from jumpcad.search.models import robot_model
 from jumpcad.search.pick.tolerances import Tolerances
-from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.variant import Variant
 from jumpcad.settings import load_settings
 from jumpcad.simulation import Jump
@@ -91,76 +87,6 @@ def test_a_design_is_evaluated_in_the_model_s_own_workshop_settings_and_engine(m
     assert (model.making.length_mm, model.making.rate) == (0.5, 0.1)
 
 
-@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga"])
-@pytest.mark.parametrize("distance_m", [0.6, 0.0])
-def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes(monkeypatch, name, distance_m):
-    """Its figures are the published simulation's; one that goes nowhere does not take off."""
-    jump = SimpleNamespace(distance_m=distance_m, base_height_m=0.2, energy_j=0.3)
-    monkeypatch.setattr(published, "simulate", lambda _: jump)
-    design = load_design(name)
-    found = robot_model("published")(design)
-    assert found.verdict == ("jump" if distance_m else "no_takeoff")
-    assert found.findings == tuple(geometry_findings(design))
-    longest = max(design.l2_mm, design.l3_mm, design.l5_mm)
-    figures = found.metrics
-    assert figures["fitness"] == pytest.approx(1000.0 * distance_m / longest)
-    assert figures == {
-        "fitness": figures["fitness"], "base_distance_m": distance_m, "base_height_m": 0.2, "spring_energy_j": 0.3,
-    }  # fmt: skip
-
-
-def test_of_what_is_made_otherwise_a_trial_has_what_its_jump_says_and_what_forbids_it(small_robot, monkeypatch):
-    """What the design keeps stands in the design's own trial, with the room that is left in its workshop."""
-    reserve_mm = small_robot.workshop.safety.room_reserve_mm + 0.7
-    small_robot = replace(small_robot, workshop=varied(small_robot.workshop, {"safety.room_reserve_mm": reserve_mm}))
-    jumped, kept, broken = (
-        Finding(name, severity, 1.0, "", "", "")
-        for name, severity in (("audit_loop", "info"), ("walls", "info"), ("stop", "error"))
-    )
-    result = SimpleNamespace(
-        verdict="jump", robot=small_robot, jump=SimpleNamespace(findings=(jumped,), com_rise_m=0.5),
-        findings=(jumped, kept, broken), metrics={"mass_kg": 0.1},
-    )  # fmt: skip
-    monkeypatch.setattr("jumpcad.evaluation.evaluate_made", lambda *_: result)
-    plain, made = robot_model(), robot_model().varied({"made.spring_factor": 1.05})
-    design = load_design("kenan-2.0")
-    found = plain._built(design)
-    assert found.findings[:3] == (jumped, kept, broken)
-    assert found.findings[3:] == tuple(room_findings(small_robot.layout, reserve_mm))
-    assert found.findings[3:] != tuple(room_findings(small_robot.layout, reserve_mm + 1.0))
-    assert made._built(design).findings == (jumped, broken)
-    assert made._built(design).metrics == found.metrics == {"mass_kg": 0.1, "com_rise_m": 0.5}
-    monkeypatch.setattr(models, "robot_figures", lambda robot: {"bodies": len(robot.bodies)})
-    assert replace(plain, stand_in=True)._built(design).metrics == found.metrics | {"bodies": 4}
-
-
-def test_only_a_printed_robot_of_which_no_other_learns_is_refused_before_it_is_built(monkeypatch):
-    """Stand-ins and what is made otherwise than designed need figures of robots that are built."""
-    for name, verdict in (("refused_first", "tips"), ("_built", "jump")):
-        monkeypatch.setattr(PrintedModel, name, lambda self, design, said=verdict: Evaluation(said))
-    printed, design = robot_model(), load_design("kenan-2.0")
-    assert printed(design).verdict == "tips"
-    assert replace(printed, stand_in=True)(design).verdict == "jump"
-    assert printed(design, {"made.spring_factor": 1.05}).verdict == "jump"
-    assert printed(design, {"process.infill": 0.3}).verdict == "tips"
-
-
-@pytest.mark.parametrize(
-    "vector", [[100, 1.0, 0.833, 0.934, 0.2, 70, 5, 40], [100, 1.0, 0.833, 0.2, 0.755, 70, 29.5, 40]]
-)
-def test_a_capsule_robot_that_is_too_weak_or_tips_is_not_admitted(vector):
-    """Its masses follow from the design; those of others are only known from what is built or published."""
-    design = Design.from_vector(vector)
-    assert [robot_model(name).admits(design) for name in ("capsule", "printed", "published")] == [False, True, True]
-
-
-@pytest.mark.parametrize("engine", ["mujoco", "planar"])
-def test_the_published_robot_has_no_engine_to_choose(engine):
-    with pytest.raises(JumpcadError, match=f"engine {engine}: the published simulation exists in pybullet alone"):
-        robot_model("published", engine=engine)
-    assert robot_model("published", engine="pybullet") == robot_model("published")
-
-
 def test_a_refusal_says_by_how_much_its_limit_was_missed(monkeypatch):
     """For the processes that learn where there is room, whether the robot was built or only laid out."""
 
@@ -172,26 +98,6 @@ def test_a_refusal_says_by_how_much_its_limit_was_missed(monkeypatch):
     model, variant = robot_model(), Variant(load_design("kenan-2.0"))
     for found in (model.laid_out(variant), model(variant.design)):
         assert (found.verdict, found.margins["room_tray"]) == ("cannot_build", -2.5)
-
-
-@pytest.mark.parametrize("name", ["printed", "capsule", "published"])
-def test_an_engine_that_there_is_not_is_refused_at_once(name):
-    with pytest.raises(JumpcadError, match="'bulet' is not an engine; there are pybullet, mujoco and planar"):
-        robot_model(name, engine="bulet")
-
-
-@pytest.mark.parametrize(
-    ("name", "given", "said"),
-    [
-        ("capsule", {"workshop": "light"}, "workshop light: does not apply to the capsule robot; leave it out"),
-        ("published", {"workshop": load_workshop("light")}, "workshop: does not apply to the published robot"),
-        ("published", {"settings": "fine"}, "settings fine: does not apply to the published robot; leave it out"),
-        ("printd", {}, "'printd' is not one of the models printed, capsule, published .did you mean printed"),
-    ],
-)
-def test_what_a_model_does_not_use_is_refused(name, given, said):
-    with pytest.raises(JumpcadError, match=said):
-        robot_model(name, **given)
 
 
 def test_guesses_and_quick_scores_have_settings_of_their_own():
@@ -217,10 +123,46 @@ def test_every_objective_is_for_printed_robots_and_for_others_what_they_have() -
             find_objective(objective).require(robot_model(name).figure_names)
 
 
-def test_the_first_error_of_the_geometry_is_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_a_model_does_not_have_or_use_is_refused():
+    for name, given, said in (
+        ("capsule", {"workshop": "light"}, "workshop light: does not apply to the capsule robot; leave it out"),
+        ("published", {"workshop": load_workshop("light")}, "workshop: does not apply to the published robot"),
+        ("published", {"settings": "fine"}, "settings fine: does not apply to the published robot; leave it out"),
+        ("published", {"engine": "planar"}, "engine planar: the published simulation exists in pybullet alone"),
+        ("printed", {"engine": "bulet"}, "'bulet' is not an engine; there are pybullet, mujoco and planar"),
+        ("printd", {}, "'printd' is not one of the models printed, capsule, published .did you mean printed"),
+    ):
+        with pytest.raises(JumpcadError, match=said):
+            robot_model(name, **given)
+
+
+def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes():
     design = load_design("kenan-2.0")
-    kept = Finding("ground", "info", 1.0, "mm", "", "")
-    wrong = [Finding(name, "error", -1.0, "mm", "", "") for name in ("loop", "other")]
-    for count in (1, 2):
-        monkeypatch.setattr(models, "geometry_findings", lambda _, count=count: [kept, *wrong[:count]])
-        assert robot_model("capsule")(design) == Evaluation("loop", findings=(kept, *wrong[:count]))
+    jump, figures = published.simulate(design), robot_model("published")(design).metrics
+    longest_m = max(design.l2_mm, design.l3_mm, design.l5_mm) / 1000.0
+    assert figures == {
+        "fitness": pytest.approx(jump.distance_m / longest_m), "base_distance_m": jump.distance_m,
+        "base_height_m": jump.base_height_m, "spring_energy_j": jump.energy_j,
+    }  # fmt: skip
+
+
+def test_a_capsule_robot_that_is_too_weak_or_tips_is_not_admitted_and_the_first_error_is_the_verdict():
+    """Its masses follow from the design; those of others are only known from what is built or published."""
+    weak = Design.from_vector([100, 1.0, 0.833, 0.934, 0.2, 70, 5, 40])
+    tipping = Design.from_vector([100, 1.0, 0.833, 0.2, 0.755, 70, 29.5, 40])
+    for design in (weak, tipping):
+        assert [robot_model(name).admits(design) for name in ("capsule", "printed", "published")] == [False, True, True]
+    open_loop = load_design("kenan-2.0").model_copy(update={"c_coef": 0.3, "d_coef": 0.6, "rest_angle_deg": 40.0})
+    for name in ("capsule", "printed", "published"):
+        found = robot_model(name)(open_loop)
+        assert found.verdict == next(one.name for one in found.findings if one.severity == "error")
+        assert not found.metrics
+
+
+def test_only_a_printed_robot_of_which_no_other_learns_is_refused_before_it_is_built():
+    """Stand-ins and what is made otherwise than designed need figures of robots that are built."""
+    weak, printed = Design.from_vector([100, 1.0, 0.833, 0.934, 0.2, 70, 5, 40]), robot_model()
+    first, built = printed(weak), replace(printed, stand_in=True)(weak)
+    assert (first.verdict, built.verdict) == ("too_weak", "too_weak")
+    assert (first.metrics, bool(built.metrics)) == ({}, True)
+    assert printed(weak, {"made.spring_factor": 1.05}).metrics
