@@ -13,7 +13,7 @@ from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.floor import STRIPE_M, with_floor
-from jumpcad.scene.renderer import Renderer
+from jumpcad.scene.renderer import Renderer, png_of
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.transforms import Array, chained, pose_at
@@ -32,8 +32,10 @@ EXPLODED_VIEW = View(yaw_deg=-34.0, pitch_deg=24.0)
 JUMP_VIEW = View(yaw_deg=-80.0, pitch_deg=6.0)
 
 
-def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> dict[str, bytes]:
+def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE, scene: Renderer | None = None) -> dict[str, bytes]:
     """Return the PNG files of a robot at rest, loaded and exploded, by their names in `RENDERS`.
+
+    `scene` has the meshes of its visible parts, if it is there already.
 
     Raises
     ------
@@ -41,7 +43,13 @@ def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> dict[str, byte
         If the robot has no visible parts.
     """
     things = visuals(robot)
-    return _renders(_renderer(things), robot, things, size)
+    scene = scene or _renderer(things)
+    rest, loaded = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
+    scenes = ((rest, View()), (loaded, View()), (exploded(things, rest), EXPLODED_VIEW))
+    return {
+        name: png_of(scene.picture(poses, size, view, corners_of(things, poses)))
+        for name, (poses, view) in zip(RENDERS, scenes, strict=True)
+    }
 
 
 def rest_picture(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> bytes:
@@ -54,7 +62,7 @@ def rest_picture(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> bytes:
     """
     things = visuals(robot)
     poses = _poses(things, body_poses(robot))
-    return _png(_renderer(things).picture(poses, size, View(), corners_of(things, poses)))
+    return png_of(_renderer(things).picture(poses, size, View(), corners_of(things, poses)))
 
 
 def all_pictures(robot: Robot) -> dict[str, bytes]:
@@ -67,7 +75,7 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
     """
     things = visuals(robot)
     scene = _renderer(things)
-    return _renders(scene, robot, things, RENDER_SIZE) | step_pictures(robot, things, scene)
+    return renders(robot, scene=scene) | step_pictures(robot, things, scene)
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
@@ -104,15 +112,6 @@ def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
     return moved
 
 
-def _renders(scene: Renderer, robot: Robot, things: Sequence[Visual], size: tuple[int, int]) -> dict[str, bytes]:
-    rest, loaded = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
-    scenes = ((rest, View()), (loaded, View()), (exploded(things, rest), EXPLODED_VIEW))
-    return {
-        name: _png(scene.picture(poses, size, view, corners_of(things, poses)))
-        for name, (poses, view) in zip(RENDERS, scenes, strict=True)
-    }
-
-
 def _renderer(things: Sequence[Visual]) -> Renderer:
     return Renderer([(thing.mesh, thing.colour) for thing in things])
 
@@ -129,12 +128,6 @@ def corners_of(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
             for thing, pose in zip(things, poses, strict=True)
         ]
     )
-
-
-def _png(picture: Image.Image) -> bytes:
-    stream = io.BytesIO()
-    picture.save(stream, "PNG")
-    return stream.getvalue()
 
 
 def gif(pictures: list[Image.Image], frame_ms: int = FRAME_MS) -> bytes:

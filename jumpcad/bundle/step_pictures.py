@@ -1,7 +1,5 @@
 """The pictures of assembly: one for each step with names and arrows, and details of some steps."""
 
-import io
-
 import numpy as np
 from PIL import Image
 
@@ -9,7 +7,7 @@ from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.camera import aimed
 from jumpcad.scene.labels import labelled
-from jumpcad.scene.renderer import Renderer
+from jumpcad.scene.renderer import Renderer, png_of
 from jumpcad.scene.step_views import StepView, step_views
 from jumpcad.scene.visuals import Visual
 from jumpcad.transforms import Array
@@ -60,9 +58,7 @@ def _picture(view: StepView, number: dict[str, int], scene: Renderer, size: tupl
     names = [label.text for label in view.labels]
     turns = [np.round(camera.seen(curve, size)[0], 2) for curve in view.turns_m]
     sheet = labelled(picture, names, seen[:, 0], seen[:, 1], MARGIN, turns)
-    stream = io.BytesIO()
-    paletted(sheet).save(stream, "PNG", compress_level=COMPRESSION)
-    return stream.getvalue()
+    return png_of(paletted(sheet), compress_level=COMPRESSION)
 
 
 def paletted(picture: Image.Image) -> Image.Image:

@@ -18,10 +18,8 @@ from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
-    from jumpcad.mechanism.model import Mechanism
     from jumpcad.robot import Robot
     from jumpcad.simulation import Jump, Settings
-    from jumpcad.simulation.chain import Chain
 
 TRAJECTORY_SUFFIXES = (".csv", ".json")
 DEFAULT_SETTINGS = "default"
@@ -69,6 +67,7 @@ def simulate(
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.mechanism.capsule import capsule_robot
+    from jumpcad.simulation import simulate as simulate_jump
     from jumpcad.simulation.chain import Chain
 
     if capsule and published:
@@ -130,7 +129,7 @@ def simulate(
         else:
             report_landing(robot, heading, asked, tries, seed, as_json)
         return
-    jumps = _jumps(robot, asked, engines)
+    jumps = [simulate_jump(robot, asked, engine) for engine in engines]
     if trajectory:
         _write_trajectory(trajectory, jumps[0])
     spread = _uncertain(printed_robot(design, workshop), settings, engines[0], seed) if uncertain else None
@@ -182,12 +181,6 @@ def _uncertain(robot: "Robot", settings: str, engine: str, seed: int) -> dict[st
 
     with status("simulating samples of the uncertain inputs …"):
         return uncertain_jump(robot, _settings(settings, False, False), engine, seed).to_dict()
-
-
-def _jumps(robot: "Mechanism | Chain", settings: "Settings", engines: list[str]) -> "list[Jump]":
-    from jumpcad.simulation import simulate as simulate_jump
-
-    return [simulate_jump(robot, settings, engine) for engine in engines]
 
 
 def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread: dict[str, Any] | None) -> None:

@@ -50,14 +50,18 @@ def joint_pieces(workshop: Workshop, holes: HoleSizes) -> list[Piece]:
     """Return the pieces of a workshop's joints, each in the material of the robot's parts with this joint."""
     links, body, gears = (workshop.material_name(role) for role in ("links", "body", "gears"))
     motor, fits = _motor(workshop), workshop.fits
-    sliding = steps_mm(fits.sliding_mm)
+    sliding, ribs, taps = steps_mm(fits.sliding_mm), rib_steps_mm(fits), steps_mm(fits.m2_tap_mm, TAP_STEP_MM)
+    labels = [engraved(step) for step in sliding]
+    bores = [ribbed_d_bore(motor.shaft_mm, motor.shaft_flat_mm, holes, rib_mm=step) for step in ribs]
+    sockets = [rectangle((motor.width_mm + 2.0 * step, motor.height_mm + 2.0 * step)) for step in sliding]
+    slots = [rectangle((TAB_MM + 2.0 * step, TRAY_MM + 2.0 * step)) for step in sliding]
     made = [
-        Piece("taps", body, holes.chamfered(_taps(fits.m2_tap_mm))),
-        Piece("shaft_bores", gears, holes.chamfered(_shaft_bores(motor, holes))),
+        Piece("taps", body, holes.chamfered(_row(list(map(hole, taps)), [f"{size:.1f}" for size in taps], TAP_MM))),
+        Piece("shaft_bores", gears, holes.chamfered(_row(bores, [engraved(step) for step in ribs], FACE_MM))),
         Piece("dog_jaws", gears, holes.chamfered(_jaws(holes))),
         *(Piece(f"dog_pockets_{_number(step)}", gears, holes.chamfered(_pockets(holes, step))) for step in sliding),
-        Piece("motor_sockets", body, holes.chamfered(_sockets(motor, sliding))),
-        Piece("tray_slots", body, holes.chamfered(_slots(sliding))),
+        Piece("motor_sockets", body, holes.chamfered(_row(sockets, labels, SOCKET_MM))),
+        Piece("tray_slots", body, holes.chamfered(_row(slots, labels, GAUGE_MM))),
         Piece("tray_tab", body, Stack.of([(0.0, TRAY_MM, rectangle((TAB_MM, 3.0 * TAB_MM)))])),
         Piece("lying_holes", links, _lying(holes, steps_mm(fits.lying_mm))),
         Piece("axle_floor", body, holes.chamfered(_floor(holes))),
@@ -108,27 +112,6 @@ def _row(cuts: Sequence[Region], labels: Sequence[str], height_mm: float) -> Sta
         moved.append(cut.translate((number * across - middle[0], -middle[1])))
         letters.append(centred(label, LETTERS_MM).translate((number * across, front + MARGIN_MM)))
     return Stack.of([(0.0, height_mm, plate - union(moved))]).minus([engraving(height_mm, union(letters))])
-
-
-def _taps(tap_mm: float) -> Stack:
-    sizes = steps_mm(tap_mm, TAP_STEP_MM)
-    return _row([hole(size) for size in sizes], [f"{size:.1f}" for size in sizes], TAP_MM)
-
-
-def _shaft_bores(motor: Motor, holes: HoleSizes) -> Stack:
-    steps = rib_steps_mm(holes.fits)
-    bores = [ribbed_d_bore(motor.shaft_mm, motor.shaft_flat_mm, holes, rib_mm=step) for step in steps]
-    return _row(bores, [engraved(step) for step in steps], FACE_MM)
-
-
-def _sockets(motor: Motor, steps: Sequence[float]) -> Stack:
-    cuts = [rectangle((motor.width_mm + 2.0 * step, motor.height_mm + 2.0 * step)) for step in steps]
-    return _row(cuts, [engraved(step) for step in steps], SOCKET_MM)
-
-
-def _slots(steps: Sequence[float]) -> Stack:
-    cuts = [rectangle((TAB_MM + 2.0 * step, TRAY_MM + 2.0 * step)) for step in steps]
-    return _row(cuts, [engraved(step) for step in steps], GAUGE_MM)
 
 
 def _seats(bearing: Bearing, holes: HoleSizes) -> Stack:

@@ -26,7 +26,7 @@ from jumpcad.printing.plates import Printable, PrintPlate, packed
 from jumpcad.printing.project import project_settings
 from jumpcad.robot import Robot, carried
 from jumpcad.scene.camera import View
-from jumpcad.scene.renderer import Renderer
+from jumpcad.scene.renderer import Renderer, png_of
 from jumpcad.scene.visuals import PRINTED_COLOURS, Colour
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
@@ -141,6 +141,4 @@ def thumbnail(plate: PrintPlate, bed_mm: Sequence[float]) -> bytes:
     bed.apply_translation((width / 2.0, depth / 2.0, -BED_MM / 2.0))
     things = [(bed, BED), *((placed.part.look, PRINTED_COLOURS["links"]) for placed in plate.items)]
     poses = [np.eye(4), *(in_metres(placed.T_bed_part) for placed in plate.items)]
-    stream = io.BytesIO()
-    Renderer(things).picture(poses, PICTURE, VIEW, bed.vertices / 1000.0).save(stream, "PNG")
-    return stream.getvalue()
+    return png_of(Renderer(things).picture(poses, PICTURE, VIEW, bed.vertices / 1000.0))

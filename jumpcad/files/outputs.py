@@ -19,6 +19,8 @@ from pathlib import Path
 from jumpcad.errors import JumpcadError
 
 SEAL = "Written by jumpcad; SHA-256 of the lines above: "
+FILES = ".toml", ".urdf"
+"""Ends of inputs that are files: no templates' names, and no bundles, which their manifests protect."""
 PNG_END = 12
 """Bytes of the chunk that ends a PNG file."""
 
@@ -107,7 +109,8 @@ def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str |
         If two are the same, or one is below another; it names both options.
     """
     there = {name: path for name, path in outputs.items() if path is not None}
-    read = {name: Path(path) for name, path in inputs.items() if path is not None and _is_file(path)}
+    files = {name: path for name, path in inputs.items() if path is not None and not os.path.isdir(path)}
+    read = {name: Path(path) for name, path in files.items() if isinstance(path, Path) or path.endswith(FILES)}
     for number, (name, path) in enumerate(there.items()):
         for other, second in [*list(there.items())[:number], *read.items()]:
             if same_file(path, second):
@@ -221,11 +224,6 @@ def same_file(one: Path, other: Path) -> bool:
         return os.path.samefile(one, other)
     except OSError:
         return False
-
-
-def _is_file(named: str | Path) -> bool:
-    """Tell whether an input is a file: not a template's name, and not a bundle, which its manifest protects."""
-    return not os.path.isdir(named) and (isinstance(named, Path) or named.endswith((".toml", ".urdf")))
 
 
 def _lies_below(path: Path, file: Path) -> bool:

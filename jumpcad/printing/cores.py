@@ -39,7 +39,8 @@ def cores(sections: CrossSections, numbers: Sequence[int], shell_mm: float, spac
         if around not in inside:
             inside[around] = _set_back(sections.outlines[around], shell_mm)
         if number != around:
-            inside[number] = inside[around] ^ _apart_from(pocket, sections.outlines[around], shell_mm)
+            outline = sections.outlines[around]  # less what is nearer to the pocket than the perimeters are thick
+            inside[number] = inside[around] ^ _set_back(box_around(outline, 2.0 * shell_mm) - pocket, shell_mm)
     borders = borders_mm([inside[number] for number in numbers]).tolist()
     found = {}
     for number, border in zip(numbers, borders, strict=True):
@@ -73,8 +74,3 @@ def _parted(sections: CrossSections, number: int) -> tuple[int, Region]:
 def _set_back(outline: Region, distance_mm: float) -> Region:
     """Return what is at least a distance inside an outline."""
     return outline.simplify(OUTLINE_TOLERANCE_MM).offset(-distance_mm, JoinType.Miter)
-
-
-def _apart_from(pocket: Region, outline: Region, distance_mm: float) -> Region:
-    """Return a region that contains an outline, less what is nearer to a pocket than a distance."""
-    return _set_back(box_around(outline, 2.0 * distance_mm) - pocket, distance_mm)

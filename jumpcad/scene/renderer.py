@@ -5,6 +5,7 @@ meshes.
 """
 
 import functools
+import io
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -57,7 +58,10 @@ class Renderer:
     """Draws meshes (mm), each of one colour, in any poses and views."""
 
     def __init__(self, things: Sequence[tuple["trimesh.Trimesh", Colour]]) -> None:
-        self._things = [_shaded(mesh, colour) for mesh, colour in things]
+        self._things = []
+        for mesh, colour in things:
+            vertices, normals, faces = with_normals(mesh)
+            self._things.append(ShadedMesh(vertices * MM, normals, faces, creases(mesh) * MM, colour))
 
     def picture(
         self,
@@ -106,6 +110,13 @@ class Renderer:
         return Image.fromarray(image).reduce(SUPERSAMPLING)
 
 
+def png_of(picture: Image.Image, **options: int) -> bytes:
+    """Return a picture as a PNG file."""
+    stream = io.BytesIO()
+    picture.save(stream, "PNG", **options)
+    return stream.getvalue()
+
+
 def creases(mesh: "trimesh.Trimesh") -> Array:
     """Return the ends (n, 2, 3) of the edges whose faces meet at more than the crease angle (mm)."""
     sharp = mesh.face_adjacency_angles > CREASE_RAD
@@ -118,11 +129,6 @@ def borders(owner: npt.NDArray[np.integer[Any]]) -> Mask:
     mask[:, 1:] |= owner[:, 1:] != owner[:, :-1]
     mask[1:, :] |= owner[1:, :] != owner[:-1, :]
     return mask
-
-
-def _shaded(mesh: "trimesh.Trimesh", colour: Colour) -> ShadedMesh:
-    vertices, normals, faces = with_normals(mesh)
-    return ShadedMesh(vertices * MM, normals, faces, creases(mesh) * MM, colour)
 
 
 def _placed(points_m: Array, pose: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order.plan import LEFT, LOWER, UPPER
-from jumpcad.scene.assembly_steps import MovedParts, Step, assembly_steps, travel
+from jumpcad.scene.assembly_steps import Step, assembly_steps, travel
 from jumpcad.scene.camera import View
 from jumpcad.scene.step_insets import BEHIND, INSETS, Inset
 from jumpcad.scene.visuals import Visual
@@ -209,7 +209,8 @@ def _apart(robot: Robot, step: Step, poses: dict[str, Array], before: list[Visua
     moved: dict[str, Array] = {}
     stacked: list[tuple[Array, Array, float]] = []
     for placed in step.placed:
-        way = _way(robot, placed, poses)
+        first = placed.things[0]
+        way = travel(robot, first, placed.move, poses[first.body])
         if placed.move.way == "laid":
             continue
         corners = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in placed.things])
@@ -240,11 +241,6 @@ def _beside(one: Array, other: Array, way: Array) -> bool:
         if a.min() >= b.max() or b.min() >= a.max():
             return False
     return True
-
-
-def _way(robot: Robot, placed: MovedParts, poses: dict[str, Array]) -> Array:
-    first = placed.things[0]
-    return travel(robot, first, placed.move, poses[first.body])
 
 
 def _shifted(pose: Array, by_m: Array | None) -> Array:

@@ -4,16 +4,12 @@ import io
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 from manifold3d import Manifold
 
 from jumpcad.errors import CannotBuildError
 
 if TYPE_CHECKING:
     import trimesh
-
-Floats = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.int64]
 
 TOLERANCE_MM = 1e-3
 
@@ -23,18 +19,13 @@ def finished(solid: Manifold) -> Manifold:
     return solid.set_tolerance(TOLERANCE_MM).as_original().simplify(TOLERANCE_MM)
 
 
-def vertices_and_faces(solid: Manifold) -> tuple[Floats, Ints]:
-    """Return vertices (n, 3) in mm, at full precision, and triangles (m, 3) of a solid."""
-    mesh = solid.to_mesh64()
-    return np.array(mesh.vert_properties[:, :3]), np.asarray(mesh.tri_verts).astype(np.int64)
-
-
 def to_trimesh(solid: Manifold) -> "trimesh.Trimesh":
-    """Return a solid as a mesh (mm) with the same vertices."""
+    """Return a solid as a mesh (mm) with the same vertices, at full precision."""
     import trimesh  # takes 0.3 s, and masses need no mesh
 
-    vertices, faces = vertices_and_faces(solid)
-    return trimesh.Trimesh(vertices, faces, process=False)
+    mesh = solid.to_mesh64()
+    faces = np.asarray(mesh.tri_verts).astype(np.int64)
+    return trimesh.Trimesh(np.array(mesh.vert_properties[:, :3]), faces, process=False)
 
 
 def faults(stl: bytes) -> list[str]:
