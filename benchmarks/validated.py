@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from jumpcad.validation.facts import TIERS
+from jumpcad.simulation.published_robots import TIERS
 from jumpcad.validation.table import validate
 
 SEED = 0

@@ -193,12 +193,13 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread:
             print_json({**heading, "engines": engines, "range_difference_percent": _difference_percent(jumps)})
         return
     from jumpcad.simulation.jump import ACCOUNT
+    from jumpcad.simulation.published_robots import efficiency_band
     from jumpcad.simulation.uncertain import FIGURES
 
     difference = _difference_percent(jumps)
     print_text(
         "simulate", **heading, jumps=jumps, account=ACCOUNT, spread=spread, figures=FIGURES,
-        difference=difference, counted=counted,
+        difference=difference, counted=counted, band=efficiency_band(),
     )  # fmt: skip
 
 

@@ -21,7 +21,7 @@ def validate(
     Tiers are never mixed: what a mechanism does, flights, whole robots, bounds.
     A figure that is only remembered decides nothing.
     """
-    from jumpcad.validation.facts import TIERS
+    from jumpcad.simulation.published_robots import TIERS
     from jumpcad.validation.table import validate as compare
 
     entered = dict(_entered(one) for one in figure or ())

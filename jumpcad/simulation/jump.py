@@ -146,6 +146,11 @@ class Jump:
         """The energy that was loaded: useful, internal, springs, release, pins, slip, contact; see `EnergyBudget`."""
         return None if self.energy is None else self.energy.account_j
 
+    @property
+    def kinetic_ratio(self) -> float | None:
+        """Kinetic energy of the centre of mass at take-off over the springs' energy; None without a jump."""
+        return None if self.energy is None else (self.energy.forward_j + self.energy.upward_j) / self.spring_energy_j
+
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON, without the trajectory."""
         data = {name: value for name, value in vars(self).items() if name not in ("trajectory", "findings")}

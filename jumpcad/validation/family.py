@@ -45,9 +45,7 @@ class Member:
     def efficiency(self) -> float:
         """Kinetic energy of the centre of mass at take-off over what the springs hold by rate and angle."""
         assert self.jump is not None
-        assert self.jump.energy is not None
-        energy = self.jump.energy
-        return float(self.values[-1]) * (energy.forward_j + energy.upward_j) / self.jump.spring_energy_j
+        return float(self.values[-1]) * (self.jump.kinetic_ratio or 0.0)
 
 
 def family(

@@ -12,8 +12,8 @@ from jumpcad.calibration.likelihood import CalibrationModel, predict
 from jumpcad.calibration.subject import load_subject
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_per_m
+from jumpcad.simulation.published_robots import Figure, RobotFacts, load_facts
 from jumpcad.transforms import Array
-from jumpcad.validation.facts import Figure, RobotFacts, load_facts
 from jumpcad.validation.family import family, jump_of
 
 QUANTILES = (0.05, 0.5, 0.95)

@@ -141,3 +141,11 @@ def test_robots_with_bodies_of_their_own(command: Run) -> None:
         for options in (["--uncertain"], ["--landing"], ["--workshop", "fine"]):
             assert command(path, *options)[::2][0] == 2, (name, options)
     assert command(path, "--engine", "planar")[0] == command(path, "--capsule")[0] == 2
+
+
+def test_the_share_of_the_springs_energy_in_the_flight_stands_beside_that_of_other_robots(command: Run) -> None:
+    jump = simulate(capsule_robot(load_design("kenan-2.0")))
+    share = 0.5 * jump.mass_kg * jump.takeoff_speed_m_s**2 / jump.spring_energy_j
+    assert jump.kinetic_ratio == pytest.approx(share)
+    (line,) = [line for line in command("kenan-2.0", "--capsule")[1].splitlines() if "other robots" in line]
+    assert f"{share:.2f}; other robots: CLOVER 0.63, EPFL 7 g jumper 0.81 (?), SNU flea catapult, 30 mm 0.82" in line

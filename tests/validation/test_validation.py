@@ -12,8 +12,8 @@ from support.calibrations import with_coarse_calibration
 
 from jumpcad.cli.commands import run
 from jumpcad.errors import JumpcadError
+from jumpcad.simulation.published_robots import TIERS, load_facts
 from jumpcad.validation import table
-from jumpcad.validation.facts import TIERS, load_facts
 from jumpcad.validation.family import family
 from jumpcad.validation.table import thrown, validate
 

@@ -100,3 +100,10 @@ def load_facts(entered: Mapping[str, float] | None = None) -> Facts:
         if entered:
             raise JumpcadError(str(error).partition(": ")[2]) from None
         raise
+
+
+def efficiency_band() -> list[tuple[str, float, bool]]:
+    """Return what robots that others measured reached of `Jump.kinetic_ratio`: name, value, whether it is sure."""
+    robots = [robot for robot in load_facts().robots.values() if "efficiency" in robot.figures]
+    band = [(one.name, one.value("efficiency"), one.sure("efficiency")) for one in robots]
+    return sorted(band, key=lambda one: one[1])
