@@ -9,9 +9,7 @@ from support import needs
 from support.commands import Run
 from support.places import ROOT
 
-from jumpcad.cli import simulate as module
 from jumpcad.design import Design, load_design
-from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Jump, Settings, simulate
 
@@ -109,19 +107,9 @@ def test_the_other_engine_steps_in_with_one_line(command: Run, monkeypatch: pyte
     assert err == "jumpcad: pybullet is not installed; simulated with mujoco\n"
 
 
-def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(
-    command: Run, bundle: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(command: Run, bundle: Path) -> None:
     """Tolerances are those of its workshop, of which the URDF says nothing."""
-
-    def begun(*_: object) -> None:
-        raise JumpcadError("begun")
-
-    monkeypatch.setattr(module, "_jumps", begun)
-    monkeypatch.setattr(module, "printed_robot", lambda *_: None)
     urdf = bundle / "urdf" / "kenan-2.0.urdf"
-    assert command(bundle, "--uncertain")[2] == "jumpcad: begun\n"
-    assert command(bundle / "design.toml", "--uncertain")[2] == "jumpcad: begun\n"
     refused = f"jumpcad: {urdf}: --uncertain is for printed robots: give the design, or its bundle\n"
     assert command(urdf, "--uncertain") == (2, "", refused)
 
