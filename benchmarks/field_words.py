@@ -113,6 +113,7 @@ WORDS = {
     "tightest": "name of the limit that is used most",
     "differs": "values of each robot that are not the same, by name",
     "page": "the page that was written",
+    "variants": "names of the robots",
     "limits": "limits that count; those used by less than a tenth do not",
     "grown": "sections that grew by themselves: what, by which factor, for which limit, its use before",
     "verdict": "`jump`, or why there is none",

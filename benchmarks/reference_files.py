@@ -47,6 +47,7 @@ def files_and_json() -> str:
             "jumpcad reproduce --json": _json("reproduce"),
             f"jumpcad check {EXAMPLE} --json": _json("check", EXAMPLE),
             "jumpcad compare A B --json": _json("compare", EXAMPLE, "kenan-1.0", "-o", f"{folder}/c.html"),
+            "jumpcad variants DESIGN --json": _json("variants", EXAMPLE, "--count", "1", "-o", f"{folder}/variants"),
             "jumpcad verify BUNDLE --json": _json("verify", f"{folder}/bundle"),
             "jumpcad slice BUNDLE --json": _slice_document(Path(folder) / "bundle"),
             "jumpcad coupon --json": _json("coupon", "-o", f"{folder}/coupon"),

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from jumpcad.settings import load_settings as load_settings
     from jumpcad.simulation import Jump as Jump
     from jumpcad.simulation.robot_file import load_robot as load_robot
+    from jumpcad.variation import variants as variants
     from jumpcad.workshop import Workshop as Workshop
     from jumpcad.workshop import load_workshop as load_workshop
 

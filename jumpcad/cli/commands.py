@@ -28,6 +28,7 @@ from jumpcad.cli import (
     studio,
     study,
     validate,
+    variants,
 )
 from jumpcad.cli.output import OutputClosed, complain, print_json, standard_output
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -56,6 +57,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "slice": slicing.slice_command,
     "coupon": coupon.coupon,
     "simulate": simulate.simulate,
+    "variants": variants.variants,
     "calibrate": calibrate.calibrate,
     "validate": validate.validate,
     "reproduce": reproduce.reproduce,

@@ -115,6 +115,7 @@ def test_every_command_and_every_reader_is_at_home_there(
         ("verify", bundle),
         ("check", design, "--workshop", shop),
         ("compare", bundle, design, "-o", place / "vergleich ä.html"),
+        ("variants", design, "--count", "1", "-o", place / "gemachte ä"),
         ("simulate", bundle, "--engine", "both"),
         ("simulate", bundle / "urdf" / "mein Käfer.urdf"),
         ("render", bundle),
