@@ -50,11 +50,12 @@ def propose_robust(
         if list(one.workshop) == [parameter.name for parameter in space.of_workshop]  # not made otherwise than designed
         and all(fix.number(one.variant.value(fix.name)) == fix.lower for fix in fixed)
     ]
+    axes = sum(max(count, 1) for count in space.categories)
     thetas: dict[str, Any] = next(
         (
             trial.proposal["theta"]
             for trial in reversed(trials)
-            if all(len(theta) == space.dimension + 2 for theta in trial.proposal.get("theta", {"": ()}).values())
+            if all(len(theta) == axes + 2 for theta in trial.proposal.get("theta", {"": ()}).values())
         ),
         {},
     )

@@ -3,7 +3,6 @@
 import math
 import warnings
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any, Self
 
 import numpy as np
@@ -21,47 +20,19 @@ ALL_EQUAL = 10.0 * float(np.finfo(float).eps)
 _FIT_STEPS = 30
 
 
-class ProcessAxes:
-    """Axes of the process for axes of the unit cube: an axis of names becomes one per name, with 0 or 1/√2 (one-hot).
+def one_hot(points: Array, categories: Sequence[int]) -> Array:
+    """Return points (m, d) of the cube in the axes of the process (m, k): one for every name, with 0 or 1/√2.
 
-    The distance between two different names is then 1 (Hamming distance), with one length scale for all of them.
-
-    Parameters
-    ----------
-    categories
-        Number of names of each axis of the cube; 0 for an axis of numbers.
+    Two different names are then 1 apart for length scales of 1 (Hamming distance). `categories` has the number of names
+    of each axis of the cube; 0 for an axis of numbers.
     """
-
-    def __init__(self, categories: Sequence[int]) -> None:
-        self._categories = categories
-        self.origin = np.repeat(np.arange(len(categories)), [max(count, 1) for count in categories])
-        """Index of the axis of the cube for each axis of the process (k,)."""
-
-    def expand(self, points: Array) -> Array:
-        """Return points (m, d) of the cube in the axes of the process (m, k)."""
-        if not any(self._categories):
-            return points
-        columns = []
-        for column, count in zip(points.T, self._categories, strict=True):
-            if count:
-                chosen = np.round(column * max(count - 1, 1))
-                columns += [(chosen == number) * np.sqrt(0.5) for number in range(count)]
-            else:
-                columns.append(column)
-        return np.column_stack(columns)
-
-    def unfold(self, theta: Array) -> Array:
-        """Return hyperparameters (d + 2,) with the length scale of an axis of names repeated for each name (k + 2,)."""
-        return np.concatenate([theta[:1], theta[1:-1][self.origin], theta[-1:]])
-
-    def fold(self, slopes: Array) -> Array:
-        """Return derivatives (k + 2,) with respect to the process's hyperparameters for those of the cube (d + 2,)."""
-        return np.concatenate([slopes[:1], np.bincount(self.origin, slopes[1:-1]), slopes[-1:]])
-
-    def folded(self, theta: Array) -> Array:
-        """Return the hyperparameters (d + 2,) that `unfold` repeated."""
-        first = np.searchsorted(self.origin, np.arange(len(self._categories)))
-        return np.concatenate([theta[:1], theta[1:-1][first], theta[-1:]])
+    if not any(categories):
+        return points
+    columns = []
+    for column, count in zip(points.T, categories, strict=True):
+        chosen = np.round(column * max(count - 1, 1))
+        columns += [(chosen == number) * np.sqrt(0.5) for number in range(count)] or [column]
+    return np.column_stack(columns)
 
 
 class Surrogate:
@@ -72,7 +43,7 @@ class Surrogate:
     x, y
         Points (n, d) and values (n,).
     theta
-        Logarithms of the hyperparameters, (d + 2,).
+        Logarithms of the hyperparameters, (k + 2,): variance, a length scale for each axis of `one_hot`, noise.
     fit
         Whether to improve them by maximum likelihood, as without `theta` too.
     categories
@@ -91,16 +62,13 @@ class Surrogate:
         units: tuple[float, float] | None = None,
     ) -> None:
         self.categories = tuple(categories) or (0,) * x.shape[1]
-        self._axes = ProcessAxes(self.categories)
-        seen = self._axes.expand(x)
+        seen = one_hot(x, self.categories)
         spread = float(np.std(y))
         self._centre, self._spread = units or (float(np.mean(y)), spread if spread > ALL_EQUAL else 1.0)
         values = (y - self._centre) / self._spread
-        start = None if theta is None else self._axes.unfold(np.array(theta))
-        logarithms = _likeliest(seen, values, start, self._axes) if fit or start is None else start
+        self.theta = _likeliest(seen, values, theta) if fit or theta is None else list(theta)
         self.x, self.y, self._seen = x, y, seen
-        self.theta: list[float] = self._axes.folded(logarithms).tolist()
-        self._variance, *lengths, noise = np.exp(logarithms).tolist()
+        self._variance, *lengths, noise = np.exp(self.theta).tolist()
         self.scatter = self._spread * math.sqrt(noise)
         """Standard deviation of a value about the function."""
         self._lengths = np.array(lengths)
@@ -121,12 +89,12 @@ class Surrogate:
 
     def slope(self, points: Array) -> Array:
         """Return the gradient (m, d) of the mean at points (m, d); 0 along axes of names."""
-        points = self._axes.expand(points)
+        points = one_hot(points, self.categories)
         distance = self._distance(points)
         weights = (1.0 + distance) * np.exp(-distance) * self._alpha
         pull = weights @ self._seen - weights.sum(axis=1, keepdims=True) * points
         slope = self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
-        first = np.searchsorted(self._axes.origin, np.arange(len(self.categories)))
+        first = np.cumsum([0, *(max(count, 1) for count in self.categories[:-1])])
         along: Array = np.where(self.categories, 0.0, slope[:, first])
         return along
 
@@ -141,7 +109,7 @@ class Surrogate:
 
     def _covariance(self, points: Array) -> Array:
         """Return the covariance (m, n) of points with the data."""
-        covariance: Array = self._variance * _matern(self._distance(self._axes.expand(points)))
+        covariance: Array = self._variance * _matern(self._distance(one_hot(points, self.categories)))
         return covariance
 
     def _distance(self, points: Array) -> Array:
@@ -164,7 +132,7 @@ def _matern(distance: Array) -> Array:
     return correlation
 
 
-def _likeliest(x: Array, y: Array, start: Array | None, axes: ProcessAxes) -> Array:
+def _likeliest(x: Array, y: Array, start: Sequence[float] | None) -> list[float]:
     """Return the logarithms of the hyperparameters (k + 2,) with the largest likelihood near a start.
 
     Few steps are made; the next fit starts where this one ends.
@@ -172,36 +140,25 @@ def _likeliest(x: Array, y: Array, start: Array | None, axes: ProcessAxes) -> Ar
     from sklearn.exceptions import ConvergenceWarning
     from sklearn.gaussian_process import GaussianProcessRegressor
 
-    regressor = GaussianProcessRegressor(
-        _kernel(x.shape[1], start), alpha=JITTER, optimizer=partial(_improve, axes=axes)
-    )
+    regressor = GaussianProcessRegressor(_kernel(x.shape[1], start), alpha=JITTER, optimizer=_improve)
     with warnings.catch_warnings():
         # a length scale at its upper bound: the axis has no effect
         warnings.simplefilter("ignore", ConvergenceWarning)
         regressor.fit(x, y)
-    theta: Array = regressor.kernel_.theta
+    theta: list[float] = regressor.kernel_.theta.tolist()
     return theta
 
 
-def _kernel(dimension: int, theta: Array | None) -> Any:
+def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:
     from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
 
     kernel = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * dimension, (0.05, 10.0), nu=2.5) + WhiteKernel(
         1e-4, (1e-6, 1e-1)
     )
-    return kernel if theta is None else kernel.clone_with_theta(theta)
+    return kernel if theta is None else kernel.clone_with_theta(np.array(theta))
 
 
-def _improve(objective: Callable[..., Any], start: Array, bounds: Array, axes: ProcessAxes) -> tuple[Array, float]:
-    """Maximise the likelihood with few steps; the next fit starts where this one ends."""
-
-    def of_axes(theta: Array) -> tuple[float, Array]:
-        value, slopes = objective(axes.unfold(theta))
-        return value, axes.fold(slopes)
-
-    limits = np.column_stack([axes.folded(side) for side in np.asarray(bounds).T])
-    found = minimize(
-        of_axes, axes.folded(start), method="L-BFGS-B", jac=True, bounds=list(map(tuple, limits)),
-        options={"maxiter": _FIT_STEPS},
-    )  # fmt: skip
-    return axes.unfold(found.x), found.fun
+def _improve(objective: Callable[..., Any], start: Array, bounds: Array) -> tuple[Array, float]:
+    limits = list(map(tuple, bounds))
+    found = minimize(objective, start, method="L-BFGS-B", jac=True, bounds=limits, options={"maxiter": _FIT_STEPS})
+    return found.x, found.fun

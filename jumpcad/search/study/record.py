@@ -35,7 +35,7 @@ def to_row(trial: Trial) -> tuple[Any, ...]:
 
 
 def read_trial(row: Sequence[Any], free: int, keys: Sequence[str]) -> Trial:
-    """Return the trial of a row of a search with so many `free` parameters, and these keys of the workshop.
+    """Return the trial of a row of a search with so many `free` numbers and names, and these keys of the workshop.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def read_trial(row: Sequence[Any], free: int, keys: Sequence[str]) -> Trial:
 
 
 def _require_proposal(trial: Trial, free: int) -> None:
-    """Require that what a method predicted fits a space of so many free parameters."""
+    """Require that what a method predicted fits a space of so many free numbers and names."""
     proposal = trial.proposal
     thetas = proposal.get("theta", {})
     if trial.phase in LEARNING_PHASES and trial.step and not thetas:

@@ -162,7 +162,9 @@ class StudyStore:
     def trials(self) -> list[Trial]:
         """Return all trials in the order of their study."""
         space = self.identity.get("space", {})
-        free, keys = sum("fixed" not in part for part in space.values()), [name for name in space if "." in name]
+        choices = [part.get("choices", ()) for part in space.values() if "fixed" not in part]
+        free = sum(sum(isinstance(one, str) for one in some) or 1 for some in choices)
+        keys = [name for name in space if "." in name]
         with plain_errors(self.path):
             rows = self._connection.execute(f"SELECT {', '.join(COLUMNS)} FROM trials")
             try:

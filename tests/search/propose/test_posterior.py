@@ -227,7 +227,7 @@ def test_a_name_is_no_place_between_others():
         for place, (one, score) in enumerate(zip(variants, scores, strict=True))
     ]
     score = SearchPosterior.from_trials(space, trials, {}, None).score
-    assert len(score.theta) == space.dimension + 2
+    assert len(score.theta) == 3 + 2 + 2  # numbers, names, variance and noise
     slope = score.slope(points)
     assert (slope[:, -1] == 0.0).all()
     assert np.abs(slope[:, 0]).min() > 0.0

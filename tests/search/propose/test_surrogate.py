@@ -5,7 +5,7 @@ import pytest
 from sklearn.gaussian_process import GaussianProcessRegressor
 
 from jumpcad.search.propose import surrogate
-from jumpcad.search.propose.surrogate import JITTER, ProcessAxes, Surrogate, _kernel
+from jumpcad.search.propose.surrogate import JITTER, Surrogate, _kernel, one_hot
 
 
 @pytest.fixture
@@ -57,21 +57,12 @@ def test_the_slope_is_the_difference_of_the_mean(data):
 
 
 def test_an_axis_of_names_becomes_one_for_each_name():
-    """A number, three names, a number: two different names are 1 apart, and have one length scale."""
-    axes = ProcessAxes((0, 3, 0))
-    points = np.array([[0.25, 0.0, 0.75], [0.25, 0.5, 0.75], [0.5, 1.0, 1.0]])
+    """A number, three names, a number: two different names are 1 apart, and the nearest name is meant."""
+    points = np.array([[0.25, 0.0, 0.75], [0.25, 0.5, 0.75], [0.5, 0.9, 1.0]])
     root = np.sqrt(0.5)
-    assert axes.expand(points) == pytest.approx(np.array([
+    assert one_hot(points, (0, 3, 0)) == pytest.approx(np.array([
         [0.25, root, 0.0, 0.0, 0.75], [0.25, 0.0, root, 0.0, 0.75], [0.5, 0.0, 0.0, root, 1.0],
     ]))  # fmt: skip
-    theta = np.array([9.0, 1.0, 2.0, 3.0, 8.0])
-    assert axes.unfold(theta).tolist() == [9.0, 1.0, 2.0, 2.0, 2.0, 3.0, 8.0]
-    assert axes.folded(axes.unfold(theta)).tolist() == theta.tolist()
-    assert axes.fold(np.array([9.0, 1.0, 2.0, 4.0, 8.0, 3.0, 7.0])).tolist() == [9.0, 1.0, 14.0, 3.0, 7.0]
-    rounded = ProcessAxes((4,)).expand(np.array([[0.3333], [0.6667], [0.9999]]))  # a name is the nearest one
-    assert rounded.argmax(axis=1).tolist() == [1, 2, 3]
-    plain = ProcessAxes((0, 0))
-    assert plain.expand(points[:, :2]).tolist() == points[:, :2].tolist()
 
 
 def test_values_scatter_about_the_function_by_the_root_of_their_noise(data):
