@@ -181,9 +181,10 @@ class Objective:
         with suppress(JumpcadError):  # what figures of 1 do besides says nothing of those of a jump
             self.figure(tried)
         for name in tried.lacking:
+            hint = did_you_mean(name, tried) or ": choose another figure or --model"
             raise JumpcadError(
-                f"{what} {self.name} needs {without_controls(name)[:80]}, which this model does not give"
-                f"{did_you_mean(name, tried)}: choose another figure or --model; `jumpcad list figures` names all"
+                f"{what} {self.name} needs {without_controls(name)[:80]}, which this model does not give{hint}; "
+                "`jumpcad list figures` names all"
             )
 
 
