@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NoReturn
 from jumpcad.interrupts import deferring, seen
 
 if TYPE_CHECKING:
-    from types import FrameType, TracebackType
+    from types import FrameType
 
 SIGNALLED = 128
 """Exit code of a command that a signal ended, with the signal's number: 130 for Ctrl-C, 143 for SIGTERM."""
@@ -49,10 +49,8 @@ def main() -> NoReturn:
     seen.clear()
     usual = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL}
     listening = [one for one in usual if signal.getsignal(one) == usual[one]]  # nohup and & have SIGINT ignored
-    hooks = sys.excepthook, sys.unraisablehook
     for one in listening:
         signal.signal(one, _interrupt)
-    sys.excepthook, sys.unraisablehook = _unhandled, _unraisable
     interrupted, code = False, 0
     try:
         from jumpcad.gc_tuning import collect_seldom
@@ -72,7 +70,6 @@ def main() -> NoReturn:
 
         code = complain("interrupted", SIGNALLED + (seen[0] if seen else signal.SIGINT))
     seen.clear()
-    sys.excepthook, sys.unraisablehook = hooks
     sys.exit(code)
 
 
@@ -81,15 +78,3 @@ def _interrupt(number: int, _: "FrameType | None") -> None:
     seen.append(number)
     if not deferring:
         raise KeyboardInterrupt
-
-
-def _unhandled(kind: type[BaseException], error: BaseException, trace: "TracebackType | None") -> None:
-    """Print nothing of an interrupt that compiled code ignored: the command ends at its next step."""
-    if kind is not KeyboardInterrupt:
-        sys.__excepthook__(kind, error, trace)
-
-
-def _unraisable(ignored: "sys.UnraisableHookArgs") -> None:
-    """Print nothing of an interrupt that a finalizer ignored."""
-    if ignored.exc_type is not KeyboardInterrupt:
-        sys.__unraisablehook__(ignored)

@@ -1,7 +1,6 @@
 """Any kind of standard output, any file name, Ctrl-C at any time: one line and one exit code."""
 
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
-from jumpcad.design import Design, load_design
+from jumpcad.design import load_design
 from jumpcad.errors import without_controls
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -78,23 +77,6 @@ def test_a_deleted_folder_is_one_line(tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "jumpcad: the current folder was deleted: change into another one\n"
-
-
-def test_an_interrupt_that_a_library_caught_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It goes on as if nothing had been, and the command ends as if all were done."""
-    caught = []
-
-    def careless(name: str) -> Design:
-        try:
-            signal.raise_signal(signal.SIGINT)
-        except KeyboardInterrupt:
-            caught.append(name)
-        return load_design(name)
-
-    monkeypatch.setattr("jumpcad.design.load_design", careless)
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    code, _, err = run("new", "robot.toml")
-    assert (code, err, len(caught)) == (130, "jumpcad: interrupted\n", 1)
 
 
 def test_an_error_is_one_line_whatever_the_file_is_called(run: Run) -> None:

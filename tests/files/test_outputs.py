@@ -43,14 +43,6 @@ def test_a_new_file_is_as_open_as_the_umask_says(tmp_path: Path, mask: int, mode
     assert (tmp_path / "p.toml").stat().st_mode & 0o777 == mode
 
 
-def test_a_private_file_stays_private(tmp_path: Path) -> None:
-    file = tmp_path / "p.toml"
-    file.write_text("old")
-    file.chmod(0o600)
-    write_atomically(file, "new")
-    assert (file.read_text(), file.stat().st_mode & 0o777) == ("new", 0o600)
-
-
 FULL = """
 import resource, signal, sys
 from pathlib import Path

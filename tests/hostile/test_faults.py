@@ -7,7 +7,6 @@ import os
 import resource
 import shutil
 import struct
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -17,7 +16,6 @@ import pytest
 from support.sandbox import Sandbox
 
 from hostile.conftest import Originals
-from jumpcad import checks
 
 SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0", "--study")
 CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH = 1, 2
@@ -173,25 +171,6 @@ def test_an_interrupt_leaves_nothing_half(
         assert sandbox.call("verify", "robot").code == 0
 
 
-BUGS = {"division": ZeroDivisionError("a bug"), "key": KeyError("a bug"), "type": TypeError("a bug")}
-
-
-@pytest.mark.parametrize("bug", BUGS)
-@pytest.mark.parametrize("command", ["simulate", "build"])
-def test_a_bug_is_3_with_its_traceback(
-    sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, bug: str, command: str
-) -> None:
-    monkeypatch.setattr("jumpcad.design.load_design", raising(BUGS[bug]))
-    done = sandbox.run(command, "kenan-2.0", exits=(3,))
-    assert "Traceback" in done.err
-    assert "a bug" in done.err
-
-
-def test_no_memory_is_said_or_a_bug(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("jumpcad.building.build", raising(MemoryError()))
-    sandbox.run("build", "kenan-2.0", "-o", "there", exits=(2, 3))
-
-
 def test_what_a_killed_build_left_is_no_harm(sandbox: Sandbox) -> None:
     sandbox.write(".robot.abcd1234/new/stl/foot.stl", "half")
     sandbox.write(".r.toml.abcd1234", "half")
@@ -238,34 +217,6 @@ def test_ctrl_c_in_the_first_moments_is_one_line(sandbox: Sandbox, module: str) 
     sandbox.process("simulate", "kenan-2.0", "--capsule", exits=exits, program=program)
 
 
-LAST = {
-    "in a module": "import pressed",
-    "in a module that takes it": "try: import pressed\n    except ImportError: pass",
-    "taken for nothing": "try: os.kill(os.getpid(), signal.SIGINT)\n    except: pass",
-}
-
-
-@pytest.mark.parametrize("case", LAST)
-def test_ctrl_c_just_before_the_end_is_not_lost(sandbox: Sandbox, case: str) -> None:
-    """Bare `except` clauses, and compiled modules while they load, take an interrupt for an error of their own."""
-    press = "os.kill(os.getpid(), signal.SIGINT)"
-    takes = "try:\n    {}\nexcept BaseException:\n    raise ImportError from None\n"
-    pressed = takes.format(press) if "takes" in case else f"{press}\n"
-    sandbox.write("pressed.py", f"import os, signal\n{pressed}")
-    program = (
-        "import os, signal, sys\n"
-        "sys.path.insert(0, '.')\n"
-        "sys.dont_write_bytecode = True\n"
-        "import jumpcad.cli.commands\n"
-        "def run(arguments):\n"
-        f"    {LAST[case]}\n"
-        "    return 0\n"
-        "jumpcad.cli.commands.run = run\n"
-        "jumpcad.cli.main()\n"
-    )
-    assert sandbox.process("simulate", exits=(130,), program=program).err == "jumpcad: interrupted\n"
-
-
 LONGER = ("optimize", "ga", "--model", "capsule", "--evaluations", "120", "--study", "s.db")
 PRESS = "os.kill(os.getpid(), signal.SIGINT)"
 
@@ -286,55 +237,6 @@ def test_a_worker_that_starts_is_not_interrupted(sandbox: Sandbox) -> None:
     assert "repeated" not in done.out
 
 
-IGNORED = {
-    "scipy, which reads its numbers for the first designs": (
-        "def hook(event, arguments):\n"
-        f"    if event == 'open' and '_sobol_direction_numbers' in str(arguments[0]): {PRESS}\n"
-        "sys.addaudithook(hook)\n"
-    ),
-    "a finalizer": (
-        "class Last:\n"
-        f"    def __del__(self): {PRESS}\n"
-        "import jumpcad.search.study.evaluator as module\n"
-        "def ignored(*_): Last()\n"
-        "module.Evaluator._require_a_working_model = ignored\n"
-    ),
-}
-
-
-@pytest.mark.parametrize("case", IGNORED)
-def test_a_search_ends_at_an_interrupt_that_was_ignored(sandbox: Sandbox, case: str) -> None:
-    """It would go on, with numbers that were not read, and write a winner."""
-    program = f"import os, signal, sys\n{IGNORED[case]}from jumpcad.cli import main\nmain()\n"
-    done = sandbox.process(
-        *LONGER, "--workers", "0", exits=(130,), leaves=["s.db", "s.db-wal", "s.db-shm"], program=program
-    )
-    assert done.err == "jumpcad: interrupted\n"
-
-
-@pytest.mark.parametrize("command", [("list",), ("verify", "nowhere")])
-def test_a_full_standard_error_is_borne(sandbox: Sandbox, command: tuple[str, ...]) -> None:
-    with open("/dev/full", "wb") as full:
-        done = subprocess.run(
-            [sys.executable, "-m", "jumpcad", *command], stdout=subprocess.PIPE, stderr=full, timeout=60,
-            env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}, check=False,
-        )  # fmt: skip
-    sandbox.tries += 1
-    assert done.returncode == (2 if "nowhere" in command else 0)
-
-
-@pytest.mark.parametrize("descriptors", [(1,), (0, 1, 2)], ids=str)
-def test_closed_streams_are_borne(sandbox: Sandbox, descriptors: tuple[int, ...]) -> None:
-    """And the numbers of those that are closed do not become those of a user's files."""
-
-    def close() -> None:
-        for descriptor in descriptors:
-            os.close(descriptor)
-
-    sandbox.process("new", "r.toml", exits=(0,), writes=["r.toml"], prepare=close)
-    assert "carrying_link_mm" in (sandbox.work / "r.toml").read_text()
-
-
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252"])
 @pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("check", "机器人.toml"), ("reproduce",)])
 def test_a_terminal_of_another_encoding_is_borne(sandbox: Sandbox, command: tuple[str, ...], encoding: str) -> None:
@@ -345,37 +247,3 @@ def test_a_locale_of_ascii_is_borne(sandbox: Sandbox) -> None:
     surroundings = {"PYTHONIOENCODING": "ascii", "LC_ALL": "C", "PYTHONUTF8": "0"}
     sandbox.process("reproduce", exits=(0,), environment=surroundings)
     sandbox.process("verify", "机器人", exits=(2,), environment=surroundings)
-
-
-@pytest.mark.parametrize("command", [("new", "r.toml"), ("coupon",)])
-def test_a_deleted_folder_is_said(sandbox: Sandbox, command: tuple[str, ...]) -> None:
-    gone = sandbox.work / "gone"
-    gone.mkdir()
-
-    def leave() -> None:
-        os.chdir(gone)
-        os.rmdir(gone)
-
-    sandbox.process(*command, exits=(2,), prepare=leave, leaves=["gone"])
-
-
-SURROUNDINGS = {
-    "no home": {"HOME": ""},
-    "a home that is none": {"HOME": "/no/such/folder"},
-    "no temporary folder": {"TMPDIR": "/no/such/folder"},
-    "a terminal of no columns": {"COLUMNS": "0", "TERM": "dumb"},
-    "a terminal of words": {"COLUMNS": "wide", "LINES": "high", "TERM": "\x1b"},
-    "no locale": {"LC_ALL": "klingon", "LANG": "x"},
-}
-
-
-@pytest.mark.parametrize("case", SURROUNDINGS)
-def test_odd_surroundings_are_borne(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, case: str) -> None:
-    for name, value in SURROUNDINGS[case].items():
-        monkeypatch.setenv(name, value)
-    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
-    sandbox.run("new", "r.toml", exits=(0,), writes=["r.toml"])
-    sandbox.run("simulate", "robot", exits=(0,))
-    if "terminal" in case:
-        sandbox.run("check", "kenan-2.0", exits=(0,))
-    sandbox.run("study", "study.db", exits=(0,))
