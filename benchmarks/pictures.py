@@ -13,21 +13,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from jumpcad.building import build
-from jumpcad.bundle.renders import corners_of, gif
+from jumpcad.bundle.motion_gif import motion_gif
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.design import load_design
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
-from jumpcad.scene.camera import View, aimed
-from jumpcad.scene.floor import STRIPE_M, with_floor
-from jumpcad.scene.renderer import Renderer
-from jumpcad.scene.visuals import visuals
+from jumpcad.scene.camera import View
 from jumpcad.simulation import Settings, simulate
-from jumpcad.transforms import Array, pose_at
+from jumpcad.transforms import Array
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 ROBOT = "kenan-2.0"
@@ -37,7 +33,6 @@ FRAME_S = 0.1
 PX_PER_MM, EDGE_PX = 1.6, 46.0
 COLOURS = {BODY: "#4a4f57", MAIN_LEG: "#1f6fb2", FRONT_LINK: "#c8641a", FOOT: "#2f8f4e"}
 INK, GHOST, CAM = "#22262b", "#9aa1aa", "#d9a441"
-TITLES = {"winding": "winding", "drop": "release", "push-off": "push-off", "flight": "flight"}
 WORDS = {
     "winding": "Winding: the cam lifts the roller and winds the springs",
     "drop": "Release: the roller drops off the cam",
@@ -51,46 +46,6 @@ def shown() -> tuple[Robot, dict[str, Any]]:
     robot = build(load_design(ROBOT), name=ROBOT)
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), "planar")
     return robot, viewer_data(robot, jump)
-
-
-def jump_gif(robot: Robot, data: dict[str, Any]) -> bytes:
-    """Return the animated picture of the printed robot; cam and gears turn."""
-    things = visuals(robot)
-    turning = {one["node"]: one for one in data["turning"]}
-    times = np.array(data["show_s"])
-    moments = np.searchsorted(times, np.arange(0.0, times[-1], FRAME_S), side="right") - 1
-    poses = []
-    for moment in moments:
-        bodies = {name: _pose(frames[moment]) for name, frames in data["frames"].items()}
-        poses.append(
-            [
-                bodies[thing.body] @ _turned(turning.get(thing.name), data, moment) @ thing.T_body_mesh
-                for thing in things
-            ]
-        )
-    corners = np.concatenate([corners_of(things, one) for one in poses])
-    camera = aimed(corners, VIEW, SIZE[0] / SIZE[1])
-    scene = Renderer([(thing.mesh, thing.colour) for thing in things])
-    pictures = []
-    for moment, one in zip(moments, poses, strict=True):
-        phase = data["phase"][moment]
-        caption = f"{TITLES[phase]}{data['phases'][phase]}; stripes of {1000.0 * STRIPE_M:.0f} mm"
-        pictures.append(with_floor(scene.picture(one, SIZE, VIEW, corners), camera, corners, caption))
-    return gif(pictures, round(1000.0 * FRAME_S))
-
-
-def _pose(seven: Sequence[float]) -> Array:
-    return pose_at(Rotation.from_quat(seven[3:]).as_matrix(), np.array(seven[:3]))
-
-
-def _turned(axis: dict[str, Any] | None, data: dict[str, Any], moment: int) -> Array:
-    """Return the turn (4, 4) of what the motor moves, about its axis across the body."""
-    if axis is None:
-        return np.eye(4)
-    angle = axis["per_cam"] * data["cam_rad" if axis["node"] == "cam" else "gear_rad"][moment]
-    turn = Rotation.from_euler("y", angle).as_matrix()
-    centre = np.array([axis["axis_m"][0], 0.0, axis["axis_m"][1]])
-    return pose_at(turn, centre - turn @ centre)
 
 
 def mechanism_svg(robot: Robot, data: dict[str, Any]) -> str:
@@ -247,7 +202,7 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     robot, data = shown()
     (folder / "mechanism.svg").write_text(mechanism_svg(robot, data), encoding="utf-8")
-    (folder / "jump.gif").write_bytes(jump_gif(robot, data))
+    (folder / "jump.gif").write_bytes(motion_gif(robot, data))
 
 
 if __name__ == "__main__":

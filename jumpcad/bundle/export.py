@@ -28,6 +28,7 @@ from jumpcad.exporters.animation import animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
+from jumpcad.landing.series import Series
 from jumpcad.robot import Robot, require_name
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.simulation import Settings, simulate
@@ -90,16 +91,18 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
     yield "report.html", _page(robot, seen, glb, paths)
 
 
-def report_page(robot: Robot, files: Iterable[str] = ()) -> str:
-    """Return report.html alone, with links to `files` relative to it."""
-    return _page(robot, renders(robot), write_glb(robot), files)
+def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:
+    """Return report.html alone, with links to `files` relative to it; it shows recorded jumps in a row if given."""
+    return _page(robot, renders(robot), write_glb(robot), files, series)
 
 
-def _page(robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str]) -> str:
+def _page(
+    robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str], series: Series | None = None
+) -> str:
     jump = simulate(robot, Settings(flight="simulated", trajectory=glb is not None), default_engine())
     pictures = {name: seen[name] for name in RENDERS if name in seen}
     sure = uncertainty_of(robot) if glb is not None and jump.verdict == "jump" else None
-    return write_report(robot, pictures, jump, glb, tuple(files), sure)
+    return write_report(robot, pictures, jump, glb, tuple(files), sure, series)
 
 
 def _files_before_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, seen: dict[str, bytes]) -> Files:

@@ -4,7 +4,8 @@ Phases: the cam winds the springs, the roller drops, the legs extend, the robot 
 stands with its foot flat; from then on its poses are those of a simulated jump.
 """
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,7 +15,8 @@ from scipy.spatial.transform import Rotation
 from jumpcad.drive.motor import lift_s
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.animation import BodyMotion
-from jumpcad.mechanism.model import BODY_NAMES
+from jumpcad.landing.series import Series
+from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
@@ -25,6 +27,10 @@ WINDING_MOMENTS, DROP_MOMENTS = 49, 7
 """Number of poses of these phases."""
 SHOWN_S = {"winding": 3.0, "drop": 0.6, "push-off": 1.6, "flight": 2.4}
 """Duration of each phase in the viewer; judgement: long enough to be seen."""
+LANDING_S = 2.0
+"""The same of a landing, up to the next winding."""
+SERIES_EVERY = {"winding": 8, "flight": 2}
+"""Of jumps in a row, every so many recorded moments of a phase are kept."""
 FLIGHT_EVERY = 4
 """Every fourth recorded moment of the flight is kept: it is smooth."""
 ENGINE = "planar"
@@ -57,8 +63,12 @@ def motion(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None)
         (n,) are angles from rest, `com_m` (n, 2) is the centre of mass in x and z, `frames` has position and quaternion
         xyzw (n, 7) by body.
     """
-    moments = list(_moments(robot, trajectory, takeoff_s))
-    real, shown, shift = _times(moments)
+    return _columns(robot, list(_moments(robot, trajectory, takeoff_s)), SHOWN_S)
+
+
+def _columns(robot: Robot, moments: list[PhasePose], lengths_s: Mapping[str, float]) -> dict[str, Any]:
+    """Return moments as columns, each phase shown as long as said."""
+    real, shown, shift = _times(moments, lengths_s)
     return {
         "show_s": shown,
         "time_s": real,
@@ -69,6 +79,40 @@ def motion(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None)
         "com_m": [_com_m(robot, moment) for moment in moments],
         "frames": {name: [_seven(moment.poses[name]) for moment in moments] for name in BODY_NAMES},
     }
+
+
+def series_motion(robot: Robot, series: Series) -> dict[str, Any]:
+    """Return the recorded motion of jumps in a row as columns for the viewer, as `motion`; `com_m` (n, 3) has x, z, y.
+
+    Each phase of each jump has its own time scale; its name ends in the jump's number.
+    """
+    trajectory = series.trajectory
+    assert trajectory is not None
+    law, ahead = robot.layout.drive.cam.law, robot.layout.drive.cam.geometry.free_rad
+    cams = np.linspace(0.0, law.lift_rad, WINDING_MOMENTS)
+    shares = law.wind_rad(cams) / law.compression_rad
+    moments = []
+    for index, name in enumerate(series.phases):
+        phase, number = name.split()
+        edge = name not in series.phases[index - 1 : index] or name not in series.phases[index + 1 : index + 2]
+        if index % SERIES_EVERY.get(phase, 1) and not edge:
+            continue
+        poses, turned = recorded_poses(trajectory, index), 2.0 * math.pi * (int(number) - 1)
+        gear = float(np.interp(_loaded(robot, poses), shares, cams)) if phase == "winding" else law.lift_rad
+        cam = gear if phase == "winding" else ahead
+        moments.append(PhasePose(name, float(trajectory.time_s[index]), poses, turned + cam, turned + gear))
+    columns = _columns(robot, moments, {name: SHOWN_S.get(name.split()[0], LANDING_S) for name in series.phases})
+    aside = [round(_com(robot, moment)[1], POSITION_DIGITS) + 0.0 for moment in moments]
+    return columns | {"com_m": [[*com, y] for com, y in zip(columns["com_m"], aside, strict=True)]}
+
+
+def _loaded(robot: Robot, poses: dict[str, Array]) -> float:
+    """Return how far the springs are loaded in some poses of the bodies, as a share."""
+    angles = []
+    for one in (body_poses(robot, 0.0), body_poses(robot, 1.0), poses):
+        turn = one[BODY][:3, :3].T @ one[MAIN_LEG][:3, :3]
+        angles.append(math.atan2(turn[0, 2], turn[0, 0]))
+    return (angles[2] - angles[0]) / (angles[1] - angles[0])
 
 
 def _moments(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> Iterator[PhasePose]:
@@ -93,13 +137,13 @@ def _moments(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | Non
             yield PhasePose("flight" if flies else "push-off", time_s, recorded_poses(trajectory, moment), ahead, lift)
 
 
-def _times(moments: list[PhasePose]) -> tuple[list[float], list[float], dict[str, str]]:
+def _times(moments: list[PhasePose], lengths_s: Mapping[str, float]) -> tuple[list[float], list[float], dict[str, str]]:
     """Return real and shown times of the moments (s), and the time scale of each phase in words."""
     real: list[float] = []
     shown: list[float] = []
     words: dict[str, str] = {}
     start = 0.0
-    for phase, length in SHOWN_S.items():
+    for phase, length in lengths_s.items():
         times = np.array([moment.time_s for moment in moments if moment.phase == phase])
         if not len(times):
             continue
@@ -121,11 +165,15 @@ def recorded_poses(trajectory: Trajectory, moment: int) -> dict[str, Array]:
 
 def _com_m(robot: Robot, moment: PhasePose) -> list[float]:
     """Return x and z of the robot's centre of mass in the world (m)."""
+    return [float(value) for value in np.round(_com(robot, moment)[[0, 2]], POSITION_DIGITS) + 0.0]
+
+
+def _com(robot: Robot, moment: PhasePose) -> Array:
     com = np.zeros(3)
     for name, body in robot.bodies.items():
         pose = moment.poses[name]
         com += body.mass_kg * ((pose[:3, :3] * body.com_m).sum(axis=1) + pose[:3, 3])
-    return [float(value) for value in np.round(com[[0, 2]] / robot.mass_kg, POSITION_DIGITS) + 0.0]
+    return com / robot.mass_kg
 
 
 def _seven(pose: Array) -> list[float]:

@@ -19,6 +19,7 @@ from jumpcad.exporters.xml import allowed
 from jumpcad.files.rendering import fill
 from jumpcad.files.templates import templates_folder
 from jumpcad.findings import errors
+from jumpcad.landing.series import Series
 from jumpcad.robot import Robot
 from jumpcad.simulation.jump import ACCOUNT, Jump
 from jumpcad.simulation.uncertain import FIGURES, Uncertainty
@@ -32,6 +33,7 @@ def write_report(
     glb: bytes | None = None,
     files: Iterable[str] = (),
     sure: Uncertainty | None = None,
+    series: Series | None = None,
 ) -> str:
     """Return the page.
 
@@ -47,6 +49,8 @@ def write_report(
         Paths in the bundle that the page links to.
     sure
         How sure range and rise are.
+    series
+        Recorded jumps in a row, to be shown instead of the one jump.
     """
     values = {
         "jump": jump,
@@ -56,7 +60,8 @@ def write_report(
         "sure_figures": FIGURES,
         "beside": compared_of(robot.design),
         "pictures": {title: base64.b64encode(png).decode() for title, png in pictures.items()},
-        "viewer": None if glb is None else viewer_values(robot, jump, glb),
+        "viewer": None if glb is None else viewer_values(robot, jump, glb, series),
+        "series": series,
         "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"),
         "version": __version__,
     }

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.bundle.motion import motion
+from jumpcad.bundle.motion import motion, series_motion
 from jumpcad.bundle.renders import exploded
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.templates import templates_folder
+from jumpcad.landing.series import Series
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
@@ -27,23 +28,27 @@ CELL_MM = 50
 """Distance of the lines of the ground; judgement: a third of a robot."""
 
 
-def viewer_values(robot: Robot, jump: Jump, glb: bytes) -> dict[str, Any]:
+def viewer_values(robot: Robot, jump: Jump, glb: bytes, series: Series | None = None) -> dict[str, Any]:
     """Return what `templates/report/viewer.html.j2` needs: data, GLB file and program."""
     return {
         "cell_mm": CELL_MM,
-        "data": _embedded(viewer_data(robot, jump)),
+        "data": _embedded(viewer_data(robot, jump, series)),
         "glb": base64.b64encode(glb).decode(),
         "program": (templates_folder() / "report" / "viewer.min.js").read_text(encoding="ascii"),
     }
 
 
-def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
-    """Return the viewer's data: motion, turning parts, parts' labels, assembly steps, offsets when exploded (SI)."""
+def viewer_data(robot: Robot, jump: Jump, series: Series | None = None) -> dict[str, Any]:
+    """Return the viewer's data: motion, turning parts, parts' labels, assembly steps, offsets when exploded (SI).
+
+    The motion is that of a jump, or of recorded jumps in a row.
+    """
     things = visuals(robot)
     bodies = body_poses(robot)
     poses = [chained(bodies[thing.body], thing.T_body_mesh) for thing in things]
     apart = [after[:3, 3] - before[:3, 3] for before, after in zip(poses, exploded(things, poses), strict=True)]
-    return motion(robot, jump.trajectory, jump.takeoff_time_s) | {
+    moved = series_motion(robot, series) if series else motion(robot, jump.trajectory, jump.takeoff_time_s)
+    return moved | {
         "size_m": round(float(extent_m(robot).max()), MICRONS),
         "cell_m": CELL_MM / 1000.0,
         "turning": turning_parts(robot),

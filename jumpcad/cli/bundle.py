@@ -10,6 +10,7 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status,
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
+    RowOption,
     WorkshopOption,
     bundle_of,
     completion,
@@ -102,13 +103,17 @@ def render(
         typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures"),
     ] = None,
     workshop: WorkshopOption = None,
+    row: RowOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
+    from jumpcad.bundle.motion_gif import motion_gif
     from jumpcad.bundle.renders import RENDERS, jump_gif, renders
+    from jumpcad.bundle.viewer import viewer_data
     from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
+    from jumpcad.landing.series import jumps
     from jumpcad.simulation import Settings, simulate
     from jumpcad.simulation.engines import default_engine
 
@@ -128,7 +133,10 @@ def render(
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
-    if jump.trajectory is not None:
+    if row and jump.trajectory is not None:
+        with status(f"drawing {counted(row, 'jump')} of {robot.name} …"):
+            files[GIF] = motion_gif(robot, viewer_data(robot, jump, jumps(robot, row, record=True)))
+    elif jump.trajectory is not None:
         with status(f"drawing the jump of {robot.name} …"):
             files[GIF] = jump_gif(robot, jump.trajectory)
     if bundle:

@@ -7,6 +7,7 @@ import numpy as np
 from jumpcad.cli.output import print_json, print_text
 
 if TYPE_CHECKING:
+    from jumpcad.landing.series import Series
     from jumpcad.robot import Robot
     from jumpcad.settings import Settings
 
@@ -34,13 +35,15 @@ def report_landing(
 
 
 def report_jumps(
-    robot: "Robot", heading: dict[str, str], settings: "Settings", count: int, seed: int, as_json: bool
-) -> None:
-    """Let a robot jump a number of times in a row, and print a line each and the sums."""
+    robot: "Robot", heading: dict[str, str], settings: "Settings", count: int, seed: int, as_json: bool,
+    record: bool = False,
+) -> "Series":  # fmt: skip
+    """Let a robot jump a number of times in a row, print a line each and the sums, and return the series."""
     from jumpcad.landing.series import jumps
 
-    series = jumps(robot, count, seed, settings)
+    series = jumps(robot, count, seed, settings, record)
     if as_json:
         print_json(heading | {"series": series.to_dict()})
-        return
-    print_text("jumps", design=heading["design"], count=count, series=series)
+    else:
+        print_text("jumps", design=heading["design"], count=count, series=series)
+    return series

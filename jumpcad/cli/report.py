@@ -6,8 +6,16 @@ from typing import Annotated
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, status
-from jumpcad.cli.subjects import WorkshopOption, bundle_of, name_of, note_template, printed_robot, reject_workshop
-from jumpcad.errors import without_controls
+from jumpcad.cli.subjects import (
+    RowOption,
+    WorkshopOption,
+    bundle_of,
+    name_of,
+    note_template,
+    printed_robot,
+    reject_workshop,
+)
+from jumpcad.errors import JumpcadError, without_controls
 
 PAGE = "report.html"
 STUDY = ".db"
@@ -21,14 +29,17 @@ def report(
         Path | None, typer.Option("-o", "--output", help="File of the page [BUNDLE/report.html, or NAME-report.html].")
     ] = None,
     workshop: WorkshopOption = None,
+    row: RowOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Write report.html: one file, without network, with the robot in 3-D; of a study, its designs and plots."""
     if subject.endswith(STUDY) and not Path(subject).is_dir():
+        if row:
+            raise JumpcadError(f"--jumps {row}: {subject} is a study, which does not jump; leave it out")
         written = _study_page(Path(subject), output, workshop, force)
     else:
-        written = _robot_page(subject, output, workshop, force)
+        written = _robot_page(subject, output, workshop, row, force)
     if as_json:
         print_json({"file": str(written)})
     else:
@@ -51,11 +62,12 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
     return page
 
 
-def _robot_page(subject: str, output: Path | None, workshop: str | None, force: bool) -> Path:
+def _robot_page(subject: str, output: Path | None, workshop: str | None, row: int | None, force: bool) -> Path:
     """Write the page of a robot; return its path."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
     from jumpcad.files.outputs import require_apart, require_target, write_files
+    from jumpcad.landing.series import jumps
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     note_template(subject)
@@ -68,7 +80,8 @@ def _robot_page(subject: str, output: Path | None, workshop: str | None, force: 
     with status(f"building {subject} …"):
         robot = printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
-        text = report_page(robot, bundle.files if bundle else ())
+        series = jumps(robot, row, record=True) if row else None
+        text = report_page(robot, bundle.files if bundle else (), series)
     if bundle:
         change_files(bundle, {PAGE: text}, {}, force)
     else:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from jumpcad.design import Design
     from jumpcad.robot import Robot
     from jumpcad.simulation import Jump, Settings
+    from jumpcad.simulation.jump import Trajectory
 
 TRAJECTORY_SUFFIXES = (".csv", ".json")
 DEFAULT_SETTINGS = "default"
@@ -87,7 +88,7 @@ def simulate(
     if landing or row:
         given = {"--landing and --jumps": landing and row, "--capsule": capsule, "--published": published,
                  f"--engine {engine}": engine not in (None, "mujoco"), "--flight": flight,
-                 "--trajectory": trajectory, "--uncertain": uncertain}  # fmt: skip
+                 "--trajectory": trajectory and landing, "--uncertain": uncertain}  # fmt: skip
         if wrong := next((name for name, value in given.items() if value), None):
             raise JumpcadError(f"{wrong}: a landing is simulated alone, of a printed robot, in MuJoCo: leave it out")
     require_apart({"--trajectory": trajectory}, {"the design": design, "--workshop": workshop, "--settings": settings})
@@ -125,7 +126,9 @@ def simulate(
                 f"{design}: --landing and --jumps are for printed robots: give the design, or its bundle"
             )
         if row:
-            report_jumps(robot, heading, asked, row, seed, as_json)
+            series = report_jumps(robot, heading, asked, row, seed, as_json, trajectory is not None)
+            if trajectory and series.trajectory:
+                write_trajectory(trajectory, series.trajectory)
         else:
             report_landing(robot, heading, asked, tries, seed, as_json)
         return
@@ -212,19 +215,24 @@ def _difference_percent(jumps: "list[Jump]") -> float | None:
 
 
 def _write_trajectory(path: Path, jump: "Jump") -> None:
-    """Write the trajectory, one row per moment; a design that the gate rejects has none."""
-    from jumpcad.files.outputs import write_atomically
-
+    """Write the trajectory of a jump; a design that the gate rejects has none."""
     if jump.trajectory is None:
         reason = f"{jump.verdict}: a robot that is rejected before its release does not move"
         print(f"jumpcad: {without_controls(str(path))}: not written; {reason}", file=sys.stderr)
         return
+    write_trajectory(path, jump.trajectory)
+
+
+def write_trajectory(path: Path, trajectory: "Trajectory") -> None:
+    """Write a trajectory, one row per moment, as CSV or JSON."""
+    from jumpcad.files.outputs import write_atomically
+
     if path.suffix == ".json":
-        columns = {name: values.tolist() for name, values in jump.trajectory.columns().items()}
+        columns = {name: values.tolist() for name, values in trajectory.columns().items()}
         write_atomically(path, json.dumps(columns, indent=1) + "\n")
         return
     text = io.StringIO()
-    table = csv.DictWriter(text, fieldnames=list(jump.trajectory.columns()), lineterminator="\n")
+    table = csv.DictWriter(text, fieldnames=list(trajectory.columns()), lineterminator="\n")
     table.writeheader()
-    table.writerows(jump.trajectory.rows())
+    table.writerows(trajectory.rows())
     write_atomically(path, text.getvalue())

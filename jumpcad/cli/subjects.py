@@ -28,6 +28,7 @@ def completion(kind: str) -> Callable[[str], list[str]]:
     return names
 
 
+RowOption = Annotated[int | None, typer.Option("--jumps", help="Show so many jumps in a row (MuJoCo).", min=1, max=20)]
 WorkshopOption = Annotated[
     str | None,
     typer.Option(

@@ -120,12 +120,13 @@ class Arena:
             self._mujoco.mj_step(self.model, self.data)
             self.watch()
 
-    def wind(self, time_s: float) -> None:
+    def wind(self, time_s: float, look: Callable[[], None] = lambda: None) -> None:
         """Wind the leg at an even rate within a time, wherever the robot lies, and hold it."""
         self._hold(True)
         for target in np.linspace(float(self.data.qpos[self._leg]), -self.robot.spring.wind_rad, TARGETS + 1)[1:]:
             self.model.eq_data[self._latch, 0] = target
             self.step(time_s / TARGETS, quiet=True)
+            look()
 
     def release(self) -> None:
         """Let the springs go: where the robot has a cam, from the state in which the roller has left it.
@@ -208,6 +209,15 @@ class Arena:
         """Of the centre of mass (3,)."""
         self._mujoco.mj_subtreeVel(self.model, self.data)
         return np.array(self.data.subtree_linvel[self.bodies[BODY]])
+
+    @property
+    def energies_j(self) -> tuple[float, float, float]:
+        """Kinetic energy, potential energy above z = 0, and that of the springs."""
+        self._mujoco.mj_energyPos(self.model, self.data)
+        self._mujoco.mj_energyVel(self.model, self.data)
+        mass, (held, moving) = self.robot.mass_kg, self.data.energy.tolist()
+        height = mass * self.gravity_m_s2 * float(self.centre_of_mass_m[2])
+        return moving, height, held + mass * float(self.model.opt.gravity @ self.centre_of_mass_m)
 
     def pose(self, body: str) -> Array:
         """Return the pose (4, 4) of a body's frame."""

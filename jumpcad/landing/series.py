@@ -11,8 +11,10 @@ from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.errors import JumpcadError
 from jumpcad.landing.arena import QUIET_STEP_S, Arena
 from jumpcad.landing.landing import disturb, scattered_floor
+from jumpcad.landing.recorder import Recorder
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
+from jumpcad.simulation.jump import Trajectory
 
 LANDING_S, REST_S = 1.5, 2.0
 """Pauses of the firmware: after a release for flight and landing, and then and when wound until the robot lies still;
@@ -36,13 +38,18 @@ class Hop:
 
 @dataclass(frozen=True)
 class Series:
-    """Jumps in a row, with the energy of a jump and how many a full battery gives."""
+    """Jumps in a row, with the energy of a jump, how many a full battery gives, and the motion if it was recorded.
+
+    `phases` (n,) are those of the trajectory's moments, such as `flight 2` of the second jump: see `Recorder`.
+    """
 
     hops: tuple[Hop, ...]
     distance_m: float
     weight_n: float
     electrical_j: float
     jumps_per_charge: int
+    trajectory: Trajectory | None = None
+    phases: tuple[str, ...] = ()
 
     @property
     def stood(self) -> int:
@@ -83,7 +90,9 @@ class Series:
 
 
 @check_arguments
-def jumps(robot: Robot, count: int = 10, seed: int = 0, settings: Settings | None = None) -> Series:
+def jumps(
+    robot: Robot, count: int = 10, seed: int = 0, settings: Settings | None = None, record: bool = False
+) -> Series:
     """Let a robot jump a number of times in a row, from where it has come to rest each time.
 
     It winds within the time of its own drive and is released by its own cam, standing or not, as its firmware does.
@@ -98,6 +107,8 @@ def jumps(robot: Robot, count: int = 10, seed: int = 0, settings: Settings | Non
         Of the floor, the same for all jumps, and of attitude and spin at each apex.
     settings
         Of which gravity and friction hold; None: the defaults.
+    record
+        Whether to record the motion.
 
     Raises
     ------
@@ -111,22 +122,27 @@ def jumps(robot: Robot, count: int = 10, seed: int = 0, settings: Settings | Non
     arena.stand_on(scattered_floor(rng))
     arena.stand("home")
     first = arena.centre_of_mass_m
-    hops = tuple(_hop(arena, train.winding_s, rng) for _ in range(count))
+    recorder = Recorder(arena, record)
+    hops = tuple(_hop(arena, train.winding_s, rng, recorder) for _ in range(count))
     way = float(np.linalg.norm((arena.centre_of_mass_m - first)[:2]))
     weight = robot.mass_kg * arena.gravity_m_s2
-    return Series(hops, way, weight, train.electrical_j, jumps_per_charge(robot))
+    moved = (recorder.trajectory, tuple(recorder.phases)) if record else (None, ())
+    return Series(hops, way, weight, train.electrical_j, jumps_per_charge(robot), *moved)
 
 
-def _hop(arena: Arena, wind_s: float, rng: np.random.Generator) -> Hop:
+def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Recorder) -> Hop:
     begun = float(arena.data.time)
-    arena.wind(wind_s)
+    recorder.begin()
+    arena.wind(wind_s, lambda: recorder("winding"))
     arena.step(REST_S, quiet=True)
+    recorder("winding")
     stood, start, heading = arena.stands, arena.centre_of_mass_m, arena.heading_rad
     highest = float(start[2])
 
     def look() -> None:
         nonlocal highest
         highest = max(highest, float(arena.centre_of_mass_m[2]))
+        recorder.look()
 
     arena.release()
     if arena.fall(look):

@@ -95,15 +95,16 @@ class Viewer {
   // Squares under the whole jump; short lines, since some renderers drop those that pass behind the eye.
   ground(color) {
     const cell = this.data.cell_m;
-    const xs = this.data.com_m.map(([x]) => x);
-    const across = 10;
-    const first = Math.floor(Math.min(...xs) / cell) - across;
-    const last = Math.ceil(Math.max(...xs) / cell) + across;
+    const around = 10;
+    const [[first, last], [right, left]] = [0, 2].map((axis) => {
+      const places = this.data.com_m.map((com) => com[axis] || 0);
+      return [Math.floor(Math.min(...places) / cell) - around, Math.ceil(Math.max(...places) / cell) + around];
+    });
     const points = [];
     for (let i = first; i <= last; i++) {
-      for (let j = -across; j <= across; j++) {
+      for (let j = right; j <= left; j++) {
         if (i < last) points.push(i * cell, j * cell, 0, (i + 1) * cell, j * cell, 0);
-        if (j < across) points.push(i * cell, j * cell, 0, i * cell, (j + 1) * cell, 0);
+        if (j < left) points.push(i * cell, j * cell, 0, i * cell, (j + 1) * cell, 0);
       }
     }
     const geometry = new BufferGeometry();
@@ -127,6 +128,7 @@ class Viewer {
     const box = new Box3().setFromObject(this.robot);
     const height = Math.max(box.min.z, 0) / this.data.size_m;
     this.shadow.position.x = (box.min.x + box.max.x) / 2;
+    this.shadow.position.y = this.ball.position.y;
     this.shadow.scale.setScalar(SHADOW * this.data.size_m * (1 + 0.3 * height));
     this.shadow.material.opacity = this.darkest / (1 + 0.7 * height);
     this.box.dataset.shadow = this.shadow.material.opacity.toFixed(3);
@@ -162,7 +164,7 @@ class Viewer {
 
   // The path of the centre of mass, and a ball that runs along it.
   trace() {
-    const points = this.data.com_m.flatMap(([x, z]) => [x, 0, z]);
+    const points = this.data.com_m.flatMap(([x, z, y = 0]) => [x, y, z]);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
     this.path = new Line(geometry, new LineBasicMaterial({ color: 0xd1495b }));
@@ -191,12 +193,12 @@ class Viewer {
   }
 
   near() {
-    const [x, z] = this.data.com_m[0];
+    const [x, z, y = 0] = this.data.com_m[0];
     const far = 2.1 * this.data.size_m;
     this.controls.maxDistance = 12 * this.data.size_m;
-    this.followed = [x, z];
-    this.controls.target.set(x, 0, 0.8 * z);
-    this.camera.position.set(x + 0.75 * far, -far, z + 0.5 * far);
+    this.followed = [x, z, y];
+    this.controls.target.set(x, y, 0.8 * z);
+    this.camera.position.set(x + 0.75 * far, y - far, z + 0.5 * far);
     if (this.seen) this.follow(...this.seen);
   }
 
@@ -273,12 +275,13 @@ class Viewer {
   }
 
   // Move the camera with the robot.
-  follow(x, z) {
+  follow(x, z, y) {
     for (const point of [this.controls.target, this.camera.position]) {
       point.x += x - this.followed[0];
+      point.y += y - this.followed[2];
       point.z += z - this.followed[1];
     }
-    this.followed = [x, z];
+    this.followed = [x, z, y];
   }
 
   // Put the bodies between two of their poses.
@@ -304,9 +307,9 @@ class Viewer {
     this.turning.forEach(([pivot, per_cam], index) => {
       pivot.rotation.y = per_cam * (this.data.turning[index].node === "cam" ? cam : gear);
     });
-    const [x, z] = [0, 1].map((axis) => mix(com_m[low][axis], com_m[low + 1][axis]));
-    this.ball.position.set(x, 0, z);
-    this.seen = [x, com_m[0][1] + RISING * Math.max(z - com_m[0][1], 0)];
+    const [x, z, y] = [0, 1, 2].map((axis) => mix(com_m[low][axis] || 0, com_m[low + 1][axis] || 0));
+    this.ball.position.set(x, y, z);
+    this.seen = [x, com_m[0][1] + RISING * Math.max(z - com_m[0][1], 0), y];
     if (this.following) this.follow(...this.seen);
     this.shade();
     page("scrub").value = this.at;

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.built import built
 
+from jumpcad.bundle.motion import series_motion
 from jumpcad.errors import JumpcadError
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.landing import land, share_righted
@@ -118,3 +119,31 @@ def test_stable_poses_of_a_robot_without_a_cage_are_mostly_its_sides(robot: Robo
     static = share_on_feet(robot)
     assert 0.0 < static < 0.4
     assert share_righted(robot, 12, np.random.default_rng(0)) < 0.5
+
+
+def test_recorded_jumps_keep_their_energy_in_the_air(robot: Robot) -> None:
+    """What the springs hold when wound; in free flight, its legs on their stop, gains of height cost speed."""
+    series = jumps(robot, 2, seed=3, record=True)
+    path = series.trajectory
+    assert path is not None
+    assert len(path.time_s) == len(series.phases)
+    assert np.all(np.diff(path.time_s) >= 0.0)
+    assert path.spring_j[series.phases.index("push-off 1") - 1] == pytest.approx(robot.spring.energy_j, rel=0.01)
+    flight = [index for index, phase in enumerate(series.phases) if phase == "flight 1"][8:]
+    energy = (path.kinetic_j + path.potential_j + path.spring_j)[flight]
+    assert np.ptp(energy) < 0.1 * energy.mean()
+    assert np.ptp(path.potential_j[flight]) > 0.3 * energy.mean()
+    assert jumps(robot, 2, seed=3).hops == series.hops
+
+
+def test_the_viewer_shows_recorded_jumps_at_their_places(robot: Robot) -> None:
+    """It ends where the robot lies, and the cam turns once a jump."""
+    series = jumps(robot, 2, seed=3, record=True)
+    shown = series_motion(robot, series)
+    assert list(shown["phases"]) == list(dict.fromkeys(series.phases))
+    assert shown["frames"]["body"][-1][:3] == pytest.approx(series.trajectory.position_m[-1, 0], abs=1e-5)  # type: ignore[union-attr]
+    assert np.all(np.diff(shown["show_s"]) >= 0.0)
+    cams = [shown["cam_rad"][shown["phase"].index(name)] for name in ("winding 1", "winding 2")]
+    assert cams[1] - cams[0] == pytest.approx(2.0 * math.pi, abs=0.5)
+    x, _z, y = shown["com_m"][-1]
+    assert math.hypot(x - shown["com_m"][0][0], y - shown["com_m"][0][2]) == pytest.approx(series.distance_m, abs=0.02)
