@@ -38,11 +38,6 @@ def test_the_arms_forces_turn_leg_and_plates_with_the_springs_torque(name: str) 
         assert (x * force[0] + z * force[1]) / math.hypot(*force) > spring.arms.mean_mm / 2.0
 
 
-def test_printed_links_are_allowed_a_share_of_petg_s_strength() -> None:
-    case = LoadCase(built("kenan-2.0"))
-    assert case.allowable_mpa * case.workshop.safety.printed_factor == pytest.approx(45.0)
-
-
 @pytest.mark.parametrize(("axis", "matters"), [(0, True), (1, False), (2, True)])
 def test_the_push_off_is_that_of_the_body_in_the_plane_of_motion(axis: int, matters: bool) -> None:
     """Where the body's mass is across the robot changes no force; along and above it does where the body turns."""
