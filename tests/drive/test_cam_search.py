@@ -12,7 +12,7 @@ from jumpcad.drive.cam_findings import LIMITS as CAM_LIMITS
 from jumpcad.drive.cam_findings import ROWS
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import measure
-from jumpcad.drive.cam_search import synthesise_cam
+from jumpcad.drive.cam_search import _Shapes, synthesise_cam
 from jumpcad.errors import CannotBuildError
 
 LIMITS = default_limits().cam
@@ -138,3 +138,12 @@ def test_a_search_that_ends_outside_the_limits_starts_again_from_where_it_misses
     """Found at random, one of 300 tried: from none of the best points of the grid does the first search fit."""
     cam = synthesised(compression_deg, stiffness, replace(LIMITS, **limits))
     assert min(finding.margin for finding in cam.findings) > 0.0
+
+
+def test_a_search_that_hopes_for_too_much_finds_a_cam_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What coarse samples hide is found out at the finished shape, and kept in reserve from there on."""
+    usual = synthesised(50, 0.6)
+    monkeypatch.setattr(_Shapes, "RESERVE", -0.02)
+    cam = synthesise_cam.__wrapped__(usual.law, LIMITS)
+    assert cam.outer_radius_mm == pytest.approx(usual.outer_radius_mm, rel=0.02)
+    assert min(finding.margin for finding in cam.findings) > -1e-6
