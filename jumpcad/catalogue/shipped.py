@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 
 from pydantic import PositiveFloat
 
-from jumpcad.catalogue.articles import AnyArticle
+from jumpcad.catalogue.articles import AnyArticle, Article
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.bars import LegBar
 from jumpcad.catalogue.boards import Board
@@ -140,25 +140,9 @@ class Catalogue:
     wire: Wire
     rod_density_g_cm3: float
 
-    def with_own(
-        self,
-        motors: Mapping[str, Motor],
-        bearings: Mapping[str, Bearing],
-        batteries: Mapping[str, Battery],
-        boards: Mapping[str, Board],
-        springs: Mapping[str, StockSpring],
-        pads: Mapping[str, Pad],
-    ) -> "Catalogue":
-        """Return the catalogue with a user's own parts beside the shipped ones."""
-        return replace(
-            self,
-            motors=self.motors.with_own(motors),
-            bearings=self.bearings.with_own(bearings),
-            batteries=self.batteries.with_own(batteries),
-            boards=self.boards.with_own(boards),
-            springs=self.springs.with_own(springs),
-            pads=self.pads.with_own(pads),
-        )
+    def with_own(self, own: Mapping[str, Mapping[str, Article]]) -> "Catalogue":
+        """Return the catalogue with a user's own parts, by kind and name, beside the shipped ones."""
+        return replace(self, **{kind: getattr(self, kind).with_own(parts) for kind, parts in own.items()})
 
     def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
         """Return the mass of a steel rod (g)."""

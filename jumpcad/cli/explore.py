@@ -3,6 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -104,12 +105,15 @@ def explore(
         "around": centre.model_dump(), "seed": options.seed, "versions": robot.versions(),
     }  # fmt: skip
     if view in ("pca", "importance"):
-        total, run = samples, _sampled(view, samples, options.seed)
+        total, run = samples, partial(_sampled, view=view, samples=samples, seed=options.seed)
     else:
         counts = {one.name: len(one.choices) or points for one in space.free}
-        axes = [counts.get(name.strip(), points) for name in over.split(",")]
-        total = sum(counts.values()) if view == "sweep" else math.prod(axes)
-        run = _swept(centre, points) if view == "sweep" else _mapped(centre, over, points)
+        names = [name.strip() for name in over.split(",")]
+        if len(names) != 2:
+            raise JumpcadError(f"--over {over}: a map has two parameters, NAME,NAME")
+        total = sum(counts.values()) if view == "sweep" else math.prod(counts.get(name, points) for name in names)
+        view_of = _swept if view == "sweep" else partial(_mapped, names=names)
+        run = partial(view_of, centre=centre, points=points)
     with (
         options.pool() as pool,
         StudyStore.write(options.study, identity) as store,
@@ -129,77 +133,62 @@ def explore(
 
 Found = tuple[dict[str, Any], dict[str, Callable[[], Any]]]
 """Data for JSON and text, and functions that draw pictures, by name."""
-View = Callable[["Evaluator"], Found]
-"""Evaluates the designs of a view."""
 
 
-def _swept(centre: "Design", points: int) -> View:
-    def run(evaluator: "Evaluator") -> Found:
-        from jumpcad.search.explore import sweep
-        from jumpcad.search.report import plots
+def _swept(evaluator: "Evaluator", centre: "Design", points: int) -> Found:
+    from jumpcad.search.explore import sweep
+    from jumpcad.search.report import plots
 
-        sweeps = sweep(evaluator, centre, points)
-        data = {
-            one.parameter: [
-                {
-                    "value": one.names[int(value)] if one.names else value,
-                    "score": trial.score,
-                    "verdict": trial.evaluation.verdict,
-                    "reasons": trial.evaluation.reasons,
-                }
-                for value, trial in zip(one.values, one.trials, strict=True)
-            ]
-            for one in sweeps
-        }
-        return {"sweeps": data}, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
-
-    return run
-
-
-def _sampled(view: str, samples: int, seed: int) -> View:
-    def run(evaluator: "Evaluator") -> Found:
-        from jumpcad.search.explore import LEAST_R_SQUARED, UNIFORM_NOTE, components, elite, importance, sample
-        from jumpcad.search.report import plots
-
-        trials = sample(evaluator, samples, seed)
-        if view == "importance":
-            found = importance(evaluator, trials, seed)
-            order = found.mean.argsort()[::-1]
-            data = {
-                "importance": {found.names[i]: found.mean[i] for i in order},
-                "deviation": {found.names[i]: found.deviation[i] for i in order},
-                "r_squared": found.r_squared,
-                "designs": found.designs,
+    sweeps = sweep(evaluator, centre, points)
+    data = {
+        one.parameter: [
+            {
+                "value": one.names[int(value)] if one.names else value,
+                "score": trial.score,
+                "verdict": trial.evaluation.verdict,
+                "reasons": trial.evaluation.reasons,
             }
-            if found.r_squared < LEAST_R_SQUARED:
-                data["note"] = "R² is too low to say what is important: raise --samples, or narrow the bounds"
-            return data, {"importance": lambda: plots.importance(found)}
-        best = elite(trials)
-        views = {"sampled": components(evaluator, trials), "elite": components(evaluator, best)}
-        data = {"note": UNIFORM_NOTE, "parameters": views["elite"].names}
-        for name, view_of in views.items():
-            data[name] = {"designs": view_of.designs, "shares": view_of.shares, "directions": view_of.directions}
-        return data, {"pca": lambda: plots.components(views)}
-
-    return run
+            for value, trial in zip(one.values, one.trials, strict=True)
+        ]
+        for one in sweeps
+    }
+    return {"sweeps": data}, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
 
 
-def _mapped(centre: "Design", over: str, points: int) -> View:
-    names = [name.strip() for name in over.split(",")]
-    if len(names) != 2:
-        raise JumpcadError(f"--over {over}: a map has two parameters, NAME,NAME")
+def _sampled(evaluator: "Evaluator", view: str, samples: int, seed: int) -> Found:
+    from jumpcad.search.explore import LEAST_R_SQUARED, UNIFORM_NOTE, components, elite, importance, sample
+    from jumpcad.search.report import plots
 
-    def run(evaluator: "Evaluator") -> Found:
-        from jumpcad.search.explore import feasibility_map
-        from jumpcad.search.report import plots
-
-        found = feasibility_map(evaluator, centre, names[0], names[1], points)
-        reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]
+    trials = sample(evaluator, samples, seed)
+    if view == "importance":
+        found = importance(evaluator, trials, seed)
+        order = found.mean.argsort()[::-1]
         data = {
-            "x": {"name": found.x_name, "values": found.x_names or found.x},
-            "y": {"name": found.y_name, "values": found.y_names or found.y},
-            "verdicts": reasons,
+            "importance": {found.names[i]: found.mean[i] for i in order},
+            "deviation": {found.names[i]: found.deviation[i] for i in order},
+            "r_squared": found.r_squared,
+            "designs": found.designs,
         }
-        return data, {"feasibility": lambda: plots.feasibility(found, centre)}
+        if found.r_squared < LEAST_R_SQUARED:
+            data["note"] = "R² is too low to say what is important: raise --samples, or narrow the bounds"
+        return data, {"importance": lambda: plots.importance(found)}
+    best = elite(trials)
+    views = {"sampled": components(evaluator, trials), "elite": components(evaluator, best)}
+    data = {"note": UNIFORM_NOTE, "parameters": views["elite"].names}
+    for name, view_of in views.items():
+        data[name] = {"designs": view_of.designs, "shares": view_of.shares, "directions": view_of.directions}
+    return data, {"pca": lambda: plots.components(views)}
 
-    return run
+
+def _mapped(evaluator: "Evaluator", centre: "Design", names: list[str], points: int) -> Found:
+    from jumpcad.search.explore import feasibility_map
+    from jumpcad.search.report import plots
+
+    found = feasibility_map(evaluator, centre, names[0], names[1], points)
+    reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]
+    data = {
+        "x": {"name": found.x_name, "values": found.x_names or found.x},
+        "y": {"name": found.y_name, "values": found.y_names or found.y},
+        "verdicts": reasons,
+    }
+    return data, {"feasibility": lambda: plots.feasibility(found, centre)}

@@ -92,9 +92,7 @@ class Workshop(Record):
     @property
     def catalogue(self) -> Catalogue:
         """The shipped catalogue with the user's own parts."""
-        return load_catalogue().with_own(
-            self.motors, self.bearings, self.batteries, self.boards, self.springs, self.pads
-        )
+        return load_catalogue().with_own({kind: getattr(self, kind) for kind in OWN_PARTS})
 
     @property
     def stock_spring(self) -> StockSpring | None:
