@@ -11,6 +11,8 @@ import numpy as np
 from jumpcad.mechanism.model import BODY_NAMES, FOOT, Mechanism
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import Visual
+from jumpcad.solids.stack import Stack
+from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
@@ -42,6 +44,21 @@ def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> "dict[str, tr
             corners[:, 2] = np.maximum(corners[:, 2], SOLE_MM - 1000.0 * mechanism.foot_depth_m)
         found[body] = convex_hull(np.unique(np.round(corners, DIGITS), axis=0))
     return found
+
+
+def quick_corners_mm(thing: Visual) -> Array:
+    """Return points (n, 3) that span a part's convex hull in its own frame, without its mesh.
+
+    Exact for stacks; of other shapes they are the outline at bottom and top, or the bounding box.
+    """
+    shape = thing.shape
+    if isinstance(shape, DrawnWire):
+        return 1000.0 * thing.corners_m
+    if isinstance(shape, Stack):
+        slabs = [(slab.region.hull().to_polygons()[0], slab.z0_mm, slab.z1_mm) for slab in shape.slabs]
+    else:
+        slabs = [(shape.outline_mm, *shape.bounds_mm[:, 2])]
+    return np.concatenate([np.column_stack([flat, np.full(len(flat), z)]) for flat, *heights in slabs for z in heights])
 
 
 @dataclass(frozen=True)

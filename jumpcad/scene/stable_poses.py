@@ -5,12 +5,12 @@ import math
 import numpy as np
 
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.hulls import body_hulls, cage_capsules
+from jumpcad.scene.hulls import CAGE, cage_capsules, quick_corners_mm
 from jumpcad.scene.visuals import visuals
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, chained
 
 UPRIGHT = math.cos(math.radians(20.0))
 SHIFTS_M = ((0.0, 0.0, 0.003), (0.004, 0.0, 0.0), (-0.004, 0.0, 0.0), (0.0, 0.002, 0.0), (0.0, -0.002, 0.0))
@@ -34,16 +34,23 @@ def least_share_on_feet(robot: Robot) -> float:
 
 def _loaded(robot: Robot) -> tuple[Array, Array, Array]:
     """Return corners of the loaded robot's hull (n, 3), its centre of mass, and the foot's upward direction (m)."""
-    poses, hulls = body_poses(robot, 1.0), body_hulls(robot, visuals(robot))
-    corners = {name: hulls[name].vertices / 1000.0 for name in BODY_NAMES}
+    poses = body_poses(robot, 1.0)
+    placed = [
+        _moved(chained(poses[thing.body], thing.T_body_mesh), quick_corners_mm(thing) / 1000.0)
+        for thing in visuals(robot)
+        if not thing.name.startswith(CAGE)
+    ]
     cage = [end for capsule in cage_capsules(robot) for end in (capsule.start_m, capsule.end_m)]
-    corners[BODY] = np.concatenate([corners[BODY], np.reshape(cage, (-1, 3))])
-    placed = [corners[name] @ poses[name][:3, :3].T + poses[name][:3, 3] for name in BODY_NAMES]
+    placed.append(_moved(poses[BODY], np.reshape(cage, (-1, 3))))
     whole = combined(
         MassProperties(body.mass_kg, body.com_m, body.inertia_kg_m2).placed(poses[name])
         for name, body in robot.bodies.items()
     )
     return np.concatenate(placed), whole.com_m, poses[FOOT][:3, 2]
+
+
+def _moved(pose: Array, points: Array) -> Array:
+    return points @ pose[:3, :3].T + pose[:3, 3]
 
 
 def _share(points: Array, centre: Array, up: Array) -> float:

@@ -252,7 +252,7 @@ class PrintedModel(RobotModel):
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
         figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
         if not self.perturbation and self.requires(RIGHTS_ITSELF):
-            figures[RIGHTS_ITSELF] = result.rights_itself  # takes as long as an evaluation
+            figures[RIGHTS_ITSELF] = result.rights_itself  # a fifth of an evaluation more
         others: list[dict[str, float]] = []
         if not self.perturbation:  # of what is made otherwise the floor is one
             others = self.on_floors(robot, self.settings or Settings(), self.estimate_engine)

@@ -5,6 +5,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+from support.built import built
 
 import jumpcad
 from jumpcad.errors import CannotBuildError
@@ -15,8 +16,10 @@ from jumpcad.layout.cage import SOCKET_MM
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.hulls import quick_corners_mm
 from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.scene.visuals import visuals
+from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop, varied
 
 FLAT = jumpcad.Design.from_vector([100, 0.9595, 0.7772, 0.8377, 0.8, 70, 30, 16.808])
@@ -106,3 +109,14 @@ def test_what_cannot_be_made_is_refused_with_the_number() -> None:
     for key, value in (("arc_deg", 90.0), ("rear_radius_mm", 5.0), ("rod", "bamboo")):
         with pytest.raises(jumpcad.JumpcadError, match=f"cage.{key}"):
             caged(**{key: value})
+
+
+def test_quick_corners_span_the_hulls_of_the_meshes() -> None:
+    """Of all parts of a robot, in every direction; of stacks no more than that, but for what pictures leave out."""
+    rays = np.random.default_rng(0).normal(size=(50, 3))
+    rays /= np.linalg.norm(rays, axis=1)[:, None]
+    for thing in visuals(built("best-bo")):
+        quick, exact = quick_corners_mm(thing) @ rays.T, thing.mesh.vertices @ rays.T
+        beyond = np.asarray(quick.max(axis=0) - exact.max(axis=0))
+        assert beyond.min() > -0.1, thing.name
+        assert beyond.max() < 0.1 or not isinstance(thing.shape, Stack), thing.name
