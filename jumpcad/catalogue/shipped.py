@@ -1,10 +1,10 @@
 """The shipped catalogue, read from the templates, and the catalogue with a user's own parts (mm, g, N·m)."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NoReturn, TypeVar
 
 from pydantic import PositiveFloat
 
@@ -90,30 +90,20 @@ class Wire(Record):
 Entry = TypeVar("Entry", bound=TomlTable)
 
 
-class PartsByName(Mapping[str, Entry], Generic[Entry]):
+class PartsByName(dict[str, Entry], Generic[Entry]):
     """Bought parts of one kind by name; an unknown name is an error with a hint."""
 
     def __init__(self, kind: str, items: Mapping[str, Entry]) -> None:
-        self._kind, self._items = kind, dict(items)
+        super().__init__(items)
+        self._kind = kind
 
-    def __getitem__(self, name: str) -> Entry:
-        if name not in self._items:
-            known = ", ".join(self._items)
-            raise JumpcadError(f"no {self._kind} {name!r} in the catalogue ({known}){did_you_mean(name, self._items)}")
-        return self._items[name]
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._items
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._items)
-
-    def __len__(self) -> int:
-        return len(self._items)
+    def __missing__(self, name: str) -> NoReturn:
+        known = ", ".join(self)
+        raise JumpcadError(f"no {self._kind} {name!r} in the catalogue ({known}){did_you_mean(name, self)}")
 
     def with_own(self, items: Mapping[str, Entry]) -> "PartsByName[Entry]":
         """Return these parts with a user's own after them."""
-        return PartsByName(self._kind, {**self._items, **items})
+        return PartsByName(self._kind, {**self, **items})
 
 
 @dataclass(frozen=True)

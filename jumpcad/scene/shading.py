@@ -19,22 +19,7 @@ CACHED_MESHES = 128
 """More than a robot has; its GLB file and its pictures use the same meshes."""
 
 
-class _ByContent:
-    """A mesh as the key of a cache: meshes with the same corners and faces are equal."""
-
-    def __init__(self, mesh: "trimesh.Trimesh") -> None:
-        self.mesh = mesh
-
-    def __hash__(self) -> int:
-        return hash(self.mesh)  # of corners and faces
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, _ByContent):
-            return False
-        one, two = self.mesh, other.mesh
-        return one is two or (np.array_equal(one.vertices, two.vertices) and np.array_equal(one.faces, two.faces))
-
-
+@lru_cache(maxsize=CACHED_MESHES)
 def with_normals(mesh: "trimesh.Trimesh") -> tuple[Array, Array, npt.NDArray[np.int64]]:
     """Return vertices (n, 3), their normals (n, 3) and faces (m, 3); a vertex on a crease is repeated for each normal.
 
@@ -42,12 +27,6 @@ def with_normals(mesh: "trimesh.Trimesh") -> tuple[Array, Array, npt.NDArray[np.
     the crease angle. trimesh's `smooth_shade` is not used: it orders vertices by a sort whose ties depend on the
     processor.
     """
-    return _with_normals(_ByContent(mesh))
-
-
-@lru_cache(maxsize=CACHED_MESHES)
-def _with_normals(key: _ByContent) -> tuple[Array, Array, npt.NDArray[np.int64]]:
-    mesh = key.mesh
     seen = mesh.face_normals.any(axis=1)  # without faces of no area
     normal, area, ends = mesh.face_normals[seen], mesh.area_faces[seen], mesh.faces[seen].ravel()
     corner = np.arange(ends.size)
