@@ -7,10 +7,8 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
-import typer
 from support import needs
 from support.commands import Run
 from support.each import each
@@ -153,16 +151,3 @@ def test_completion_is_installed_without_an_error(tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=surroundings)
     assert (done.returncode, done.stderr) == (0, "")
     assert f"bash completion installed in {tmp_path}" in done.stdout
-
-
-@pytest.mark.parametrize(("ended", "code"), [(0, 0), (None, 0), (3, 3)])
-def test_options_that_end_the_program_themselves_keep_their_exit_code(ended: int | None, code: int) -> None:
-    """As those of completion do."""
-
-    def make_context(name: str, arguments: list[str]) -> None:
-        assert (name, arguments) == ("jumpcad", ["--show-completion"])
-        raise SystemExit(ended)
-
-    with pytest.raises(typer.Exit) as end:
-        commands._context(SimpleNamespace(make_context=make_context), ["--show-completion"])
-    assert end.value.exit_code == code

@@ -5,8 +5,6 @@ import json
 import pytest
 from support.commands import Run
 
-from jumpcad.cli.listing import described
-
 
 def names(run: Run, kind: str) -> list[str]:
     code, out, err = run("list", kind, "--json")
@@ -31,9 +29,3 @@ def test_an_unknown_kind_is_refused_with_a_hint(run: Run) -> None:
     code, out, err = run("list", "printer")
     assert (code, out) == (2, "")
     assert "did you mean printers?" in err
-
-
-def test_engines_are_installed_where_their_package_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The planar engine needs none."""
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "mujoco" else name)
-    assert described("engines") == {"pybullet": "installed", "mujoco": "not installed", "planar": "installed"}

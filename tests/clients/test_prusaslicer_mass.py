@@ -13,9 +13,9 @@ from support.built import built
 from support.gcode import read_gcode
 from support.slicers import with_seams_behind
 
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import CannotBuildError
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.printing.prusaslicer import slice_part, slicer_settings
+from jumpcad.printing.prusaslicer import slice_part
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.moments import mass_of
@@ -155,24 +155,8 @@ def test_a_hole_keeps_its_diameter_in_the_toolpath(tmp_path):
 
 
 @needs_slicer
-def test_settings_that_the_slicer_does_not_know_are_reported(tmp_path, monkeypatch):
-    def with_a_typo(*workshop):
-        return slicer_settings(*workshop) | {"perimeterz": "9"}
-
-    monkeypatch.setattr("jumpcad.printing.prusaslicer.slicer_settings", with_a_typo)
-    path = written(Stack.of([(0, 2, disc(12))]), tmp_path)
-    assert slice_part(path, WORKSHOP.printer, WORKSHOP.process, MATERIAL).ignored == {"perimeterz": ("9", "nothing")}
-
-
-@needs_slicer
 def test_a_file_that_is_no_part_is_refused_in_the_slicers_words(tmp_path):
     path = tmp_path / "empty.stl"
     path.write_bytes(b"")
     with pytest.raises(CannotBuildError, match=r"prusa-slicer refused empty\.stl: "):
         slice_part(path, WORKSHOP.printer, WORKSHOP.process, MATERIAL)
-
-
-def test_a_missing_slicer_is_named(tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(JumpcadError, match="prusa-slicer is not installed: install PrusaSlicer"):
-        slice_part(tmp_path / "part.stl", WORKSHOP.printer, WORKSHOP.process, MATERIAL)

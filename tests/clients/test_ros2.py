@@ -3,13 +3,9 @@
 import ast
 import math
 import re
-import runpy
-import shlex
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +14,7 @@ from support import needs
 from support.built import built
 from support.clients import run
 
-from jumpcad.exporters.ros2 import model_name, ros2_files
+from jumpcad.exporters.ros2 import ros2_files
 from jumpcad.robot import Robot
 
 xacro, yaml = needs.package("xacro"), needs.package("yaml")
@@ -127,64 +123,3 @@ def test_launch_files_compile_and_settings_are_yaml(robot: Robot, package: Path)
     assert controllers["cam"]["ros__parameters"] == {"joints": [robot.spring.joint], "interface_name": "effort"}
     (view,) = (package / "rviz").iterdir()
     assert yaml.safe_load(view.read_text())["Visualization Manager"]["Global Options"]["Fixed Frame"] == "base_link"
-
-
-LAUNCH = {
-    "launch": ["LaunchDescription"],
-    "launch.actions": ["IncludeLaunchDescription", "SetEnvironmentVariable"],
-    "launch.launch_description_sources": ["PythonLaunchDescriptionSource"],
-    "launch.substitutions": ["Command"],
-    "launch_ros": [],
-    "launch_ros.actions": ["Node"],
-    "launch_ros.parameter_descriptions": ["ParameterValue"],
-    "ament_index_python": [],
-    "ament_index_python.packages": ["get_package_share_directory"],
-}
-"""Modules and names of ROS that launch files use."""
-
-
-@pytest.mark.parametrize("name", ["view_robot", "gazebo"])
-def test_launch_files_start_nodes_that_the_package_depends_on(
-    package: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
-    """With stand-ins for ROS that keep what they are given; its xacro command is run as it stands."""
-    nodes: list[dict[str, Any]] = []
-    commands: list[str] = []
-    for module, names in LAUNCH.items():
-        stand_in = ModuleType(module)
-        for one in names:
-            setattr(stand_in, one, lambda *given, **named: (given, named))
-        monkeypatch.setitem(sys.modules, module, stand_in)
-    monkeypatch.setattr(sys.modules["launch_ros.actions"], "Node", lambda **named: nodes.append(named))
-    monkeypatch.setattr(sys.modules["launch.substitutions"], "Command", lambda parts: commands.append("".join(parts)))
-    folders = {package.name: package, "ros_gz_sim": Path("/ros_gz_sim")}
-    monkeypatch.setattr(
-        sys.modules["ament_index_python.packages"], "get_package_share_directory", lambda one: str(folders[one])
-    )
-    runpy.run_path(str(package / "launch" / f"{name}.launch.py"))["generate_launch_description"]()
-
-    needed = set(re.findall("<exec_depend>(.*)</exec_depend>", (package / "package.xml").read_text()))
-    assert {node["package"] for node in nodes} <= needed
-    assert "robot_state_publisher" in {node["executable"] for node in nodes}
-    (command,) = commands
-    program, model, *arguments = shlex.split(command)  # as ROS's own `Command` takes it apart
-    assert program == "xacro"
-    assert Path(model) == next((package / "urdf").glob("*.urdf.xacro"))
-    assert "child(1):  body" in run("check_urdf", urdf(package, *arguments))
-    given = [word for node in nodes for word in node.get("arguments", ())] + [one.split(":=")[-1] for one in arguments]
-    assert all(Path(word).is_file() for word in given if word.startswith(str(package)))
-    if name == "gazebo":  # the controllers that are started are those that the settings name
-        controllers = yaml.safe_load((package / "config" / "controllers.yaml").read_text())["controller_manager"]
-        started = {node["arguments"][0] for node in nodes if node["executable"] == "spawner"}
-        assert started == set(controllers["ros__parameters"]) - {"update_rate"}
-        types = {one["type"].split("/")[0] for one in controllers["ros__parameters"].values() if isinstance(one, dict)}
-        assert types <= needed
-
-
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    [("kenan-2.0", "kenan_2_0"), ("2nd Robot!", "robot_2nd_robot"), ("Ö", "robot"), ("A__b", "a_b")],
-)
-def test_names_are_those_that_ros_allows(name: str, expected: str) -> None:
-    """REP 144: small letters, digits, single underscores, a letter first."""
-    assert model_name(name) == expected
