@@ -29,6 +29,9 @@ def calibrate(
     landing: Annotated[
         bool, typer.Option("--landing", help="Resting places from simulated landings (MuJoCo), not from a free travel.")
     ] = False,
+    hypotheses: Annotated[
+        bool, typer.Option("--hypotheses", help="Also the odds of other springs or a shared factor (a minute).")
+    ] = False,
     plots: PlotsOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
@@ -36,6 +39,7 @@ def calibrate(
     """Calibrate springs, pins, release and drive on measured jumps, and show what the data do not determine."""
     from jumpcad.calibration import calibrate as run
     from jumpcad.calibration import elsewhere, load_subject, predicted_jump, settings_toml
+    from jumpcad.calibration.hypotheses import compare_hypotheses
     from jumpcad.calibration.plots import PICTURES
     from jumpcad.calibration.subject import renamed, require_each_once, require_pairs
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
@@ -60,6 +64,8 @@ def calibrate(
                 for one in predictions
             }
         }
+        if hypotheses:
+            document["hypotheses"] = compare_hypotheses(known, seed)
     if output:
         document |= {"settings": str(output), "elsewhere": list(elsewhere(posterior))}
         write_atomically(output, settings_toml(posterior))
