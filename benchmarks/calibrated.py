@@ -9,6 +9,7 @@ import numpy as np
 
 from jumpcad.building import build
 from jumpcad.calibration import calibrate, load_subject, predicted_jump
+from jumpcad.calibration.hypotheses import compare_hypotheses
 from jumpcad.design import load_design
 from jumpcad.files import to_toml
 from jumpcad.simulation import Settings, uncertain_jump
@@ -70,6 +71,7 @@ def of_calibration() -> dict[str, str]:
         f"Kenan 2.0 would need {energy['needed'] / energy['predicted']:.1f} times the springs' energy over its mass, "
         f"or {travel['needed']:.0f} mm of travel after landing",
         "calibrated landing": _landed(),
+        "calibrated hypotheses": _hypotheses(),
         "uncertain": _uncertain(),
     }
 
@@ -123,6 +125,28 @@ def _calibrated(found: dict[str, Any]) -> str:
         f"the likeliest reading of the height is {words[reading]} ({_share(height['readings'][reading])}). Only the "
         f"drive is identified ({_three(known[0]['posterior'])} of the model's efficiency)"
     )
+
+
+def _hypotheses() -> str:
+    """Return the odds of explanations of both prototypes, with what each misses at worst."""
+    found = compare_hypotheses([load_subject("kenan-1.0"), load_subject("kenan-2.0")], SEED)
+    lines = ["| explanation | travel | odds | energy over mass | Kenan 1.0 misses | Kenan 2.0 misses | read as |",
+             "|---|---|--:|--:|--:|--:|---|"]  # fmt: skip
+    for one in found:
+        missed = [
+            ", ".join(
+                f"{100.0 * row['off_share']:+.0f} %"
+                for row in one["figures"]
+                if row["robot"] == robot and row["what"] in one["readings"]
+            )
+            for robot in one["energy_per_mass"]
+        ]
+        energies = ", ".join(f"{value:.2f}" for value in one["energy_per_mass"].values())
+        read = ", ".join(one["readings"].values())
+        lines.append(
+            f"| {one['name']} | {one['travel']} | {one['odds']:.2g} | {energies} | {' | '.join(missed)} | {read} |"
+        )
+    return "\n".join(lines)
 
 
 def _beside(rows: dict[tuple[str, str], dict[str, Any]]) -> str:
