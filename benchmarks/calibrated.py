@@ -109,7 +109,7 @@ def _landed() -> str:
     (rest,) = (one for one in rows if one["as"] == "resting-place")
     return (
         f"a travel of {other.travel.first:.0f} ± {other.travel.second:.0f} mm, and a resting place at "
-        f"{_mm(rest['predicted'])}; the measured 350 mm is above {_share(rest['below_share'])} of the predictions"
+        f"{_mm(rest['predicted'])}. The measured 350 mm is above {_share(rest['below_share'])} of the predictions"
     )
 
 
