@@ -9,7 +9,7 @@ import json
 import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -47,13 +47,12 @@ MOST_NOTES, LONGEST_NOTE = 200, 1000
 class StudyStore:
     """An open study file; `StudyStore.write` and `StudyStore.read` open one."""
 
-    def __init__(
-        self, path: Path | None, connection: sqlite3.Connection, claim: int | None = None, made: bool = False
-    ) -> None:
+    _connection: sqlite3.Connection
+
+    def __init__(self, path: Path | None, made: bool = False) -> None:
         self.path = path
         self._made = made
-        self._connection = connection
-        self._claim = claim
+        self._closing = ExitStack()
 
     def __repr__(self) -> str:
         return f"<StudyStore {str(self.path)[-120:] if self.path else 'in memory'}>"
@@ -70,23 +69,16 @@ class StudyStore:
         """
         path = None if path is None else Path(path)
         made = path is not None and not os.path.lexists(path)
-        claim = None if path is None else lock(path)
-        connection = None
-        try:
+        store = cls(path, made)
+        if path is not None:
+            store._closing.callback(os.close, lock(path))
+        with ExitStack() as on_error:
+            on_error.push(store)
             with plain_errors(path):
-                connection = connect(":memory:" if path is None else os.path.abspath(path))
-                store = cls(path, connection, claim, made)
+                store._connect(connect(":memory:" if path is None else os.path.abspath(path)))
                 store._prepare(identity)
-            return store
-        except BaseException:
-            useless = made and (connection is None or _holds_nothing(connection))  # there was no space
-            if connection is not None:
-                connection.close()
-            if useless and path is not None:
-                _remove(path)
-            if claim is not None:
-                os.close(claim)
-            raise
+            on_error.pop_all()
+        return store
 
     @classmethod
     @check_arguments
@@ -104,23 +96,24 @@ class StudyStore:
             there = os.path.exists(path)
             reason = "is a folder, a pipe or a device, not a study file" if there else "no such study file"
             raise JumpcadError(f"{path}: {reason}")
-        with plain_errors(path):
-            store = cls(path, open_to_read(path))
-            try:
+        store = cls(path)
+        with ExitStack() as on_error:
+            on_error.push(store)
+            with plain_errors(path):
+                store._connect(open_to_read(path))
                 store._check_format()
                 _ = store.identity
                 store._connection.execute("PRAGMA query_only = ON")
-            except BaseException:
-                store.close()
-                raise
+            on_error.pop_all()
         return store
+
+    def _connect(self, connection: sqlite3.Connection) -> None:
+        self._connection = connection
+        self._closing.callback(connection.close)
 
     def close(self) -> None:
         """Close the file."""
-        self._connection.close()
-        if self._claim is not None:
-            os.close(self._claim)
-            self._claim = None
+        self._closing.close()
 
     def __enter__(self) -> "StudyStore":
         return self
@@ -132,7 +125,8 @@ class StudyStore:
             self.path.unlink(missing_ok=True)
         self.close()
         if useless and self.path is not None:
-            _remove(self.path)
+            for suffix in ("-wal", "-shm"):
+                self.path.with_name(f"{self.path.name}{suffix}").unlink(missing_ok=True)
 
     @property
     def identity(self) -> dict[str, Any]:
@@ -185,9 +179,10 @@ class StudyStore:
             self._connection.executemany("INSERT INTO trials VALUES (?, ?, ?, ?, ?, ?)", map(to_row, trials))
 
     def _is_empty(self) -> bool:
-        with suppress(JumpcadError), plain_errors(self.path):
+        try:
             return not self._connection.execute("SELECT EXISTS (SELECT 1 FROM trials)").fetchone()[0]
-        return False
+        except (AttributeError, sqlite3.Error):  # it could not be opened, or there was no space for its tables
+            return True
 
     def note(self, text: str) -> None:
         """Keep a line about the run: a lost worker, a quarantined design."""
@@ -279,19 +274,6 @@ def _own_tables() -> list[tuple[str, str, str]]:
     connection = sqlite3.connect(":memory:")
     connection.executescript(SCHEMA)
     return _tables(connection)
-
-
-def _holds_nothing(connection: sqlite3.Connection) -> bool:
-    """Tell whether a file has no tables, as far as it can be read."""
-    with suppress(sqlite3.Error):
-        return not connection.execute("SELECT EXISTS (SELECT 1 FROM sqlite_master)").fetchone()[0]
-    return False
-
-
-def _remove(path: Path) -> None:
-    """Remove a study file and what SQLite keeps beside it."""
-    for suffix in ("", "-wal", "-shm"):
-        path.with_name(f"{path.name}{suffix}").unlink(missing_ok=True)
 
 
 def difference(there: Any, here: Any, name: str = "") -> str:
