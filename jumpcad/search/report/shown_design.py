@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 
 from jumpcad.errors import CannotBuildError
+from jumpcad.evaluation import FIGURES
 from jumpcad.search.fronts import Cost, energy_j, front
+from jumpcad.search.models import PUBLISHED_FIGURES
 from jumpcad.search.report.axes import Axes, evenly, scale
 from jumpcad.search.report.side_view import joints_mm
 from jumpcad.search.report.words import figure_words, value_words, with_unit
@@ -101,5 +103,5 @@ def _lines(trial: Trial) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     first.append(("main leg, front link, foot, toe", ", ".join(f"{length:.1f}" for length in lengths) + " mm"))
     first.append(figure_words("spring_energy_j", metrics.get("spring_energy_j", energy_j(design))))
     first += [figure_words(name, metrics[name]) for name in HEADLINES if name in metrics]
-    told = {"spring_energy_j", *HEADLINES}
-    return first, [figure_words(name, figure) for name, figure in metrics.items() if name not in told]
+    named = {*FIGURES, *PUBLISHED_FIGURES} - {"spring_energy_j", *HEADLINES}  # others are those of estimates
+    return first, [figure_words(name, figure) for name, figure in metrics.items() if name in named]

@@ -4,24 +4,13 @@ import tomllib
 from functools import cache
 
 from jumpcad.design import Design
-from jumpcad.dimensions import unit_of_key
+from jumpcad.dimensions import KEY_UNITS, unit_of_key
 from jumpcad.evaluation import FIGURES
 from jumpcad.files.templates import templates_folder
 from jumpcad.workshop.varied import Value
 
-FIGURE_UNITS = {
-    "_m_s": ("m/s", 1.0),
-    "_kg_m2": ("kg·m²", 1.0),
-    "_kg": ("g", 1000.0),
-    "_m": ("mm", 1000.0),
-    "_mm": ("mm", 1.0),
-    "_j": ("mJ", 1000.0),
-    "_s": ("s", 1.0),
-    "_n": ("N", 1.0),
-    "_a": ("A", 1.0),
-    "_deg": ("°", 1.0),
-}
-"""Unit in which a figure is shown, and the factor, by the end of the figure's name."""
+SHOWN_AS = {"kg": ("g", 1000.0), "m": ("mm", 1000.0), "J": ("mJ", 1000.0)}
+"""Units in which figures are shown in place of others, and the factor."""
 
 
 def unit_of(parameter: str) -> str:
@@ -61,9 +50,9 @@ def reason_words(reason: str) -> str:
 
 def figure_words(name: str, value: float) -> tuple[str, str]:
     """Return label and value, with its unit, of a figure of an evaluation."""
-    end = next((end for end in FIGURE_UNITS if name.endswith(end)), "")
-    label = FIGURES.get(name, name.removesuffix(end).replace("_", " "))
-    unit, factor = FIGURE_UNITS.get(end, ("", 1.0))
+    end = next((end for end in KEY_UNITS if name.endswith(f"_{end}")), "")
+    unit, factor = SHOWN_AS.get(KEY_UNITS.get(end, ""), (KEY_UNITS.get(end, ""), 1.0))
+    label = FIGURES.get(name, name.removesuffix(f"_{end}").replace("_", " "))
     return label, f"{factor * value:.4g}{'' if unit == '°' else ' '}{unit}".strip()
 
 

@@ -72,10 +72,11 @@ def test_links_are_told_from_the_hub_to_the_toe() -> None:
 
 
 def test_headlines_come_first_and_nothing_twice() -> None:
-    first, others = told(a_share=0.5, **dict.fromkeys(HEADLINES, 0.125))
+    """Figures of estimates alone are not shown."""
+    first, others = told(laid_coil_mm=0.5, turn_rate_deg_s=90.0, **dict.fromkeys(HEADLINES, 0.125))
     assert list(first.values()).count("125 mm") == 2
     assert "125 g" in first.values()
-    assert others == {"a share": "0.5"}
+    assert others == {"rate of that turn": "90 °/s"}
 
 
 def test_every_number_stands_with_its_unit_and_the_energy_is_that_of_the_evaluation() -> None:

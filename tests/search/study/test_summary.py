@@ -3,6 +3,7 @@
 import contextlib
 import shutil
 import sqlite3
+from dataclasses import replace
 
 import pytest
 from support.bumps import REST, Bump, studied
@@ -87,6 +88,16 @@ def test_a_pick_that_has_not_ended_or_belongs_to_a_shorter_search_is_none(finish
             found = summary(store)
         assert (found.candidates, found.winner) == ([], best_trial(found.trials))
         assert [(bound.name, bound.unknown) for bound in found.bounds] == [("compression_ratio", True)]
+
+
+def test_scores_that_are_all_alike_have_no_winner(tmp_path):
+    with studied(tmp_path / "s.db", Space.parse(fix=REST), "ga", 20) as store:
+        found = summary(store)
+        assert found.winner is not None
+        for value in (0.0, 2.0):
+            monotone = [replace(one, score=None if one.score is None else value) for one in store.trials()]
+            store.trials = lambda trials=monotone: trials
+            assert (summary(store).winner, summary(store).scored) == (None, True)
 
 
 def test_a_candidate_that_is_none_of_the_trials_is_damage(finished, tmp_path):
