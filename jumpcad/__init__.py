@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from jumpcad.design import SEARCH_BOUNDS as SEARCH_BOUNDS
     from jumpcad.design import Design as Design
     from jumpcad.design import load_design as load_design
+    from jumpcad.environment import JumpEnv as JumpEnv
     from jumpcad.errors import CannotBuildError as CannotBuildError
     from jumpcad.errors import JumpcadError as JumpcadError
     from jumpcad.evaluation import EvaluationResult as EvaluationResult

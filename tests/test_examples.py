@@ -21,6 +21,7 @@ EXAMPLES = {
     "one_spring": ["--model", "capsule", "--evaluations", "60"],
     "pareto_front": ["--model", "capsule", "--evaluations", "24", "--folder", "out"],
     "custom_printer": ["--folder", "out"],
+    "when_to_release": ["--episodes", "2"],
 }
 
 
@@ -86,3 +87,10 @@ def test_custom_printer(run):
     shown = run("custom_printer")
     assert "a small printer in the corner" in shown
     assert "Original Prusa" in shown
+
+
+def test_a_rule_jumps_farther_than_chance(run):
+    pytest.importorskip("gymnasium")
+    ways = dict(re.findall(r"^(\S[\w ]+?) +(-?\d+) mm in 30 s", run("when_to_release"), re.M))
+    assert len(ways) == 4
+    assert int(ways["at once"]) > int(ways["by chance"])

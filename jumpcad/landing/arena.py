@@ -34,6 +34,11 @@ REST_WITHIN_S = 8.0
 """A landing is over after this time, at rest or not."""
 UPRIGHT = math.cos(math.radians(20.0))
 """A robot stands on its feet where the foot's upward axis is at most 20° from the vertical."""
+STEP = (
+    '<body name="step" mocap="true" pos="0 0 -2"><geom name="step" type="box" size="{:g} {:g} {:g}" priority="-1" />'
+    "</body>"
+)
+"""A box that can be put anywhere."""
 ENDS = (("nose", "back"), ("left", "right"), ("top", "belly"))
 """What a robot rests on where the body's x, y or z axis points down, or up."""
 
@@ -58,6 +63,8 @@ class Arena:
         A printed robot.
     settings
         Of which gravity and friction hold; None: the defaults.
+    half_step_m
+        Half of length, width and height of a step, which `put_step` puts on the floor; None: there is none.
 
     Raises
     ------
@@ -65,16 +72,23 @@ class Arena:
         If MuJoCo is not installed.
     """
 
-    def __init__(self, robot: Robot, settings: Settings | None = None) -> None:
+    def __init__(
+        self, robot: Robot, settings: Settings | None = None, half_step_m: tuple[float, float, float] | None = None
+    ) -> None:
         self._mujoco = mujoco = import_mujoco()
         settings = settings or Settings()
         self.robot, self.gravity_m_s2 = robot, settings.gravity_m_s2
         self._drag_per_m = drag_per_m(settings.drag_area_m2, robot.mass_kg)
-        self.model = model = mujoco.MjModel.from_xml_string(write_robot(robot, visuals(robot), looks=False, floor=True))
+        text = write_robot(robot, visuals(robot), looks=False, floor=True)
+        self._half_step_m = half_step_m
+        if half_step_m:
+            text = text.replace("</worldbody>", STEP.format(*half_step_m) + "</worldbody>")
+        self.model = model = mujoco.MjModel.from_xml_string(text)
         self.data = mujoco.MjData(model)
         model.opt.gravity[2] = -settings.gravity_m_s2
         self.bodies = {name: int(model.body(name).id) for name in BODY_NAMES}
-        self._leg = int(model.joint(robot.spring.joint).qposadr[0])
+        joint = model.joint(robot.spring.joint)
+        self._leg, self._leg_rate = int(joint.qposadr[0]), int(joint.dofadr[0])
         self._latch = int(model.equality("latch").id)
         self._free = model.joint("free")
         rubs = coefficients(robot, settings)
@@ -95,6 +109,13 @@ class Arena:
         self.data.ctrl[:] = 0.0
         self._hold(key == "wound")
         self._mujoco.mj_forward(self.model, self.data)
+
+    def put_step(self, x_m: float, height_m: float) -> None:
+        """Put the step's front at a distance along x, its top at a height; at 0 it lies below the floor."""
+        if self._half_step_m:
+            length, _, high = self._half_step_m
+            self.data.mocap_pos[0] = x_m + length, 0.0, (height_m or -1.0) - high
+            self._mujoco.mj_forward(self.model, self.data)
 
     def put(self, quaternion_wxyz: Array, height_m: float, velocity_m_s: Array, spin_rad_s: Array) -> None:
         """Put the robot with relaxed springs in an attitude (4,), its lowest point at a height, moving and turning."""
@@ -119,6 +140,18 @@ class Arena:
         for _ in range(steps):
             self._mujoco.mj_step(self.model, self.data)
             self.watch()
+
+    def wind_on(self, share: float) -> None:
+        """Move the latch by a share of the springs' travel, from where it holds the leg or else from the leg."""
+        wind = self.robot.spring.wind_rad
+        at = self.model.eq_data[self._latch, 0] if self.held else min(float(self.data.qpos[self._leg]), 0.0)
+        self._hold(True)
+        self.model.eq_data[self._latch, 0] = max(at - share * wind, -wind)
+
+    def push(self, share: float) -> None:
+        """Load the springs by a share of the motor's largest torque, from 0 to 1, without the latch."""
+        self._hold(False)
+        self.data.ctrl[0] = share * self.model.actuator_ctrlrange[0, 0]
 
     def wind(self, time_s: float, look: Callable[[], None] = lambda: None) -> None:
         """Wind the leg at an even rate within a time, wherever the robot lies, and hold it."""
@@ -181,6 +214,21 @@ class Arena:
         return float(self.data.time) - begun
 
     @property
+    def held(self) -> bool:
+        """Whether the latch holds the leg."""
+        return bool(self.data.eq_active[self._latch])
+
+    @property
+    def loaded(self) -> float:
+        """Share of the springs' travel by which the leg is wound."""
+        return -float(self.data.qpos[self._leg]) / self.robot.spring.wind_rad
+
+    @property
+    def leg_rad_s(self) -> float:
+        """Speed of the leg's joint."""
+        return float(self.data.qvel[self._leg_rate])
+
+    @property
     def stands(self) -> bool:
         """Whether the foot is flat on the floor."""
         return bool(self.pose(FOOT)[2, 2] > UPRIGHT)
@@ -228,7 +276,7 @@ class Arena:
         """Return the height of the robot's lowest point."""
         model, data = self.model, self.data
         lows = []
-        for geom in np.flatnonzero(model.geom_bodyid > 0):
+        for geom in np.flatnonzero(np.isin(model.geom_bodyid, list(self.bodies.values()))):
             up = data.geom_xmat[geom].reshape(3, 3)[2]
             mesh = model.geom_dataid[geom]
             if mesh >= 0:

@@ -1,0 +1,121 @@
+"""The environment of Gymnasium: its checker, the law of what it rewards, and who is refused."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from support.built import built
+
+import jumpcad
+from jumpcad.environment import RELEASE, WAIT, WIND
+from jumpcad.errors import JumpcadError
+
+gymnasium = pytest.importorskip("gymnasium")
+NAMES = list(jumpcad.JumpEnv.OBSERVATIONS)
+
+
+def of(observed: np.ndarray, name: str) -> float:
+    return float(observed[NAMES.index(name)])
+
+
+def test_gymnasium_s_checker_finds_nothing_wrong() -> None:
+    from gymnasium.utils.env_checker import check_env
+
+    kenan = built("kenan-2.0")
+    for options in ({"steps_mm": (10.0, 60.0), "render_mode": "rgb_array"}, {"start": "lying", "control": "torque"}):
+        check_env(jumpcad.JumpEnv(kenan, **options), skip_render_check=False)
+
+
+def test_the_rewards_of_a_jump_are_its_way_and_its_height_that_of_the_simulation() -> None:
+    """Nothing moves before the release; then the centre of mass rises as `simulate` says."""
+    env = jumpcad.JumpEnv(built("kenan-2.0"), episode_s=3.0, step_s=0.01)
+    first, _ = env.reset(seed=0)
+    assert of(first, "loaded") == pytest.approx(1.0, abs=0.01)
+    for _ in range(10):
+        rested, way, *_ = env.step(WAIT)
+        assert way == pytest.approx(0.0, abs=1e-4)
+    observed, way, _, _, _ = env.step(RELEASE)
+    heights, ways, over = [of(observed, "height")], [way], False
+    while not over:
+        observed, way, _, over, figures = env.step(WAIT)
+        heights.append(of(observed, "height"))
+        ways.append(way)
+    jump = jumpcad.simulate(built("kenan-2.0"), engine="mujoco")
+    assert max(heights) - of(rested, "height") == pytest.approx(jump.com_rise_m, abs=0.004)
+    assert sum(ways) > 0.5 * (jump.ballistic_range_m or 0.0)
+    assert figures["time_s"] == pytest.approx(3.0)
+
+
+def test_winding_takes_the_drives_time_and_the_cam_releases_nothing_before() -> None:
+    robot = built("kenan-2.0")
+    env = jumpcad.JumpEnv(robot, start="standing")
+    env.reset(seed=0)
+    observed, *_ = env.step(WIND)
+    for _ in range(5):
+        observed, *_ = env.step(RELEASE)
+    assert 0.0 < of(observed, "loaded") < 0.1
+    steps = 1
+    while of(observed, "loaded") < 0.98:
+        observed, *_ = env.step(WIND)
+        steps += 1
+    assert 0.05 * steps == pytest.approx(robot.layout.drive.train.winding_s, rel=0.05)
+
+
+def test_the_distance_of_a_step_falls_by_the_way_made() -> None:
+    env = jumpcad.JumpEnv(built("kenan-2.0"), steps_mm=(40.0, 40.0))
+    first, _ = env.reset(seed=3)
+    assert of(first, "step_height") == pytest.approx(0.04)
+    observed, way, *_ = env.step(RELEASE)
+    for _ in range(20):
+        observed, more, *_ = env.step(WAIT)
+        way += more
+    assert of(first, "step_ahead") - of(observed, "step_ahead") == pytest.approx(way, abs=1e-5)
+
+
+def test_a_step_bears_what_falls_on_it() -> None:
+    """With its front far behind the robot, the floor is the step's top: what rests there is higher by its height."""
+    heights = []
+    for height in (0.0, 0.2):
+        env = jumpcad.JumpEnv(built("kenan-2.0"), steps_mm=(1.0, 1.0), start="standing")
+        env.reset(seed=0)
+        arena = env.unwrapped._arena
+        arena.put(np.array([1.0, 0.0, 0.0, 0.0]), height + 0.01, np.zeros(3), np.zeros(3))
+        arena.put_step(-1.0, height)
+        arena.rest()
+        heights.append(float(arena.centre_of_mass_m[2]))
+    assert heights[1] - heights[0] == pytest.approx(0.2, abs=0.002)
+
+
+def test_seeds_decide_and_robots_as_made_are_not_alike() -> None:
+    env = jumpcad.JumpEnv(built("kenan-2.0"), made=3)
+    seen: dict[int, list[float]] = {}
+    for seed in (1, 2, 3, 4, 1):
+        env.reset(seed=seed)
+        observed, *_ = env.step(RELEASE)
+        assert seen.setdefault(seed, observed.tolist()) == observed.tolist()
+    assert len({tuple(one) for one in seen.values()}) > 1
+
+
+def test_several_are_stepped_together() -> None:
+    envs = gymnasium.make_vec("Jump-v0", num_envs=2, vectorization_mode="sync", robot=built("kenan-2.0"))
+    observed, _ = envs.reset(seed=0)
+    assert observed.shape == (2, len(NAMES))
+    assert envs.step(np.array([WAIT, RELEASE]))[0].shape == (2, len(NAMES))
+
+
+def test_wrong_arguments_are_one_line() -> None:
+    for options, words in (
+        ({"start": "flying"}, "start = 'flying': must be one of 'loaded', 'standing', 'lying'"),
+        ({"control": "will"}, "control = 'will'"),
+        ({"steps_mm": (60.0, 10.0)}, "must be the least and the largest height"),
+        ({"step_s": 0.0}, "step_s = 0: must be above 0"),
+    ):
+        with pytest.raises(JumpcadError, match=words):
+            jumpcad.JumpEnv(built("kenan-2.0"), **options)
+
+
+def test_without_gymnasium_the_way_to_install_it_is_said() -> None:
+    code = "import sys; sys.modules['gymnasium'] = None; import jumpcad; jumpcad.JumpEnv()"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert 'JumpEnv needs Gymnasium: pip install "jumpcad[gym]"' in done.stderr
