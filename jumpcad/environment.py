@@ -29,7 +29,7 @@ from jumpcad.workshop import Workshop
 try:
     import gymnasium
 except ImportError:  # an optional extra
-    gymnasium = None  # type: ignore[assignment]
+    gymnasium = None  # type: ignore[assignment, unused-ignore]
 
 if TYPE_CHECKING:
     Base = gymnasium.Env[Array, Any]
@@ -75,7 +75,7 @@ PICTURE, FRAME_M = (320, 240), np.array([[-0.2, -0.1, 0.0], [0.5, 0.1, 0.3]])
 """Size of a picture (pixels), and what it shows about the centre of mass, from the ground on."""
 
 
-class JumpEnv(Base):
+class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
     """One robot that is wound, released and lands, as an environment of Gymnasium.
 
     The reward is the way forward of the centre of mass (m). An episode ends (truncated) after `episode_s`.
