@@ -6,7 +6,6 @@ mass of 1 kg. The loop's dependent joints mimic the leg's by a linear approximat
 
 import math
 import re
-import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -15,8 +14,8 @@ import numpy as np
 from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.mjcf_scene import HOLD
 from jumpcad.exporters.sdf import write_config, write_sdf
-from jumpcad.exporters.urdf import add_cage, add_cylinder, add_joint, add_link
-from jumpcad.exporters.xml import add, document, shorten, written
+from jumpcad.exporters.urdf import cage_cylinders, tree
+from jumpcad.exporters.xml import shortened
 from jumpcad.files import templates_folder
 from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.mechanism.poses import standing
@@ -40,7 +39,6 @@ TEMPLATES = {
 }
 """Templates with @WORDS@ to be replaced, and their paths in the package."""
 BASE = "base_link"
-XACRO = "http://www.ros.org/wiki/xacro"
 MESHES = "meshes"
 MIMIC_POINTS = 65
 """Number of leg angles at which a linear approximation is fitted."""
@@ -111,34 +109,15 @@ def _line(x: Array, y: Array) -> Mimic:
 
 
 def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], meshes: str) -> str:
-    """Return the bodies with visible meshes and collision shapes, and the joints of the tree."""
-    root = ET.Element("robot", {"xmlns:xacro": XACRO})
-    add(root, "link", name=BASE)
-    base = add(root, "joint", name="base", type="fixed")
-    add(base, "parent", link=BASE)
-    add(base, "child", link=BODY)
-    for body in robot.bodies.values():
-        link = add_link(root, body, [shape for shape in visible if shape.body == body.name], meshes)
-        for number, capsule in enumerate(capsules(robot, body.name), start=1):
-            add_cylinder(link, f"{body.name}_{number}", capsule)
-    add_cage(root, robot)
-    if box := body_box(robot, visible):
-        collision = add(next(link for link in root if link.get("name") == BODY), "collision", name="body_box")
-        add(collision, "origin", xyz=(box.low_m + box.high_m) / 2.0, rpy="0 0 0")
-        add(add(collision, "geometry"), "box", size=box.high_m - box.low_m)
-    for joint in robot.joints:
-        node = add_joint(root, joint, robot, Settings())
-        if joint.name == robot.spring.joint:
-            _driven(next(node.iter("limit")), robot)
-        if joint.name in mimics:
-            mimic = mimics[joint.name]
-            follows = add(node, "xacro:if", value="$(arg mimic)")
-            add(follows, "mimic", joint=robot.spring.joint, multiplier=mimic.slope, offset=mimic.offset_rad)
-    shorten(root)
-    return document(root)
+    """Return the bodies with visible meshes and collision shapes, and the joints of the tree.
 
-
-def _driven(limit: ET.Element, robot: Robot) -> None:
-    """Let the leg turn no farther than its springs are wound, and its controller hold it there."""
-    for name, value in (("lower", -robot.spring.wind_rad), ("effort", _hold_nm(robot))):
-        limit.set(name, written(value))
+    The leg turns no farther than its springs are wound, and its controller holds it there.
+    """
+    cylinders = {
+        name: {f"{name}_{number}": capsule for number, capsule in enumerate(capsules(robot, name), start=1)}
+        for name in robot.bodies
+    }
+    cylinders[BODY] |= cage_cylinders(robot)
+    values = {"base": BASE, "box": body_box(robot, visible), "mimics": mimics, "w": shortened}
+    leg = {"lower": -robot.spring.wind_rad, "effort": _hold_nm(robot)}
+    return tree(robot, visible, Settings(), meshes, cylinders, values, leg)

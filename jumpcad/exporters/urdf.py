@@ -8,15 +8,15 @@ collision shapes are the contact spheres, and cylinders along the cage.
 """
 
 import json
-import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from jumpcad.dimensions import MESH_FOLDER
-from jumpcad.exporters.xml import add, document, limits_rad, rpy
+from jumpcad.exporters.xml import allowed, limits_rad, rpy, written
+from jumpcad.files.rendering import fill
 from jumpcad.mechanism.mass import principal_axes
-from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism
+from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings, coefficients
 from jumpcad.strength.loads import pin_torque_nm
@@ -47,18 +47,58 @@ def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
     """Return the URDF document of a mechanism; its joints have the settings' damping and dry friction.
 
     `visible` are its visible meshes, from `jumpcad.scene.visuals`.
-
-    The `mujoco` element keeps MuJoCo from dropping the root link's mass and the folder of the meshes.
     """
-    settings = settings or Settings()
-    root = ET.Element("robot", name=mechanism.name)
-    add(add(root, "mujoco"), "compiler", fusestatic="false", strippath="false", discardvisual="false")
+    cylinders, values = {BODY: cage_cylinders(mechanism)}, {"name": mechanism.name, "w": written}
+    return tree(mechanism, visible, settings or Settings(), MESH_FOLDER, cylinders, values)
+
+
+def tree(
+    mechanism: Mechanism,
+    visible: "Sequence[Visual]",
+    settings: Settings,
+    meshes: str,
+    cylinders: "Mapping[str, Mapping[str, Capsule]]",
+    values: dict[str, Any],
+    leg: Mapping[str, float] | None = None,
+) -> str:
+    """Return the document of links and hinges.
+
+    Parameters
+    ----------
+    mechanism, settings
+        The joints have the settings' damping and dry friction.
+    visible, meshes
+        The visible meshes, and the path or URI of their folder.
+    cylinders
+        Capsules that are written as cylinders, by name, of each body: URDF has no capsules.
+    values
+        What else the template says.
+    leg
+        Limits of the leg's joint that are not those of the mechanism.
+    """
+    rubs = coefficients(mechanism, settings)
+    links, joints = [], []
     for body in mechanism.bodies.values():
-        add_link(root, body, [shape for shape in visible if shape.body == body.name], MESH_FOLDER)
-    add_cage(root, mechanism)
+        moments, axes = principal_axes(body.inertia_kg_m2)
+        placed = [(shape, shape.T_body_mesh) for shape in visible if shape.body == body.name]
+        shapes = [(shape, pose[:3, 3], rpy(pose[:3, :3])) for shape, pose in placed]
+        links.append((body, moments, rpy(axes), shapes, cylinders.get(body.name, {})))
     for joint in mechanism.joints:
-        add_joint(root, joint, mechanism, settings)
-    return document(root)
+        lower, upper = limits_rad(joint, mechanism)
+        limit = {"lower": lower, "upper": upper, "effort": joint.effort_nm, "velocity": joint.velocity_rad_s}
+        driven = joint.name == mechanism.spring.joint
+        friction = settings.joint_friction_nm + (pin_torque_nm(mechanism, rubs.pin) if driven else 0.0)
+        limit |= leg if leg and driven else {}
+        joints.append((joint, limit, rubs.joint_damping_nms_per_rad, friction))
+    common = {"links": links, "joints": joints, "meshes": meshes, "leg": mechanism.spring.joint}
+    return allowed(fill("urdf/tree.xml.j2", {"base": "", "box": None, "mimics": {}} | common | values))
+
+
+def cage_cylinders(mechanism: Mechanism) -> "dict[str, Capsule]":
+    """Return the cage's rods and bars, which touch the ground, by name."""
+    from jumpcad.scene.hulls import cage_capsules
+
+    return {f"cage_{number}": capsule for number, capsule in enumerate(cage_capsules(mechanism), start=1)}
 
 
 def write_loop(mechanism: Mechanism) -> str:
@@ -92,62 +132,3 @@ def write_loop(mechanism: Mechanism) -> str:
         "surfaces": {contact.name: contact.surface for body in mechanism.bodies.values() for contact in body.contacts},
     }
     return json.dumps(data, indent=2, allow_nan=False) + "\n"
-
-
-def add_link(root: ET.Element, body: Body, visible: "list[Visual]", meshes: str) -> ET.Element:
-    """Append a body with its visible meshes, which are at the path or URI `meshes`, and its contact spheres."""
-    link = add(root, "link", name=body.name)
-    moments, axes = principal_axes(body.inertia_kg_m2)
-    inertial = add(link, "inertial")
-    add(inertial, "origin", xyz=body.com_m, rpy=rpy(axes))
-    add(inertial, "mass", value=body.mass_kg)
-    add(inertial, "inertia", ixx=moments[0], ixy=0.0, ixz=0.0, iyy=moments[1], iyz=0.0, izz=moments[2])
-    for shape in visible:
-        visual = add(link, "visual", name=shape.name)
-        add(visual, "origin", xyz=shape.T_body_mesh[:3, 3], rpy=rpy(shape.T_body_mesh[:3, :3]))
-        geometry = add(visual, "geometry")
-        add(geometry, "mesh", filename=f"{meshes}/{shape.mesh_name}.stl", scale="0.001 0.001 0.001")
-        material = add(visual, "material", name=f"{shape.name}_colour")
-        add(material, "color", rgba=(*shape.colour, 1.0))
-    for contact in body.contacts:
-        collision = add(link, "collision", name=contact.name)
-        add(collision, "origin", xyz=contact.centre_m, rpy="0 0 0")
-        add(add(collision, "geometry"), "sphere", radius=contact.radius_m)
-    return link
-
-
-def add_cage(root: ET.Element, mechanism: Mechanism) -> None:
-    """Append the cage's rods and bars to the link of the body, as cylinders that touch the ground."""
-    from jumpcad.scene.hulls import cage_capsules
-
-    link = next(link for link in root.iter("link") if link.get("name") == BODY)
-    for number, capsule in enumerate(cage_capsules(mechanism), start=1):
-        add_cylinder(link, f"cage_{number}", capsule)
-
-
-def add_cylinder(link: ET.Element, name: str, capsule: "Capsule") -> None:
-    """Append a capsule as a cylinder: URDF has no capsules."""
-    collision = add(link, "collision", name=name)
-    add(collision, "origin", xyz=(capsule.start_m + capsule.end_m) / 2.0, rpy=capsule.rpy)
-    add(add(collision, "geometry"), "cylinder", radius=capsule.radius_m, length=capsule.length_m)
-
-
-def add_joint(root: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> ET.Element:
-    """Append a hinge with its limits, damping and dry friction."""
-    node = add(root, "joint", name=joint.name, type="revolute")
-    add(node, "origin", xyz=joint.origin_m, rpy=(0.0, joint.rest_angle_rad, 0.0))
-    add(node, "parent", link=joint.parent)
-    add(node, "child", link=joint.child)
-    add(node, "axis", xyz="0 1 0")
-    rubs, (lower, upper) = coefficients(mechanism, settings), limits_rad(joint, mechanism)
-    pins = pin_torque_nm(mechanism, rubs.pin) if joint.name == mechanism.spring.joint else 0.0
-    add(
-        node,
-        "limit",
-        lower=lower,
-        upper=upper,
-        effort=joint.effort_nm,
-        velocity=joint.velocity_rad_s,
-    )
-    add(node, "dynamics", damping=rubs.joint_damping_nms_per_rad, friction=settings.joint_friction_nm + pins)
-    return node

@@ -49,9 +49,14 @@ def shorten(root: ET.Element) -> None:
     for node in root.iter():
         for key, text in node.attrib.items():
             if key not in NAMES and NUMBERS.fullmatch(text):
-                values = [float(word) for word in text.split()]
-                least = 10.0**-DIGITS * max(map(abs, values))
-                node.set(key, " ".join(f"{value if abs(value) > least else 0.0:.{DIGITS}g}" for value in values))
+                node.set(key, shortened([float(word) for word in text.split()]))
+
+
+def shortened(value: npt.ArrayLike) -> str:
+    """Return numbers as text, of `DIGITS` digits, and 0 below 10^-DIGITS of the largest."""
+    numbers = [float(number) for number in np.ravel(value)]
+    least = 10.0**-DIGITS * max(map(abs, numbers))
+    return " ".join(f"{number if abs(number) > least else 0.0:.{DIGITS}g}" for number in numbers)
 
 
 def document(root: ET.Element) -> str:
