@@ -19,7 +19,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, SUBSTEPS, add_options, stiff
 from jumpcad.exporters.xml import add, document, wxyz
 from jumpcad.findings import Finding
-from jumpcad.mechanism.model import Body
+from jumpcad.mechanism.model import Body, Joint, Loop, Spring
 from jumpcad.settings import Settings
 from jumpcad.simulation.ballistics import ballistics, drag_per_m
 from jumpcad.simulation.engines import import_mujoco
@@ -41,65 +41,28 @@ CARRIED_SHARE = 0.02
 """Of the weight: with less than this the robot has left the ground, as in `jumpcad.simulation.mujoco`."""
 
 
-@dataclass(frozen=True)
-class Hinge:
-    """A hinge about +y, see `jumpcad.mechanism.model.Joint`; `loaded_rad` and `range_rad`, its stops, may be None."""
-
-    name: str
-    parent: str
-    child: str
-    origin_m: Array
-    rest_angle_rad: float
-    loaded_rad: float | None
-    range_rad: tuple[float, float] | None
-    friction_nm: float
-
-
-@dataclass(frozen=True)
-class PlanarLoop:
-    """Two points, each in its body's frame, that are one pin."""
-
-    body_a: str
-    point_a_m: Array
-    body_b: str
-    point_b_m: Array
-
-
-@dataclass(frozen=True)
-class ChainSpring:
-    """A torsion spring on a joint, relaxed at a coordinate of it."""
-
-    joint: str
-    stiffness_nm_per_rad: float
-    free_rad: float
-
-    def stored_j(self, joint_rad: float) -> float:
-        """Return its energy less that at rest, where the coordinate is 0 (J)."""
-        return 0.5 * self.stiffness_nm_per_rad * ((joint_rad - self.free_rad) ** 2 - self.free_rad**2)
-
-
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """The bodies, hinges, loops and springs of a robot; `foot` is the body that stands on the ground."""
+    """The bodies, hinges, loops and springs of a robot, of which the bodies with contacts `foot` stand on the ground.
+
+    A joint comes after that of its parent; its limits are stops, if finite. A spring's preload is where it is relaxed.
+    `loaded_rad` has the coordinates of joints that are known in the loaded pose, `friction_nm` their dry friction,
+    `friction` the coefficients of foot and body on the ground.
+    """
 
     name: str
     bodies: Mapping[str, Body]
-    joints: tuple[Hinge, ...]
-    loops: tuple[PlanarLoop, ...]
-    springs: tuple[ChainSpring, ...]
-    foot: str
+    joints: tuple[Joint, ...]
+    loops: tuple[Loop, ...]
+    springs: tuple[Spring, ...]
+    loaded_rad: Mapping[str, float]
+    friction_nm: Mapping[str, float]
     friction: Mapping[str, float]
 
     @property
     def mass_kg(self) -> float:
         """Total mass (kg)."""
         return math.fsum(body.mass_kg for body in self.bodies.values())
-
-    @property
-    def root(self) -> str:
-        """The body that hangs on no other."""
-        children = {joint.child for joint in self.joints}
-        return next(name for name in self.bodies if name not in children)
 
     @property
     def length_m(self) -> float:
@@ -117,16 +80,10 @@ class Chain:
 
     def poses(self, coordinates: Array) -> dict[str, Array]:
         """Return all frames (4, 4) at the root's height and pitch and the joints' angles (2 + joints,)."""
-        placed = {self.root: pose_at(rotation_about_y(coordinates[1]), (0.0, 0.0, coordinates[0]))}
-        left = list(zip(self.joints, coordinates[2:], strict=True))
-        while left:
-            found = [item for item in left if item[0].parent in placed]
-            if not found:
-                raise JumpcadError(f"joint {left[0][0].name}: its parent {left[0][0].parent} hangs on itself")
-            for joint, angle in found:
-                turn = rotation_about_y(joint.rest_angle_rad + angle)
-                placed[joint.child] = np.asarray(placed[joint.parent] @ pose_at(turn, joint.origin_m))
-            left = [item for item in left if item[0].child not in placed]
+        placed = {self.joints[0].parent: pose_at(rotation_about_y(coordinates[1]), (0.0, 0.0, coordinates[0]))}
+        for joint, angle in zip(self.joints, coordinates[2:].tolist(), strict=True):
+            turn = rotation_about_y(joint.rest_angle_rad + angle)
+            placed[joint.child] = np.asarray(placed[joint.parent] @ pose_at(turn, joint.origin_m))
         return placed
 
     @cached_property
@@ -138,7 +95,7 @@ class Chain:
         JumpcadError
             If the loops do not close, or the foot is not flat, at the stated angles.
         """
-        stated = np.array([np.nan if joint.loaded_rad is None else joint.loaded_rad for joint in self.joints])
+        stated = np.array([self.loaded_rad.get(joint.name, np.nan) for joint in self.joints])
         known = np.isfinite(stated)
 
         def gaps(coordinates: Array, share: float = 1.0) -> Array:
@@ -148,8 +105,10 @@ class Chain:
                 for loop in self.loops
             ]
             heights = [
-                float((placed[self.foot] @ [*one.centre_m, 1.0])[2]) - one.radius_m
-                for one in self.bodies[self.foot].contacts
+                float((placed[name] @ [*one.centre_m, 1.0])[2]) - one.radius_m
+                for name, body in self.bodies.items()
+                for one in body.contacts
+                if one.surface == "foot"
             ]
             return np.concatenate([*apart, heights, coordinates[2:][known] - share * stated[known]])
 
@@ -199,21 +158,21 @@ def chain_mjcf(chain: Chain, settings: Settings) -> str:
     add_options(root, settings)
     world = add(root, "worldbody")
     add(world, "geom", name="ground", type="plane", size="2 2 0.1", contype="0", conaffinity="0")
-    nodes = {chain.root: add(world, "body", name=chain.root)}
+    first = chain.joints[0].parent
+    nodes = {first: add(world, "body", name=first)}
     for name, kind, axis in (("x", "slide", "1 0 0"), ("z", "slide", "0 0 1"), ("pitch", "hinge", "0 1 0")):
-        add(nodes[chain.root], "joint", name=f"root {name}", type=kind, axis=axis)
+        add(nodes[first], "joint", name=f"root {name}", type=kind, axis=axis)
     springs = {spring.joint: spring for spring in chain.springs}
-    for child in chain.poses(np.zeros(2 + len(chain.joints))):  # parents before children
-        for joint in (joint for joint in chain.joints if joint.child == child):
-            turn = wxyz(rotation_about_y(joint.rest_angle_rad))
-            nodes[child] = add(nodes[joint.parent], "body", name=child, pos=joint.origin_m, quat=turn)
-            more: dict[str, Any] = {"frictionloss": joint.friction_nm} if joint.friction_nm else {}
-            if spring := springs.get(joint.name):
-                more |= {"stiffness": spring.stiffness_nm_per_rad, "springref": spring.free_rad}
-            if joint.range_rad:
-                more |= {"range": joint.range_rad, "limited": "true"}
-            limit = {f"{key}limit": value for key, value in stiff(settings).items()}
-            add(nodes[child], "joint", name=joint.name, type="hinge", axis="0 1 0", **more, **limit)
+    limit = {f"{key}limit": value for key, value in stiff(settings).items()}
+    for joint in chain.joints:
+        turn = wxyz(rotation_about_y(joint.rest_angle_rad))
+        node = nodes[joint.child] = add(nodes[joint.parent], "body", name=joint.child, pos=joint.origin_m, quat=turn)
+        more: dict[str, Any] = {"frictionloss": chain.friction_nm.get(joint.name, 0.0)}
+        if spring := springs.get(joint.name):
+            more |= {"stiffness": spring.stiffness_nm_per_rad, "springref": spring.preload_rad}
+        if math.isfinite(joint.lower_rad):
+            more |= {"range": (joint.lower_rad, joint.upper_rad), "limited": "true"} | limit
+        add(node, "joint", name=joint.name, type="hinge", axis="0 1 0", **more)
     pairs = add(root, "contact")
     for name, body in chain.bodies.items():
         tensor = body.inertia_kg_m2

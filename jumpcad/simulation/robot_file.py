@@ -1,4 +1,4 @@
-"""A robot whose bodies are given in a TOML file, not printed: masses, inertias, springs, pins, what touches the ground.
+"""A robot whose bodies are given in a file, not printed: masses, inertias, springs, pins, what touches the ground.
 
 With `[design]` it is the five-bar of a design, which every engine simulates; with `[[joints]]` any planar tree of
 hinges with loops, which MuJoCo alone simulates. Files speak of g, mm and degrees; frames are those of
@@ -7,6 +7,7 @@ hinges with loops, which MuJoCo alone simulates. Files speak of g, mm and degree
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -18,31 +19,28 @@ from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable, read_toml
 from jumpcad.files.names import Name
-from jumpcad.mechanism.capsule import capsule
-from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.capsule import capsule, capsule_robot
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import (
-    BODY,
     BODY_NAMES,
-    FOOT,
+    JOINT_SPEED_RAD_S,
     Body,
     ContactSphere,
     Friction,
+    Joint,
+    Loop,
     Mechanism,
     Spring,
     Stop,
-    five_bar,
 )
-from jumpcad.simulation.chain import Chain, ChainSpring, Hinge, PlanarLoop
+from jumpcad.simulation.chain import Chain
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.transforms import Array
 
 TOTAL_G = 2.0, 1000.0
 """Masses of robots that may be simulated."""
-ADDS_UP_SHARE = 0.01
-"""By which the masses of the bodies may differ from the stated mass of the robot, by rounding."""
-ENERGY_SHARE = 0.02
-"""By which the springs' energy may differ from the stated one, by rounding."""
+ADDS_UP_SHARE, ENERGY_SHARE = 0.01, 0.02
+"""By which the bodies' masses, and the springs' energy, may differ from the stated ones, by rounding."""
 HEIGHTS_M = 0.01, 50.0
 """Springs' energy over weight: outside, a unit is wrong; the best jumpers reach about 30 m."""
 GYRATION_SHARE = 1e-3, 1.0
@@ -51,7 +49,6 @@ GYRATION_SHARE = 1e-3, 1.0
 Millimetres = Annotated[float, Field(ge=-1000, le=1000)]
 Point = Annotated[tuple[Millimetres, Millimetres], Field(strict=False)]
 Radius = Annotated[float, Field(ge=0.01, le=100)]
-Contact = Annotated[tuple[Millimetres, Millimetres, Radius], Field(strict=False)]
 Degrees = Annotated[float, Field(ge=-360, le=360)]
 Stiffness = Annotated[float, Field(gt=0, le=1e5)]
 
@@ -69,18 +66,19 @@ class Rod(TomlTable):
         """Its mass properties: the volume of a capsule times the density."""
         start, end = _point(self.from_mm), _point(self.to_mm)
         radius, length = self.radius_mm / 1000.0, float(np.linalg.norm(end - start))
-        mass = self.density_kg_m3 * math.pi * radius**2 * (length + 4.0 / 3.0 * radius)
-        return capsule(mass, radius, start, end)
+        return capsule(self.density_kg_m3 * math.pi * radius**2 * (length + 4.0 / 3.0 * radius), radius, start, end)
 
 
 class OwnBody(TomlTable):
-    """A body: a mass with its centre and its inertia about y through that centre, or rods, or both together."""
+    """A mass with its centre and its inertia about y through that centre, or rods, or both together."""
 
     mass_g: Annotated[float, Field(gt=0, le=1e6)] | None = None
     centre_mm: Point = (0.0, 0.0)
     inertia_gmm2: Annotated[float, Field(gt=0, le=1e12)] | None = None
     rods: Annotated[tuple[Rod, ...], Field(strict=False)] = ()
-    contacts_mm: Annotated[tuple[Contact, ...], Field(strict=False)] = ()
+    contacts_mm: Annotated[
+        tuple[Annotated[tuple[Millimetres, Millimetres, Radius], Field(strict=False)], ...], Field(strict=False)
+    ] = ()
 
     def body(self, name: str, contacts: tuple[ContactSphere, ...]) -> Body:
         """Return the body; motion in the plane depends on the inertia about y alone, the others are set like it."""
@@ -93,7 +91,7 @@ class OwnBody(TomlTable):
 
 
 class SpringTable(TomlTable):
-    """What the design does not say of both springs together."""
+    """What the design does not say of both springs together; `energy_j` is a check."""
 
     preload_deg: Annotated[float, Field(ge=0, le=180)] = 0.0
     one_sided: bool = False
@@ -124,7 +122,7 @@ class FootTable(TomlTable):
 
 
 class JointTable(TomlTable):
-    """A hinge of a chain: the child's frame at a point of the parent's, turned by `rest_deg`; positive turns +x down.
+    """A hinge of a chain: the child's frame at a point of the parent's, turned by `rest_deg`.
 
     `loaded_deg` is the coordinate in the loaded pose, where it is known; `range_deg` are the stops.
     """
@@ -172,51 +170,47 @@ class RobotFile(Record):
     springs: Annotated[tuple[ChainSpringTable, ...], Field(strict=False)] = ()
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield masses without inertia, bodies without mass, and keys of the other kind of robot."""
+        """Yield bodies without mass or inertia, and what does not belong to this kind of robot."""
         for name, body in self.bodies.items():
-            if (body.mass_g is None) != (body.inertia_gmm2 is None):
-                yield ("bodies", name), body.mass_g, "give mass_g and inertia_gmm2 together, or rods instead"
-            elif body.mass_g is None and not body.rods:
-                yield ("bodies", name), "nothing", "has no mass: give mass_g with inertia_gmm2, or rods"
-        if (self.design is None) == (not self.joints):
-            yield ("joints",), len(self.joints), "give either [design], a five-bar, or [[joints]], a chain"
-        elif self.design is not None:
-            yield from self._not_five_bar()
+            if (body.mass_g is None) != (body.inertia_gmm2 is None) or not (body.mass_g or body.rods):
+                yield ("bodies", name), body.mass_g, "give mass_g and inertia_gmm2 together, or rods"
+        five_bar = self.design is not None
+        others = (
+            self.foot.body or self.joints or self.loops or self.springs
+            if five_bar
+            else self.foot.radius_mm or self.stop or self.pins or self.spring != SpringTable()
+        )
+        if others or (five_bar and any(body.contacts_mm for body in self.bodies.values())):
+            reason = "has keys of the other kind: [design] is of a five-bar, [[joints]] and [[springs]] of a chain"
+            yield ("design",), "a five-bar" if five_bar else "none", reason
+        elif five_bar:
+            if sorted(self.bodies) != sorted(BODY_NAMES):
+                yield ("bodies",), ", ".join(self.bodies), f"a five-bar's are {', '.join(BODY_NAMES)}"
+            if self.foot.radius_mm is None:
+                yield ("foot", "radius_mm"), None, "give the radius of what touches the ground"
         else:
-            yield from self._no_chain()
+            yield from self._broken_chain()
 
-    def _not_five_bar(self) -> Iterator[Contradiction]:
-        if sorted(self.bodies) != sorted(BODY_NAMES):
-            yield ("bodies",), ", ".join(self.bodies), f"a five-bar's are {', '.join(BODY_NAMES)}"
-        if self.loops or self.springs or self.foot.body or any(one.contacts_mm for one in self.bodies.values()):
-            yield ("design",), "a five-bar", "has its own loop, springs and contacts: leave those of a chain out"
-        if self.foot.radius_mm is None:
-            yield ("foot", "radius_mm"), None, "give the radius of what touches the ground"
-
-    def _no_chain(self) -> Iterator[Contradiction]:
-        if self.stop or self.pins or self.spring != SpringTable() or self.foot.radius_mm:
-            yield ("joints",), "a chain", "has range_deg, friction_nmm and [[springs]]: leave those of a five-bar out"
-        names = [joint.name for joint in self.joints]
-        children = [joint.child for joint in self.joints]
-        if len(set(names)) < len(names) or len(set(children)) < len(children):
-            yield (
-                ("joints",),
-                ", ".join(names),
-                "each joint needs a name, and a child, of its own; close loops by [[loops]]",
-            )
-        named = {"joints": {n for j in self.joints for n in (j.parent, j.child)},
-                 "loops": {n for loop in self.loops for n in (loop.body_a, loop.body_b)},
-                 "foot": {self.foot.body or ""}}  # fmt: skip
-        for key, bodies in named.items():
-            if wrong := sorted(bodies - set(self.bodies)):
-                yield (key,), wrong[0], f"is no body; there are {', '.join(self.bodies)}"
-        if len(set(self.bodies) - set(children)) != 1:
-            yield ("joints",), len(self.joints), f"must hang all but one of {len(self.bodies)} bodies on others"
+    def _broken_chain(self) -> Iterator[Contradiction]:
+        """Yield what is no tree of hinges with springs on a foot."""
+        known = {self.joints[0].parent} if self.joints else set(self.bodies)
+        for joint in self.joints:
+            if joint.parent not in known or joint.child in known:
+                reason = "must hang a new body on one that stands before it in the list; [[loops]] close loops"
+                yield ("joints", "child"), joint.child, reason
+            known.add(joint.child)
+        ends = [name for loop in self.loops for name in (loop.body_a, loop.body_b)]
+        for key, name in (("foot", self.foot.body), *(("loops", end) for end in ends)):
+            if name not in self.bodies:
+                yield (key,), name, f"is no body; there are {', '.join(self.bodies)}"
+        if known != set(self.bodies):
+            yield ("joints",), ", ".join(sorted(known ^ set(self.bodies))), "hangs on no joint, or is no body"
+        joints = [joint.name for joint in self.joints]
         for spring in self.springs:
-            if spring.joint not in names:
-                yield ("springs", "joint"), spring.joint, f"is no joint; there are {', '.join(names)}"
-        if not self.springs:
-            yield ("springs",), "none", "a chain jumps by springs: give [[springs]]"
+            if spring.joint not in joints:
+                yield ("springs", "joint"), spring.joint, f"is no joint; there are {', '.join(joints)}"
+        if not self.springs or len(set(joints)) < len(joints):
+            yield ("springs",), len(self.springs), "a chain needs springs, and joints with names of their own"
         if self.foot.body in self.bodies and not self.bodies[self.foot.body].contacts_mm:
             yield ("bodies", self.foot.body, "contacts_mm"), "nothing", "the foot stands on them: give x, z and radius"
 
@@ -232,24 +226,16 @@ def load_robot(path: str | Path) -> Mechanism | Chain:
     Raises
     ------
     JumpcadError
-        If there is no such file, or it holds what no robot can have.
+        If there is no such file, or it holds what no robot can have: unknown keys, masses that do not add up, springs
+        that cannot hold the stated energy or act on no joint, units that are off, loops that do not close.
     """
-    return robot_from_urdf(Path(path)) if Path(path).suffix == ".urdf" else robot_from_toml(Path(path))
-
-
-def robot_from_toml(path: Path) -> Mechanism | Chain:
-    """Return the robot of a TOML file with bodies of its own.
-
-    Raises
-    ------
-    JumpcadError
-        If a key is unknown, missing or out of range, masses do not add up, the springs cannot hold the stated energy, a
-        unit is off, a spring is on no joint, or a loop does not close.
-    """
+    path = Path(path)
+    if path.suffix == ".urdf":
+        return robot_from_urdf(path)
     file = RobotFile.from_toml(path)
     try:
         robot = five_bar_robot(file) if file.design is not None else _chain(file)
-        _require_masses(file, robot)
+        _require_plausible(file, robot)
         return robot
     except JumpcadError as error:
         raise JumpcadError(f"{path}: {error}") from None
@@ -263,85 +249,61 @@ def five_bar_robot(file: RobotFile) -> Mechanism:
     JumpcadError
         If a value of the design is out of range, or its springs do not hold the stated energy.
     """
-    design = Design(**file.design)  # type: ignore[arg-type]
-    assert file.foot.radius_mm is not None
-    radius = file.foot.radius_mm / 1000.0
-    linkage = Linkage(design)
-    stop = None
-    if file.stop:
-        stop = Stop("leg", math.radians(file.stop.angle_deg), _per_rad(file.stop.stiffness_nmm_per_deg))
-    joints, loop, spring = five_bar(linkage, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
-    spring = Spring(
-        spring.joint, spring.stiffness_nm_per_rad, spring.wind_rad, math.radians(file.spring.preload_deg),
-        file.spring.one_sided,
-    )  # fmt: skip
+    capsules, foot = capsule_robot(Design(**(file.design or {}))), file.foot
+    spring = replace(
+        capsules.spring, preload_rad=math.radians(file.spring.preload_deg), one_sided=file.spring.one_sided
+    )
     stated = file.spring.energy_j
     if stated is not None and abs(spring.energy_j / stated - 1.0) > ENERGY_SHARE:
         raise JumpcadError(
             f"spring.energy_j = {stated:g}: rate, loaded angle and preload hold {spring.energy_j:.4g} J: change "
             "stiffness_nmm_per_deg, compression_ratio or preload_deg, or leave energy_j out"
         )
+    radius_m = (foot.radius_mm or 0.0) / 1000.0
+    bodies = {
+        name: file.bodies[name].body(name, tuple(replace(one, radius_m=radius_m) for one in body.contacts))
+        for name, body in capsules.bodies.items()
+    }
     leg, front, ankle, eye = (radius / 1000.0 for radius in file.pins.radius_mm) if file.pins else (0.0,) * 4
     pin = file.pins.friction if file.pins else 0.0
-    contacts = _contacts(design, radius)
-    return Mechanism(
-        file.name,
-        design,
-        {name: file.bodies[name].body(name, contacts.get(name, ())) for name in BODY_NAMES},
-        joints,
-        loop,
-        spring,
-        radius,
-        stop=stop,
-        friction=Friction(file.foot.friction, file.foot.body_friction, pin, (leg, front, ankle, eye)),
-    )
-
-
-def _contacts(design: Design, radius_m: float) -> dict[str, tuple[ContactSphere, ...]]:
-    """Return the spheres at the front eye, at both toes' tips, and at the body's pivots."""
-    l1, l4, l5 = (length / 1000.0 for length in (design.l1_mm, design.l4_mm, design.l5_mm))
-    angle = math.pi - math.radians(design.ground_link_angle_deg)
-    x, y = l5 * math.cos(angle), l5 * math.sin(angle)
-    foot = {"front_eye": (l4, 0.0), "left_toe": (x, y), "right_toe": (x, -y)}
-    body = {"back_pivot": (-l1 / 2.0, 0.0), "front_pivot": (l1 / 2.0, 0.0)}
-    return {
-        FOOT: tuple(ContactSphere(name, np.array([*at, 0.0]), radius_m, "foot") for name, at in foot.items()),
-        BODY: tuple(ContactSphere(name, np.array([*at, 0.0]), radius_m, "body") for name, at in body.items()),
-    }
+    stop = file.stop
+    return replace(
+        capsules, name=file.name, bodies=bodies, spring=spring, foot_depth_m=radius_m,
+        stop=Stop("leg", math.radians(stop.angle_deg), _per_rad(stop.stiffness_nmm_per_deg)) if stop else None,
+        friction=Friction(foot.friction, foot.body_friction, pin, (leg, front, ankle, eye)),
+    )  # fmt: skip
 
 
 def _chain(file: RobotFile) -> Chain:
-    bodies = {
-        name: body.body(
-            name,
-            tuple(
-                ContactSphere(
-                    f"{number}", _point((x, z)), radius / 1000.0, "foot" if name == file.foot.body else "body"
-                )
-                for number, (x, z, radius) in enumerate(body.contacts_mm)
-            ),
+    foot = file.foot
+    bodies = {}
+    for name, body in file.bodies.items():
+        contacts = tuple(
+            ContactSphere(f"{number}", _point((x, z)), radius / 1000.0, "foot" if name == foot.body else "body")
+            for number, (x, z, radius) in enumerate(body.contacts_mm)
         )
-        for name, body in file.bodies.items()
-    }
-    assert file.foot.body is not None
-    hinges = tuple(
-        Hinge(
-            joint.name, joint.parent, joint.child, _point(joint.at_mm), math.radians(joint.rest_deg),
-            None if joint.loaded_deg is None else math.radians(joint.loaded_deg),
-            joint.range_deg and (math.radians(joint.range_deg[0]), math.radians(joint.range_deg[1])),
-            joint.friction_nmm / 1000.0,
-        )
-        for joint in file.joints
+        bodies[name] = body.body(name, contacts)
+    return Chain(
+        file.name,
+        bodies,
+        tuple(
+            Joint(one.name, one.parent, one.child, _point(one.at_mm), math.radians(one.rest_deg),
+                  math.radians(low), math.radians(high), 0.0, JOINT_SPEED_RAD_S)
+            for one in file.joints
+            for low, high in [one.range_deg or (-math.inf, math.inf)]
+        ),
+        tuple(Loop(one.body_a, _point(one.point_a_mm), one.body_b, _point(one.point_b_mm)) for one in file.loops),
+        tuple(
+            Spring(one.joint, _per_rad(one.stiffness_nmm_per_deg), 0.0, math.radians(one.free_deg))
+            for one in file.springs
+        ),
+        {one.name: math.radians(one.loaded_deg) for one in file.joints if one.loaded_deg is not None},
+        {one.name: one.friction_nmm / 1000.0 for one in file.joints},
+        {"foot": foot.friction, "body": foot.body_friction},
     )  # fmt: skip
-    loops = (PlanarLoop(one.body_a, _point(one.point_a_mm), one.body_b, _point(one.point_b_mm)) for one in file.loops)
-    springs = (
-        ChainSpring(one.joint, _per_rad(one.stiffness_nmm_per_deg), math.radians(one.free_deg)) for one in file.springs
-    )
-    friction = {"foot": file.foot.friction, "body": file.foot.body_friction}
-    return Chain(file.name, bodies, hinges, tuple(loops), tuple(springs), file.foot.body, friction)
 
 
-def _require_masses(file: RobotFile, robot: Mechanism | Chain) -> None:
+def _require_plausible(file: RobotFile, robot: Mechanism | Chain) -> None:
     """Reject masses that do not add up, and masses, inertias and energies in a wrong unit."""
     total_g = 1000.0 * robot.mass_kg
     if file.mass_g is not None and abs(total_g / file.mass_g - 1.0) > ADDS_UP_SHARE:

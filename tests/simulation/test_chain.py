@@ -1,6 +1,7 @@
 """Chains of hinges: closed forms of a one-link and of a two-link jumper, the five-bar of another engine, energy."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,10 +10,10 @@ from support import needs
 from support.places import ROOT
 
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.model import Body, ContactSphere, Mechanism
+from jumpcad.mechanism.model import Body, ContactSphere, Joint, Loop, Mechanism, Spring, Surface
 from jumpcad.simulation import simulate
-from jumpcad.simulation.chain import Chain, ChainSpring, Hinge, PlanarLoop
-from jumpcad.simulation.robot_file import robot_from_toml
+from jumpcad.simulation.chain import Chain
+from jumpcad.simulation.robot_file import load_robot
 
 G = 9.81
 FRICTION = {"foot": 2.0, "body": 0.5}
@@ -25,13 +26,14 @@ def mujoco_there() -> None:
 
 
 def body(name: str, mass: float, com_x: float, inertia: float, feet: tuple[float, ...] = ()) -> Body:
-    contacts = tuple(ContactSphere(f"{x}", np.array([x, 0.0, 0.0]), 0.001, "foot") for x in feet)
+    surface: Surface = "foot" if name == "foot" else "body"
+    contacts = tuple(ContactSphere(f"{x}", np.array([x, 0.0, 0.0]), 0.001, surface) for x in feet)
     return Body(name, mass, np.array([com_x, 0.0, 0.0]), inertia * np.eye(3), contacts)
 
 
-def hinge(name: str, parent: str, child: str, x: float, rest_deg: float, loaded_deg: float | None = None) -> Hinge:
-    loaded = None if loaded_deg is None else math.radians(loaded_deg)
-    return Hinge(name, parent, child, np.array([x, 0.0, 0.0]), math.radians(rest_deg), loaded, None, 0.0)
+def hinge(name: str, parent: str, child: str, x: float, rest_deg: float) -> Joint:
+    rest = math.radians(rest_deg)
+    return Joint(name, parent, child, np.array([x, 0.0, 0.0]), rest, -math.inf, math.inf, 0.0, 1.0)
 
 
 def test_one_link_jumper_is_its_closed_form() -> None:
@@ -52,8 +54,8 @@ def test_one_link_jumper_is_its_closed_form() -> None:
     rod = body("rod", mass, radius, inertia)
     chain = Chain(
         "one", {"foot": body("foot", foot, 0.0, 1.0, (-0.3, 0.3)), "rod": rod},
-        (hinge("pin", "foot", "rod", 0.0, -90.0, -math.degrees(wind)),), (),
-        (ChainSpring("pin", stiffness, 0.0),), "foot", FRICTION | {"foot": 50.0},
+        (hinge("pin", "foot", "rod", 0.0, -90.0),), (), (Spring("pin", stiffness, 0.0),),
+        {"pin": -wind}, {}, FRICTION | {"foot": 50.0},
     )  # fmt: skip
     jump = simulate(chain, engine="mujoco")
     speed = mass * radius * math.sqrt(rate2(leaves)) / (foot + mass)
@@ -62,26 +64,28 @@ def test_one_link_jumper_is_its_closed_form() -> None:
 
 
 def two_link(link_kg: float, carried: float = 0.02, foot: float = 0.002, stiffness: float = 0.03) -> Chain:
-    """A body on two legs of two links each, loaded from 75° to 20° above the ground."""
+    """A body on two legs of two links each, loaded from 75° to 20° above the ground; its springs relax at 80°."""
     links = {name: body(name, link_kg, 0.02, link_kg * 1e-4) for name in ("a1", "a2", "b1", "b2")}
     return Chain(
         "two",
         {"foot": body("foot", foot, 0.0, 1e-6, (-0.02, 0.02)), **links,
          "body": body("body", carried, 0.0, 3e-6, (0.0,))},
         (
-            hinge("a", "foot", "a1", 0.0, -105.0, -55.0), hinge("a knee", "a1", "a2", 0.04, 30.0, 110.0),
-            hinge("hip", "a2", "body", 0.04, 75.0), hinge("b", "foot", "b1", 0.0, -75.0, 55.0),
-            hinge("b knee", "b1", "b2", 0.04, -30.0, -110.0),
+            hinge("a", "foot", "a1", 0.0, -105.0), hinge("a knee", "a1", "a2", 0.04, 30.0),
+            hinge("hip", "a2", "body", 0.04, 75.0), hinge("b", "foot", "b1", 0.0, -75.0),
+            hinge("b knee", "b1", "b2", 0.04, -30.0),
         ),
-        (PlanarLoop("b2", np.array([0.04, 0.0, 0.0]), "body", np.zeros(3)),),
-        tuple(ChainSpring(f"{side} knee", stiffness, 0.0) for side in "ab"), "foot", FRICTION,
+        (Loop("b2", np.array([0.04, 0.0, 0.0]), "body", np.zeros(3)),),
+        tuple(Spring(f"{side} knee", stiffness, 0.0, math.radians(free)) for side, free in (("a", -10), ("b", 10))),
+        {name: math.radians(deg) for name, deg in (("a", -55), ("a knee", 110), ("b", 55), ("b knee", -110))},
+        {}, FRICTION,
     )  # fmt: skip
 
 
 def test_two_link_jumper_is_its_closed_form() -> None:
     """With links of nearly no mass: the foot leaves where the springs, past their rest, pull it up."""
     length, carried, foot, stiffness = 0.04, 0.02, 0.002, 0.03
-    rest, loaded = math.radians(75.0), math.radians(20.0)
+    rest, loaded = math.radians(80.0), math.radians(20.0)
 
     def stored(rise: float) -> float:
         return 4.0 * stiffness * (rest - rise) ** 2  # two springs, each turned by 2·(rest - rise)
@@ -105,16 +109,12 @@ def test_energy_is_kept_where_nothing_rubs() -> None:
 
 
 def test_a_five_bar_as_a_chain_jumps_like_the_five_bar_in_another_engine() -> None:
-    robot = robot_from_toml(ROOT / "examples" / "light_jumper.toml")
+    robot = load_robot(ROOT / "examples" / "light_jumper.toml")
     assert isinstance(robot, Mechanism)
-    joints = tuple(
-        Hinge(one.name, one.parent, one.child, one.origin_m, one.rest_angle_rad,
-              -robot.spring.wind_rad if one.name == "leg" else None, None, 0.0)
-        for one in robot.joints
-    )  # fmt: skip
-    loop = PlanarLoop(robot.loop.body_a, robot.loop.point_a_m, robot.loop.body_b, robot.loop.point_b_m)
-    spring = ChainSpring("leg", robot.spring.stiffness_nm_per_rad, 0.0)
-    chain = Chain("five-bar", robot.bodies, joints, (loop,), (spring,), "foot", {"foot": 0.9, "body": 0.5})
+    springs = (Spring("leg", robot.spring.stiffness_nm_per_rad, 0.0),)
+    joints = tuple(replace(joint, lower_rad=-math.inf) for joint in robot.joints)
+    wound, rubs = {"leg": -robot.spring.wind_rad}, {"foot": 0.9, "body": 0.5}
+    chain = Chain("five-bar", robot.bodies, joints, (robot.loop,), springs, wound, {}, rubs)
     jump, other = simulate(chain, engine="mujoco"), simulate(robot, engine="planar")
     assert jump.takeoff_speed_m_s == pytest.approx(other.takeoff_speed_m_s, rel=0.001)
     assert jump.com_rise_m == pytest.approx(other.com_rise_m, rel=0.002)

@@ -12,7 +12,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.chain import Chain
-from jumpcad.simulation.robot_file import robot_from_toml
+from jumpcad.simulation.robot_file import load_robot
 
 EXAMPLES = {name: (ROOT / "examples" / f"{name}.toml").read_text() for name in ("light_jumper", "chain_jumper")}
 
@@ -20,7 +20,7 @@ EXAMPLES = {name: (ROOT / "examples" / f"{name}.toml").read_text() for name in (
 def read(folder: Path, text: str) -> Mechanism | Chain:
     path = folder / "robot.toml"
     path.write_text(text)
-    return robot_from_toml(path)
+    return load_robot(path)
 
 
 def test_rods_are_capsules_of_their_density(tmp_path: Path) -> None:
@@ -76,7 +76,12 @@ WRONG = [
         "point_a_mm = [900, 0]",
         "the loaded pose does not close: loops, foot and",
     ),
-    ("chain_jumper", 'parent = "foot"', 'parent = "left_thigh"', "its parent left_thigh hangs on itself"),
+    (
+        "chain_jumper",
+        'parent = "foot"',
+        'parent = "left_thigh"',
+        "joints.child = 'left_thigh': must hang a new body on one",
+    ),
     ("chain_jumper", 'body = "foot" ', 'body = "hand" ', "foot = 'hand': is no body; there are foot, left_shank"),
     ("chain_jumper", "mass_g = 24.0", "mass_kg = 24.0", "mass_kg: unknown key"),
 ]
