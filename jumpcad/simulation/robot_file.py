@@ -6,6 +6,7 @@ hinges with loops, which MuJoCo alone simulates. Files speak of g, mm and degree
 """
 
 import math
+import os
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -217,7 +218,7 @@ class RobotFile(Record):
 
 def is_robot_file(path: Path) -> bool:
     """Return whether a TOML file gives the bodies of a robot; a design does not."""
-    return path.suffix == ".toml" and path.is_file() and "bodies" in read_toml(path)[0]
+    return path.suffix == ".toml" and os.path.isfile(path) and "bodies" in read_toml(path)[0]
 
 
 def load_robot(path: str | Path) -> Mechanism | Chain:
