@@ -49,14 +49,24 @@ def test_a_study_is_read_while_it_is_written(tmp_path):
                 reader.note("readers do not write")
 
 
-def test_another_study_is_not_overwritten(tmp_path):
-    StudyStore.write(tmp_path / "s.db", IDENTITY).close()
-    before = (tmp_path / "s.db").read_bytes()
-    with pytest.raises(JumpcadError, match=r"another study \(seed: 1 there, 2 here\)"):
-        StudyStore.write(tmp_path / "s.db", IDENTITY | {"seed": 2})
-    with pytest.raises(JumpcadError, match=r"space.c_coef.fixed: 1.0 there, 1.1 here"):
-        StudyStore.write(tmp_path / "s.db", IDENTITY | {"space": Space.parse(fix=["c_coef=1.1"]).describe()})
-    assert (tmp_path / "s.db").read_bytes() == before
+def test_another_study_is_not_overwritten_and_how_one_goes_on_is_said(tmp_path):
+    """A front that names no figure is against the energy in the springs."""
+    path, of_numpy = tmp_path / "s.db", [{"versions": {"numpy": number}} for number in ("1.26.4", "2.1.0")]
+    front = "holds a front against {}, not {}: say --against {}, or name another file$"
+    for there, here, said in (
+        ({}, {"seed": 2}, r"holds another study \(seed: 1 there, 2 here\)"),
+        ({}, {"space": Space.parse(fix=["c_coef=1.1"]).describe()}, r"space.c_coef.fixed: 1.0 there, 1.1 here"),
+        (*of_numpy, r"was made by another program \(versions.numpy: \"1.26.4\" there, .*`--from-study .*s\.db`"),
+        (of_numpy[0], of_numpy[1] | {"seed": 2}, r"holds another study \(seed: 1 there, 2 here\)"),
+        ({}, {"against": "mass"}, front.format("spring-energy", "mass", "spring-energy")),
+        ({"against": "mass"}, {}, front.format("mass", "spring-energy", "mass")),
+    ):
+        StudyStore.write(path, IDENTITY | there).close()
+        before = path.read_bytes()
+        with pytest.raises(JumpcadError, match=said):
+            StudyStore.write(path, IDENTITY | here)
+        assert path.read_bytes() == before
+        path.unlink()
 
 
 @pytest.mark.thorough
@@ -272,27 +282,3 @@ def test_a_study_for_which_there_is_no_space_or_that_cannot_be_opened_leaves_no_
         with pytest.raises(JumpcadError, match="unable to open"):
             StudyStore.write(tmp_path / name, {})
         assert (tmp_path / name).exists() == left
-
-
-def test_a_front_against_another_figure_says_how_it_goes_on(tmp_path):
-    """One that names no figure is against the energy in the springs."""
-    for number, (there, here) in enumerate((({}, "mass"), ({"against": "mass"}, "rise"), ({"against": "mass"}, None))):
-        path = tmp_path / f"{number}.db"
-        StudyStore.write(path, IDENTITY | there).close()
-        mine = {"against": here} if here else {}
-        named, asked = there.get("against", "spring-energy"), here or "spring-energy"
-        words = f"holds a front against {named}, not {asked}: say --against {named}, or name another file$"
-        with pytest.raises(JumpcadError, match=words):
-            StudyStore.write(path, IDENTITY | mine)
-
-
-def test_a_study_of_another_program_says_how_one_goes_on(tmp_path):
-    """What differs besides is another request, whoever made it."""
-    path = tmp_path / "s.db"
-    theirs, ours = (IDENTITY | {"versions": {"numpy": number}} for number in ("1.26.4", "2.1.0"))
-    StudyStore.write(path, theirs).close()
-    with pytest.raises(JumpcadError, match=r"was made by another program .*`--from-study .*s\.db`") as caught:
-        StudyStore.write(path, ours)
-    assert '(versions.numpy: "1.26.4" there, "2.1.0" here)' in str(caught.value)
-    with pytest.raises(JumpcadError, match=r"holds another study \(seed: 1 there, 2 here\)"):
-        StudyStore.write(path, ours | {"seed": 2})
