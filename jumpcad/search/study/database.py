@@ -2,7 +2,6 @@
 
 import os
 import sqlite3
-import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -72,7 +71,7 @@ def lock(path: Path) -> int:
     Raises
     ------
     JumpcadError
-        If the file cannot be written, is a pipe or a device, or is locked by another process.
+        If the file cannot be written, or is locked by another process.
     """
     import fcntl
 
@@ -81,9 +80,6 @@ def lock(path: Path) -> int:
         descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
     except OSError as error:
         raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
-    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-        os.close(descriptor)
-        raise JumpcadError(f"{path}: is a pipe or a device, not a study file")
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:

@@ -1,15 +1,82 @@
-"""`StudySummary`: what a study file knows of its search, of the robust pick and of active bounds."""
+"""`StudySummary`: what a study file knows of its search; its robust picks, and what each of them found."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
 
+from pydantic import TypeAdapter
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import TomlTable
 from jumpcad.search.phases import EXPLORED, FRONTS, NAMES
 from jumpcad.search.pick.robust import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import Objective, described_objective
-from jumpcad.search.study.picks import read_pick
+from jumpcad.search.study.objective import Figure, Objective, Word, described_objective
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.study.trial import Position, Trial, best_trial, is_flat, searched, trial_numbers
+from jumpcad.search.study.trial import Count, Phase, Position, Trial, best_trial, is_flat, searched, trial_numbers
+
+PICKS = "picks"
+"""Key under which a study remembers its robust picks: one for each length of the search and of the pick."""
+
+
+class _Candidate(TomlTable):
+    trial: tuple[Phase, Count, Count, Count]
+    parameters_score: Figure
+    print_score: Figure
+    rejections: dict[Word, Count]
+    neighbours: Count
+    fails: bool = False
+
+
+class _Pick(TomlTable):
+    designs: Count
+    evaluations: Count
+    candidates: list[_Candidate] | None = None
+    bounds: list[ActiveBound] | None = None
+
+
+_KIND = TypeAdapter(list[_Pick])
+
+
+def _recall(store: StudyStore) -> list[dict[str, Any]]:
+    picks: list[dict[str, Any]] = store.recall(PICKS, [], _KIND)
+    return picks
+
+
+def pick_run(store: StudyStore, designs: int, evaluations: int) -> int:
+    """Return the number of the pick, with so many evaluations, of a search of so many designs; a new one if need be."""
+    asked, picks = {"designs": designs, "evaluations": evaluations}, _recall(store)
+    runs = [run for run, pick in enumerate(picks) if asked.items() <= pick.items()]
+    if not runs:
+        store.remember(PICKS, [*picks, asked])
+    return runs[0] if runs else len(picks)
+
+
+def keep_pick(store: StudyStore, run: int, candidates: Sequence[Candidate], bounds: Sequence[ActiveBound]) -> None:
+    """Keep what a pick found."""
+    picks = _recall(store)
+    found = [vars(one) | {"trial": one.trial.position} for one in candidates]
+    picks[run] |= {"candidates": found, "bounds": [asdict(bound) for bound in bounds]}
+    store.remember(PICKS, picks)
+
+
+def read_pick(store: StudyStore, trials: Sequence[Trial], designs: int) -> tuple[list[Candidate], list[ActiveBound]]:
+    """Return what the last pick of a search of so many designs found; nothing where none has ended.
+
+    Raises
+    ------
+    JumpcadError
+        If a candidate is none of the study's trials.
+    """
+    ended = [pick for pick in _recall(store) if pick["designs"] == designs and pick.get("candidates")]
+    if not ended:
+        return [], []
+    held = {trial.position: trial for trial in trials}
+    try:
+        found = [Candidate(**one | {"trial": held[tuple(one["trial"])]}) for one in ended[-1]["candidates"]]
+    except KeyError:
+        raise JumpcadError(f"{store.path}: is damaged: a candidate of its pick is none of its trials") from None
+    return found, [ActiveBound(**bound) for bound in ended[-1]["bounds"]]
 
 
 @dataclass(frozen=True)

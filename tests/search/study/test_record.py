@@ -11,7 +11,7 @@ from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import bare
-from jumpcad.search.study import picks
+from jumpcad.search.study import summary
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
 from jumpcad.search.study.trial import Trial
@@ -127,7 +127,7 @@ def test_what_a_study_remembers_is_what_a_search_remembered() -> None:
         "picks": [{}, [{"designs": 9}], [pick | {"candidates": [candidate | {"trial": ["moon", 0, 0, 0]}]}],
                   [pick | {"candidates": [candidate | {"print_score": "x"}]}], [pick | {"bounds": [{}]}]],
     }  # fmt: skip
-    kinds: dict[str, TypeAdapter[Any]] = REMEMBERED | {"picks": picks._KIND}
+    kinds: dict[str, TypeAdapter[Any]] = REMEMBERED | {"picks": summary._KIND}
     for key, kind in kinds.items():
         for value in fine[key]:
             validated(kind.validate_json, key, json.dumps(value))
