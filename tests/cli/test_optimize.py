@@ -75,13 +75,13 @@ def test_nothing_jumps_is_exit_code_1(folder):
 
 def test_an_objective_that_tells_nothing_apart_is_exit_code_1_and_no_file(folder):
     """Equal scores have not converged: the search goes on to its end, and makes no pick among them."""
-    Path("zero.py").write_text("def zero(figures):\n    return 0.0\n")
-    asked = ("optimize", *QUICK, *NARROW, "--evaluations", 24, "--objective", "zero.py:zero")
+    Path("flat.py").write_text("def flat(figures):\n    return 2.0\n")
+    asked = ("optimize", *QUICK, *NARROW, "--evaluations", 32, "--until", 100, "--objective", "flat.py:flat")
     said = run(*asked, code=1)
-    assert "every design that jumps scores 0: zero tells none apart; choose another objective; rejected: " in said
+    assert "every design that jumps scores 2: flat tells none apart; choose another objective; rejected: " in said
     assert "next:" not in said
     found = data(*asked, code=1)
-    assert (found["winner"], found["design_file"], found["converged"], found["searched"]) == (None, None, False, 18)
+    assert (found["winner"], found["design_file"], found["converged"], found["searched"]) == (None, None, False, 24)
     assert found["candidates"] == []
     assert "tells none apart" in found["notes"][-1]
     assert not list(Path().glob("*.toml"))
