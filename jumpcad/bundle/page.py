@@ -22,6 +22,7 @@ from jumpcad.findings import errors
 from jumpcad.landing.series import Series
 from jumpcad.robot import Robot
 from jumpcad.simulation.jump import ACCOUNT, Jump
+from jumpcad.simulation.published_robots import efficiency_band
 from jumpcad.simulation.uncertain import FIGURES, Uncertainty
 from jumpcad.version import __version__
 
@@ -56,6 +57,7 @@ def write_report(
         "jump": jump,
         "broken": errors(jump.findings),
         "energy_words": ACCOUNT,
+        "band": efficiency_band(),
         "sure": sure,
         "sure_figures": FIGURES,
         "beside": compared_of(robot.design),

@@ -146,11 +146,14 @@ def test_what_is_violated_stands_out_and_names_are_escaped(robot: Robot, jump: J
 
 
 def test_the_energy_account_of_the_jump_is_told_and_adds_up(robot: Robot, jump: Jump) -> None:
-    found = cells(write_report(robot, {}, jump))
-    account = jump.energy_account_j
+    page = write_report(robot, {}, jump)
+    found, account = cells(page), jump.energy_account_j
     assert account is not None
     told = sum(float(found[kind][1]) for kind in account)
     assert told == pytest.approx(1000.0 * robot.spring.energy_j, abs=0.5)
+    flight = 50.0 * robot.mass_kg * jump.takeoff_speed_m_s**2 / robot.spring.energy_j
+    assert f"{flight:.0f} % are in the flight" in page
+    assert "EPFL 7 g jumper has 81 % in its flight (remembered)" in page
 
 
 def viewer_data(page: str) -> dict[str, Any]:
