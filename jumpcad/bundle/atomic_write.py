@@ -32,11 +32,10 @@ from jumpcad.bundle.manifest import (
     few,
     open_bundle,
     own_path,
-    sha256,
     trouble,
 )
 from jumpcad.errors import JumpcadError
-from jumpcad.files.outputs import real_path, require_writable
+from jumpcad.files.outputs import real_path, require_writable, sha256
 from jumpcad.version import __version__
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")

@@ -1,6 +1,5 @@
 """A bundle's manifest: reads it, and compares the bundle's files with it. No link is followed."""
 
-import hashlib
 import os
 import re
 import stat
@@ -14,6 +13,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import read_json
 from jumpcad.files.names import Text
+from jumpcad.files.outputs import sha256
 from jumpcad.plural import counted
 
 MANIFEST = "manifest.json"
@@ -226,8 +226,3 @@ def above(path: str) -> list[str]:
 def few(paths: Sequence[str]) -> str:
     """Return the first of several paths as text, and how many more there are."""
     return ", ".join(paths[:NAMED]) + (f" and {len(paths) - NAMED} more" if len(paths) > NAMED else "")
-
-
-def sha256(data: bytes) -> str:
-    """Return a digest in hexadecimal."""
-    return hashlib.sha256(data).hexdigest()

@@ -122,12 +122,7 @@ def _poses(things: Sequence[Visual], bodies: dict[str, Array]) -> list[Array]:
 
 def corners_of(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
     """Return the corners (8·n, 3) of the parts' bounding boxes in the world (m)."""
-    return np.concatenate(
-        [
-            np.einsum("ni,ji->nj", thing.corners_m, pose[:3, :3]) + pose[:3, 3]
-            for thing, pose in zip(things, poses, strict=True)
-        ]
-    )
+    return np.concatenate([thing.corners_at(pose) for thing, pose in zip(things, poses, strict=True)])
 
 
 def gif(pictures: list[Image.Image], frame_ms: int = FRAME_MS) -> bytes:

@@ -46,7 +46,11 @@ def body_box(mechanism: Mechanism, visible: Sequence[Visual]) -> Box | None:
 
     Its lower face is raised until it is clear of the ground in the loaded pose: the body is round at its lower corners.
     """
-    corners = [_corners_m(shape) for shape in visible if shape.body == BODY and not shape.name.startswith(CAGE)]
+    corners = [
+        shape.corners_at(shape.T_body_mesh)
+        for shape in visible
+        if shape.body == BODY and not shape.name.startswith(CAGE)
+    ]
     if not corners:
         return None
     every = np.round(np.concatenate(corners), 4)
@@ -59,10 +63,3 @@ def body_box(mechanism: Mechanism, visible: Sequence[Visual]) -> Box | None:
 
 def _is_toe(contact: ContactSphere) -> bool:
     return contact.surface == "foot" and contact.centre_m[0] < 0.0
-
-
-def _corners_m(shape: Visual) -> Array:
-    """Return the corners (8, 3) of a part's bounding box in its body's frame (m)."""
-    T_body_mesh = shape.T_body_mesh
-    placed: Array = (T_body_mesh[:3, :3] * shape.corners_m[:, None, :]).sum(axis=2) + T_body_mesh[:3, 3]
-    return placed

@@ -206,12 +206,12 @@ def sealed(text: str, comment: str = "# {}") -> str:
     comment
         The format of a comment in the file.
     """
-    return f"{text}{comment.format(SEAL + _sha256(text.encode()))}\n"
+    return f"{text}{comment.format(SEAL + sha256(text.encode()))}\n"
 
 
 def sealed_png(png: bytes) -> bytes:
     """Return a PNG file with a seal in a comment before its end (PNG 11.3.4.3), for the same purpose as `sealed`."""
-    words = b"tEXtComment\0" + (SEAL + _sha256(png[:-PNG_END])).encode()
+    words = b"tEXtComment\0" + (SEAL + sha256(png[:-PNG_END])).encode()
     chunk = struct.pack(">I", len(words) - 4) + words + struct.pack(">I", zlib.crc32(words))
     return png[:-PNG_END] + chunk + png[-PNG_END:]
 
@@ -240,10 +240,11 @@ def is_sealed(path: Path) -> bool:
         without = data[: data.rfind(b"tEXtComment\0" + SEAL.encode()) - 4] + data[-PNG_END:]
         return sealed_png(without) == data
     lines = data.splitlines(keepends=True)
-    return bool(lines) and (SEAL + _sha256(b"".join(lines[:-1]))).encode() in lines[-1]
+    return bool(lines) and (SEAL + sha256(b"".join(lines[:-1]))).encode() in lines[-1]
 
 
-def _sha256(data: bytes) -> str:
+def sha256(data: bytes) -> str:
+    """Return a digest in hexadecimal."""
     return hashlib.sha256(data).hexdigest()
 
 

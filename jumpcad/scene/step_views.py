@@ -282,7 +282,7 @@ def _seen_at(thing: Visual, pose: Array, along_arm: float) -> Array:
 
 def _corners(thing: Visual, pose: Array) -> Array:
     """Return the corners (8, 3) of a part's bounding box in the world (m)."""
-    return np.asarray(np.round(np.einsum("ij,nj->ni", pose[:3, :3], thing.corners_m) + pose[:3, 3], DIGITS))
+    return np.asarray(np.round(thing.corners_at(pose), DIGITS))
 
 
 def _at_place(thing: Visual, poses: dict[str, Array]) -> Array:

@@ -78,6 +78,10 @@ class Visual:
         low, high = self.mesh.bounds / 1000.0
         return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
 
+    def corners_at(self, pose: Array) -> Array:
+        """Return the corners (8, 3) of that box where the mesh has a pose (4, 4) (m)."""
+        return np.asarray(np.einsum("ij,nj->ni", pose[:3, :3], self.corners_m) + pose[:3, 3])
+
 
 @carried
 def visuals(robot: Robot) -> tuple[Visual, ...]:

@@ -44,14 +44,8 @@ def text(label: str, height_mm: float) -> Region:
 
 def engravable(label: str) -> str:
     """Return the letters of a label that the font has: Latin, Greek, Cyrillic and some others."""
-    known = _codes()
+    known = _font().get_charmap()
     return "".join(letter for letter in label if ord(letter) in known)
-
-
-@lru_cache(maxsize=1)
-def _codes() -> frozenset[int]:
-    """Return the code points of the letters that the font has."""
-    return frozenset(_font().get_charmap())
 
 
 @lru_cache(maxsize=1)
