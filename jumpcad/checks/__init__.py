@@ -13,6 +13,7 @@ from typing import Any
 from jumpcad.checks import (
     assembly,
     blocked,
+    cage,
     drive,
     electronics,
     engraving,
@@ -81,11 +82,13 @@ CHECKS = (
     Check(ground.ground_findings, ground.BASIS, cheap=True),
     Check(sideways.sideways_findings, sideways.BASIS, cheap=True),
     Check(printability.bed_findings, printability.BASIS, cheap=True),
+    Check(cage.cage_findings, cage.BASIS, cheap=True),
     Check(ground.foot_findings, ground.BASIS),
     Check(printability.printability_findings, printability.BASIS),
     Check(interference.interference_findings, interference.BASIS),
     Check(engraving.engraving_findings, engraving.BASIS),
     Check(assembly.assembly_findings, assembly.BASIS),
+    Check(cage.righting_findings, cage.BASIS),
 )
 """Every check, in the order of its findings."""
 

@@ -9,6 +9,7 @@ The motor `cam` holds the loaded leg against a limit and releases it; the equali
 that is switched off. MuJoCo's key frames do not store whether a constraint is active, so `wound` uses the motor.
 """
 
+import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -32,7 +33,7 @@ from jumpcad.exporters.xml import Value, add, document, shorten, wxyz
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot import Robot
-from jumpcad.scene.hulls import body_hulls, cage_capsules
+from jumpcad.scene.hulls import Capsule, body_hulls, cage_capsules
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.solids.stl import write_stl
@@ -44,6 +45,8 @@ STEP_S = 0.00025
 """Time step: twice that of the project's own runs; templates jump as far within 0.2 %, at 1 ms up to 12 % less far."""
 HULL = "_hull"
 """Ends the names of the hulls' meshes."""
+ROD_DAMPING = 0.3
+"""Damping ratio of the cage's rods; judgement: their ties and sockets rub."""
 TOUCH = 1.2
 """Radius of a touch sensor's volume over that of the contact sphere in it."""
 
@@ -82,7 +85,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
                            size=link.radius_m)  # fmt: skip
         for number, link in enumerate(cage_capsules(mechanism) if body.name == BODY else (), start=1):
             _collision(node, f"cage_{number}", body, type="capsule", fromto=(*link.start_m, *link.end_m),
-                       size=link.radius_m)  # fmt: skip
+                       size=link.radius_m, **_softness(link, mechanism.mass_kg))  # fmt: skip
         for contact in body.contacts:
             _collision(node, f"{body.name}_{contact.name}", body, type="sphere", pos=contact.centre_m,
                        size=contact.radius_m)  # fmt: skip
@@ -154,6 +157,13 @@ def _visual(node: ET.Element, shape: Visual) -> None:
 def _collision(node: ET.Element, name: str, body: Body, **shape: Value) -> None:
     kind = "grip" if body.surface == FOOT else "collision"
     add(node, "geom", name=f"{name}_collision", class_=kind, **shape)
+
+
+def _softness(link: Capsule, mass_kg: float) -> dict[str, Value]:
+    """Return MuJoCo's `solref` of a rod that gives: the time constant √(m/k)/ζ of the robot on it."""
+    if not math.isfinite(link.n_per_m):
+        return {}
+    return {"solref": (math.sqrt(mass_kg / link.n_per_m) / ROD_DAMPING, ROD_DAMPING)}
 
 
 def _material(colour: Colour) -> str:

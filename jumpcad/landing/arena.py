@@ -14,6 +14,7 @@ from jumpcad.exporters.mjcf_robot import STEP_S, write_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
+from jumpcad.scene.hulls import CAGE
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.ballistics import drag_m_s2, drag_per_m
@@ -22,6 +23,8 @@ from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
 
 QUIET_STEP_S = 0.001
 """Time step of winding and waiting, four times that of a jump."""
+ROD_S = 0.02
+"""Contacts of the cage's rods are softer than this, and all others harder."""
 TARGETS = 200
 """Steps in which the leg is wound."""
 LOOK_S = 0.005
@@ -96,12 +99,14 @@ class Arena:
         self._friction = np.array([of.get(int(body), 0.0) for body in model.geom_bodyid])
         self.watch: Callable[[], None] | None = None
         """Called after each of MuJoCo's own steps, where something must see them all."""
+        self._rods = np.array([model.geom(index).name.startswith(CAGE) for index in range(model.ngeom)])
+        self._rods &= model.geom_solref[:, 0] > ROD_S
         self.stand_on(Floor())
 
     def stand_on(self, floor: Floor) -> None:
-        """Take another floor."""
+        """Take another floor; the cage's rods stay as soft as they are."""
         self.model.geom_friction[:, 0] = floor.friction * self._friction
-        self.model.geom_solref[:] = max(floor.softness_s, 2.0 * STEP_S), 1.0
+        self.model.geom_solref[~self._rods] = max(floor.softness_s, 2.0 * STEP_S), 1.0
 
     def stand(self, key: str = "wound") -> None:
         """Stand in a key frame: `home`, springs at rest, or `wound`, held by the latch."""

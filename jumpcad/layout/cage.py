@@ -33,8 +33,9 @@ POST_MM = 15.0
 """Least height of a bow's socket over the middle of its bar: its depth and a floor; judgement."""
 CLEAR_MM = 4.0
 """Between cage and what moves, as laid out; judgement: rods bend, and printed bars lean in their notches."""
-MOST_AHEAD_MM = 60.0
-"""From the plates to the front bar at most; judgement: longer horns break."""
+MOST_AHEAD_MM, MOST_RADIUS_MM = 60.0, 130.0
+"""From the plates to the front bar, and of hoops, at most where they are found; judgement: longer horns break, and
+wider hoops of glass fibre 1.5 mm give too much."""
 STEP_MM, HIGHEST_MM = 0.5, 60.0
 """Steps in which room for a bar is looked for, and how far up."""
 PIECES = 24
@@ -54,8 +55,8 @@ class Proportions:
     arc_deg: float
 
 
-HOOPS = Proportions(0.65, 0.7, 0.95, 2.25, 2.75, 24.0, 272.0)
-WITH_BOW = Proportions(0.5, 0.57, 0.85, 1.85, 2.15, 28.0, 257.0)
+HOOPS = Proportions(0.75, 0.9, 1.0, 2.55, 2.85, 24.0, 271.0)
+WITH_BOW = Proportions(0.52, 0.75, 0.97, 2.05, 2.15, 30.0, 251.0)
 """Two hoops, and two with a bow: the lightest that righted three robots, by stable poses (docs/decisions/cage.md)."""
 
 
@@ -144,7 +145,7 @@ def with_cage(layout: Layout, workshop: Workshop) -> Layout:
     rod, table = workshop.cage_rod, workshop.cage
     if rod is None:
         return layout
-    up, origin = _ground(layout)
+    up, origin = ground(layout)
     crouch, usual = float(-origin @ up), WITH_BOW if table.bow else HOOPS
     lean, angle = (math.radians(value) for value in (table.lean_deg or usual.lean_deg, table.arc_deg or usual.arc_deg))
     socket = rod.diameter_mm + 2.0 * (workshop.fits.lying_mm + SOCKET_WALL_MM)
@@ -153,7 +154,10 @@ def with_cage(layout: Layout, workshop: Workshop) -> Layout:
     nose = float(layout.linkage.pose(layout.linkage.travel_rad[0]).front_eye_mm[0, 0]) + layout.sections.ground_mm
     beyond = min(usual.ahead * max(0.0, nose - front_end), MOST_AHEAD_MM)
     behind, ahead = table.rear_behind_mm or usual.behind * crouch, table.front_ahead_mm or beyond
-    radii = table.rear_radius_mm or usual.rear * crouch, table.front_radius_mm or usual.front * crouch
+    radii = (
+        table.rear_radius_mm or min(usual.rear * crouch, MOST_RADIUS_MM),
+        table.front_radius_mm or min(usual.front * crouch, MOST_RADIUS_MM),
+    )
     rear_x, front_x = round(rear_end - behind, 1), round(front_end + ahead, 1)
     over_ground = origin[1] + ((origin[0] - rear_x) * up[0] + usual.height * crouch) / up[1]
     moving = moving_obstacles(layout)
@@ -180,7 +184,7 @@ def plate_ends_mm(layout: Layout) -> tuple[float, float]:
     return float(axles.min()) - pad, max(float(axles.max()) + pad, layout.tray_mm[0] + layout.electronics.half_mm[0])
 
 
-def _ground(layout: Layout) -> tuple[Array, Array]:
+def ground(layout: Layout) -> tuple[Array, Array]:
     """Return upward direction (2,) and a point (2,) of the ground in the body's frame, with loaded springs."""
     pose = layout.linkage.pose(layout.linkage.travel_rad[0])
     up = direction(pose.foot_rad[0] - math.pi / 2.0)

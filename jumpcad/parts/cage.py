@@ -36,6 +36,8 @@ from jumpcad.workshop import Workshop
 
 SEAT_MM = LAP_MM - LAP_HEIGHT_MM / 2.0
 """Height of the lap joint's seat over the bar's middle: its notch is as deep as the horn's."""
+TIE_LEFT = 0.5
+"""Of a tie once its end is cut off; judgement."""
 SLOT_BELOW_MM = 4.5
 """From the seat down to the middle of the tie's slot in the horn, below the bar."""
 
@@ -140,7 +142,7 @@ def _tie(bar: CageBar, side: str, y_mm: float, plate_mm: float) -> BoughtPart:
     top, thick = LAP_HEIGHT_MM / 2.0, TIE_MM[1]
     shape = Stack.of([(-BAR_MM / 2.0, BAR_MM / 2.0, rectangle((plate_mm, thick), (0.0, top + thick / 2.0)))])
     pose = chained(bar.T_body_bar, pose_at(np.eye(3), (y_mm - bar.T_body_bar[1, 3], 0.0, 0.0)))
-    mass = shape.mass_properties(1.0).scaled_to(TIE_G / 1000.0).placed(in_metres(pose))
+    mass = shape.mass_properties(1.0).scaled_to(TIE_LEFT * TIE_G / 1000.0).placed(in_metres(pose))
     part = BoughtPart(f"{bar.name}_tie_{side}", TIE, BODY, shape, pose, mass)
     x, z, below = plate_mm / 2.0 + thick, BAR_MM / 2.0 + thick, SEAT_MM - SLOT_BELOW_MM
     half: Array = np.array(

@@ -16,6 +16,7 @@ SMALLER = {
     "foot": "a shorter carrying_link_mm, or a smaller d_coef or e_coef",
     "toe": "a shorter carrying_link_mm or a smaller e_coef",
     "body_plate": "a shorter carrying_link_mm, a smaller d_coef, or a smaller battery or boards",
+    "cage_bar": "smaller cage.rear_radius_mm and cage.front_radius_mm",
 }
 """What to change where a part is too large, by the beginning of its name; other parts are the body's."""
 

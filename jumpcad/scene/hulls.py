@@ -13,6 +13,7 @@ from jumpcad.robot import Robot
 from jumpcad.scene.visuals import Visual
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire
+from jumpcad.strength.cage import ring_n_per_mm
 from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
@@ -63,11 +64,12 @@ def quick_corners_mm(thing: Visual) -> Array:
 
 @dataclass(frozen=True)
 class Capsule:
-    """A cylinder with rounded ends: its ends (3,) and radius (m), in its body's frame."""
+    """A cylinder with rounded ends: its ends (3,) and radius (m), in its body's frame; `n_per_m` is how stiff it is."""
 
     start_m: Array
     end_m: Array
     radius_m: float
+    n_per_m: float = math.inf
 
     @property
     def length_m(self) -> float:
@@ -90,7 +92,8 @@ def cage_capsules(mechanism: Mechanism) -> list[Capsule]:
     for arc in cage.arcs:
         points = np.round(arc.points_mm, DIGITS) / 1000.0
         radius = cage.rod.diameter_mm / 2000.0
-        found += [Capsule(one, other, radius) for one, other in itertools.pairwise(points)]
+        stiffness = 1000.0 * ring_n_per_mm(cage.rod, arc.radius_mm)
+        found += [Capsule(one, other, radius, stiffness) for one, other in itertools.pairwise(points)]
     for bar in cage.bars:
         along = bar.half_mm * bar.T_body_bar[:3, 0]
         ends = np.round(bar.T_body_bar[:3, 3] + np.array([-along, along]), DIGITS) / 1000.0

@@ -4,13 +4,17 @@ import pytest
 from support.built import built
 from support.said import well_told
 
+from jumpcad.building import build
 from jumpcad.checks import constraint_findings
+from jumpcad.design import load_design
 from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop, varied
 
 ROBOTS = {
     "kenan-2.0": lambda: built("kenan-2.0"),
     "best-bo": lambda: built("best-bo"),
     "legs with bars": lambda: built("kenan-2.0", leg="carbon-strip-3x6"),
+    "cage": lambda: build(load_design("best-printable"), varied(load_workshop(), {"cage.rod": "glass-1.5"})),
 }
 
 

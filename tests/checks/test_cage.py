@@ -1,0 +1,64 @@
+"""Limits of the cage against the ring and the beam of handbooks, and the robots that they refuse."""
+
+import math
+
+import numpy as np
+import pytest
+from layout.test_cage import FLAT, caged
+
+import jumpcad
+from jumpcad.catalogue import load_catalogue
+from jumpcad.checks import check, quick_findings
+from jumpcad.checks.cage import righting_findings
+from jumpcad.findings import Finding
+from jumpcad.robot import Robot
+from jumpcad.strength.cage import bar_mpa, bent_strain, landing_strain, ring_n_per_mm
+from jumpcad.workshop import load_workshop, varied
+
+GLASS = load_catalogue().cage_rods["glass-1.5"]
+
+
+def found(robot: Robot) -> dict[str, Finding]:
+    """Return the quick findings of the cage by name."""
+    return {one.name: one for one in quick_findings(robot) if one.name.startswith("cage")}
+
+
+def test_a_hoop_is_a_ring_between_two_forces() -> None:
+    """Half of a ring summed up: M = F·R·(1/π - cos(t)/2) from the load, and the work of F is the energy of bending."""
+    radius, force = 95.0, 3.0
+    t = np.linspace(0.0, 2.0 * math.pi, 20001)
+    moment = force * radius * (1.0 / math.pi - np.abs(np.sin(t)) / 2.0)
+    energy_nmm = float(np.trapezoid(moment**2, t)) * radius / (2.0 * GLASS.bending_nmm2)
+    deflection = 2.0 * energy_nmm / force
+    assert force / deflection == pytest.approx(ring_n_per_mm(GLASS, radius), rel=0.002)
+    at_the_sides = 1.0 / radius - moment.min() / GLASS.bending_nmm2
+    strain = GLASS.diameter_mm / 2.0 * at_the_sides
+    assert landing_strain(GLASS, radius, energy_nmm / 1000.0) == pytest.approx(strain, rel=0.002)
+
+
+def test_a_rod_bent_round_95_mm() -> None:
+    """1.5 mm of 40 GPa: E·I = 9,940 N·mm², 105 N·mm, 0.79 %; on 3 x 5 mm 8.4 MPa."""
+    assert GLASS.bending_nmm2 / 95.0 == pytest.approx(104.6, abs=0.1)
+    assert 100.0 * bent_strain(GLASS, 95.0) == pytest.approx(0.789, abs=0.001)
+    assert bar_mpa(GLASS, 95.0, 3.0, 5.0) == pytest.approx(104.6 / 12.5, abs=0.01)
+
+
+def test_glass_passes_and_other_rods_fail_where_they_must() -> None:
+    assert all(one.severity == "info" for one in found(caged()).values())
+    for rod, name in (("carbon-1.5", "cage_landing"), ("steel-1", "cage_landing"), ("glass-2", "cage_bar")):
+        assert found(caged(rod=rod))[name].severity == "error", rod
+    assert found(caged(rod="glass-2", bar_mm=9.0))["cage_bar"].severity == "info"
+    assert found(caged(rear_radius_mm=65.0))["cage_bend"].severity == "error"
+
+
+def test_the_cage_is_free_of_everything_in_every_position() -> None:
+    wrong = [one for one in check(caged(bow=True)) if one.severity == "error" and one.name in ("interference", "walls")]
+    assert not wrong
+
+
+def test_a_robot_that_crouches_too_little_is_warned_of() -> None:
+    tall = jumpcad.build(jumpcad.load_design("kenan-2.0"), varied(load_workshop("default"), {"cage.rod": "glass-1.5"}))
+    (told,) = righting_findings(tall)
+    assert told.severity == "warning"
+    assert "compression_ratio" in told.remedy
+    assert next(iter(righting_findings(jumpcad.build(FLAT))), None) is None
