@@ -7,6 +7,7 @@ import tempfile
 from collections import Counter
 from contextlib import redirect_stdout
 from dataclasses import asdict
+from functools import partial
 from inspect import getmodule
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,8 @@ from jumpcad.cli.slicing import slice_facts
 from jumpcad.exporters.registry import EXPORTERS
 from jumpcad.search.pick.robust import ActiveBound
 from jumpcad.simulation import uncertain
+from jumpcad.validation import table as validation_table
+from jumpcad.validation.family import family
 from jumpcad.workshop import load_workshop
 
 MAPPINGS = {
@@ -56,6 +59,7 @@ def files_and_json() -> str:
             "jumpcad list engines --json": _json("list", "engines"),
             **_search_documents(folder),
             "jumpcad calibrate kenan-1.0 --predict kenan-2.0 --json": _calibration_document(),
+            "jumpcad validate --json": _validation_document(),
         }
     folders = Counter(_folder(name) for name in manifest["files"])
     lines = [(f"`{name}`", str(count) if name.endswith("*") else "") for name, count in sorted(folders.items())]
@@ -118,6 +122,14 @@ def _calibration_document() -> Any:
         patch.object(posterior.sampled, "__defaults__", (0, 200, 200, 10)),
     ):
         return _json("calibrate", "kenan-1.0", "--predict", "kenan-2.0")
+
+
+def _validation_document() -> Any:
+    """Return the document of other robots, with few geometries and short flights."""
+    few = partial(family, members=2, generations=0, draws=200)
+    with patch.object(validation_table, "family", few), patch.object(validation_table, "DRAWS", 2):
+        found = _json("validate")
+    return found | {"robots": [one | {"figures": one["figures"][:1]} for one in found["robots"][:1]]}
 
 
 def _command(heading: str) -> str:
