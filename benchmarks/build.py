@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from time import process_time
@@ -21,21 +22,15 @@ import numpy as np
 
 DESIGNS = ("kenan-2.0", "best-printable")
 STAGES = {
-    "stl/": "parts as solids and STL files",
-    "print/": "plates",
-    "urdf/": "URDF",
-    "mjcf/": "MJCF",
-    "sdf/": "SDF",
-    "dxf/": "outlines",
-    "pictures/": "pictures",
+    "stl": "parts as solids and STL files",
+    "3mf": "plates",
+    "urdf": "URDF",
+    "mjcf": "MJCF",
+    "sdf": "SDF",
+    "dxf": "outlines",
+    "glb": "GLB",
 }
-"""Stage of a file by its folder in the bundle; all other files are documents, except for the GLB."""
-
-
-def stage_of(path: str) -> str:
-    """Return the stage that a file of the bundle belongs to."""
-    found = (stage for folder, stage in STAGES.items() if path.startswith(folder))
-    return next(found, "GLB" if path.endswith(".glb") else "documents")
+"""Stages by exporter; pictures are one too, and all else are documents."""
 
 
 def once(name: str) -> dict[str, float]:
@@ -54,14 +49,18 @@ def once(name: str) -> dict[str, float]:
     passed("imports")
     robot = building.build(load_design(name), name=name)
     passed("robot")
-    contents = bundle.contents
 
-    def timed(*arguments: Any) -> Iterator[tuple[str, str | bytes]]:
-        for path, content in contents(*arguments):
-            passed(stage_of(path))
-            yield path, content
+    def timed(stage: str, make: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*arguments: Any) -> Any:
+            made = dict(make(*arguments))
+            passed(stage)
+            return made.items() if stage in STAGES.values() else made
 
-    bundle.contents = timed
+        return call
+
+    chosen = bundle.chosen
+    bundle.chosen = lambda names: [replace(one, files=timed(STAGES[one.name], one.files)) for one in chosen(names)]
+    bundle.all_pictures = timed("pictures", bundle.all_pictures)
     with tempfile.TemporaryDirectory() as folder:
         bundle.export(robot, Path(folder) / name)
     passed("documents")

@@ -79,16 +79,24 @@ def export(
 
 
 def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
-    """Yield path and content of every file of a bundle, except its manifest."""
-    seen: dict[str, bytes] = {}
-    paths: list[str] = []
-    glb: bytes | None = None
-    for path, content in _files_before_report(robot, exporters, pictures, seen):
-        paths.append(path)
-        if pictures and path.endswith(".glb") and isinstance(content, bytes):
-            glb = content
-        yield path, content
-    yield "report.html", _page(robot, seen, glb, paths)
+    """Return path and content of every file of a bundle, except its manifest."""
+    files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
+    for exporter in exporters:
+        files |= dict(exporter.files(robot))
+    scene = next((path for path in files if path.endswith(".glb")), "")
+    glb = files.get(scene)
+    if pictures and isinstance(glb, bytes) and (motion := jump_motion(robot)) is not None:
+        files[scene] = glb = animated(glb, motion)
+    files["bom.csv"] = write_bom(bill_of_materials(robot))
+    files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
+    seen = all_pictures(robot) if pictures else {}
+    drawings = {path: text for path, text in drawings_of(robot).items() if text}
+    shown = {f"pictures/{picture}.png": png for picture, png in seen.items()}
+    guide = write_guide(robot, list(seen))
+    page = write_page(guide, robot.name, shown | {path: svg.encode() for path, svg in drawings.items()})
+    files |= {**shown, **drawings, "assembly.md": guide, "assembly.html": page}
+    files["report.html"] = _page(robot, seen, glb if pictures and isinstance(glb, bytes) else None, files)
+    return files.items()
 
 
 def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:
@@ -103,32 +111,6 @@ def _page(
     pictures = {name: seen[name] for name in RENDERS if name in seen}
     sure = uncertainty_of(robot) if glb is not None and jump.verdict == "jump" else None
     return write_report(robot, pictures, jump, glb, tuple(files), sure, series)
-
-
-def _files_before_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, seen: dict[str, bytes]) -> Files:
-    """Yield path and content of the files that the report links to; pictures are also added to `seen`, by name."""
-    yield DESIGN, robot.design.to_toml()
-    yield WORKSHOP, robot.workshop.to_toml()
-    motion = jump_motion(robot) if pictures else None
-    for exporter in exporters:
-        for path, content in exporter.files(robot):
-            if motion is not None and isinstance(content, bytes) and path.endswith(".glb"):
-                yield path, animated(content, motion)
-            else:
-                yield path, content
-    yield "bom.csv", write_bom(bill_of_materials(robot))
-    yield from firmware_files(robot)
-    yield from spring_sheets(robot)
-    yield from spring_dxfs(robot)
-    if pictures:
-        seen |= all_pictures(robot)
-    files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
-    yield from files.items()
-    drawings = {path: text for path, text in drawings_of(robot).items() if text}
-    yield from drawings.items()
-    guide = write_guide(robot, list(seen))
-    yield "assembly.md", guide
-    yield "assembly.html", write_page(guide, robot.name, files | {path: svg.encode() for path, svg in drawings.items()})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:
