@@ -25,7 +25,7 @@ from jumpcad.coupon.pieces import (
 from jumpcad.dimensions import AXLE_FLOOR_MM, SOCKET_WALL_MM, TAB_MM, TRAY_MM
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.toes import lying_hole
-from jumpcad.parts.train import ribbed_d_bore
+from jumpcad.parts.train import ribbed_d_bore, sectors
 from jumpcad.solids.blocks import Bar, Blocks
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, ring, union
 from jumpcad.solids.stack import Stack
@@ -147,12 +147,8 @@ def _pockets(holes: HoleSizes, step_mm: float) -> Stack:
 
 def _sectors(angle_deg: float) -> Region:
     """Return two opposite sectors of an angle about the x axis."""
-    half, reach = math.radians(angle_deg) / 2.0, 2.0 * DOG_OUTER_MM
-    made = []
-    for middle in (0.0, math.pi):
-        angles = middle + np.linspace(-half, half, 8)
-        made.append(polygon(np.vstack([[0.0, 0.0], reach * np.stack([np.cos(angles), np.sin(angles)], axis=-1)])))
-    return union(made)
+    half = math.radians(angle_deg) / 2.0
+    return sectors([(middle - half, middle + half) for middle in (0.0, math.pi)], 2.0 * DOG_OUTER_MM)
 
 
 def _lying(holes: HoleSizes, steps: Sequence[float]) -> Blocks:

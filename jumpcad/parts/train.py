@@ -45,7 +45,7 @@ def cam(layout: Layout, workshop: Workshop) -> Drawing:
     bore = hole(holes.running(layout.axle_mm), centre)
     (y0, y1), (gear_y0, gear_y1), dog = layout.lateral.cam, layout.lateral.gears[0], layout.drive.dog
     shoulder = gear_y0 - GAP_MM / 2.0
-    jaws = ring(dog.outer_mm, dog_inside_mm(holes.fits, layout.axle_mm)) ^ _sectors(dog.cam_jaws_rad, dog.outer_mm)
+    jaws = ring(dog.outer_mm, dog_inside_mm(holes.fits, layout.axle_mm)) ^ sectors(dog.cam_jaws_rad, dog.outer_mm)
     slabs = [
         (y0, y1, profile - bore),
         (y1, shoulder, disc(dog.outer_mm, centre) - bore),
@@ -122,7 +122,7 @@ def _cam_gear(
     around = hole(outer) - disc(inner)
     bore, width = hole(holes.running(axle_mm)), gear.face_width_mm
     solid = None if track_mm is None else _annulus(track_mm[0] - TRACK_WALL_MM, track_mm[1] + TRACK_WALL_MM)
-    region = _webbed(gear, bore, outer / 2.0, solid) - (around ^ _sectors(dog.pockets_rad, outer))
+    region = _webbed(gear, bore, outer / 2.0, solid) - (around ^ sectors(dog.pockets_rad, outer))
     slabs = [(0.0, width, region.mirror((1.0, 0.0)))]
     slabs += [(width, width + hub_mm, disc(inner) - bore)] if hub_mm > 0.0 else []
     return holes.chamfered(Stack.of(slabs))
@@ -162,13 +162,13 @@ def _grooved(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes, hub_mm: flo
     groove = _annulus(*track.radii_mm)
 
     def beside_land(begin_rad: float, end_rad: float) -> Region:
-        return groove - (groove ^ _sectors([(begin_rad, end_rad)], 2.0 * track.radii_mm[1])).mirror((1.0, 0.0))
+        return groove - (groove ^ sectors([(begin_rad, end_rad)], 2.0 * track.radii_mm[1])).mirror((1.0, 0.0))
 
     steps = [(low, high, beside_land(begin, end)) for low, high, begin, end in track.steps]
     return _cam_gear(gear, dog, axle_mm, holes, hub_mm, track.radii_mm).pocketed(steps)
 
 
-def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:
+def sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:
     """Return sectors about the origin, counter-clockwise from one angle to the other, that hold a circle's."""
     made = []
     for begin, end in ends_rad:

@@ -1,5 +1,6 @@
 """Inputs of the page: ends and steps of sliders; what happens when a person changes one, and not the program."""
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -30,7 +31,4 @@ def slider_ends(key: str, value: float) -> tuple[float, float]:
 
 def slider_step(span: float) -> float:
     """Return a slider's step: a power of ten, at most a 500th of the slider's range."""
-    step = 1.0
-    while step > span / 500.0:
-        step /= 10.0
-    return step
+    return min(1.0, 10.0 ** math.floor(math.log10(span / 500.0)))
