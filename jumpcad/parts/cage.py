@@ -4,6 +4,7 @@ A bar prints flat in its hoop's plane, so that its layers lie in the plane in wh
 in a lap joint: the bar's notch is open downwards, the horn's upwards, and a cable tie holds both together.
 """
 
+import itertools
 from collections.abc import Iterator
 
 import numpy as np
@@ -116,9 +117,9 @@ def cage_hardware(layout: Layout) -> Iterator[BoughtPart]:
         return
     for arc in cage.arcs:
         yield _rod(cage, arc)
-    for bar in cage.bars:
-        for side, (low, high) in (("left", layout.lateral.left_plate), ("right", layout.lateral.right_plate)):
-            yield _tie(bar, side, (low + high) / 2.0, high - low)
+    plates = (layout.lateral.left_plate, layout.lateral.right_plate)
+    for number, (bar, (low, high)) in enumerate(itertools.product(cage.bars, plates), start=1):
+        yield _tie(f"cage_tie_{number}", bar, (low + high) / 2.0, high - low)
 
 
 def _rod(cage: Cage, arc: CageArc) -> BoughtPart:
@@ -137,13 +138,13 @@ def _rod(cage: Cage, arc: CageArc) -> BoughtPart:
     return part.seen_as(DrawnWire(arc.points_mm, rod.diameter_mm))
 
 
-def _tie(bar: CageBar, side: str, y_mm: float, plate_mm: float) -> BoughtPart:
+def _tie(name: str, bar: CageBar, y_mm: float, plate_mm: float) -> BoughtPart:
     """Return the tie around a crossing: through the horn's slot, up before the bar, over it and down behind."""
     top, thick = LAP_HEIGHT_MM / 2.0, TIE_MM[1]
     shape = Stack.of([(-BAR_MM / 2.0, BAR_MM / 2.0, rectangle((plate_mm, thick), (0.0, top + thick / 2.0)))])
     pose = chained(bar.T_body_bar, pose_at(np.eye(3), (y_mm - bar.T_body_bar[1, 3], 0.0, 0.0)))
     mass = shape.mass_properties(1.0).scaled_to(TIE_LEFT * TIE_G / 1000.0).placed(in_metres(pose))
-    part = BoughtPart(f"{bar.name}_tie_{side}", TIE, BODY, shape, pose, mass)
+    part = BoughtPart(name, TIE, BODY, shape, pose, mass)
     x, z, below = plate_mm / 2.0 + thick, BAR_MM / 2.0 + thick, SEAT_MM - SLOT_BELOW_MM
     half: Array = np.array(
         [(0.0, below, 0.0), (x, below, 0.4), (x, below + 1.5, z), (x, top, z), (0.0, top + 1.0, 0.0)]

@@ -10,6 +10,7 @@ import numpy as np
 from jumpcad.bundle.bom import Bill
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
 from jumpcad.exporters.threemf import print_plates
+from jumpcad.layout.cage import SOCKET_MM
 from jumpcad.layout.leg_bars import END_PLAY_MM
 from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.leads import metres_by_colour
@@ -32,6 +33,8 @@ EYES_OFF_MM = 0.2
 """By which the eyes of a glued leg may be off; judgement: a caliper and two rods."""
 STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
+CAGE_SPARE_MM = 300.0
+"""Of rod to order beyond what the cage needs: a hoop that splinters; judgement."""
 STRAP_OVERLAP_MM = 20.0
 """Of a strap, hook on loop; judgement."""
 STEEL_FROM_G_CM3 = 7.0
@@ -63,6 +66,7 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
         "standoffs": _standoffs(bill),
         "strips": _strips(bill),
         "bars": _bars(robot, bill),
+        "cage": _cage(robot),
         "bearings": [one for one in workshop.catalogue.bearings.values() if f"ball bearing {one.name}" in billed],
         "wire_m": dict(sorted(metres_by_colour(layout, robot.wiring).items())),
         "strap_mm": strap_mm(robot),
@@ -71,6 +75,23 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
         "screw_axles": _screw_axles(robot) if layout.retention == "nuts" else None,
         "pin_rod_mm": math.floor(2.0 * (layout.pin_hole.diameter_mm - ROOM_MM)) / 2.0,
         "usb_body_mm": usb and tuple(side - ROOM_MM for side in usb),
+    }
+
+
+def _cage(robot: Robot) -> dict[str, Any] | None:
+    """Return the cage's rod, the lengths to cut by hoop or bow (mm), and what holds them; None without a cage."""
+    cage = robot.layout.cage
+    if cage is None:
+        return None
+    cut = {arc.name.removeprefix("cage_").replace("_", " "): round(arc.length_mm) for arc in cage.arcs}
+    return {
+        "rod": cage.rod,
+        "cut": cut,
+        "long_mm": sum(cut.values()) + CAGE_SPARE_MM,
+        "across_mm": {bar.name.removeprefix("cage_bar_"): 2.0 * bar.half_mm for bar in cage.bars},
+        "bow": any(bar.post_mm for bar in cage.bars),
+        "socket_mm": SOCKET_MM,
+        "push_n": cage.rod.bending_nmm2 / min(arc.radius_mm for arc in cage.arcs) ** 2,
     }
 
 

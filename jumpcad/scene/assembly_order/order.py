@@ -188,10 +188,18 @@ FIRST_JUMP: tuple[Plan, ...] = (
         ),
     ),
     Plan(
+        "cage", "The cage", ROBOT,
+        (
+            Move("cage_(bar|hoop)_rear", "into its notch"),
+            Move("cage_(bar|hoop)_front", "into its notch"),
+            Move("cage_tie_.*|cage_bow", way="laid"),
+        ),
+    ),
+    Plan(
         "jump", "First winding and first jump", ROBOT, (),
     ),
 )  # fmt: skip
-"""Winding without springs, the springs' pin, the foot, the first jump."""
+"""Winding without springs, the springs' pin, the foot, the cage, the first jump."""
 
 ORDER: tuple[Plan, ...] = (*SUBASSEMBLIES, *BETWEEN_PLATES, *FIRST_JUMP)
 """What is done, in this order."""

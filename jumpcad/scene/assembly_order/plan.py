@@ -44,8 +44,8 @@ class Move:
     parts
         Pattern of their names.
     along
-        A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`, or
-        `sideways` for a clip: from any side that is free.
+        A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`,
+        `into its notch` for a hoop of the cage, or `sideways` for a clip: from any side that is free.
     way
         How the path is checked. `straight`: along its whole length, on the shapes; `bent`: over the part's own size
         only, for split pins, which pliers bring; `snapped`: likewise, sideways onto a groove; `laid`: not at all, for
