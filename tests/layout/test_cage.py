@@ -8,6 +8,9 @@ import pytest
 from support.built import built
 
 import jumpcad
+from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.facts import cage_facts
+from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.exporters.sdf import write_sdf
@@ -17,6 +20,7 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.hulls import quick_corners_mm
+from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.scene.visuals import visuals
 from jumpcad.solids.stack import Stack
@@ -97,6 +101,25 @@ def test_every_simulation_file_has_the_rods(robot: Robot) -> None:
     for root, kind in ((urdf, "cylinder"), (sdf, "capsule")):
         link = next(node for node in root.iter("link") if node.get("name") == BODY)
         assert sum(1 for _ in link.iter(kind)) == number
+
+
+def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
+    cage, steps = robot.layout.cage, {step.key: step for step in assembly_steps(robot)}
+    assert cage is not None
+    guide, names = write_guide(robot), [line.name for line in bill_of_materials(robot).items]
+    for arc in cage.arcs:
+        assert f"pultruded glass fibre rod 1.5 mm, cut {arc.length_mm:.0f} mm long" in names
+        assert f"{arc.name.removeprefix('cage_').replace('_', ' ')} {arc.length_mm:.0f} mm" in guide
+    assert sum(thing.name.startswith("cage_") for thing in steps["cage"].added) == 2 + len(cage.arcs) + 4
+    assert "rest" not in steps
+    bare = jumpcad.build(FLAT)
+    assert "cage" not in {step.key for step in assembly_steps(bare)}
+    assert cage_facts(bare) is None
+    facts = cage_facts(robot)
+    assert facts is not None
+    assert [rod["length_mm"] for rod in facts["rods"]] == [pytest.approx(arc.length_mm, abs=0.05) for arc in cage.arcs]
+    added = robot.mass_kg - bare.mass_kg
+    assert 0.6 * added < facts["mass_kg"] < added  # the rest are horns
 
 
 def test_what_cannot_be_made_is_refused_with_the_number() -> None:
