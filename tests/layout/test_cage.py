@@ -19,8 +19,8 @@ from jumpcad.layout.cage import SOCKET_MM
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.hulls import quick_corners_mm
 from jumpcad.scene.assembly_steps import assembly_steps
+from jumpcad.scene.hulls import quick_corners_mm
 from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.scene.visuals import visuals
 from jumpcad.solids.stack import Stack
