@@ -127,6 +127,7 @@ def test_examples_run(
     if "exports/kenan-2.0" in CHAPTERS[chapter]:
         (tmp_path / "exports").mkdir()
         (tmp_path / "exports" / "kenan-2.0").symlink_to(bundle_of("kenan-2.0"))
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
     names: dict[str, object] = {}
     for language, block in BLOCKS[chapter]:
         if heading := re.match(r"# (\S+\.toml)\n", block):
