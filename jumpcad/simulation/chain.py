@@ -8,7 +8,7 @@ import copy
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -35,6 +35,9 @@ LOADING_POSES = 13
 """Poses from rest to the loaded one, each found from the one before."""
 SETTLED_SHARE, FINEST_S = 0.002, 2e-6
 """Change of the take-off speed below which a step is fine enough; the finest step."""
+TAKEN = {"dt_s", "push_off_steps", "solver_iterations", "solver_residual", "gravity_m_s2", "drag_area_m2", "max_time_s",
+         "spring_efficiency", "trajectory_rate_hz"}  # fmt: skip
+"""Settings that a chain takes, or that make no difference to MuJoCo."""
 PUSH_OFF_WITHIN_S = 0.5
 """A robot that stands this long does not jump."""
 CARRIED_SHARE = 0.02
@@ -138,9 +141,11 @@ def simulate_chain(chain: Chain, settings: Settings, engine: str) -> Jump:
     """
     if engine != "mujoco":
         raise JumpcadError(f"--engine {engine}: {chain.name} is a chain of hinges, which only MuJoCo simulates")
-    for key in ("restitution", "trajectory", "published_quantities"):
-        if value := getattr(settings, key):
-            raise JumpcadError(f"{key} = {value}: a chain of hinges is simulated without it: leave it out")
+    for key, value in settings.model_dump(exclude_defaults=True, exclude=TAKEN).items():
+        raise JumpcadError(f"{key} = {value}: a chain of hinges is simulated without it: leave it out")
+    springs = (replace(one, stiffness_nm_per_rad=settings.spring_efficiency * one.stiffness_nm_per_rad)
+               for one in chain.springs)  # fmt: skip
+    chain = replace(chain, springs=tuple(springs))
     jump = _jump(chain, settings)
     while settings.dt_s > FINEST_S:
         before, settings = jump, settings.model_copy(update={"dt_s": settings.dt_s / 4.0})

@@ -11,7 +11,7 @@ from support.places import ROOT
 
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.model import Body, ContactSphere, Joint, Loop, Mechanism, Spring, Surface
-from jumpcad.simulation import simulate
+from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.chain import Chain
 from jumpcad.simulation.robot_file import load_robot
 
@@ -121,10 +121,33 @@ def test_a_five_bar_as_a_chain_jumps_like_the_five_bar_in_another_engine() -> No
     assert jump.takeoff_time_s == pytest.approx(other.takeoff_time_s, abs=2e-4)
 
 
+def test_a_dyad_of_no_mass_makes_a_six_bar_that_jumps_alike() -> None:
+    """Two more links between body and right shank close a second loop, and change nothing that moves."""
+    plain = two_link(1e-3)
+    dyad = {name: body(name, 1e-9, 0.015, 1e-13) for name in ("c1", "c2")}
+    hinges = (hinge("c", "body", "c1", 0.0, 60.0), hinge("c knee", "c1", "c2", 0.05, 90.0))
+    six = replace(
+        plain, bodies=plain.bodies | dyad, joints=(*plain.joints, *hinges),
+        loops=(*plain.loops, Loop("c2", np.array([0.05, 0.0, 0.0]), "b1", np.array([0.02, 0.0, 0.0]))),
+    )  # fmt: skip
+    jumps = [simulate(one, engine="mujoco") for one in (plain, six)]
+    assert jumps[1].takeoff_speed_m_s == pytest.approx(jumps[0].takeoff_speed_m_s, rel=0.005)
+
+
 def test_only_mujoco_simulates_a_chain() -> None:
     for engine in ("pybullet", "planar"):
         with pytest.raises(JumpcadError, match=f"--engine {engine}: two is a chain of hinges, which only MuJoCo"):
             simulate(two_link(1e-4), engine=engine)
+
+
+def test_a_chain_takes_settings_or_refuses_them() -> None:
+    """Half the springs' energy; what is not simulated is not left out silently."""
+    half = simulate(two_link(1e-3), Settings(spring_efficiency=0.5), "mujoco")
+    assert half.spring_energy_j == pytest.approx(0.5 * two_link(1e-3).spring_energy_j)
+    for changed in ({"pin_friction": 0.3}, {"flight": "simulated"}, {"joint_friction_nm": 0.1}):
+        (key,) = changed
+        with pytest.raises(JumpcadError, match=f"{key} = .*: a chain of hinges is simulated without it"):
+            simulate(two_link(1e-4), Settings(**changed), "mujoco")
 
 
 def test_a_weak_chain_stays_on_the_ground() -> None:
