@@ -289,7 +289,6 @@ def of_assumptions() -> dict[str, str]:
         "search in Python": f"`best = jumpcad.optimize({given})`",
         "search slack": percent([SEARCH_SLACK]),
         "idle steps": f"{bayesian.IDLE}",
-        "patient steps": f"{bayesian.PATIENCE}",
         "scale": f"{PUBLISHED_MS:.0f} ms; they may be off by a factor of {SPEED_FACTOR:g}",
     }
 

@@ -30,7 +30,7 @@ class Method:
         Whether it fits a surrogate: it then starts with evenly spread designs, and each proposal carries the
         hyperparameters (`theta`) with which the next step starts.
     ends
-        Whether it ends where its proposals promise less than a stage's `least_gain`.
+        Whether it ends where its steps gain less than a stage's `least_gain`.
     shares
         Whether its parts have shares of the evaluations: a search with more of them is another one.
     least
@@ -73,7 +73,7 @@ SEQUENCES = {"ga+bo": ("ga", "bo")}
 DEFAULT = "bo"
 """Of printed robots, it needs about 35 designs to come within a hundredth of the best known, after `ga` 100 to 150."""
 EVALUATIONS, UNTIL_PERCENT = 250, 0.05
-"""What a search may cost at most unless the user says something else, and the promised gain at which it ends."""
+"""What a search may cost at most unless the user says something else, and the gain at which it ends."""
 NAMES = (*SEQUENCES, *METHODS)
 FRONTS = tuple(name for name, method in METHODS.items() if method.front)
 

@@ -47,21 +47,15 @@ class Proposal:
         return self.log_improvement + self.log_feasible
 
     def promised_gain(self, best: float) -> float:
-        """Return what it promises to gain, as a share of the best score; infinite where no score is above 0."""
-        return promised_gain(self.log_value, best)
+        """Return what it promises to gain, as a share of the best score; infinite where no score is above 0.
+
+        To first order: the process predicts the square root of the score, so a share of it is worth twice as much.
+        """
+        return 2.0 * math.exp(min(self.log_value, 100.0)) / math.sqrt(best) if best > 0.0 else math.inf
 
     def note(self) -> dict[str, float]:
         """Return both logarithms, for the study file."""
         return {"log_improvement": self.log_improvement, "log_feasible": self.log_feasible}
-
-
-def promised_gain(logarithm: float, best: float) -> float:
-    """Return the gain of an acquisition, given by its logarithm, as a share of the best score.
-
-    Expected improvement times probability of feasibility, to first order: the process predicts the square root of the
-    score, so a share of it is worth twice as much. Infinite where the best score is not above 0.
-    """
-    return 2.0 * math.exp(min(logarithm, 100.0)) / math.sqrt(best) if best > 0.0 else math.inf
 
 
 def propose(

@@ -16,7 +16,7 @@ from jumpcad.plural import counted
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
-from jumpcad.search.propose.local_search import FARTHEST, HOPELESS, STALLED, Progress
+from jumpcad.search.propose.local_search import FARTHEST, HOPELESS, STALLED, idle_steps
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
@@ -34,10 +34,8 @@ LEARNED, LEARNED_BEST = 400, 100
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
 RUN_SEED = 1_000_000
 """Above any number of steps: added to the seed of the steps of each further run."""
-PATIENCE = 7
-"""The search ends after so many proposals in a row that promise and gain too little; judgement: one or two often do."""
 IDLE = 10
-"""Where robots are estimated, it ends after so many steps in a row that gain too little; judgement."""
+"""The search ends after so many steps in a row that gain too little; judgement."""
 
 Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
@@ -52,22 +50,21 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
         Its trials so far, and those of its prior study, are learned from.
     stage
         `initial` designs are evaluated before the first fit; the proposals of a batch are made without each other's
-        results. With a `least_gain`, the search ends where less is promised and gained.
+        results. With a `least_gain`, the search ends where less is gained.
     polls
         Whether neighbours of the best printed robot are evaluated where proposals gain nothing.
     """
     start = len(evaluator.trials)
 
-    def progress() -> Progress:
-        # what earlier searches in another space promised says nothing
+    def idle() -> int:
         known = max((trial.score or 0.0 for trial in [*evaluator.prior, *evaluator.trials[:start]]), default=0.0)
-        return Progress.of(evaluator.trials[start:], known, stage.least_gain)
+        return idle_steps(evaluator.trials[start:], known, stage.least_gain)
 
     def proposer(
         loop: ProposalLoop, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
         best, elite = incumbent(evaluator.space, trials)
-        stalled = polls and progress().idle >= STALLED
+        stalled = polls and idle() >= STALLED
         proposals: list[Proposal] = []
         while len(proposals) < count:
             admits = unproposed(evaluator, proposals, loop.may_hold)
@@ -82,19 +79,15 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
             proposals.append(proposal)
         return proposals
 
-    def ended(dry_run: DryRun | None) -> bool:
-        if not stage.least_gain or is_flat(evaluator.trials):  # scores that are all alike have not converged
-            return False
-        idle, low = progress()
-        estimated = polls and dry_run is not None and not evaluator.space.varies_workshop
-        return idle >= IDLE if estimated else low >= PATIENCE
+    def ended() -> bool:  # scores that are all alike have not converged
+        return stage.least_gain > 0.0 and not is_flat(evaluator.trials) and idle() >= IDLE
 
     return run_steps(evaluator, "bo", stage, proposer, ended)
 
 
 def run_steps(
     evaluator: Evaluator, phase: str, stage: Stage, proposer: Proposer,
-    ended: Callable[[DryRun | None], bool] = lambda _dry_run: False, batch: int = 0,
+    ended: Callable[[], bool] = lambda: False, batch: int = 0,
 ) -> bool:  # fmt: skip
     """Evaluate the initial designs, then what `proposer` proposes, one `batch` per step (0: that of the request).
 
@@ -116,7 +109,7 @@ def run_steps(
     for step in itertools.count(1):
         if left <= 0 or evaluator.expired():
             return False
-        if ended(dry_run):
+        if ended():
             return True
         count = min(batch or stage.request.batch, left)
         finished = evaluator.finished(phase, step, count, stage.run)

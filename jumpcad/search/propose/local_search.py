@@ -7,12 +7,11 @@ near and far ones where a proposal promises nothing.
 """
 
 import itertools
-from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Sequence
 
 import numpy as np
 
-from jumpcad.search.propose.acquisition import DIGITS, promised_gain
+from jumpcad.search.propose.acquisition import DIGITS
 from jumpcad.search.space import Space
 from jumpcad.search.study.trial import Trial
 from jumpcad.transforms import Array
@@ -30,38 +29,19 @@ STALLED = 4
 """Steps in a row without a gain after which neighbours are evaluated; judgement."""
 
 
-class Progress(NamedTuple):
-    """How many steps of `bo` in a row gained too little, and how many of these in a row promised too little too."""
+def idle_steps(trials: Sequence[Trial], best: float, least_gain: float) -> int:
+    """Return how many steps of `bo` in a row, up to the last, gained less than a share of the best score before them.
 
-    idle: int
-    low: int
-
-    @classmethod
-    def of(cls, trials: Sequence[Trial], best: float, least_gain: float) -> "Progress":
-        """Return the progress of trials after a best score; `least_gain` is a share of the best."""
-        idle = low = 0
-        for promised, found in gains(trials, best):
-            if found > least_gain:
-                idle = low = 0
-            else:
-                idle, low = idle + 1, low + 1 if promised < least_gain else 0
-        return cls(idle, low)
-
-
-def gains(trials: Sequence[Trial], best: float = 0.0) -> Iterator[tuple[float, float]]:
-    """Yield what each step of `bo` promised to gain, and what it gained, as shares of the best score before it.
-
-    Of several proposals it is the most that one promised. Both are infinite while no score is above 0. `best` is the
-    best score before the first of the trials.
+    `best` is that before the first of the trials; while no score is above 0, no step counts.
     """
+    idle = 0
     for (phase, _), step in itertools.groupby(trials, key=lambda trial: (trial.phase, trial.step)):
         together = list(step)
         found = max(trial.score or 0.0 for trial in together)
-        notes = [trial.proposal for trial in together if phase == "bo" and "theta" in trial.proposal]
-        logarithms = [float(note["log_improvement"]) + float(note["log_feasible"]) for note in notes]
-        if logarithms:
-            yield promised_gain(max(logarithms), best), found / best - 1.0 if best > 0.0 else np.inf
+        if phase == "bo" and "theta" in together[0].proposal:
+            idle = 0 if best <= 0.0 or found / best - 1.0 > least_gain else idle + 1
         best = max(best, found)
+    return idle
 
 
 def neighbours(space: Space, best: Trial, generator: np.random.Generator, wider: float = 1.0) -> list[Array]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.hills import FIXED, SMALL
 
-from jumpcad.search.propose.acquisition import Proposal, promised_gain, propose
+from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
@@ -120,9 +120,7 @@ def test_what_held_in_a_dry_run_is_proposed_where_another_promises_little_more(l
 
 def test_a_promise_is_twice_the_gain_of_the_root_as_a_share_of_the_best():
     """A gain of the root by 0.1 of a score of 4 is one by 0.4: a tenth of it. Of no best score it is infinite."""
-    assert promised_gain(math.log(0.1), 4.0) == pytest.approx(0.1)
-    assert Proposal(SMALL.to_variant([0.5] * 3), np.full(3, 0.5), math.log(0.4), math.log(0.25)).promised_gain(
-        4.0
-    ) == pytest.approx(0.1)
-    assert promised_gain(0.0, 0.0) == promised_gain(-5.0, -1.0) == math.inf
-    assert math.isfinite(promised_gain(1e9, 1.0))
+    found = Proposal(SMALL.to_variant([0.5] * 3), np.full(3, 0.5), math.log(0.4), math.log(0.25))
+    assert found.promised_gain(4.0) == pytest.approx(0.1)
+    assert found.promised_gain(0.0) == found.promised_gain(-1.0) == math.inf
+    assert math.isfinite(Proposal(found.variant, found.unit, 1e9, 0.0).promised_gain(1.0))

@@ -15,7 +15,7 @@ from jumpcad.search.estimate.estimated_robot import LAID
 from jumpcad.search.models import robot_model
 from jumpcad.search.propose.bayesian import IDLE, run_bayesian
 from jumpcad.search.propose.dry_run import ESTIMATED, FAILED, TRIED, DryRun
-from jumpcad.search.propose.local_search import STALLED, Progress
+from jumpcad.search.propose.local_search import STALLED, idle_steps
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
@@ -87,13 +87,13 @@ def test_a_search_with_estimates_ends_after_so_many_steps_in_a_row_without_a_gai
     idle, beside, longer = [], ProposalLoop.beside, replace(STAGE, evaluations=60, least_gain=0.2)
 
     def counted(loop, trials, *others):
-        idle.append(Progress.of(trials, 0.0, 0.2).idle)
+        idle.append(idle_steps(trials, 0.0, 0.2))
         return beside(loop, trials, *others)
 
     monkeypatch.setattr(ProposalLoop, "beside", counted)
     trials = search(tmp_path / "end.db", longer)
     assert len(trials) < 60
-    assert Progress.of(trials, 0.0, 0.2).idle == IDLE
+    assert idle_steps(trials, 0.0, 0.2) == IDLE
     assert idle[-(IDLE - STALLED) :] == list(range(STALLED, IDLE))
     assert min(idle) == STALLED
     assert search(tmp_path / "end.db", longer) == trials
