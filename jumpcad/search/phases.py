@@ -84,7 +84,7 @@ MOST_PICK, LEAST_PICK = 200, 6
 
 EXPLORED = ("sample", "sweep")
 """Phases of a view; the random designs of `paper` are samples too."""
-AROUND = ("margin", "bounds", "robust")
+AROUND = ("bounds", "robust")
 """Phases that examine designs near the best."""
 SEARCH_PHASES = (*EXPLORED, *METHODS)
 PHASES = (*SEARCH_PHASES, *AROUND)

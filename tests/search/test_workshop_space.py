@@ -97,17 +97,6 @@ def test_names_have_no_order_for_the_process():
     assert np.abs(mean - np.sin(4 * points[:, 0]) - np.array([0.0, 2.0, -1.0, 0.5])[at]).max() < 0.2
 
 
-def test_the_slope_along_numbers_is_the_difference_and_along_names_nothing():
-    generator = np.random.default_rng(2)
-    x = np.column_stack([generator.random((20, 2)), generator.integers(0, 3, 20) / 2])
-    process = Surrogate(x, np.cos(3 * x[:, 0]) * x[:, 1] + x[:, 2], categories=(0, 0, 3))
-    point, step = x[:1] + np.array([[0.01, 0.02, 0.0]]), np.array([[1e-6, 0.0, 0.0]])
-    slope = process.slope(point)
-    difference = (process.predict(point + step)[0] - process.predict(point - step)[0]) / 2e-6
-    assert slope[0, 0] == pytest.approx(difference[0], rel=1e-4)
-    assert slope[0, 2] == 0.0
-
-
 @pytest.mark.thorough
 @pytest.mark.parametrize(("method", "evaluations", "at_least"), [("ga", 400, 9.0), ("ga+bo", 80, 9.5)])
 def test_methods_find_the_best_values_of_the_workshop(method, evaluations, at_least):

@@ -6,7 +6,6 @@ are spent on them.
 Near some designs a thousandth of one parameter decides whether they jump; a printer is not that accurate.
 """
 
-import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -16,9 +15,7 @@ import numpy as np
 
 from jumpcad.design import PARAMETERS
 from jumpcad.search.parameter import active_sides
-from jumpcad.search.phases import MOST_PICK
-from jumpcad.search.pick.margin import propose_robust
-from jumpcad.search.pick.tolerances import PERCENT, SAMPLES, Tolerances, tenth
+from jumpcad.search.pick.tolerances import SAMPLES, Tolerances, tenth
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.trial import Trial, feasible_trials
@@ -26,10 +23,6 @@ from jumpcad.search.study.variant import Variant
 
 MOST_CANDIDATES = 16
 """Designs that the first round examines, at most."""
-JOINING = 3
-"""Designs at a distance from the constraint that may join; each costs its own evaluation and two neighbours."""
-LEAST_TO_JOIN = 16
-"""Evaluations of a pick from which on designs may join; judgement."""
 APART = 0.02
 """Least difference between two candidates in some parameter, over its range; judgement."""
 WIDENING = 0.05
@@ -125,14 +118,11 @@ def rank_candidates(
     seed: int,
     making: Tolerances,
     evaluations: int,
-    among: Sequence[Trial] | None = None,
     run: int = 0,
 ) -> list[Candidate]:
     """Evaluate neighbours of the best of some trials, and return these, those that got farthest and do not fail first.
 
-    Successive halving: the more robust half of the candidates gets more neighbours, until one is left. The best often
-    lies on a constraint; if one of its first neighbours is rejected, a few designs at a distance from the constraint
-    join. Where none joins, the last candidate gets their evaluations.
+    Successive halving: the more robust half of the candidates gets more neighbours, until one is left.
 
     Parameters
     ----------
@@ -144,30 +134,16 @@ def rank_candidates(
         Tolerances of making.
     evaluations
         At most so many designs are evaluated.
-    among
-        The trials that may be candidates, such as those of a front, which no design joins; all if None.
     run
         Number of this pick in the study.
     """
-    reserve = JOINING * 3 if evaluations >= LEAST_TO_JOIN and among is None else 0
-    rounds = plan_rounds(evaluations - reserve)
-    best = best_apart(evaluator.space, trials if among is None else among, rounds[0][0])
-    if not best:  # nothing jumps
-        return []
-    field = [_Examined(index, one) for index, one in enumerate(best)]
+    rounds = plan_rounds(evaluations)
+    field = [_Examined(index, one) for index, one in enumerate(best_apart(evaluator.space, trials, rounds[0][0]))]
     left: list[_Examined] = []
-    for turn, (count, new) in enumerate(rounds):
+    for turn, (count, new) in enumerate(rounds if field else ()):  # nothing jumps
         ranked = _ranked(field, left)
         field, left = ranked[:count], ranked[count:]
-        if count == 1 and turn:
-            new = min(new + reserve, 2 * SAMPLES - field[0].examined) // 2 * 2
         _examine(evaluator, field, new, (run, turn), seed, making)
-        if turn == 0 and reserve and field and field[0].rejections:
-            drawn = [seed, 7, 8 * ((MOST_PICK + 1) * len(trials) + evaluations)]  # anew for each search and pick
-            off_edge = propose_robust(evaluator, trials, run, drawn, PERCENT / 100.0 / math.sqrt(3.0))
-            joining = [_Examined(MOST_CANDIDATES + n, one) for n, one in enumerate(off_edge) if one.score is not None]
-            _examine(evaluator, joining, 2, (run, len(rounds)), seed, making)
-            field, reserve = field + joining, 0
     return [one.candidate() for one in _ranked(field, left) if one.examined]
 
 

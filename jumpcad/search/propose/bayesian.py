@@ -164,13 +164,13 @@ def known_trials(evaluator: Evaluator) -> list[Trial]:
     return [trial for trial in exact if evaluator.space.contains(trial.variant)]
 
 
-def learned_trials(space: Space, trials: Sequence[Trial], best: int = LEARNED_BEST) -> list[Trial]:
-    """Return at most `LEARNED` of some trials, in their order: the `best` ones, and the nearest to the very best."""
+def learned_trials(space: Space, trials: Sequence[Trial]) -> list[Trial]:
+    """Return at most `LEARNED` of some trials, in their order: the best ones, and the nearest to the very best."""
     if len(trials) <= LEARNED:
         return list(trials)
     ranked = feasible_trials(trials)
     centre = space.to_unit(ranked[0].variant) if ranked else np.full(space.dimension, 0.5)
-    chosen = {trial.key for trial in ranked[:best]}
+    chosen = {trial.key for trial in ranked[:LEARNED_BEST]}
     distances = [float(np.abs(space.to_unit(trial.variant) - centre).max()) for trial in trials]
     nearest = [trials[index] for index in np.argsort(distances, kind="stable") if trials[index].key not in chosen]
     chosen |= {trial.key for trial in nearest[: LEARNED - len(chosen)]}

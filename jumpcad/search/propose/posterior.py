@@ -101,17 +101,11 @@ class SearchPosterior:
             found = {name: surrogate.theta for name, surrogate in of_score.items()} | found
         return {name: [round(value, THETA_DIGITS) for value in theta] for name, theta in found.items()}
 
-    def log_feasible(self, points: Array, scatter: Array | None = None) -> Array:
-        """Return the logarithm of the probability (m,) that designs (m, d) meet every constraint.
-
-        With `scatter`, standard deviations (m, d) of what is made of each design, that such a neighbour meets them: to
-        first order, the variance of a margin grows by that of its slope (Girard et al., NIPS 2002).
-        """
+    def log_feasible(self, points: Array) -> Array:
+        """Return the logarithm of the probability (m,) that designs (m, d) meet every constraint."""
         total = np.zeros(len(points))
         for surrogate in self.constraints.values():
             mean, deviation = surrogate.predict(points)
-            if scatter is not None:
-                deviation = np.hypot(deviation, np.linalg.norm(scatter * surrogate.slope(points), axis=1))
             total += log_ndtr(mean / deviation)
         return total
 

@@ -87,17 +87,6 @@ class Surrogate:
         variance = np.maximum(self._variance - np.einsum("ij,ij->j", half, half), 1e-12)
         return self._centre + self._spread * (covariance @ self._alpha), self._spread * np.sqrt(variance)
 
-    def slope(self, points: Array) -> Array:
-        """Return the gradient (m, d) of the mean at points (m, d); 0 along axes of names."""
-        points = one_hot(points, self.categories)
-        distance = self._distance(points)
-        weights = (1.0 + distance) * np.exp(-distance) * self._alpha
-        pull = weights @ self._seen - weights.sum(axis=1, keepdims=True) * points
-        slope = self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
-        first = np.cumsum([0, *(max(count, 1) for count in self.categories[:-1])])
-        along: Array = np.where(self.categories, 0.0, slope[:, first])
-        return along
-
     def condition_on(self, point: Array) -> Self:
         """Return the process with its own mean at a point (d,) added as a measurement (kriging believer).
 

@@ -133,14 +133,13 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
 
 def _picked(request: Request, evaluator: Evaluator) -> tuple[list[Candidate], list[ActiveBound]]:
     """Evaluate neighbours of the best designs, then what lies beyond the winner's bounds; keep and return both."""
-    trials, store, among, share = evaluator.trials, evaluator.store, None, request.pick
+    trials, store, share = evaluator.trials, evaluator.store, request.pick
+    among = front(trials, request.cost) if request.is_front else trials
     bounds: list[ActiveBound] = []
-    if request.is_front:
-        among = front(trials, request.cost)
-    else:
+    if not request.is_front:
         share -= min(request.space.dimension, request.pick // 4)
     run = pick_run(store, len(trials), request.pick)
-    candidates = rank_candidates(evaluator, trials, request.seed, request.making, share, among, run)
+    candidates = rank_candidates(evaluator, among, request.seed, request.making, share, run)
     if candidates and not request.is_front:
         left = request.pick - (len(evaluator.trials) - len(trials))
         bounds = active_bounds(evaluator, candidates[0].trial, left, run)

@@ -247,18 +247,6 @@ def test_lengths_as_made_are_those_of_the_built_robot():
     assert made.spring.energy_j == pytest.approx(1.01 * robot.spring.energy_j)
 
 
-def test_designs_off_an_edge_do_not_join_a_front_whose_candidates_have_all_of_the_pick(evaluator):
-    """The same edge as above: whatever is not of the front is no candidate, and nothing is kept for it."""
-    one = evaluator()
-    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
-    one.evaluate([edge, *map(SMALL.to_design, SMALL.spread(12, np.random.default_rng(0)))], "nsga2", 0)
-    searched = one.trials
-    ranked = rank_candidates(one, searched, 0, LENGTHS_ALONE, 24, among=searched[:1])
-    assert [candidate.trial for candidate in ranked] == searched[:1]
-    assert ranked[0].rejections["loop"] > 0
-    assert {trial.phase for trial in one.trials} == {"nsga2", "robust"}
-
-
 def test_the_last_of_a_design_s_choices_is_a_bound_and_that_of_a_workshop_s_is_none(evaluator):
     """Stiffnesses of 10, 12 and 20: beyond them springs may be made to order, a twentieth of 10 farther."""
     choices = ["stiffness_nmm_per_deg=10,12,20", "process.perimeters=2,3"]

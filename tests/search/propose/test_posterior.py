@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import ndtr
 from scipy.stats import norm
-from support.hills import FIXED, SMALL, Hill
+from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
 from jumpcad.search.propose.posterior import (
@@ -21,10 +21,8 @@ from jumpcad.search.propose.posterior import (
     warped,
 )
 from jumpcad.search.propose.surrogate import Surrogate
-from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
-from jumpcad.workshop import load_workshop
 
 
 def rows_of(count, model=None):
@@ -36,18 +34,6 @@ def rows_of(count, model=None):
         score = evaluation.metrics.get("fitness") if evaluation.feasible else None
         found.append(Trial("bo", 0, place, design, evaluation, score, "m", 0.0))
     return found
-
-
-def test_scatter_counts_the_neighbours_that_are_refused():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(60), {}, None)
-    posterior = SearchPosterior(None, {"loop": posterior.constraints["loop"]})
-    edge = (0.7 - 0.1) / 0.7  # of the compression ratio, the first axis
-    for inside in (0.02, 0.05):
-        point, scatter = np.array([[edge - inside, 0.4, 0.6]]), np.array([[0.03, 0.1, 0.1]])
-        neighbours = point + scatter * np.random.default_rng(0).standard_normal((4000, 3))
-        share = np.mean(neighbours[:, 0] <= edge)
-        assert np.exp(posterior.log_feasible(point, scatter)) == pytest.approx(share, abs=0.03)
-        assert posterior.log_feasible(point) > posterior.log_feasible(point, scatter)
 
 
 def test_expected_improvement_is_the_integral_over_the_posterior():
@@ -125,29 +111,6 @@ def test_a_jump_backwards_counts_as_none_once_something_jumps_forwards():
     assert forwards(some, none).tolist() == some.tolist()
 
 
-class Plane:
-    """A margin that is known as a plane with the same doubt everywhere."""
-
-    slope_of = np.array([2.0, -1.0])
-
-    def predict(self, points):
-        return 0.3 + points @ self.slope_of, np.full(len(points), 0.2)
-
-    def slope(self, points):
-        return np.tile(self.slope_of, (len(points), 1))
-
-
-def test_a_neighbour_is_as_probably_feasible_as_by_drawing_neighbours():
-    """Normal neighbours of two designs, and a normal doubt of the margin at each, drawn independently."""
-    generator, plane, scatter = np.random.default_rng(0), Plane(), np.array([0.1, 0.15])
-    points = np.array([[0.0, 0.0], [0.1, 0.4]])
-    found = np.exp(SearchPosterior(None, {"one": plane}).log_feasible(points, np.tile(scatter, (2, 1))))
-    for point, chance in zip(points, found, strict=True):
-        margins = plane.predict(point + scatter * generator.standard_normal((400_000, 2)))[0]
-        drawn = margins + 0.2 * generator.standard_normal(400_000) > 0.0
-        assert chance == pytest.approx(drawn.mean(), abs=0.004)
-
-
 def test_improvement_near_the_mean_is_the_integral_of_the_distribution():
     for z in (-0.5, 0.0, 1.5):
         grid = np.linspace(-12.0, z, 400001)
@@ -213,21 +176,3 @@ def test_a_score_is_learned_from_two_jumps_on():
     assert known[1].predict(np.array([SMALL.to_unit(trials[0].variant)]))[0] == pytest.approx(
         np.sqrt(trials[0].score), rel=0.01
     )
-
-
-def test_a_name_is_no_place_between_others():
-    """The processes of a space with a choice of names have no slope along it."""
-    choice = "bought.battery=lipo-1s-300,lipo-2s-180"
-    space = Space.parse(fix=FIXED, choose=[choice], workshop=load_workshop())
-    points = space.snap(space.spread(24, np.random.default_rng(0)))
-    variants = [space.to_variant(point) for point in points]
-    scores = [4.0 + one.design.compression_ratio for one in variants]
-    trials = [
-        Trial("bo", 0, place, one.design, Evaluation("jump", {}, ()), score, "m", 0.0, {}, one.workshop)
-        for place, (one, score) in enumerate(zip(variants, scores, strict=True))
-    ]
-    score = SearchPosterior.from_trials(space, trials, {}, None).score
-    assert len(score.theta) == 3 + 2 + 2  # numbers, names, variance and noise
-    slope = score.slope(points)
-    assert (slope[:, -1] == 0.0).all()
-    assert np.abs(slope[:, 0]).min() > 0.0

@@ -47,15 +47,6 @@ def test_conditioning_on_the_own_mean_changes_it_nowhere_and_makes_nothing_less_
     assert after.predict(point[None])[1] < 0.3 * before.predict(point[None])[1]
 
 
-def test_the_slope_is_the_difference_of_the_mean(data):
-    known = Surrogate(*data)
-    points, step = np.random.default_rng(2).random((20, 3)), 1e-5
-    for axis in range(3):
-        shift = step * np.eye(3)[axis]
-        rise = known.predict(points + shift)[0] - known.predict(points - shift)[0]
-        assert known.slope(points)[:, axis] == pytest.approx(rise / (2 * step), abs=1e-5)
-
-
 def test_an_axis_of_names_becomes_one_for_each_name():
     """A number, three names, a number: two different names are 1 apart, and the nearest name is meant."""
     points = np.array([[0.25, 0.0, 0.75], [0.25, 0.5, 0.75], [0.5, 0.9, 1.0]])

@@ -78,7 +78,7 @@ def test_a_damaged_field_is_named() -> None:
 
 def test_a_step_that_starts_from_the_one_before_has_its_hyperparameters() -> None:
     """Of a method that learns; its first designs, also those of its next run, are drawn and have none."""
-    for phase in ("bo", "pareto", "ga", "margin", "robust", "sample"):
+    for phase in ("bo", "pareto", "ga", "robust", "sample"):
         for run, step in ((0, 0), (0, 1), (1, 0), (1, 1)):
             without = replace(SCORED, phase=phase, run=run, step=step, proposal={})
             if phase in ("bo", "pareto") and step:

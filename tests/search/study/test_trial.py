@@ -38,7 +38,6 @@ def test_trials_stand_in_the_order_of_phases_runs_steps_and_places(trial: Trial)
         ("ga", 0, 1, 0),
         ("ga", 1, 0, 2),
         ("bo", 0, 0, 0),
-        ("margin", 0, 0, 0),
         ("robust", 0, 0, 0),
     ]
     trials = [replace(trial, phase=phase, run=run, step=step, place=place) for phase, run, step, place in order]
