@@ -289,6 +289,7 @@ def of_assumptions() -> dict[str, str]:
         "search in Python": f"`best = jumpcad.optimize({given})`",
         "search slack": percent([SEARCH_SLACK]),
         "idle steps": f"{bayesian.IDLE}",
+        "lone steps": f"{bayesian.IDLE_ALONE}",
         "scale": f"{PUBLISHED_MS:.0f} ms; they may be off by a factor of {SPEED_FACTOR:g}",
     }
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from jumpcad.blas_threads import one_thread
 from jumpcad.plural import counted
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
@@ -34,8 +35,9 @@ LEARNED, LEARNED_BEST = 400, 100
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
 RUN_SEED = 1_000_000
 """Above any number of steps: added to the seed of the steps of each further run."""
-IDLE = 10
-"""The search ends after so many steps in a row that gain too little; judgement."""
+IDLE, IDLE_ALONE = 10, 25
+"""The search ends after so many steps in a row that gain too little: where robots are estimated, where not; judgement.
+"""
 
 Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
@@ -79,8 +81,11 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
             proposals.append(proposal)
         return proposals
 
+    estimated = isinstance(evaluator.model, PrintedModel) and not evaluator.space.varies_workshop
+
     def ended() -> bool:  # scores that are all alike have not converged
-        return stage.least_gain > 0.0 and not is_flat(evaluator.trials) and idle() >= IDLE
+        enough = idle() >= (IDLE if estimated else IDLE_ALONE)
+        return stage.least_gain > 0.0 and enough and not is_flat(evaluator.trials)
 
     return run_steps(evaluator, "bo", stage, proposer, ended)
 

@@ -14,7 +14,7 @@ from jumpcad.search.estimate.estimate import Estimate
 from jumpcad.search.estimate.estimated_robot import LAID
 from jumpcad.search.models import robot_model
 from jumpcad.search.propose.bayesian import IDLE, run_bayesian
-from jumpcad.search.propose.dry_run import ESTIMATED, FAILED, TRIED, DryRun
+from jumpcad.search.propose.dry_run import FAILED, TRIED, DryRun
 from jumpcad.search.propose.local_search import STALLED, idle_steps
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
@@ -197,19 +197,6 @@ def test_what_had_room_but_would_not_jump_is_a_failure_too_with_its_margins():
     assert second.evaluation.margins == {"tips": -3.0, "too_weak": 0.2}
     dry_run.ranked = []
     assert list(dry_run.estimates([], points)) == [holds.key]
-
-
-def test_of_very_many_the_last_are_learned():
-    """Failures that were passed over at the start stand before those that were tried."""
-    points = [np.full(SPACE.dimension, share) for share in np.linspace(0.0, 1.0, FAILED + 6)]
-    dry_run, variants = dry_run_of(), [SPACE.to_variant(point) for point in points]
-    assert ESTIMATED == FAILED
-    dry_run.estimator = Known(grounded=variants, layout=lambda _: {}, ready=True)
-    dry_run._passed_over = variants[:4]
-    assert [one.variant for one in dry_run.failures([], points[4:])] == variants[6:]
-    dry_run.estimator.grounded = []
-    dry_run.ranked = points[:4]
-    assert list(dry_run.estimates([], points[4:])) == [one.key for one in variants[6:]]
 
 
 def test_estimates_take_the_planar_engine_with_long_steps_where_it_has_what_the_settings_ask_for():

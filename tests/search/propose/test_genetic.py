@@ -11,7 +11,6 @@ from support.stages import stage
 from jumpcad.search.propose import genetic
 from jumpcad.search.propose.genetic import (
     PATIENCE,
-    SETTINGS,
     Fitness,
     evolve,
     run_genetic,
@@ -55,27 +54,6 @@ def test_it_climbs_where_chance_does_not(evaluator):
         run_genetic(one, stage(200, seed))
         assert best(one.trials) > 10.0 * np.exp(-2.0 * 0.05**2)
         assert all(trial.evaluation.verdict == "loop" for trial in one.trials if trial.score is None)
-
-
-def test_seed_decides_everything(evaluator):
-    runs = []
-    for seed in (5, 5, 6):
-        one = evaluator()
-        run_genetic(one, stage(80, seed))
-        runs.append([trial.key for trial in one.trials])
-    assert runs[0] == runs[1] != runs[2]
-
-
-def test_published_preset_replaces_five_genes(evaluator):
-    settings = SETTINGS["published"]
-    assert settings.population == 10
-    assert settings.operators["mutation_num_genes"] == 5
-    assert settings.operators["keep_parents"] == 2
-    assert settings.operators["num_parents_mating"] == 5
-    assert settings.operators["keep_elitism"] == 0
-    one = evaluator(space=Space.default())
-    run_genetic(one, stage(60, 0, preset="published"))
-    assert len(one.trials) == 60
 
 
 @pytest.mark.thorough
