@@ -114,6 +114,8 @@ WORDS = {
     "differs": "values of each robot that are not the same, by name",
     "page": "the page that was written",
     "variants": "names of the robots",
+    "units": "units of the parameters, by name",
+    "score_unit": "unit of the score",
     "limits": "limits that count; those used by less than a tenth do not",
     "grown": "sections that grew by themselves: what, by which factor, for which limit, its use before",
     "verdict": "`jump`, or why there is none",

@@ -32,7 +32,7 @@ MAPPINGS = {
     "design", "deviation", "first_order", "importance", "interval", "margins", "readings", "refused", "sweeps",
 }  # fmt: skip
 """Fields that map names to like things, though their names look like fields."""
-WHOLE, ELSEWHERE = {"differs", "engines", "evaluated", "identity"}, {"studies"}
+WHOLE, ELSEWHERE = {"differs", "units", "engines", "evaluated", "identity"}, {"studies"}
 """Mappings that are not taken apart, and lists of what another table has."""
 
 

@@ -42,6 +42,33 @@ def commented_workshop(workshop: "Workshop", origin: str) -> str:
     return "\n".join(lines).rstrip("\n") + "\n" + ("\n" + to_toml(others) if others else "")
 
 
+def changed_toml(text: str, changes: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return a TOML document with other values in its tables, by the tables' names, everything else as it was.
+
+    Keys and tables that it does not have are added.
+    """
+    left = {table: dict(values) for table, values in changes.items()}
+    lines: list[str] = []
+    table = ""
+
+    def added() -> list[str]:
+        return [f"{_written_key(key)} = {_written(value)}" for key, value in left.pop(table, {}).items()]
+
+    for line in text.splitlines():
+        if head := re.match(r"\s*\[([^\[\]]+)\]", line):
+            blank = [lines.pop() for _ in range(len(lines)) if lines and not lines[-1].strip()]
+            lines += [*added(), *blank]
+            table = head[1].strip()
+        found = LINE.fullmatch(line.strip())
+        if found and found["key"] in left.get(table, {}):
+            line = f"{found['key']} = {_written(left[table].pop(found['key']))}{found['comment'] or ''}"
+        lines.append(line)
+    lines += added()
+    for table in list(left):
+        lines += ["", f"[{table}]", *added()]
+    return "\n".join(lines) + "\n"
+
+
 def printer_name(workshop: "Workshop") -> str:
     """Return the name of a workshop's printer; empty if it is not shipped."""
     from jumpcad.files import find_template, read_toml, template_names

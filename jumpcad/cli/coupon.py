@@ -65,13 +65,39 @@ def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[
     found = measured_workshop(Readings.from_toml(readings), base, str(readings))
     before, after = base.fits.model_dump(), found.fits.model_dump()
     changed = {key: value for key, value in after.items() if value != before[key]}
-    write_atomically(output, found.to_toml())
+    write_atomically(output, _with_comments(workshop, output, found, changed))
     return {
         "workshop": str(output),
         "fits": {key: {"before": before[key], "after": value} for key, value in changed.items()},
         "strengths": _lowered(base, found, "strength_in_plane_mpa"),
         "strengths_interlayer": _lowered(base, found, "strength_interlayer_mpa"),
     }
+
+
+def _with_comments(workshop: str, output: Path, found: "Workshop", fits: dict[str, float]) -> str:
+    """Return the measured workshop as TOML with the comments of the one that it is made from, where that can be."""
+    import tomllib
+
+    from jumpcad.cli.commented import changed_toml, commented_workshop
+    from jumpcad.files import find_template, read_toml
+    from jumpcad.workshop import load_workshop
+
+    source = find_template("workshops", workshop)
+    data, base = read_toml(source)[0], load_workshop(workshop)
+    relative = any(isinstance(data.get(key), str) and data[key].endswith(".toml") for key in ("base", "printer"))
+    if relative and source.parent.resolve() != output.parent.resolve():
+        return commented_workshop(found, workshop)
+    changes: dict[str, dict[str, Any]] = {"fits": fits} if fits else {}
+    for name, material in found.materials.items():
+        new, old = material.model_dump(), base.materials[name].model_dump()
+        if new != old:
+            changes[f"materials.{name}"] = {key: value for key, value in new.items() if value != old[key]}
+    text = changed_toml(source.read_text(encoding="utf-8"), changes)
+    try:
+        tomllib.loads(text)
+    except tomllib.TOMLDecodeError:  # its tables are written another way
+        return commented_workshop(found, workshop)
+    return text
 
 
 def _lowered(base: "Workshop", found: "Workshop", key: str) -> dict[str, dict[str, float]]:

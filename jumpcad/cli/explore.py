@@ -136,6 +136,7 @@ Found = tuple[dict[str, Any], dict[str, Callable[[], Any]]]
 
 
 def _swept(evaluator: "Evaluator", centre: "Design", points: int) -> Found:
+    from jumpcad.dimensions import unit_of_key
     from jumpcad.search.explore import sweep
     from jumpcad.search.report import plots
 
@@ -152,7 +153,9 @@ def _swept(evaluator: "Evaluator", centre: "Design", points: int) -> Found:
         ]
         for one in sweeps
     }
-    return {"sweeps": data}, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
+    words = {"units": {one.parameter: unit_of_key(one.parameter) for one in sweeps},
+             "score_unit": evaluator.objective.unit}  # fmt: skip
+    return {"sweeps": data, **words}, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
 
 
 def _sampled(evaluator: "Evaluator", view: str, samples: int, seed: int) -> Found:

@@ -41,8 +41,11 @@ class EnergyBudget:
 
     @property
     def account_j(self) -> dict[str, float]:
-        """What makes the jump, what is left, and what is lost where; the values add up to the loaded energy."""
-        return {
+        """What makes the jump, what is left, and what is lost where; the values add up to the loaded energy.
+
+        No loss is negative: what an engine's arithmetic has gained is taken from the largest entry.
+        """
+        account = {
             "useful": self.forward_j + self.upward_j + self.lift_j,
             "internal": self.internal_j,
             "springs": self.spring_j,
@@ -51,6 +54,10 @@ class EnergyBudget:
             "slip": self.slip_j,
             "contact": self.contact_j,
         }
+        gained = min(account["contact"], 0.0)
+        account["contact"] -= gained
+        account[max(account, key=lambda name: account[name])] += gained
+        return account
 
 
 @dataclass(frozen=True, eq=False)

@@ -49,5 +49,5 @@ def test_a_design_s_numbers_stand_with_what_they_do_and_their_searched_range() -
     lines = [line for line in text.splitlines() if " = " in line]
     assert [line.split(" = ")[0] for line in lines] == list(PARAMETERS)
     for line, bounds in zip(lines, SEARCH_BOUNDS.values(), strict=True):
-        assert line.endswith(f"# {bounds.lower:g} to {bounds.upper:g}")
+        assert line.endswith(f"# searches go through {bounds.lower:g} to {bounds.upper:g}")
     assert len({line.index("#") for line in lines}) == 1  # one below the other

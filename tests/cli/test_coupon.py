@@ -40,3 +40,23 @@ def test_a_coupon_is_printed_tried_and_built_with(run: Run, tmp_path: Path) -> N
     robot = build(load_design("kenan-2.0"), workshop)
     found = measured(robot, "main_leg", 0.0, np.array([robot.layout.leg_pin_mm, 0.0]))
     assert found == pytest.approx(3.0 + 2.0 * 0.15, abs=0.01)
+
+
+def test_a_workshop_keeps_its_comments_with_measured_values(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(
+        'base = "default"\n[fits]  # by Ada\npress_mm = 0.12  # old nozzle\n\n[body]\nplate_mm = 2.8  # stiffer\n',
+        encoding="utf-8",
+    )
+    (tmp_path / "inline.toml").write_text('base = "default"\nfits = {press_mm = 0.12}\n', encoding="utf-8")
+    (tmp_path / "r.toml").write_text(
+        "axle_mm = 3\n[gauge.PETG]\naxle_press_mm = 0.15\naxle_sliding_mm = 0.25\n", encoding="utf-8"
+    )
+    for name in ("mine", "inline"):
+        shop, out = tmp_path / f"{name}.toml", tmp_path / f"{name}-measured.toml"
+        code, _, err = run("coupon", "--measured", tmp_path / "r.toml", "--workshop", shop, "-o", out)
+        assert (code, err) == (0, "")
+        fits = load_workshop(out).fits
+        assert (fits.press_mm, fits.sliding_mm) == (0.15, 0.25), name
+    text = (tmp_path / "mine-measured.toml").read_text(encoding="utf-8")
+    assert text.startswith('base = "default"\n[fits]  # by Ada\npress_mm = 0.15  # old nozzle\nsliding_mm = 0.25\n')
+    assert "plate_mm = 2.8  # stiffer" in text
