@@ -31,7 +31,8 @@ def test_every_number_of_a_new_design_has_a_comment_with_its_searched_range(run:
     run("new", "frog.toml", "--from", "best-ga")
     text = (tmp_path / "frog.toml").read_text()
     for key, bounds in SEARCH_BOUNDS.items():
-        assert re.search(rf"^# .+\n{key} = \S+ +# searches go through {bounds.lower:g} to {bounds.upper:g}$", text, re.MULTILINE), key
+        line = rf"^# .+\n{key} = \S+ +# searches go through {bounds.lower:g} to {bounds.upper:g}$"
+        assert re.search(line, text, re.MULTILINE), key
     assert load_design(tmp_path / "frog.toml") == load_design("best-ga")
 
 
