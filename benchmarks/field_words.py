@@ -117,7 +117,7 @@ WORDS = {
     "units": "units of the parameters, by name",
     "score_unit": "unit of the score",
     "cage": "rods of the cage and its mass; null without one",
-    "rights_itself.static": "probability that the robot, put down anyhow, lies on its feet once it is wound: a lower bound",
+    "rights_itself.static": "least probability that the robot, put down anyhow, is wound upright",
     "limits": "limits that count; those used by less than a tenth do not",
     "grown": "sections that grew by themselves: what, by which factor, for which limit, its use before",
     "verdict": "`jump`, or why there is none",
