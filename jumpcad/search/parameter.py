@@ -116,15 +116,6 @@ class SearchParameter:
         return cls(name, min(values), max(values), tuple(values) if len(values) > 1 else ())
 
 
-@dataclass(frozen=True)
-class Change:
-    """A user's change of one parameter: its value, its two bounds, or its choices."""
-
-    kind: Kind
-    name: str
-    values: tuple[Any, ...]
-
-
 def physical_limits(name: str) -> tuple[float, float]:
     """Return the least and the largest value of a design's parameter.
 
@@ -153,22 +144,33 @@ def active_sides(parameter: SearchParameter, number: float, share: float) -> lis
     ]
 
 
-def read_change(kind: Kind, text: str) -> Change:
-    """Return the change of a text such as `NAME=VALUE` from the command line.
+def read_changes(kind: Kind, texts: Iterable[str]) -> dict[str, tuple[Any, ...]]:
+    """Return the values by parameter of texts such as `NAME=VALUE` from the command line.
 
     Raises
     ------
     JumpcadError
-        If the text has another form.
+        If a text has another form, or a parameter several texts.
     """
     form, separator = FORMS[kind]
-    name, equals, value = text.partition("=")
-    name, items = name.strip(), value.split(separator) if separator else [value]
-    if not equals or (kind == "bound" and len(items) != 2):
-        raise JumpcadError(f"{text!r} is not of the form NAME={form}")
-    if "." in name and kind != "bound":  # of the workshop: what is a number, the workshop decides
-        return Change(kind, name, tuple(item.strip() for item in items))
-    return Change(kind, name, tuple(_number(item, text, name) for item in items))
+    found: dict[str, tuple[Any, ...]] = {}
+    for text in texts:
+        name, equals, value = text.partition("=")
+        name, items = name.strip(), value.split(separator) if separator else [value]
+        if not equals or (kind == "bound" and len(items) != 2):
+            raise JumpcadError(f"{text!r} is not of the form NAME={form}")
+        require_new(name, found)
+        if "." in name and kind != "bound":  # of the workshop: what is a number, the workshop decides
+            found[name] = tuple(item.strip() for item in items)
+        else:
+            found[name] = tuple(_number(item, text, name) for item in items)
+    return found
+
+
+def require_new(name: str, changed: Iterable[str]) -> None:
+    """Require that a parameter is not among those that were changed; raises `JumpcadError`."""
+    if name in changed:
+        raise JumpcadError(f"{name} is given twice: fix it, bound it or choose its values, only once")
 
 
 def _number(text: str, whole: str, name: str) -> float:
@@ -180,53 +182,44 @@ def _number(text: str, whole: str, name: str) -> float:
         raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
 
 
-def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = None) -> dict[str, SearchParameter]:
-    """Return the changed parameters by name; values of the workshop are checked by it.
+def changed_parameter(kind: Kind, name: str, values: Sequence[Any], workshop: Workshop | None) -> SearchParameter:
+    """Return a parameter with a user's value, two bounds, or choices; values of the workshop are checked by it.
 
     Raises
     ------
     JumpcadError
-        If a name is unknown or given twice, or a value is impossible.
+        If the name is unknown, or a value is impossible.
     """
-    changed: dict[str, SearchParameter] = {}
-    for change in changes:
-        name = change.name
-        if name in changed:
-            raise JumpcadError(f"{name} is given twice: fix it, bound it or choose its values, only once")
-        if name in PARAMETERS:
-            changed[name] = _parameter(change, [_possible(name, value) for value in change.values])
-        elif "." not in str(name):
-            known_name(name, WORKSHOP)
-        elif workshop is None:
-            raise JumpcadError(f"{shown(name)}: this robot is made in no workshop; search it on the printed robot")
-        else:
-            changed[name] = _of_workshop(change, workshop)
-    return changed
+    if name in PARAMETERS:
+        return _parameter(kind, name, [_possible(name, value) for value in values])
+    if "." not in str(name):
+        known_name(name, WORKSHOP)
+    if workshop is None:
+        raise JumpcadError(f"{shown(name)}: this robot is made in no workshop; search it on the printed robot")
+    return _of_workshop(kind, name, values, workshop)
 
 
-def _of_workshop(change: Change, workshop: Workshop) -> SearchParameter:
+def _of_workshop(kind: Kind, name: str, asked: Sequence[Any], workshop: Workshop) -> SearchParameter:
     """Return a parameter that is a value of the workshop, which checks every value.
 
     If the workshop's own value is a whole number, the parameter's choices are the whole numbers of its range.
     """
-    name, held = change.name, workshop_value(workshop, change.name)
-    values = [_tried(workshop, name, value) for value in change.values]
+    held = workshop_value(workshop, name)
+    values = [_tried(workshop, name, value) for value in asked]
     texts = [value for value in values if isinstance(value, str)]
     if not texts:
         broken = [value for value in values if isinstance(held, int) and float(value) % 1.0]
-        if broken and change.kind != "bound":
+        if broken and kind != "bound":
             raise JumpcadError(f"{name} = {broken[0]:g} is not a whole number, and it takes nothing else")
-        parameter = _parameter(change, [float(value) for value in values])
+        parameter = _parameter(kind, name, [float(value) for value in values])
         if isinstance(held, int) and parameter.free and not parameter.choices:
             whole = [float(number) for number in range(math.ceil(parameter.lower), math.floor(parameter.upper) + 1)]
             if not whole:
-                asked = f"{parameter.lower:g}:{parameter.upper:g}"
-                raise JumpcadError(
-                    f"{name} = {asked} holds no whole number, and it takes nothing else: widen the range"
-                )
-            return _parameter(Change("choose", name, ()), whole)
+                ends = f"{parameter.lower:g}:{parameter.upper:g}"
+                raise JumpcadError(f"{name} = {ends} holds no whole number, and it takes nothing else: widen the range")
+            return _parameter("choose", name, whole)
         return parameter
-    if change.kind == "bound" or len(texts) < len(values):
+    if kind == "bound" or len(texts) < len(values):
         raise JumpcadError(f"{name}: names and numbers do not mix: choose among names, or give a range of numbers")
     return SearchParameter.of_names(name, list(dict.fromkeys(texts)))
 
@@ -249,9 +242,8 @@ def _tried(workshop: Workshop, name: str, value: Any) -> Value:
     raise complaint
 
 
-def _parameter(change: Change, values: Sequence[float]) -> SearchParameter:
-    name = change.name
-    if change.kind == "bound":
+def _parameter(kind: Kind, name: str, values: Sequence[float]) -> SearchParameter:
+    if kind == "bound":
         if len(values) != 2:
             raise JumpcadError(f"{name} has {len(values)} bounds; give the lower and the upper one")
         lower, upper = values

@@ -17,13 +17,13 @@ from jumpcad.arguments import check_arguments, check_fields
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import (
-    Change,
     Kind,
     SearchParameter,
-    changed_parameters,
+    changed_parameter,
     known_name,
     physical_limits,
-    read_change,
+    read_changes,
+    require_new,
     several,
 )
 from jumpcad.search.study.variant import NOTHING, Variant
@@ -86,10 +86,30 @@ class Space:
             For an unknown name, a value outside of what a design or workshop can be, an empty range or nothing left
             free.
         """
-        changes = [Change("fix", name, (value,)) for name, value in fixed.items()]
-        changes += [Change("bound", name, several(name, limits)) for name, limits in bounds.items()]
-        changes += [Change("choose", name, several(name, values)) for name, values in choices.items()]
-        return cls._changed(changes, around, only, within_percent, workshop)
+        only = [known_name(name) for name in only]
+        if around is None and (only or within_percent is not None):
+            raise JumpcadError(
+                "to free only some parameters, or search near a design, say around which (around, or --around DESIGN)"
+            )
+        if within_percent is not None and not 0 < within_percent <= 100:
+            raise JumpcadError(f"within {within_percent:g} % is outside 0…100 %: a share of each parameter's range")
+        asked: list[tuple[Kind, str, tuple[Any, ...]]] = [("fix", name, (value,)) for name, value in fixed.items()]
+        asked += [("bound", name, several(name, limits)) for name, limits in bounds.items()]
+        asked += [("choose", name, several(name, values)) for name, values in choices.items()]
+        changed: dict[str, SearchParameter] = {}
+        for kind, name, values in asked:
+            require_new(name, changed)
+            changed[name] = changed_parameter(kind, name, values, workshop)
+        centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
+        parameters = []
+        for name, limits in SEARCH_BOUNDS.items():
+            parameter = SearchParameter(name, limits.lower, limits.upper)
+            if only and name not in only:
+                parameter = parameter.held(centre[name])
+            elif within_percent is not None:
+                parameter = parameter.narrowed(centre[name], within_percent, physical_limits(name))
+            parameters.append(changed.pop(name, parameter))
+        return cls((*parameters, *changed.values()))
 
     @classmethod
     @check_arguments
@@ -110,37 +130,9 @@ class Space:
         JumpcadError
             As `make`, and for a text of another form.
         """
-        texts: tuple[tuple[Kind, Iterable[str]], ...] = (("fix", fix), ("bound", bound), ("choose", choose))
-        changes = [read_change(kind, text) for kind, some in texts for text in some]
-        return cls._changed(changes, around, only, within_percent, workshop)
-
-    @classmethod
-    def _changed(
-        cls,
-        changes: Iterable[Change],
-        around: Design | None,
-        only: Iterable[str],
-        within_percent: float | None,
-        workshop: Workshop | None,
-    ) -> Self:
-        only = [known_name(name) for name in only]
-        if around is None and (only or within_percent is not None):
-            raise JumpcadError(
-                "to free only some parameters, or search near a design, say around which (around, or --around DESIGN)"
-            )
-        if within_percent is not None and not 0 < within_percent <= 100:
-            raise JumpcadError(f"within {within_percent:g} % is outside 0…100 %: a share of each parameter's range")
-        changed = changed_parameters(changes, workshop)
-        centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
-        parameters = []
-        for name, limits in SEARCH_BOUNDS.items():
-            parameter = SearchParameter(name, limits.lower, limits.upper)
-            if only and name not in only:
-                parameter = parameter.held(centre[name])
-            elif within_percent is not None:
-                parameter = parameter.narrowed(centre[name], within_percent, physical_limits(name))
-            parameters.append(changed.pop(name, parameter))
-        return cls((*parameters, *changed.values()))
+        fixed = {name: value for name, (value,) in read_changes("fix", fix).items()}
+        bounds: dict[str, Any] = read_changes("bound", bound)
+        return cls.make(fixed, bounds, read_changes("choose", choose), around, only, within_percent, workshop)
 
     @cached_property
     def free(self) -> tuple[SearchParameter, ...]:

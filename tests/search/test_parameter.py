@@ -7,25 +7,31 @@ import pytest
 from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import (
-    Change,
+    Kind,
     SearchParameter,
     active_sides,
-    changed_parameters,
+    changed_parameter,
     physical_limits,
-    read_change,
+    read_changes,
 )
 from jumpcad.search.space import Space
 from jumpcad.workshop import load_workshop
 
 
+def told(kind, text, workshop=None):
+    """Return the parameter of a text from the command line."""
+    ((name, values),) = read_changes(kind, [text]).items()
+    return changed_parameter(kind, name, values, workshop)
+
+
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_a_search_may_go_to_the_ends_of_what_a_design_can_be_and_no_further(name):
     ends = physical_limits(name)
-    found = changed_parameters([Change("bound", name, ends)])[name]
+    found = changed_parameter("bound", name, ends, None)
     assert (found.lower, found.upper) == ends
     for end, beyond in zip(ends, (-math.inf, math.inf), strict=True):
         with pytest.raises(JumpcadError, match=f"{name} = .* is outside .*: no design can have it"):
-            changed_parameters([Change("fix", name, (math.nextafter(end, beyond),))])
+            changed_parameter("fix", name, (math.nextafter(end, beyond),), None)
 
 
 def test_a_place_in_the_unit_interval_is_a_value_or_the_nearest_choice():
@@ -44,33 +50,33 @@ def test_a_narrowed_range_stays_within_what_a_design_can_be():
 
 
 def test_bounds_of_a_workshops_value_are_numbers_and_its_choices_are_left_to_the_workshop() -> None:
-    assert read_change("bound", " body.plate_mm = 1.2:2.4").values == (1.2, 2.4)
-    assert read_change("choose", "bought.battery=one, two").values == ("one", "two")
-    assert read_change("fix", "body_joint_mm=90").values == (90.0,)
+    assert read_changes("bound", [" body.plate_mm = 1.2:2.4"]) == {"body.plate_mm": (1.2, 2.4)}
+    assert read_changes("choose", ["bought.battery=one, two"]) == {"bought.battery": ("one", "two")}
+    assert read_changes("fix", ["body_joint_mm=90"]) == {"body_joint_mm": (90.0,)}
     with pytest.raises(JumpcadError, match="'thin' is not a number"):
-        read_change("bound", "body.plate_mm=thin:2.4")
+        read_changes("bound", ["body.plate_mm=thin:2.4"])
 
 
 def test_whole_numbers_are_not_fixed_or_chosen_between_two() -> None:
     """A print has two perimeters or three; a robot with 2.6 would be another than its file says."""
     shop = load_workshop()
-    for change in (read_change("fix", "process.perimeters=2.6"), read_change("choose", "process.perimeters=2,2.6")):
+    for change in (("fix", "process.perimeters=2.6"), ("choose", "process.perimeters=2,2.6")):
         with pytest.raises(JumpcadError, match=r"process\.perimeters = 2\.6 is not a whole number"):
-            changed_parameters([change], shop)
-    found = changed_parameters([read_change("choose", "process.perimeters=2,4")], shop)["process.perimeters"]
+            told(*change, shop)
+    found = told("choose", "process.perimeters=2,4", shop)
     assert found.choices == (2.0, 4.0)
 
 
 def test_a_name_of_nothing_is_told_before_its_values() -> None:
     with pytest.raises(JumpcadError, match=r"'materials' is not a parameter .* a value of the workshop is TABLE\.NAME"):
-        read_change("choose", "materials=PLA,PETG")
+        read_changes("choose", ["materials=PLA,PETG"])
     with pytest.raises(JumpcadError, match=r"'plate_mm' is not a parameter .* a value of the workshop is TABLE\.NAME"):
-        changed_parameters([read_change("fix", "plate_mm=2")], load_workshop())
+        told("fix", "plate_mm=2", load_workshop())
 
 
 def test_a_whole_number_of_the_workshop_stays_one_from_bound_to_bound() -> None:
-    found = changed_parameters([read_change("bound", "process.perimeters=2:5")], load_workshop())
-    assert found["process.perimeters"].choices == (2.0, 3.0, 4.0, 5.0)
+    found = told("bound", "process.perimeters=2:5", load_workshop())
+    assert found.choices == (2.0, 3.0, 4.0, 5.0)
     shop = load_workshop()
     for bounds, said in (("2.5:5.5", {"choices": [3.0, 4.0, 5.0]}), ("2.5:3.4", {"fixed": 3.0})):
         space = Space.parse(bound=[f"process.perimeters={bounds}"], workshop=shop)
@@ -78,8 +84,8 @@ def test_a_whole_number_of_the_workshop_stays_one_from_bound_to_bound() -> None:
         assert Space.from_record(space.describe()) == space  # as a study is read again
     with pytest.raises(JumpcadError, match=r"perimeters = 2.2:2.8 holds no whole number, .*: widen the range"):
         Space.parse(bound=["process.perimeters=2.2:2.8"], workshop=shop)
-    found = changed_parameters([read_change("bound", "process.infill=0.2:0.5")], load_workshop())
-    assert found["process.infill"].choices == ()
+    found = told("bound", "process.infill=0.2:0.5", load_workshop())
+    assert found.choices == ()
 
 
 @pytest.mark.parametrize("workshop", [None, load_workshop()], ids=["capsule", "printed"])
@@ -88,9 +94,9 @@ def test_a_name_that_no_parameter_has_is_not_passed_over(kind, workshop):
     with pytest.raises(
         JumpcadError, match=r"'carrying_lnk_mm' is not a parameter of a design.*did you mean carrying_link_mm"
     ):
-        changed_parameters([Change(kind, "carrying_lnk_mm", (100.0, 120.0))], workshop)
+        changed_parameter(kind, "carrying_lnk_mm", (100.0, 120.0), workshop)
     with pytest.raises(JumpcadError, match="made in no workshop" if workshop is None else "did you mean body.plate_mm"):
-        changed_parameters([Change(kind, "body.plate", (1.0, 2.0))], workshop)
+        changed_parameter(kind, "body.plate", (1.0, 2.0), workshop)
 
 
 @pytest.mark.parametrize(
@@ -121,8 +127,8 @@ def test_names_are_numbered_and_unknown_ones_are_no_number() -> None:
 def test_names_are_chosen_and_have_no_bounds() -> None:
     names = ("lipo-1s-300", "lipo-2s-180")
     with pytest.raises(JumpcadError, match="choose among names, or give a range"):
-        changed_parameters([Change("bound", "bought.battery", names)], load_workshop())
-    named = changed_parameters([Change("choose", "bought.battery", names)], load_workshop())["bought.battery"]
+        changed_parameter("bound", "bought.battery", names, load_workshop())
+    named = changed_parameter("choose", "bought.battery", names, load_workshop())
     assert [named.value(number) for number in (0.0, 1.0)] == list(names)
 
 
@@ -142,18 +148,20 @@ def test_a_bound_is_active_within_a_thousandth_of_the_range_and_no_design_lies_b
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (Change("bound", "c_coef", (0.9,)), "c_coef has 1 bounds; give the lower and the upper one"),
-        (Change("bound", "c_coef", (0.9, 1.0, 1.1)), "c_coef has 3 bounds; give the lower and the upper one"),
-        (Change("choose", "c_coef", ()), "c_coef has no values to choose from; give at least one"),
-        (Change("fix", "c_coef", ("1",)), r"c_coef = '1' \(str\) is not a number"),
-        (Change("fix", "body.plate_mm", (None,)), "body.plate_mm = None is neither a number nor a name"),
-        (Change("fix", "body.plate_mm", (2.5,)), ""), (Change("fix", "body.plate_mm", ("2.5",)), ""),
+        (("bound", "c_coef", (0.9,)), "c_coef has 1 bounds; give the lower and the upper one"),
+        (("bound", "c_coef", (0.9, 1.0, 1.1)), "c_coef has 3 bounds; give the lower and the upper one"),
+        (("choose", "c_coef", ()), "c_coef has no values to choose from; give at least one"),
+        (("fix", "c_coef", ("1",)), r"c_coef = '1' \(str\) is not a number"),
+        (("fix", "body.plate_mm", (None,)), "body.plate_mm = None is neither a number nor a name"),
+        (("fix", "body.plate_mm", (2.5,)), ""), (("fix", "body.plate_mm", ("2.5",)), ""),
     ],
 )  # fmt: skip
-def test_a_change_has_as_many_numbers_as_its_kind_takes(change: Change, said: str) -> None:
+def test_a_change_has_as_many_numbers_as_its_kind_takes(
+    change: tuple[Kind, str, tuple[object, ...]], said: str
+) -> None:
     """A number of the workshop may be written as text, one of the design not."""
     if said:
         with pytest.raises(JumpcadError, match=said):
-            changed_parameters([change], load_workshop())
+            changed_parameter(*change, load_workshop())
     else:
-        assert changed_parameters([change], load_workshop())[change.name].describe() == {"fixed": 2.5}
+        assert changed_parameter(*change, load_workshop()).describe() == {"fixed": 2.5}
