@@ -62,7 +62,8 @@ def labelled(
         _words(draw, name, x, y, left)
         start = (x + EDGE_PX, y) if left else (x - EDGE_PX, y)
         draw.line([tuple(FINE * np.array(start)), tuple(FINE * end)], fill=LINE, width=FINE)
-        _dot(draw, end)
+        x, y = FINE * end
+        draw.ellipse([x - 2 * FINE, y - 2 * FINE, x + 2 * FINE, y + 2 * FINE], fill=INK)
     return large.reduce(FINE)
 
 
@@ -127,8 +128,3 @@ def _arrow(draw: ImageDraw.ImageDraw, start: Array, end: Array) -> None:
     draw.line([tuple(FINE * start), tuple(FINE * neck)], fill=ARROW, width=2 * FINE)
     head = [end, neck + 0.45 * HEAD_PX * across, neck - 0.45 * HEAD_PX * across]
     draw.polygon([tuple(FINE * point) for point in head], fill=ARROW)
-
-
-def _dot(draw: ImageDraw.ImageDraw, at: Array) -> None:
-    x, y = FINE * at
-    draw.ellipse([x - 2 * FINE, y - 2 * FINE, x + 2 * FINE, y + 2 * FINE], fill=INK)

@@ -220,7 +220,9 @@ def _loops(points: Ints, starts: Ints, ends: Ints) -> list[Ints]:
             chosen = 0
             if len(choices) > 1 and len(loop) > 1:
                 back = points[loop[-2]] - points[here]
-                chosen = int(np.argmin([_clockwise(back, points[choice] - points[here]) for choice in choices]))
+                ahead = (points[choices] - points[here]).T
+                clockwise = (np.arctan2(back[1], back[0]) - np.arctan2(ahead[1], ahead[0])) % (2.0 * np.pi)
+                chosen = int(np.argmin(clockwise))
             there = choices.pop(chosen)
             if not choices:
                 del following[here]
@@ -229,11 +231,6 @@ def _loops(points: Ints, starts: Ints, ends: Ints) -> list[Ints]:
             loop.append(there)
         loops.append(np.array(loop))
     return loops
-
-
-def _clockwise(back: Ints, out: Ints) -> float:
-    """Return the clockwise angle from one direction to another, in 0…2π."""
-    return float((np.arctan2(back[1], back[0]) - np.arctan2(out[1], out[0])) % (2.0 * np.pi))
 
 
 def _cross(a: Ints, b: Ints) -> Ints:
