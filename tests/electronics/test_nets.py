@@ -275,23 +275,17 @@ def test_the_sensors_contact_is_pulled_up_where_the_controller_reads_it(kit: str
     assert "pull-up resistor 2" in reached(f"controller {chosen.controller.with_function('out')[0]}", wires(wiring))
 
 
-@pytest.mark.parametrize(("kit", "pin"), [("light-1s", "VCC"), ("strong-2s", "VM")])
-def test_a_driver_of_two_inputs_gets_the_battery_at_the_one_that_bears_it(kit: str, pin: str) -> None:
-    """One cell has 3.3 to 4.2 V, two have 6.6 to 8.4 V; the controller's voltage behind a regulator is another."""
+@pytest.mark.parametrize(
+    ("kit", "role", "pin"),
+    [("light-1s", "driver", "LOW"), ("strong-2s", "driver", "HIGH"), ("strong-2s", "regulator", "HIGH")],
+)
+def test_a_board_of_two_inputs_gets_the_battery_at_the_one_that_bears_it(kit: str, role: str, pin: str) -> None:
+    """One cell has 3.3 to 4.2 V, two have 6.6 to 8.4 V; the voltage behind a regulator is another."""
     chosen = parts(kit)
-    two = chosen.driver.model_copy(update={"supply_v": {"VCC": (2.7, 5.5), "VM": (5.6, 11.0)}})
-    edges = wires(wiring_of(replace(chosen, driver=two), {})) | {("switch 1", "switch 2")}
-    assert f"driver {pin}" in reached("battery +", edges)
-    assert f"driver {'VM' if pin == 'VCC' else 'VCC'}" not in {end for edge in edges for end in edge}
-
-
-def test_a_regulator_of_two_inputs_gets_the_battery_at_the_one_that_bears_it() -> None:
-    """6.6 to 8.4 V of two cells, not the 5 V that it makes of them."""
-    chosen = parts("strong-2s")
-    two = chosen.regulator.model_copy(update={"supply_v": {"LOW": (2.7, 5.5), "HIGH": (5.6, 11.0)}})
-    edges = wires(wiring_of(replace(chosen, regulator=two), {})) | {("switch 1", "switch 2")}
-    assert "regulator HIGH" in reached("battery +", edges)
-    assert "regulator LOW" not in {end for edge in edges for end in edge}
+    two = getattr(chosen, role).model_copy(update={"supply_v": {"LOW": (2.7, 5.5), "HIGH": (5.6, 11.0)}})
+    edges = wires(wiring_of(replace(chosen, **{role: two}), {})) | {("switch 1", "switch 2")}
+    assert f"{role} {pin}" in reached("battery +", edges)
+    assert f"{role} {'HIGH' if pin == 'LOW' else 'LOW'}" not in {end for edge in edges for end in edge}
 
 
 @pytest.mark.parametrize("kit", KITS)

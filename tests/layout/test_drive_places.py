@@ -15,7 +15,6 @@ from jumpcad.layout import drive_places
 from jumpcad.layout.drive_places import (
     NoPinRoomError,
     arm_line,
-    require_gear_room,
     spring_obstacles,
     spring_pin_place,
     train_obstacles,
@@ -66,18 +65,6 @@ def test_each_arm_pushes_its_pin_outwards(pin: str, direction: tuple[float, floa
     assert from_start @ along == pytest.approx(math.dist(start, end) - 2.0, abs=1e-4)
     about_y = direction[1] * outwards[0] - direction[0] * outwards[1]  # z·Fx - x·Fz
     assert math.copysign(1.0, about_y) == turned
-
-
-def test_a_cam_gear_must_clear_the_hub() -> None:
-    axle = disc("leg axle", HUB, 4.0, EVERYWHERE)
-    require_gear_room([axle], HUB + np.array([0.0, 30.0]), 26.0, (0.0, 5.0))
-    far = disc("front axle", HUB + np.array([90.0, 0.0]), 4.0, EVERYWHERE)
-    for things in ([axle], [axle, far], [far, axle]):
-        with pytest.raises(
-            CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"
-        ) as refused:
-            require_gear_room(things, HUB + np.array([0.0, 30.0]), 27.0, (0.0, 5.0))
-        assert (refused.value.limit, refused.value.margin) == ("gear_room", pytest.approx(-1.0))
 
 
 @pytest.mark.parametrize("stages", [1, 2])

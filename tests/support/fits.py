@@ -11,7 +11,7 @@ PRESS, SLIDING, LOOSE, EYE, LYING, RIB = 0.10, 0.20, 0.30, 0.10, 0.10, 0.05
 TOLERANCE_MM = 0.003
 AXLE, MR63_OUTER, N20_SHAFT, N20_FLAT = 3.0, 6.0, 3.0, 2.5
 
-RUNNING, PRESSED, EYES, LYING_HOLE = (AXLE + 2 * fit for fit in (SLIDING, PRESS, EYE, LYING))
+RUNNING, LYING_HOLE = AXLE + 2 * SLIDING, AXLE + 2 * LYING
 
 APART = {"press_mm": 0.05, "eye_mm": 0.08, "lying_mm": 0.15}
 """Tight bores, eyes and lying holes have the same fit in the default workshop; here they differ."""
