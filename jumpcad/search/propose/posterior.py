@@ -50,7 +50,7 @@ class SearchPosterior:
         space: Space,
         trials: Sequence[Trial],
         thetas: Mapping[str, Any],
-        fit: Sequence[str] | None,
+        fit: bool,
         guesses: Mapping[Key, tuple[Array, float]] = NO_GUESSES,
     ) -> Self:
         """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
@@ -62,16 +62,14 @@ class SearchPosterior:
         thetas
             Hyperparameters by name, as `thetas` gives them.
         fit
-            Names of the processes to fit; None for all. What has no hyperparameters yet is always fitted.
+            Whether they are fitted anew. What has no hyperparameters yet is always fitted.
         guesses
             Points (d,) and guessed scores of variants, by their keys; of trials too.
         """
         x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension)
 
         def learn(name: str, points: Array, values: Array) -> Surrogate:
-            known = thetas.get(name)
-            fitted = known is None or fit is None or name in fit
-            return Surrogate(points, values, known, fitted, space.categories)
+            return Surrogate(points, values, thetas.get(name), fit, space.categories)
 
         constraints = {}
         for name, margins in constraint_margins(trials).items():

@@ -48,7 +48,7 @@ class ProposalLoop:
     ) -> None:
         self._space, self._trials, self._dry_run = space, trials, dry_run
         self.thetas: Mapping[str, Any] = thetas
-        self._fit: Sequence[str] | None = None if refit else ()
+        self._refit = refit
         self.tried: list[Array] = []
         self._proposed: list[Array] = []
         self._failed: set[Key] = set()
@@ -145,8 +145,8 @@ class ProposalLoop:
         if self._dry_run is not None:
             trials += self._dry_run.failures(self._trials, self.tried)
             guesses = self._dry_run.estimates(self._trials, self.tried)
-        posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._fit, guesses)
-        self.thetas, self._fit = {**self.thetas, **posterior.thetas}, ()
+        posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._refit, guesses)
+        self.thetas, self._refit = {**self.thetas, **posterior.thetas}, False
         for point in self._proposed:
             posterior = posterior.condition_on(point)
         return posterior

@@ -38,7 +38,7 @@ def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[],
         figures["pareto"] = partial(plots.pareto, trials, objective, described_cost(identity))
     if space.dimension <= 2:
         for name, number, count in _moments(trials):
-            posterior = SearchPosterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=())
+            posterior = SearchPosterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=False)
             figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective, columns)
     return figures
 

@@ -31,7 +31,7 @@ def rows_of(count, model=None):
 
 
 def test_expected_improvement_is_the_integral_over_the_posterior():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, True)
     points = SMALL.spread(8, np.random.default_rng(5))
     mean, deviation = posterior.score.predict(points)
     for best in (1.0, 8.0, 12.0):
@@ -45,7 +45,7 @@ def test_expected_improvement_is_the_integral_over_the_posterior():
 
 
 def test_improvement_keeps_its_slope_far_below_the_best():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, True)
     points = SMALL.spread(8, np.random.default_rng(5))
     far = [posterior.log_improvement(points, best) for best in (1e2, 1e4, 1e6, 1e8)]
     assert np.isfinite(far).all()
@@ -53,7 +53,7 @@ def test_improvement_keeps_its_slope_far_below_the_best():
 
 
 def test_probability_of_feasibility_learns_the_border():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(64), {}, None)
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(64), {}, True)
     border = [parameter.name for parameter in SMALL.free].index("compression_ratio")
     points = SMALL.spread(256, np.random.default_rng(7))
     ratio = 0.1 + 0.7 * points[:, border]
@@ -81,12 +81,12 @@ def test_a_margin_that_an_early_refusal_leaves_unknown_is_left_out():
     margins = constraint_margins(trials)
     flat = np.array([trial.design.rest_angle_deg < 40.0 for trial in trials])
     assert (np.isnan(margins["loop"]) == flat).all()
-    SearchPosterior.from_trials(SMALL, trials, {}, None)
+    SearchPosterior.from_trials(SMALL, trials, {}, True)
 
 
 def test_nothing_feasible_yet_leaves_feasibility_to_decide():
     trials = [trial for trial in rows_of(64) if trial.score is None]
-    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None)
+    posterior = SearchPosterior.from_trials(SMALL, trials, {}, True)
     assert posterior.score is None
     assert (posterior.log_improvement(np.full((2, 3), 0.5), 0.0) == 0.0).all()
 
@@ -115,8 +115,8 @@ def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
         more = 0.0 if posterior.guess is None else posterior.guess.predict(points)[0]
         return np.abs(mean + more - exact).max()
 
-    alone = SearchPosterior.from_trials(SMALL, measured, {}, None)
-    guided = SearchPosterior.from_trials(SMALL, measured, {}, None, guesses)
+    alone = SearchPosterior.from_trials(SMALL, measured, {}, True)
+    guided = SearchPosterior.from_trials(SMALL, measured, {}, True, guesses)
     assert error(guided) < 0.05 < 0.5 < error(alone)
     assert set(guided.thetas) == {"guess", "more"}
     parts = [one.predict(points) for one in (guided.score, guided.guess)]
@@ -126,7 +126,7 @@ def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
     promised = deviation * (norm.pdf(z) + z * norm.cdf(z))  # over a score of 4
     assert np.exp(guided.log_improvement(points, 4.0)) == pytest.approx(promised, rel=1e-6, abs=1e-12)
     fewer = dict(list(guesses.items())[4:])  # of no trial that was measured
-    assert SearchPosterior.from_trials(SMALL, measured, {}, None, fewer).guess is None
+    assert SearchPosterior.from_trials(SMALL, measured, {}, True, fewer).guess is None
 
 
 def test_a_believed_proposal_is_believed_of_every_limit_and_of_the_score():
@@ -143,7 +143,7 @@ def test_a_believed_proposal_is_believed_of_every_limit_and_of_the_score():
 
 def test_a_score_is_learned_from_two_jumps_on():
     trials = [trial for trial in rows_of(24) if trial.score is not None]
-    known = [SearchPosterior.from_trials(SMALL, trials[:count], {}, None).score for count in (1, 2)]
+    known = [SearchPosterior.from_trials(SMALL, trials[:count], {}, True).score for count in (1, 2)]
     assert known[0] is None
     assert known[1].predict(np.array([SMALL.to_unit(trials[0].variant)]))[0] == pytest.approx(
         np.sqrt(trials[0].score), rel=0.01

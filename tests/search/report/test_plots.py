@@ -23,7 +23,7 @@ def test_the_surrogate_in_the_picture_is_the_bump(tmp_path):
         trials = [trial for trial in store.trials() if trial.phase == "bo"]
     from jumpcad.search.propose.posterior import SearchPosterior
 
-    posterior = SearchPosterior.from_trials(space, trials, trials[-1].proposal["theta"], ())
+    posterior = SearchPosterior.from_trials(space, trials, trials[-1].proposal["theta"], False)
     figure = plots.acquisition(space, trials, posterior, find_objective("fitness"))
     above, below = figure.axes
     curve = next(line for line in above.lines if line.get_label() == "surrogate")
