@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
-from support.stages import stage
+from support.stages import scored, stage
 
 from jumpcad.search.propose import bayesian
 from jumpcad.search.propose.acquisition import Proposal
@@ -125,15 +125,6 @@ def test_the_processes_learn_from_the_best_and_the_nearest(evaluator):
     nearest = sorted(far, key=far.get)
     assert set(nearest[:300]) <= keys
     assert learned_trials(SMALL, trials[:400]) == trials[:400]
-
-
-def scored(*scores, phase="bo", step=1, **note):
-    """Return a step's trials of these scores, along a line, with what the step promised."""
-    designs = [SMALL.to_design(np.full(3, 0.1 + 0.2 * place)) for place in range(len(scores))]
-    return [
-        Trial(phase, step, place, designs[place], Evaluation("jump" if score else "tips"), score, "m", 0.0, note)
-        for place, score in enumerate(scores)
-    ]
 
 
 def test_the_incumbent_is_the_best_and_the_elite_are_the_best_four():

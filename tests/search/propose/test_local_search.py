@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.hills import SMALL
+from support.stages import scored
 
 from jumpcad.search.propose.local_search import DRAWN, STEP, idle_steps, neighbours
 from jumpcad.search.space import Space
@@ -13,15 +14,6 @@ from jumpcad.search.study.trial import Trial
 from jumpcad.workshop import load_workshop
 
 NOTE = {"theta": {}}
-
-
-def scored(*scores, phase="bo", step=1, **note):
-    """Return a step's trials of these scores, along a line, with what the step promised."""
-    designs = [SMALL.to_design(np.full(3, 0.1 + 0.2 * place)) for place in range(len(scores))]
-    return [
-        Trial(phase, step, place, designs[place], Evaluation("jump" if score else "tips"), score, "m", 0.0, note)
-        for place, score in enumerate(scores)
-    ]
 
 
 def test_a_search_stands_still_as_long_as_nothing_is_gained():
@@ -56,13 +48,6 @@ def test_neighbours_lie_along_the_axes_that_are_on_no_bound():
     assert points[:2, 0] == pytest.approx([0.4 + STEP, 0.4 - STEP])
     assert (points[:, 1:] == place[1:]).all()
     assert len(points) == 2 + DRAWN
-    names = ["", "any", "683"]
-    space = Space.make(fixed=fixed, choices={"bought.leg_bearing": names}, workshop=load_workshop())
-    middle = space.to_variant(np.where(np.array(space.categories) > 0, 0.5, 0.4))  # not on a bound, and yet no number
-    best = replace(best, design=middle.design, workshop=middle.workshop)
-    points = np.array(neighbours(space, best, np.random.default_rng(0)))
-    assert (points[:, np.array(space.categories) > 0] == 0.5).all()
-    assert len(points) == 4 + DRAWN
     whole = replace(best, design=SMALL.to_design(np.array([0.4, 0.5, 0.6])), workshop={})
     points = np.array(neighbours(SMALL, whole, np.random.default_rng(0)))
     assert len(points) == 6 + DRAWN

@@ -2,18 +2,13 @@
 
 import numpy as np
 import pytest
-import typer
 from support.hills import SMALL, Hill
 from support.stages import stage
 
-from jumpcad.cli import optimize
 from jumpcad.search.phases import (
-    FRONTS,
     LEARNING_PHASES,
     METHODS,
     NAMES,
-    PHASES,
-    SEQUENCES,
     Method,
 )
 from jumpcad.search.space import Space
@@ -71,17 +66,6 @@ def test_proposals_follow_from_the_seed(evaluator, name):
         runs.append([trial.key for trial in one.trials[8:]])
     assert len(runs[0]) == 3
     assert runs[0] == runs[1] != runs[2]
-
-
-def test_what_follows_from_the_registry():
-    assert set(METHODS) < set(PHASES)
-    assert set(NAMES) == {*METHODS, *SEQUENCES}
-    assert set(FRONTS) == {"pareto", "nsga2"}
-    (argument,) = optimize.MethodArgument.__metadata__
-    assert isinstance(argument, typer.models.ArgumentInfo)
-    for method in METHODS.values():
-        assert method.name in argument.metavar
-        assert method.meaning in argument.help
 
 
 def test_a_new_method_needs_one_line(evaluator, monkeypatch):
