@@ -23,8 +23,7 @@ from jumpcad.search.report.axes import evenly
 from jumpcad.search.report.drawings import history, parallel, slices
 from jumpcad.search.report.figures import meanings, svg_text
 from jumpcad.search.report.lessons import bound_rows, importances, reason_rows, rising
-from jumpcad.search.report.shown_design import chart
-from jumpcad.search.report.side_view import EDGE_MM, LINKS, POSES, box_mm
+from jumpcad.search.report.shown_design import EDGE_MM, LINKS, POSES, box_mm, chart
 from jumpcad.search.report.study_plots import study_figures
 from jumpcad.search.report.words import meaning_of, named, value_words, with_unit
 from jumpcad.search.study.objective import Objective

@@ -1,19 +1,25 @@
-"""The designs that a study's page shows: points in a chart of score against a cost, side views, figures, command."""
+"""The designs that a study's page shows: points in a chart of score against a cost, side views, figures, command.
+
+A side view shows links as the lines between their joints, from the eight numbers alone. Both poses stand on the same
+flat foot.
+"""
 
 import math
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 
+from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import FIGURES
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.scene.parameters import standing_joints
 from jumpcad.search.fronts import Cost, energy_j, front
 from jumpcad.search.models import PUBLISHED_FIGURES
 from jumpcad.search.report.axes import Axes, evenly, scale
-from jumpcad.search.report.side_view import joints_mm
 from jumpcad.search.report.words import figure_words, value_words, with_unit
 from jumpcad.search.study.trial import Trial
 
@@ -23,6 +29,21 @@ MOST_DOTS = 3000
 """Largest number of other designs that are drawn, evenly chosen in the order of the search."""
 RADIUS, LEAST_RADIUS = 6.0, 3.5
 """Of a point, and of one that has others near it."""
+POINTS = {"toe tip": "toe", "ankle": "ankle", "front eye": "eye", "front pivot": "front", "back pivot": "back"}
+"""Joints, and their names in `standing_joints`."""
+LINKS = {
+    "toes": ("toe tip", "ankle"),
+    "foot": ("ankle", "front eye"),
+    "front link": ("front eye", "front pivot"),
+    "main leg": ("ankle", "back pivot"),
+    "body": ("back pivot", "front pivot"),
+}
+POSES = {"loaded": "springs loaded", "rest": "at rest"}
+"""Poses in the order in which they are drawn, and their labels."""
+EDGE_MM = 12.0
+
+Box = tuple[float, float, float, float]
+"""Lowest x and z, highest x and z (mm)."""
 
 
 def chart(
@@ -105,3 +126,34 @@ def _lines(trial: Trial) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     first += [figure_words(name, metrics[name]) for name in HEADLINES if name in metrics]
     named = {*FIGURES, *PUBLISHED_FIGURES} - {"spring_energy_j", *HEADLINES}  # others are those of estimates
     return first, [figure_words(name, figure) for name, figure in metrics.items() if name in named]
+
+
+def joints_mm(design: Design) -> dict[str, dict[str, tuple[float, float]]]:
+    """Return the `POINTS` of each pose in mm: x forward from the ankle, z up from the ground.
+
+    Raises
+    ------
+    CannotBuildError
+        If the design has no assembled pose, or its loop does not close when loaded.
+    """
+    found = {}
+    for name, leg_rad in zip(POSES, (-design.compression_rad, 0.0), strict=True):
+        # Toes spread sideways, so that from the side they look shorter.
+        at = standing_joints(Linkage(design), leg_rad)
+        corners = (at[one] for one in POINTS.values())
+        places = np.round([(point.real, point.imag) for point in corners], 1) + 0.0
+        found[name] = dict(zip(POINTS, map(tuple, places.tolist()), strict=True))
+    return found
+
+
+def box_mm(designs: Iterable[Design]) -> Box:
+    """Return the common bounding box of designs in both poses, so that they are drawn to one scale."""
+    corners = [(0.0, 0.0)]
+    for design in designs:
+        try:
+            corners += [place for pose in joints_mm(design).values() for place in pose.values()]
+        except CannotBuildError:
+            continue
+    every = np.array(corners)
+    low, high = every.min(axis=0) - EDGE_MM, every.max(axis=0) + EDGE_MM
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])

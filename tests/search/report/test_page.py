@@ -18,7 +18,7 @@ from jumpcad.search.pick.robust import Candidate
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report import page as study_page
 from jumpcad.search.report.page import write_study_page
-from jumpcad.search.report.side_view import LINKS, joints_mm
+from jumpcad.search.report.shown_design import LINKS, joints_mm
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool

@@ -1,18 +1,22 @@
 """The designs that a study's page shows: points that are links, side views, figures, and the command of each."""
 
+import math
 import re
 
+import numpy as np
 import pytest
 
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
+from jumpcad.errors import CannotBuildError
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost
 from jumpcad.search.report.axes import Axes, scale
-from jumpcad.search.report.shown_design import HEADLINES, _radii, chart, shown_design
+from jumpcad.search.report.shown_design import HEADLINES, _radii, box_mm, chart, joints_mm, shown_design
 from jumpcad.search.report.words import with_unit
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
 
 DESIGN = load_design("best-ga")
+LINKAGE = Design.from_vector([100.0, 0.9, 0.8, 0.7, 0.6, 50.0, 20.0, 30.0])
 
 
 def trial(score: float | None, ratio: float, **metrics: float) -> Trial:
@@ -88,3 +92,51 @@ def test_every_number_stands_with_its_unit_and_the_energy_is_that_of_the_evaluat
     assert first["energy in the springs"] == "125 mJ"
     assert others == {}
     assert told()[0]["energy in the springs"] == f"{1000.0 * DESIGN.spring_energy_j:.4g} mJ"
+
+
+def angle(vector):
+    return math.atan2(vector[1], vector[0])
+
+
+@pytest.mark.parametrize("design", [LINKAGE, load_design("kenan-2.0"), load_design("best-printable")])
+def test_links_have_their_lengths_and_the_foot_is_flat(design):
+    for joints in joints_mm(design).values():
+        at = {name: np.array(place) for name, place in joints.items()}
+        lengths = {
+            ("ankle", "back pivot"): design.l2_mm,
+            ("front eye", "front pivot"): design.l3_mm,
+            ("ankle", "front eye"): design.l4_mm,
+            ("back pivot", "front pivot"): design.l1_mm,
+            ("toe tip", "ankle"): design.l5_mm * math.cos(math.radians(design.ground_link_angle_deg)),
+        }
+        for (one, other), length in lengths.items():
+            assert np.hypot(*(at[one] - at[other])) == pytest.approx(length, abs=0.15)
+        assert [at[name][1] for name in ("toe tip", "ankle", "front eye")] == [0.0] * 3
+        assert at["toe tip"][0] < at["ankle"][0] == 0.0 < at["front eye"][0]
+
+
+def test_legs_are_parallel_at_rest_and_turn_by_the_loaded_angle():
+    poses = {name: {point: np.array(at) for point, at in pose.items()} for name, pose in joints_mm(LINKAGE).items()}
+    rest, loaded = poses["rest"], poses["loaded"]
+    front, back = (rest[f"{end} pivot"] - rest[joint] for end, joint in (("front", "front eye"), ("back", "ankle")))
+    assert angle(front) == pytest.approx(angle(back), abs=0.003)
+    turned = [
+        angle(at["front pivot"] - at["back pivot"]) - angle(at["ankle"] - at["back pivot"]) for at in (rest, loaded)
+    ]
+    assert turned[0] == pytest.approx(math.radians(50.0), abs=0.003)
+    assert turned[0] - turned[1] == pytest.approx(LINKAGE.compression_rad, abs=0.004)
+
+
+def test_all_points_of_both_poses_lie_in_the_box():
+    designs = [LINKAGE, load_design("kenan-2.0")]
+    left, low, right, high = box_mm(designs)
+    for design in designs:
+        for pose in joints_mm(design).values():
+            assert all(left < x < right and low < z < high for x, z in pose.values())
+
+
+def test_a_design_without_a_pose_leaves_the_box_to_others():
+    impossible = Design.from_vector([100.0, 1.4, 0.2, 0.7, 0.6, 80.0, 20.0, 30.0])
+    with pytest.raises(CannotBuildError, match="no assembled pose"):
+        joints_mm(impossible)
+    assert box_mm([impossible, LINKAGE]) == box_mm([LINKAGE])
