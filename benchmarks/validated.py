@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from jumpcad.simulation.published_robots import TIERS
-from jumpcad.validation.table import validate
+from jumpcad.validation.table import TIERS, validate
 
 SEED = 0
 LABELS = {

@@ -4,7 +4,8 @@ from typing import Annotated
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json, print_text, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
+from jumpcad.cli.searching import PlotsOption, require_pictures
 from jumpcad.errors import JumpcadError
 
 
@@ -14,6 +15,8 @@ def validate(
         typer.Option(help="A figure that you read in its paper, ROBOT.NAME=VALUE; may be repeated.", metavar="FIGURE"),
     ] = None,
     seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0,
+    plots: PlotsOption = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Compare the engines with robots that others built and measured.
@@ -21,12 +24,19 @@ def validate(
     Tiers are never mixed: what a mechanism does, flights, whole robots, bounds.
     A figure that is only remembered decides nothing.
     """
-    from jumpcad.simulation.published_robots import TIERS
+    from jumpcad.validation.table import TIERS
     from jumpcad.validation.table import validate as compare
 
+    if plots:
+        from jumpcad.search.report.figures import save_figure
+        from jumpcad.validation.plot import PICTURES, validation
+
+        require_pictures(plots, PICTURES, force)
     entered = dict(_entered(one) for one in figure or ())
     with status("simulating robots of which dimensions are unknown …"):
         robots = compare(entered, seed)
+    if plots:
+        save_figure(validation(robots), plots, *PICTURES)
     if as_json:
         print_json({"seed": seed, "entered": entered, "robots": robots})
     else:

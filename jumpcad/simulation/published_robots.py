@@ -9,8 +9,6 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable, did_you_mean, read_toml, templates_folder
 
 Confidence = Literal["read", "secondary", "derived", "remembered", "entered"]
-Tier = Literal["mechanism", "flight", "whole robot", "bound", "efficiency", "left out"]
-TIERS: tuple[Tier, ...] = ("mechanism", "flight", "whole robot", "bound", "efficiency", "left out")
 MOST_FACTOR = 5.0
 """By which an entered figure may differ from that in the file: beyond, it is in another unit."""
 
@@ -28,7 +26,6 @@ class RobotFacts(TomlTable):
     """What is known of one robot; `differs` says why a figure differs, `reason` why the robot is left out."""
 
     name: str
-    tier: Tier
     leg: str
     unknown: Annotated[tuple[str, ...], Field(strict=False)] = ()
     reason: str = ""

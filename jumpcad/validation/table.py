@@ -1,6 +1,6 @@
 """One table: what was measured on each robot, beside an interval that samples what is unknown of it."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -14,8 +14,10 @@ from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_per_m
 from jumpcad.simulation.published_robots import Figure, RobotFacts, load_facts
 from jumpcad.transforms import Array
-from jumpcad.validation.family import family, jump_of
+from jumpcad.validation.family import Member, family, jump_of
 
+TIERS = "mechanism", "flight", "whole robot", "bound", "efficiency", "left out"
+"""What is compared; never mixed."""
 QUANTILES = (0.05, 0.5, 0.95)
 DRAWS, KENAN_DRAWS = 64, 4000
 """Flights of each robot; draws from the priors of a whole robot."""
@@ -53,6 +55,9 @@ class Row:
     how: str = ""
 
 
+Table = Callable[[RobotFacts, np.random.Generator], Iterable[Row]]
+
+
 def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[dict[str, Any]]:
     """Return every robot with its tier and figures, as plain data.
 
@@ -74,23 +79,27 @@ def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[
         mass_g=epfl.value("mass_g"), spring_energy_j=epfl.value("spring_energy_j"),
         takeoff_angle_deg=epfl.value("takeoff_angle_deg"), pushoff_ms=epfl.value("pushoff_ms"), seed=seed,
     )  # fmt: skip
-    tables: dict[str, Callable[[RobotFacts, np.random.Generator], Iterator[Row]]] = {
-        "kovac-2008": lambda robot, generator: _mechanism(robot, members, generator),
-        "kovac-2009": lambda robot, _: _bound(robot, epfl, members),
-        "kovac-2010": lambda robot, _: _bound(robot, epfl, members),
-        "msu-2013": _range_from_height,
-        "seu-2012": _range_from_height,
-        "flea-2013": _flea,
-        "strider-2015": _strider,
-        "kenan-1.0": lambda _, generator: _whole("kenan-1.0", generator),
-        "kenan-2.0": lambda _, generator: _whole("kenan-2.0", generator),
-    }
+    tables: list[tuple[str, str, Table]] = [
+        ("kovac-2008", "mechanism", lambda robot, _: _mechanism(robot, members)),
+        ("kovac-2008", "flight", _through_air),
+        ("msu-2013", "flight", _range_from_height),
+        ("seu-2012", "flight", _range_from_height),
+        ("flea-2013", "flight", _flea),
+        ("strider-2015", "flight", _strider),
+        ("kenan-1.0", "whole robot", lambda _, generator: _whole("kenan-1.0", generator)),
+        ("kenan-2.0", "whole robot", lambda _, generator: _whole("kenan-2.0", generator)),
+        ("kovac-2009", "bound", lambda robot, _: _bound(robot, epfl, members)),
+        ("kovac-2010", "bound", lambda robot, _: _bound(robot, epfl, members)),
+        ("flea-2013", "efficiency", _efficiency),
+        ("clover-2022", "efficiency", _efficiency),
+        *((key, "left out", _nothing) for key, robot in facts.robots.items() if robot.reason),
+    ]
     found: list[dict[str, Any]] = []
-    for key, robot in facts.robots.items():
-        table = tables.get(key, _measured_only)
-        rows = list(table(robot, np.random.default_rng([seed, len(found)])))
+    for key, tier, table in tables:
+        robot = facts.robots[key]
+        rows = table(robot, np.random.default_rng([seed, len(found)]))
         found.append(
-            {"key": key, "name": robot.name, "tier": robot.tier, "leg": robot.leg, "unknown": list(robot.unknown),
+            {"key": key, "name": robot.name, "tier": tier, "leg": robot.leg, "unknown": list(robot.unknown),
              "reason": robot.reason or robot.differs, "figures": [asdict(row) for row in rows]}
         )  # fmt: skip
     return found
@@ -123,19 +132,21 @@ def _compared(name: str, figure: Figure, values: npt.ArrayLike, tolerance: float
     return Row(name, figure.value, figure.confidence, figure.source, low, median, high, tolerance, verdict, how)
 
 
-def _mechanism(robot: RobotFacts, members: list[Any], generator: np.random.Generator) -> Iterator[Row]:
-    """Yield the figures of the mechanism, and of its flight."""
-    jumps = [one.jump for one in members]
-    energy = "spring_energy_j"
-    yield _row(
-        robot, "takeoff_speed_m_s", [jump.takeoff_speed_m_s for jump in jumps], "family of geometries", (energy,)
+def _mechanism(robot: RobotFacts, members: list[Member]) -> Iterator[Row]:
+    """Yield what springs and leg do."""
+    jumps, how, energy = [one.jump for one in members if one.jump], "family of geometries", ("spring_energy_j",)
+    speeds, angles, times = (
+        np.array([getattr(jump, name) for jump in jumps], dtype=float)
+        for name in ("takeoff_speed_m_s", "takeoff_angle_deg", "takeoff_time_s")
     )
-    yield _row(robot, "efficiency", [one.efficiency for one in members], "family of geometries", (energy,))
-    for name, values in (
-        ("takeoff_angle_deg", [jump.takeoff_angle_deg for jump in jumps]),
-        ("pushoff_ms", [1000.0 * jump.takeoff_time_s for jump in jumps]),
-    ):
-        yield _compared(name, robot.figures[name], values, None, "family of geometries")
+    yield _row(robot, "takeoff_speed_m_s", speeds, how, energy)
+    yield _row(robot, "efficiency", [one.efficiency for one in members], how, energy)
+    yield _compared("takeoff_angle_deg", robot.figures["takeoff_angle_deg"], angles, None, how)
+    yield _compared("pushoff_ms", robot.figures["pushoff_ms"], 1000.0 * times, None, how)
+
+
+def _through_air(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
+    """Yield height and time in the air, from speed and angle."""
     height, mass_g = robot.value("height_m"), robot.value("mass_g")
     rises, times = [], []
     for speed, angle, drag_m2 in _flights(robot, generator, _outline(robot)):
@@ -148,7 +159,7 @@ def _mechanism(robot: RobotFacts, members: list[Any], generator: np.random.Gener
     yield _row(robot, "jump_s", times, "flight with the drag area that its height gives", (*of, "height_m"))
 
 
-def _bound(robot: RobotFacts, epfl: RobotFacts, members: list[Any]) -> Iterator[Row]:
+def _bound(robot: RobotFacts, epfl: RobotFacts, members: list[Member]) -> Iterator[Row]:
     """Yield the height, bounded by that without cage and drag."""
     more_g = robot.value("mass_g") - epfl.value("mass_g")
     jumps = [jump_of(one.values, epfl.value("mass_g"), epfl.value("spring_energy_j"), more_g) for one in members]
@@ -170,14 +181,13 @@ def _range_from_height(robot: RobotFacts, generator: np.random.Generator) -> Ite
 
 
 def _flea(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
-    """Yield the height that the speed gives in air; nothing is computed of the efficiency."""
+    """Yield the height that the speed gives in air."""
     rises = [
         thrown(speed, generator.uniform(75.0, 90.0), drag_m2, robot.value("mass_g")).rise_m
         for speed, _, drag_m2 in _flights(robot, generator, _outline(robot))
     ]
     of = "takeoff_speed_m_s", "size_mm", "mass_g"
     yield _row(robot, "height_m", rises, "flight from the speed, drag area from its size", of, "flea")
-    yield from (row for row in _measured_only(robot, generator) if row.name == "efficiency")
 
 
 def _strider(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
@@ -202,10 +212,14 @@ def _whole(name: str, generator: np.random.Generator) -> Iterator[Row]:
             yield _compared(f"{datum.what}_m as {reading}", figure, found, TOLERANCE["whole robot"], how)
 
 
-def _measured_only(robot: RobotFacts, _: np.random.Generator) -> Iterator[Row]:
-    """Yield the figures of a robot beside which nothing is computed."""
-    for name, figure in robot.figures.items():
-        yield Row(name, figure.value, figure.confidence, figure.source)
+def _efficiency(robot: RobotFacts, _: np.random.Generator) -> list[Row]:
+    """Return the measured efficiency, beside which nothing is computed."""
+    figure = robot.figures["efficiency"]
+    return [Row("efficiency", figure.value, figure.confidence, figure.source)]
+
+
+def _nothing(*_: Any) -> list[Row]:
+    return []
 
 
 def _flights(
