@@ -19,8 +19,7 @@ from jumpcad.search.phases import FRONTS
 from jumpcad.search.pick.righting import kept_righting
 from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Tolerances
-from jumpcad.search.report.axes import evenly
-from jumpcad.search.report.drawings import history, parallel, slices
+from jumpcad.search.report.drawings import evenly, history, parallel, slices
 from jumpcad.search.report.figures import meanings, svg_text
 from jumpcad.search.report.lessons import bound_rows, importances, reason_rows, rising
 from jumpcad.search.report.shown_design import EDGE_MM, LINKS, POSES, box_mm, chart

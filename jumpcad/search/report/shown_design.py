@@ -19,14 +19,12 @@ from jumpcad.mechanism.linkage import Linkage
 from jumpcad.scene.parameters import standing_joints
 from jumpcad.search.fronts import Cost, energy_j, front
 from jumpcad.search.models import PUBLISHED_FIGURES
-from jumpcad.search.report.axes import Axes, evenly, scale
+from jumpcad.search.report.drawings import MOST_DOTS, Axes, evenly, scale
 from jumpcad.search.report.words import figure_words, value_words, with_unit
 from jumpcad.search.study.trial import Trial
 
 HEADLINES = ("ballistic_range_m", "com_rise_m", "mass_kg", "winding_time_s")
 """Figures that are shown at once; the others open on a click."""
-MOST_DOTS = 3000
-"""Largest number of other designs that are drawn, evenly chosen in the order of the search."""
 RADIUS, LEAST_RADIUS = 6.0, 3.5
 """Of a point, and of one that has others near it."""
 POINTS = {"toe tip": "toe", "ankle": "ankle", "front eye": "eye", "front pivot": "front", "back pivot": "back"}
