@@ -14,8 +14,7 @@ from support.places import TESTS
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.propose.bayesian import IDLE_ALONE
-from jumpcad.search.propose.local_search import idle_steps
+from jumpcad.search.propose.bayesian import IDLE_ALONE, idle_steps
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
 from jumpcad.search.study.objective import Evaluation, find_objective
