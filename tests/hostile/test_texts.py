@@ -28,7 +28,7 @@ def workshop() -> str:
         f"[materials.{name}]\ndensity_g_cm3 = 1.2\nstrength_in_plane_mpa = 45.0\nstrength_interlayer_mpa = 30.0",
         f"modulus_mpa = 2000.0\nsource = {text}\n[roles]\nlinks = {name}\nbody = {name}\ngears = {name}",
         f"[bought]\nmotors = [{name}]\nleg_bearing = {name}\nroller = {name}\nbattery = {name}\ncontroller = {name}",
-        f"[body]\nstop_pad = {name}\n[ground]\nsurface = {text}\npad = {name}\n[prices_eur]\n{name} = 0.05",
+        f"[body]\nstop_pad = {name}\n[ground]\nsurface = {text}\npad = {name}\n[prices_eur]\n{json.dumps(f'gear motor {NAME}')} = 0.05",
     ]
     for kind, like in LIKE.items():
         lines += [f'[{kind}.{name}]\nlike = "{like}"\nsource = {text}', *(f"{key} = {text}" for key in TEXTS[kind])]
