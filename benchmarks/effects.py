@@ -25,7 +25,7 @@ from jumpcad.search import save_figure
 from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, labels, panels
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.transforms import Array
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import DEFAULT, load_workshop, own_workshop
 
 AIR_KG_M3, DRAG_AREA_M2, GRAVITY_M_S2 = 1.2, 54e-4, 9.81
 """Air at 20 °C; cd·A of the bench review of the printed robot."""
@@ -121,7 +121,9 @@ def floor_figure(friction: Sequence[float], jumps: Mapping[str, tuple[Array, Arr
 
 def computed(folder: Path | None = None) -> dict[str, Any]:
     """Return prices of effects, energy accounts and floors of the templates; draw the last two into a folder."""
-    robots = {name: build(load_design(name), name=name) for name in template_names("robots")}
+    robots = {
+        name: build(load_design(name), name=name) for name in template_names("robots") if own_workshop(name) == DEFAULT
+    }
     jumps = {name: simulate(robot, Settings(), "planar") for name, robot in robots.items()}
     accounts = {name: jump.energy_account_j or {} for name, jump in jumps.items()}
     floors = {}

@@ -10,10 +10,11 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,8 @@ from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
-from jumpcad.landing.landing import Landings, land
+from jumpcad.landing.landing import Landings, land, share_righted
+from jumpcad.landing.series import jumps
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
@@ -37,10 +39,11 @@ from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.variant import Variant
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, own_workshop
 
 HERE = Path(__file__).parent
 ROBOTS = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+JUMPER = "best-jumper"
 LANDINGS = 20
 SHOWN = ("kenan-1.0", "kenan-2.0", "best-printable")
 """The templates of the README."""
@@ -336,6 +339,7 @@ def of_speed() -> dict[str, str]:
     def s(value: float) -> str:
         return f"{scale * value:.{int(scale * value < 10.0)}f} s"
 
+    jumper, rng = build(load_design(JUMPER), load_workshop(own_workshop(JUMPER))), np.random.default_rng(0)
     rows = (
         ("one published simulation", ms(PUBLISHED_MS), "`evaluator.py`"),
         ("one simulation of the capsule robot", ms(scale * evaluator["default"]["cpu_ms"]), "`evaluator.py`"),
@@ -351,9 +355,17 @@ def of_speed() -> dict[str, str]:
          "`studio.py`"),
         ("… to the printed robot's figures", ms(scale * studio["printed"]["median"]), "`studio.py`"),
         ("… to its new meshes", ms(scale * studio["meshes"]["median"]), "`studio.py`"),
+        ("`best-jumper`: ten jumps in a row", s(_cpu_s(lambda: jumps(jumper, 10))), "`readme.py`"),
+        ("… 200 drops in any attitude", s(_cpu_s(lambda: share_righted(jumper, 200, rng))), "`readme.py`"),
         ("the search for `best-printable`, all workers together", s(outcome("printed").cpu_s), "`readme.py`"),
     )  # fmt: skip
     return {"speed": table(("what", "CPU time", "computed by"), rows)}
+
+
+def _cpu_s(work: Callable[[], object]) -> float:
+    begun = process_time()
+    work()
+    return process_time() - begun
 
 
 def _json(*arguments: str) -> Any:

@@ -20,7 +20,7 @@ from jumpcad.electronics.nets import wiring_of
 from jumpcad.files import template_names
 from jumpcad.findings import errors
 from jumpcad.robot import Robot
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import DEFAULT, Workshop, load_workshop, own_workshop
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "kits.md"
 BEGIN, END = "<!-- begin benchmarks/kits.py -->", "<!-- end benchmarks/kits.py -->"
@@ -57,7 +57,11 @@ def tables() -> Iterator[str]:
         shop = load_workshop()
         bought = shop.bought.model_copy(update=load_catalogue().kits[kit].model_dump() | {"kit": kit})
         shop = shop.model_copy(update={"bought": bought})
-        robots = {name: build(load_design(name), shop, name) for name in template_names("robots")}
+        robots = {
+            name: build(load_design(name), shop, name)
+            for name in template_names("robots")
+            if own_workshop(name) == DEFAULT
+        }
         yield from (f"## {kit}", "")
         yield from _chain(shop, list(robots.values()))
         yield from (

@@ -1,9 +1,9 @@
-"""The moving pictures of README and docs: winding, release, push-off and flight of Kenan 2.0.
+"""The moving pictures of README and docs: a jump of Kenan 2.0 from winding to flight, three jumps of best-jumper.
 
     python benchmarks/pictures.py [FOLDER]
 
-`jump.gif` is drawn from the robot's parts, `mechanism.svg` from the lines of its mechanism, both at the moments of the
-report's viewer: slow where the robot is fast. The folder is docs/pictures unless another is named.
+`mechanism.svg` is drawn from the lines of the mechanism, `jumps.gif` from the robot's parts, simulated in MuJoCo: both
+slow where the robot is fast. The folder is docs/pictures unless another is named.
 """
 
 import math
@@ -18,18 +18,18 @@ from jumpcad.building import build
 from jumpcad.bundle.motion_gif import motion_gif
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.design import load_design
+from jumpcad.landing.series import jumps
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
 from jumpcad.scene.camera import View
 from jumpcad.simulation import Settings, simulate
 from jumpcad.transforms import Array
+from jumpcad.workshop import load_workshop, own_workshop
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
-ROBOT = "kenan-2.0"
-SIZE = (640, 330)
-VIEW = View(yaw_deg=-72.0, pitch_deg=9.0)
-FRAME_S = 0.1
+ROBOT, JUMPER = "kenan-2.0", "best-jumper"
+WIDE = (720, 300)
 PX_PER_MM, EDGE_PX = 1.6, 46.0
 COLOURS = {BODY: "#4a4f57", MAIN_LEG: "#1f6fb2", FRONT_LINK: "#c8641a", FOOT: "#2f8f4e"}
 INK, GHOST, CAM = "#22262b", "#9aa1aa", "#d9a441"
@@ -197,12 +197,15 @@ def _list(values: Iterable[float], digits: int) -> str:
 
 
 def main() -> None:
-    """Draw both."""
+    """Draw them."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else FOLDER
     folder.mkdir(parents=True, exist_ok=True)
     robot, data = shown()
     (folder / "mechanism.svg").write_text(mechanism_svg(robot, data), encoding="utf-8")
-    (folder / "jump.gif").write_bytes(motion_gif(robot, data))
+    jumper = build(load_design(JUMPER), load_workshop(own_workshop(JUMPER)), JUMPER)
+    jump = simulate(jumper, Settings(flight="simulated", trajectory=True), "planar")
+    row = viewer_data(jumper, jump, jumps(jumper, 3, record=True))
+    (folder / "jumps.gif").write_bytes(motion_gif(jumper, row, WIDE, View(yaw_deg=-78.0, pitch_deg=12.0)))
 
 
 if __name__ == "__main__":

@@ -27,7 +27,7 @@ from jumpcad.simulation import Jump, simulate
 from jumpcad.simulation.engines import default_engine
 from jumpcad.studio.points import Points
 from jumpcad.version import __version__
-from jumpcad.workshop import Workshop
+from jumpcad.workshop import Workshop, load_workshop, own_workshop
 from jumpcad.workshop.varied import leaves
 
 HOPS = 10
@@ -179,4 +179,5 @@ def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot
     if os.path.isdir(one) and str(one) not in template_names("robots"):
         bundle = open_bundle(one)
         return build(kept_design(bundle), kept_workshop(bundle), bundle.name)
-    return build(load_design(one), workshop, Path(one).name.removesuffix(".toml"))
+    shop = workshop or load_workshop(own_workshop(str(one)))
+    return build(load_design(one), shop, Path(one).name.removesuffix(".toml"))

@@ -27,8 +27,8 @@ WINDING_MOMENTS, DROP_MOMENTS = 49, 7
 """Number of poses of these phases."""
 SHOWN_S = {"winding": 3.0, "drop": 0.6, "push-off": 1.6, "flight": 2.4}
 """Duration of each phase in the viewer; judgement: long enough to be seen."""
-LANDING_S = 2.0
-"""The same of a landing, up to the next winding."""
+SERIES_S = {"winding": 1.6, "push-off": 0.9, "flight": 1.6, "landing": 1.3}
+"""The same of each of several jumps in a row."""
 SERIES_EVERY = {"winding": 8, "flight": 2}
 """Of jumps in a row, every so many recorded moments of a phase are kept."""
 FLIGHT_EVERY = 4
@@ -101,7 +101,7 @@ def series_motion(robot: Robot, series: Series) -> dict[str, Any]:
         gear = float(np.interp(_loaded(robot, poses), shares, cams)) if phase == "winding" else law.lift_rad
         cam = gear if phase == "winding" else ahead
         moments.append(PhasePose(name, float(trajectory.time_s[index]), poses, turned + cam, turned + gear))
-    columns = _columns(robot, moments, {name: SHOWN_S.get(name.split()[0], LANDING_S) for name in series.phases})
+    columns = _columns(robot, moments, {name: SERIES_S[name.split()[0]] for name in series.phases})
     aside = [round(_com(robot, moment)[1], POSITION_DIGITS) + 0.0 for moment in moments]
     return columns | {"com_m": [[*com, y] for com, y in zip(columns["com_m"], aside, strict=True)]}
 

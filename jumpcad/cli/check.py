@@ -70,12 +70,12 @@ def check(
     from jumpcad.remedies import Remedies
     from jumpcad.simulation import simulate
     from jumpcad.simulation.engines import default_engine
-    from jumpcad.workshop import DEFAULT, load_workshop
+    from jumpcad.workshop import load_workshop, own_workshop
 
     note_template(design)
     if explain and basis_of(explain) is None:
         raise _unknown(explain)
-    asked, shop = load_design(design), load_workshop(workshop or DEFAULT, printer, material)
+    asked, shop = load_design(design), load_workshop(workshop or own_workshop(design), printer, material)
     remedies = Remedies(asked, shop)
     try:
         robot = build(asked, shop, name_of(design))
@@ -93,7 +93,7 @@ def check(
         data = [finding.to_dict() | {"use": finding.use} for finding in findings]
         said = {"verdict": jump.verdict, "ballistic_range_m": jump.ballistic_range_m, "com_rise_m": jump.com_rise_m,
                 "mass_kg": robot.mass_kg, "limits": count, "grown": [vars(one) for one in robot.grown]}  # fmt: skip
-        print_json({"design": design, "workshop": workshop or DEFAULT, **said, "findings": data})
+        print_json({"design": design, "workshop": workshop or own_workshop(design), **said, "findings": data})
     elif explain:
         _print_explained(explain, findings)
     else:

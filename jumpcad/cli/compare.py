@@ -29,14 +29,14 @@ def compare(
     """
     from jumpcad.comparison import compare as compare_robots
     from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
-    from jumpcad.workshop import DEFAULT, load_workshop
+    from jumpcad.workshop import load_workshop
 
     require_apart({"--output": output}, {"a robot": robots[0], "--workshop": workshop})
     require_target(output, (".html",), force)
     for one in robots:
         note_template(one)
     with status(f"comparing {', '.join(robots)} …"):
-        found = compare_robots(robots, load_workshop(workshop or DEFAULT))
+        found = compare_robots(robots, load_workshop(workshop) if workshop else None)
         write_atomically(output, sealed(found.to_html(), "<!-- {} -->"))
         rows = list(found.rows())
     if as_json:

@@ -76,10 +76,10 @@ def _design(subject: str, workshop: str | None) -> "tuple[Design, str]":
     """Return the design of a bundle, a template or a file, and its workshop; raise `JumpcadError` if there is none."""
     from jumpcad.bundle.inputs import WORKSHOP, kept_workshop
     from jumpcad.design import load_design
-    from jumpcad.workshop import DEFAULT
+    from jumpcad.workshop import own_workshop
 
     bundle = bundle_of(subject, workshop)
     if bundle is None:
-        return load_design(design_file(subject)), DEFAULT
+        return load_design(design_file(subject)), own_workshop(subject)
     kept_workshop(bundle)  # raises if it names other files
     return load_design(design_file(subject)), str(bundle.file(WORKSHOP))

@@ -33,7 +33,7 @@ WorkshopOption = Annotated[
     str | None,
     typer.Option(
         help="Workshop of the printed robot: a template's name or a file.",
-        show_default="default",
+        show_default="default; best-jumper has its own",
         autocompletion=completion("workshops"),
     ),
 ]
@@ -96,7 +96,7 @@ def printed_robot(
     from jumpcad.building import build as build_robot
     from jumpcad.bundle.inputs import kept_design, kept_workshop
     from jumpcad.design import load_design
-    from jumpcad.workshop import DEFAULT, load_workshop
+    from jumpcad.workshop import load_workshop, own_workshop
 
     if bundle := bundle_of(subject, workshop):
         for option, value in (("--printer", printer), ("--material", material)):
@@ -105,7 +105,8 @@ def printed_robot(
                     f"{option} {value}: {subject} is a bundle, built in a workshop of its own; give a design"
                 )
         return build_robot(kept_design(bundle), kept_workshop(bundle), bundle.name)
-    return build_robot(load_design(subject), load_workshop(workshop or DEFAULT, printer, material), name_of(subject))
+    shop = load_workshop(workshop or own_workshop(subject), printer, material)
+    return build_robot(load_design(subject), shop, name_of(subject))
 
 
 def name_of(subject: str) -> str:

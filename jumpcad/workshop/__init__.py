@@ -1,6 +1,6 @@
 """`Workshop`: printer, process, materials, fits, bought parts, safety and masses, from a template or a TOML file."""
 
-from jumpcad.workshop.loading import DEFAULT, load_workshop
+from jumpcad.workshop.loading import DEFAULT, load_workshop, own_workshop
 from jumpcad.workshop.tables import BoughtParts, Fits, Material, Printer, Process
 from jumpcad.workshop.varied import varied, workshop_value
 from jumpcad.workshop.workshop import OWN_PARTS, Workshop
@@ -15,6 +15,7 @@ __all__ = [
     "Process",
     "Workshop",
     "load_workshop",
+    "own_workshop",
     "varied",
     "workshop_value",
 ]

@@ -26,6 +26,15 @@ TELLS = {
 """What is ordered for a part, and figures that it stands for: with others it is not that article."""
 
 
+def own_workshop(design: str) -> str:
+    """Return the name of the workshop that a design is built in unless another is asked for.
+
+    That of a shipped design is the shipped workshop of its name, if there is one; else `DEFAULT`.
+    """
+    own = design in template_names("robots") and design in template_names("workshops")
+    return design if own else DEFAULT
+
+
 @check_arguments
 def load_workshop(
     name_or_path: str | Path = DEFAULT, printer: str | None = None, material: str | None = None
