@@ -7,7 +7,6 @@ height above the ground at which the middle between both axles crouches (docs/de
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -103,7 +102,7 @@ class CageArc(ByValue):
         """Length to which the rod is cut."""
         return self.radius_mm * self.angle_rad + 2.0 * SOCKET_MM
 
-    @cached_property
+    @property
     def line_mm(self) -> Array:
         """Points (n, 2) from end to end in its frame, straight in the sockets."""
         turn = np.linspace(-self.angle_rad / 2.0, self.angle_rad / 2.0, PIECES + 1)
@@ -111,7 +110,7 @@ class CageArc(ByValue):
         ends = SOCKET_MM * np.column_stack([np.cos(turn[[0, -1]]), -np.sin(turn[[0, -1]])])
         return np.vstack([arc[0] - ends[0], arc, arc[-1] + ends[1]])
 
-    @cached_property
+    @property
     def points_mm(self) -> Array:
         """The same points (n, 3) in the body's frame."""
         flat = self.line_mm
