@@ -26,10 +26,10 @@ UPRIGHT = {
     "upright-20": [100.0, 0.9558, 0.8571, 0.8097, 0.8, 70.0, 30.0, 17.644],
 }
 """Robots that turn by 45 and 20 degrees in flight without a cage."""
-CAGES: dict[str, dict[str, str | float]] = {
+CAGES: dict[str, dict[str, str | bool]] = {
     "–": {},
     "hoops": {"cage.rod": "glass-1.5"},
-    "and bow": {"cage.rod": "glass-1.5", "cage.bow": 1.0},
+    "and bow": {"cage.rod": "glass-1.5", "cage.bow": True},
 }
 DROPS, LANDINGS, JUMPS, SEEDS = 60, 20, 10, 3
 HEAD = (

@@ -14,6 +14,7 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere,
 from jumpcad.mechanism.planar import points
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.scene.hulls import CAGE
 from jumpcad.transforms import Array, in_metres
 from jumpcad.workshop import Workshop
 
@@ -38,14 +39,21 @@ def bodies_of(layout: Layout, parts: Iterable[Part], hardware: Iterable[BoughtPa
 
 
 def outlines_m(parts: Iterable[Part], hardware: Iterable[BoughtPart]) -> dict[str, Complex]:
-    """Return the corners x + iz (k,) of the convex outline of what each body carries, by the parts' bounding boxes."""
+    """Return the corners x + iz (k,) of the convex outline of what each body carries.
+
+    By the parts' bounding boxes; rods of the cage, which are wide and round, by their line.
+    """
     from scipy.spatial import ConvexHull
 
+    hardware = list(hardware)
+    rods = {item.name: item.wire for item in hardware if item.wire is not None and item.name.startswith(CAGE)}
     corners: dict[str, list[Array]] = defaultdict(list)
     placed = [(one.drawing.shape.bounds_mm, place.body, place.T_body_part) for one in parts for place in one.placements]
-    for bounds, body, pose in (*placed, *((item.shape.bounds_mm, item.body, item.T_body_part) for item in hardware)):
+    boxed = [item for item in hardware if item.name not in rods]
+    for bounds, body, pose in (*placed, *((item.shape.bounds_mm, item.body, item.T_body_part) for item in boxed)):
         box = np.asarray(bounds)[CORNERS, [0, 1, 2]]
         corners[body].append((box @ pose[:3, :3].T + pose[:3, 3])[:, [0, 2]] / 1000.0)
+    corners[BODY] += [rod.points_mm[:, [0, 2]] / 1000.0 for rod in rods.values()]
     joined = {body: np.concatenate(found) for body, found in corners.items()}
     return {body: points(found[ConvexHull(found).vertices]) for body, found in joined.items()}
 

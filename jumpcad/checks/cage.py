@@ -6,12 +6,12 @@ import numpy as np
 
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import Basis, Finding, at_least, at_most
-from jumpcad.layout.cage import BAR_MM, HORN_BELOW_MM, HORN_SIZE_MM, Cage, ground
+from jumpcad.layout.cage import BAR_MM, HORN_BELOW_MM, HORN_MM, HORN_SIZE_MM, Cage, ground, plate_ends_mm
 from jumpcad.layout.layout import Layout, moving_obstacles
 from jumpcad.layout.room import EVERYWHERE, clearance
 from jumpcad.robot import Robot
 from jumpcad.scene.stable_poses import least_share_on_feet
-from jumpcad.strength.cage import FALLS, bar_mpa, bent_strain, landing_strain, ring_n_per_mm
+from jumpcad.strength.cage import FALLS, bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm
 
 LANDING_FACTOR = 1.25
 """On the breaking strain at a landing; judgement: hoop and bar touch together, and the body takes what is left."""
@@ -42,6 +42,11 @@ BASIS = {
         f"6·E·I/(R·b·h²) ≤ {CREEP_MPA:g} MPa, E·I of the rod, b = {BAR_MM:g} mm, h = cage.bar_mm",
         "a beam bent by two moments (Shigley 3-10); limit: judgement, creep",
     ),
+    "cage_horn": Basis(
+        f"6·F·x/(2·t·h²) ≤ strength_in_plane_mpa/s of the body (MPa), F = √(2·V·k) the hoop's force, V as in "
+        f"`cage_landing`, k = E·I/(0.149·R³), x from plates to bar, t the plates' thickness, h = {HORN_MM:g} mm",
+        f"cantilever: Roark, ch. 8; {MODEL}",
+    ),
     "cage_clear": Basis(
         f"least distance of rods and bars from what moves, and of rods and horns from the ground, springs loaded ≥ "
         f"{FREE_MM:g} mm",
@@ -58,7 +63,7 @@ CROUCH = "raise compression_ratio, so that it crouches lower, or change cage.rea
 
 
 def cage_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield `cage_bend`, `cage_landing`, `cage_sag`, `cage_bar` and `cage_clear`; nothing without a cage."""
+    """Yield bending, landing, sag, bar, horn and clearance of a cage; nothing without one."""
     cage = robot.layout.cage
     if cage is None:
         return
@@ -89,6 +94,17 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
         "cage_bar", stress, CREEP_MPA, "MPa",
         f"cross bars {BAR_MM:g} x {height:g} mm under their rods: {stress:.1f} of {CREEP_MPA:g} MPa",
         "raise cage.bar_mm, or a thinner cage.rod",
+    )  # fmt: skip
+    ends = plate_ends_mm(robot.layout)
+    lengths = np.array([abs(bar.place_mm[0] - end) for bar, end in zip(cage.bars, ends, strict=True)])
+    forces = np.array([landing_n(rod, radius, energy) for radius in radii[:2]])
+    plate = robot.layout.lateral.left_plate[1] - robot.layout.lateral.left_plate[0]
+    stress = float((lengths * forces).max()) / 2.0 / (plate * HORN_MM**2 / 6.0)
+    allowed = robot.workshop.material("body").strength_in_plane_mpa / robot.workshop.safety.printed_factor
+    yield at_most(
+        "cage_horn", stress, allowed, "MPa",
+        f"horns of the body plates at a landing on a hoop: {stress:.1f} of {allowed:.1f} MPa",
+        "raise body.plate_mm, or lower cage.front_ahead_mm",
     )  # fmt: skip
     free, above = _free_mm(robot.layout, cage), _above_mm(robot.layout, cage)
     yield at_least(

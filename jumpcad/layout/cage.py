@@ -55,7 +55,7 @@ class Proportions:
 
 
 HOOPS = Proportions(0.75, 0.9, 1.0, 2.55, 2.85, 24.0, 271.0)
-WITH_BOW = Proportions(0.52, 0.75, 0.97, 2.05, 2.15, 30.0, 251.0)
+WITH_BOW = Proportions(0.52, 0.75, 0.97, 2.1, 2.15, 30.0, 251.0)
 """Two hoops, and two with a bow: the lightest that righted three robots, by stable poses (docs/decisions/cage.md)."""
 
 
@@ -158,12 +158,16 @@ def with_cage(layout: Layout, workshop: Workshop) -> Layout:
         table.front_radius_mm or min(usual.front * crouch, MOST_RADIUS_MM),
     )
     rear_x, front_x = round(rear_end - behind, 1), round(front_end + ahead, 1)
-    over_ground = origin[1] + ((origin[0] - rear_x) * up[0] + usual.height * crouch) / up[1]
+    lowest = HORN_BELOW_MM + HORN_SIZE_MM[1] / 2.0 + CLEAR_MM
+    rear_low, front_low = (
+        origin[1] + ((origin[0] - x) * up[0] + height) / up[1]
+        for x, height in ((rear_x, usual.height * crouch), (front_x, lowest))
+    )
     moving = moving_obstacles(layout)
     bars, arcs = [], []
     for name, x, radius, low, sign in (
-        ("rear", rear_x, radii[0], over_ground, -1),
-        ("front", front_x, radii[1], origin[1], 1),
+        ("rear", rear_x, radii[0], rear_low, -1),
+        ("front", front_x, radii[1], front_low, 1),
     ):
         place = np.array([x, _bar_height(layout, moving, name, x, float(low), sign * lean)])
         bar, arc = _hoop(layout, name, sign, place, round(radius, 1), angle, sign * lean, level)

@@ -28,6 +28,11 @@ def ring_n_per_mm(rod: CageRod, radius_mm: float) -> float:
     return rod.bending_nmm2 / (RING * radius_mm**3)
 
 
+def landing_n(rod: CageRod, radius_mm: float, energy_j: float) -> float:
+    """Return the force of a hoop that takes up an energy as a spring: √(2·U·k)."""
+    return math.sqrt(2000.0 * energy_j * ring_n_per_mm(rod, radius_mm))
+
+
 def bar_mpa(rod: CageRod, radius_mm: float, width_mm: float, height_mm: float) -> float:
     """Return the bending stress of a bar that keeps a rod bent: the moment E·I/R all along it."""
     return rod.bending_nmm2 / radius_mm / (width_mm * height_mm**2 / 6.0)

@@ -59,7 +59,7 @@ def varied(workshop: Workshop, values: Mapping[str, Value]) -> Workshop:
         table = data
         for step in path:
             table = table[step]
-        table[last] = round(value) if isinstance(held, int) and isinstance(value, float) else value
+        table[last] = type(held)(round(value)) if isinstance(held, int) and isinstance(value, float) else value
     used = sorted(set(data["roles"].values()))
     data["materials"] = {name: data["materials"].get(name) or _shipped_material(name) for name in used}
     return Workshop(**data)

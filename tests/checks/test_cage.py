@@ -12,7 +12,7 @@ from jumpcad.checks import check, quick_findings
 from jumpcad.checks.cage import righting_findings
 from jumpcad.findings import Finding
 from jumpcad.robot import Robot
-from jumpcad.strength.cage import bar_mpa, bent_strain, landing_strain, ring_n_per_mm
+from jumpcad.strength.cage import bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm
 from jumpcad.workshop import load_workshop, varied
 
 GLASS = load_catalogue().cage_rods["glass-1.5"]
@@ -34,6 +34,7 @@ def test_a_hoop_is_a_ring_between_two_forces() -> None:
     at_the_sides = 1.0 / radius - moment.min() / GLASS.bending_nmm2
     strain = GLASS.diameter_mm / 2.0 * at_the_sides
     assert landing_strain(GLASS, radius, energy_nmm / 1000.0) == pytest.approx(strain, rel=0.002)
+    assert landing_n(GLASS, radius, energy_nmm / 1000.0) == pytest.approx(force, rel=0.002)
 
 
 def test_a_rod_bent_round_95_mm() -> None:

@@ -66,6 +66,17 @@ def test_rods_weigh_what_their_length_weighs_and_lie_in_the_body(robot: Robot) -
     assert 0.012 < robot.mass_kg - bare.mass_kg < 0.02
 
 
+def test_the_outline_that_lands_first_is_that_of_the_arcs(robot: Robot) -> None:
+    """A bow is round: no corner of its bounding box counts."""
+    cage = robot.layout.cage
+    assert cage is not None
+    seen = robot.outline_m[BODY]
+    bow = cage.arcs[-1].points_mm
+    assert seen.imag.max() == pytest.approx(bow[:, 2].max() / 1000.0)
+    corner = complex(bow[:, 0].max(), bow[:, 2].max()) / 1000.0
+    assert np.abs(seen - corner).min() > 0.03
+
+
 def test_the_loaded_robot_stands_on_its_feet_alone(robot: Robot) -> None:
     cage = robot.layout.cage
     assert cage is not None
