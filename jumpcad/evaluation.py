@@ -7,6 +7,7 @@ from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
+from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import Design
 from jumpcad.findings import Finding, errors
@@ -44,6 +45,7 @@ FIGURES = JUMP_FIGURES | {
     "motor_energy_j": "… of it, the motor's",
     "boards_energy_j": "… of it, the boards' while winding",
     "winding_time_s": "time to wind",
+    "cost_eur": "parts and filament, partly estimated, in euros",
     "jumps_per_charge": "jumps of a full battery",
     "rights_itself": "share of attitudes from which winding puts it on its feet, at least; where it is required",
     "body_mass_kg": "mass of the body",
@@ -172,5 +174,6 @@ def _metrics(robot: Robot, jump: Jump) -> dict[str, float]:
         "motor_energy_j": train.motor_j,
         "boards_energy_j": train.boards_j,
         "winding_time_s": train.winding_s,
+        "cost_eur": bill_of_materials(robot).cost_eur or 0.0,
         "jumps_per_charge": float(jumps_per_charge(robot)),
     } | masses

@@ -1,6 +1,7 @@
 """The bill of materials: every printed part and every bought one, nuts and washers included.
 
-Prices come from the workshop, printing times from a slicer; unknown ones stay blank.
+Prices come from the workshop, else from shops and estimates that ship; printing times come from a slicer. Unknown ones
+stay blank.
 """
 
 from collections import defaultdict
@@ -8,6 +9,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from jumpcad.catalogue.prices import ESTIMATE, shipped_prices
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.files.complaints import shown
 from jumpcad.files.csv_text import to_csv
 from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.spring_wire import CHOOSE, ORDERED
@@ -17,8 +22,9 @@ from jumpcad.workshop import Workshop
 
 COLUMNS = (
     "kind", "item", "quantity", "ordered", "material", "grams_each", "grams", "mass_from", "eur_each", "eur",
-    "print_time_s",
+    "print_time_s", "price_from",
 )  # fmt: skip
+OWN = "workshop"
 
 
 @dataclass(frozen=True)
@@ -26,7 +32,7 @@ class BillLine:
     """One line: mass, price and printing time are those of one piece.
 
     `kind` is `printed`, `pad` (printed of a soft material) or `bought`. The robot has `quantity` pieces; what it costs
-    are those that are `ordered`.
+    are those that are `ordered`. `price_from` is `workshop`, a shop with its date, or `estimate`.
     """
 
     kind: str
@@ -37,6 +43,7 @@ class BillLine:
     mass_source: str
     price_eur: float | None = None
     time_s: float | None = None
+    price_from: str = ""
 
     @property
     def total_kg(self) -> float:
@@ -87,16 +94,23 @@ class Bill:
         return sum(known) if known else None
 
     @property
+    def known_share(self) -> float:
+        """Share of the cost that is no estimate."""
+        known = sum(item.total_eur or 0.0 for item in self.items if item.price_from != ESTIMATE)
+        return known / self.cost_eur if self.cost_eur else 0.0
+
+    @property
     def known(self) -> str:
-        """How many lines have a price, in words."""
-        priced = sum(item.price_eur is not None for item in self.items)
-        return f"prices known for {priced} of {counted(len(self.items), 'line')}"
+        """How much of the cost is known, and what has no price, in words."""
+        free = sum(item.price_eur is None for item in self.items)
+        without = f", {counted(free, 'line')} without a price" if free else ""
+        return f"{100.0 * self.known_share:.0f} % of it by known prices, the rest estimated{without}"
 
     @property
     def summary(self) -> str:
         """Mass, known prices and their sum, in words."""
-        cost = "" if self.cost_eur is None else f", {euros(self.cost_eur)} € together"
-        return f"In all {1000.0 * self.mass_kg:.1f} g; {self.known}{cost}."
+        cost = "" if self.cost_eur is None else f"; about {euros(self.cost_eur)} € together, {self.known}"
+        return f"In all {1000.0 * self.mass_kg:.1f} g{cost}."
 
     def sliced(self, times_s: Mapping[str, float], plates: Iterable[BilledPlate]) -> "Bill":
         """Return the bill with printing times: `times_s` of one copy of each part, by name, and those of plates."""
@@ -159,11 +173,11 @@ def _rows(bill: Bill) -> Iterator[Sequence[object]]:
         each, total = (f"{1000.0 * mass:.3f}" for mass in (item.mass_kg, item.total_kg))
         prices = euros(item.price_eur, 3), euros(item.total_eur)
         row = (item.kind, item.name, item.quantity, item.ordered, item.material, each, total, item.mass_source)
-        yield *row, *prices, _seconds(item.time_s)
+        yield *row, *prices, _seconds(item.time_s), item.price_from
     for plate in bill.plates:
-        yield "plate", plate.name, 1, "", plate.material, "", "", "", "", "", _seconds(plate.time_s)
+        yield "plate", plate.name, 1, "", plate.material, "", "", "", "", "", _seconds(plate.time_s), ""
     total = f"{1000.0 * bill.mass_kg:.3f}"
-    yield "total", bill.known, "", "", "", "", total, "", "", euros(bill.cost_eur), _seconds(bill.time_s)
+    yield "total", bill.known, "", "", "", "", total, "", "", euros(bill.cost_eur), _seconds(bill.time_s), ""
 
 
 def euros(price: float | None, digits: int = 2) -> str:
@@ -176,15 +190,33 @@ def _seconds(time_s: float | None) -> str:
 
 
 def _priced(items: Sequence[BillLine], workshop: Workshop) -> Bill:
-    """Return the bill of lines with a workshop's prices: filament by mass, articles by the beginnings of names."""
-    return Bill(tuple(replace(item, price_eur=_price_eur(item, workshop)) for item in items))
+    """Return the bill of lines with prices: filament by mass, articles by the beginnings of names.
+
+    Raises
+    ------
+    JumpcadError
+        If the workshop has a price of what no article's name begins with.
+    """
+    known = [*(item.name for item in items), *shipped_prices().pieces]
+    for key in workshop.prices_eur:
+        if not any(name.startswith(key) or key.startswith(name) for name in known):
+            hint = did_you_mean(key, {name[: len(key) + 1].rstrip() for name in known})
+            raise JumpcadError(f"prices_eur.{shown(key)}: no article's name begins so{hint}; bom.csv lists them")
+    lines = []
+    for item in items:
+        price, source = _price(item, workshop)
+        lines.append(replace(item, price_eur=price, price_from=source))
+    return Bill(tuple(lines))
 
 
-def _price_eur(item: BillLine, workshop: Workshop) -> float | None:
+def _price(item: BillLine, workshop: Workshop) -> tuple[float | None, str]:
+    """Return the price of one piece, and where it is from."""
     if item.kind == "printed":
         material = workshop.materials.get(item.material)
-        if material is None or material.price_eur_per_kg is None:
-            return None
-        return material.price_eur_per_kg * item.mass_kg
+        if material is not None and material.price_eur_per_kg is not None:
+            return material.price_eur_per_kg * item.mass_kg, OWN
+        return shipped_prices().filament_eur_per_kg * item.mass_kg, ESTIMATE
     beginnings = [beginning for beginning in workshop.prices_eur if item.name.startswith(beginning)]
-    return workshop.prices_eur[max(beginnings, key=len)] if beginnings else None
+    if beginnings:
+        return workshop.prices_eur[max(beginnings, key=len)], OWN
+    return shipped_prices().eur(item.name) or (None, "")

@@ -7,7 +7,7 @@ were measured in one way: their distances have one reading, their heights anothe
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -31,14 +31,6 @@ Parts = list[tuple[Sequence[Subject], Values]]
 """Parts of equal probability: the robots, and parameters by key, each (n,)."""
 
 
-@dataclass(frozen=True)
-class Hypothesis:
-    """An explanation: its name, and what it makes of subjects and parameters, in parts of equal probability."""
-
-    name: str
-    parts: Callable[[Sequence[Subject], Values, np.random.Generator], Parts]
-
-
 def compare_hypotheses(subjects: Sequence[Subject], seed: int = 0) -> list[dict[str, Any]]:
     """Return every explanation with its odds over the first, and what it predicts, as plain data.
 
@@ -46,14 +38,14 @@ def compare_hypotheses(subjects: Sequence[Subject], seed: int = 0) -> list[dict[
     """
     model, landed = CalibrationModel(subjects), CalibrationModel([subject.landing() for subject in subjects])
     found = []
-    for hypothesis in HYPOTHESES:
+    for name, explained in HYPOTHESES.items():
         rng = np.random.default_rng(seed)
         z = rng.standard_normal((DRAWS, len(model.parameters)))
-        parts = hypothesis.parts(subjects, model.values(z), rng)
+        parts = explained(subjects, model.values(z), rng)
         for travel, after in (("prior", model.values(z)), ("simulated", landed.values(z))):
             travels = {key: one for key, one in after.items() if key.startswith("travel:")}
             draws = [(robots, changed | travels) for robots, changed in parts]
-            found.append({"name": hypothesis.name, "travel": travel} | _judged(model, draws))
+            found.append({"name": name, "travel": travel} | _judged(model, draws))
     first = found[0]["log_evidence"]
     for one in found:
         one["odds"] = math.exp(one.pop("log_evidence") - first)
@@ -107,22 +99,12 @@ def _median(values: Array, weight: Array) -> float:
     return float(values[order][int(np.searchsorted(share, 0.5 * share[-1]))])
 
 
-def _as_designed(subjects: Sequence[Subject], values: Values, _: np.random.Generator) -> Parts:
-    return [(subjects, values)]
+def _scaled(values: Values, kind: str, factor: float | Array) -> Values:
+    """Return parameters of which those of a kind are multiplied."""
+    return {key: factor * one if key.startswith(f"{kind}:") else one for key, one in values.items()}
 
 
-def _two_springs(subjects: Sequence[Subject], values: Values, _: np.random.Generator) -> Parts:
-    """Each of the two springs has the rate that the design gives both together."""
-    return [(subjects, {key: 2.0 * one if key.startswith("rate:") else one for key, one in values.items()})]
-
-
-def _one_factor(subjects: Sequence[Subject], values: Values, rng: np.random.Generator) -> Parts:
-    """Energy over mass has one unknown factor in all robots."""
-    factor = SHARED_FACTOR.at(rng.standard_normal(DRAWS))
-    return [(subjects, {key: one / factor if key.startswith("mass:") else one for key, one in values.items()})]
-
-
-def _preloaded(subjects: Sequence[Subject], values: Values, _: np.random.Generator) -> Parts:
+def _preloaded(subjects: Sequence[Subject], values: Values) -> Parts:
     """The springs are still loaded at rest, by one angle in all robots; the battery gives that much more."""
     parts: Parts = []
     for preload_deg in PRELOAD_DEG.quantiles(PRELOADS):
@@ -144,10 +126,12 @@ def _with_preload(subject: Subject, preload_rad: float) -> Subject:
     return replace(subject, robot=replace(robot, spring=spring, roller_off=off))
 
 
-HYPOTHESES = (
-    Hypothesis("as designed", _as_designed),
-    Hypothesis("springs preloaded at rest", _preloaded),
-    Hypothesis("two springs of the stated rate", _two_springs),
-    Hypothesis("one factor on energy over mass", _one_factor),
-)
-"""The first is that to which the others' odds are."""
+HYPOTHESES: dict[str, Callable[[Sequence[Subject], Values, np.random.Generator], Parts]] = {
+    "as designed": lambda subjects, values, _: [(subjects, values)],
+    "springs preloaded at rest": lambda subjects, values, _: _preloaded(subjects, values),
+    "two springs of the stated rate": lambda subjects, values, _: [(subjects, _scaled(values, "rate", 2.0))],
+    "one factor on energy over mass": lambda subjects, values, rng: [
+        (subjects, _scaled(values, "mass", 1.0 / SHARED_FACTOR.at(rng.standard_normal(DRAWS))))
+    ],
+}
+"""What each explanation makes of robots and parameters; the first is that to which the others' odds are."""

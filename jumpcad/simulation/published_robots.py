@@ -84,7 +84,7 @@ def load_facts(entered: Mapping[str, float] | None = None) -> Facts:
             known = [f"{one}.{figure}" for one, of in data["robots"].items() for figure in of.get("figures", {})]
             raise JumpcadError(f"--figure {key}: no robot has this figure{did_you_mean(key, known)}")
         published = figures[name]["value"]
-        if not 1.0 / MOST_FACTOR <= value / published <= MOST_FACTOR:
+        if not 1.0 / MOST_FACTOR <= value / published <= MOST_FACTOR or (name.endswith("_deg") and value >= 90.0):
             raise JumpcadError(f"--figure {key}={value:g}: the file has {published:g}: give it in the unit of its name")
         figures[name] = figures[name] | {"value": float(value), "confidence": "entered"}
         if name == "spring_energy_j" and "efficiency" in figures:

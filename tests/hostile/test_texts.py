@@ -22,13 +22,13 @@ TEXTS = {"motors": ("article",), "batteries": ("description", "plug"), "boards":
 
 def workshop() -> str:
     """Return a workshop whose texts are all `TEXT` and whose names are all `NAME`."""
-    text, name = json.dumps(TEXT), json.dumps(NAME)
+    text, name, motor = json.dumps(TEXT), json.dumps(NAME), json.dumps(f"gear motor {NAME}")
     lines = [
         f"[printer]\nname = {text}\nsource = {text}\nbed_mm = [250, 210, 220]\nnozzle_mm = 0.4",
         f"[materials.{name}]\ndensity_g_cm3 = 1.2\nstrength_in_plane_mpa = 45.0\nstrength_interlayer_mpa = 30.0",
         f"modulus_mpa = 2000.0\nsource = {text}\n[roles]\nlinks = {name}\nbody = {name}\ngears = {name}",
         f"[bought]\nmotors = [{name}]\nleg_bearing = {name}\nroller = {name}\nbattery = {name}\ncontroller = {name}",
-        f"[body]\nstop_pad = {name}\n[ground]\nsurface = {text}\npad = {name}\n[prices_eur]\n{name} = 0.05",
+        f"[body]\nstop_pad = {name}\n[ground]\nsurface = {text}\npad = {name}\n[prices_eur]\n{motor} = 0.05",
     ]
     for kind, like in LIKE.items():
         lines += [f'[{kind}.{name}]\nlike = "{like}"\nsource = {text}', *(f"{key} = {text}" for key in TEXTS[kind])]

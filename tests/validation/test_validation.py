@@ -97,12 +97,21 @@ def test_a_remembered_figure_judges_nothing_until_it_is_entered(
     assert "differs: a parabola of 0.90 m height" in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("quick")
+def test_entered_figures_that_disagree_are_not_computed() -> None:
+    """No flight of 5.96 m/s reaches 5 m, and no cage makes the robot of 2009 lighter than that of 2008."""
+    robots = validate({"kovac-2008.height_m": 5.0, "kovac-2009.mass_g": 3.0})
+    assert rows(robots, "kovac-2008")["jump_s"]["low"] is None
+    assert rows(robots, "kovac-2009")["height_m"]["verdict"] == "not judged"
+
+
 def test_a_wrong_figure_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     for given, said in (
         (f"{ENERGY}=0.1", "would be an efficiency of 1.24, above 1: check mass, speed and spring energy"),
         (f"{ENERGY}=154", "the file has 0.154: give it in the unit of its name"),
         ("kovac-2008.springs_energy_j=0.154", f"no robot has this figure (did you mean {ENERGY}?)"),
         (ENERGY, "give ROBOT.NAME=VALUE, as kovac-2008.spring_energy_j=0.154"),
+        ("kovac-2008.takeoff_angle_deg=100", "the file has 75: give it in the unit of its name"),
         (f"{ENERGY}=nan", "give it in the unit of its name"),
     ):
         assert run(["validate", "--figure", given]) == 2

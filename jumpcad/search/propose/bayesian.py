@@ -17,7 +17,6 @@ from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
-from jumpcad.search.propose.local_search import FARTHEST, HOPELESS, STALLED, idle_steps
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
@@ -38,6 +37,11 @@ RUN_SEED = 1_000_000
 IDLE, IDLE_ALONE = 10, 25
 """The search ends after so many steps in a row that gain too little: where robots are estimated, where not; judgement.
 """
+HOPELESS, FARTHEST = 1e-8, 6.25
+"""Of the best score: what a proposal promises that promises nothing. Neighbours are then up to so many times as far
+away, an eighth of the unit cube along an axis; judgement."""
+STALLED = 4
+"""Steps in a row without a gain after which neighbours are evaluated; judgement."""
 
 Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
@@ -88,6 +92,21 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
         return stage.least_gain > 0.0 and enough and not is_flat(evaluator.trials)
 
     return run_steps(evaluator, "bo", stage, proposer, ended)
+
+
+def idle_steps(trials: Sequence[Trial], best: float, least_gain: float) -> int:
+    """Return how many steps of `bo` in a row, up to the last, gained less than a share of the best score before them.
+
+    `best` is that before the first of the trials; while no score is above 0, no step counts.
+    """
+    idle = 0
+    for (phase, _), step in itertools.groupby(trials, key=lambda trial: (trial.phase, trial.step)):
+        together = list(step)
+        found = max(trial.score or 0.0 for trial in together)
+        if phase == "bo" and "theta" in together[0].proposal:
+            idle = 0 if best <= 0.0 or found / best - 1.0 > least_gain else idle + 1
+        best = max(best, found)
+    return idle
 
 
 def run_steps(

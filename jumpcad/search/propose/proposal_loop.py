@@ -1,4 +1,10 @@
-"""What one step of a search learns from its trials, and again from each dry run of a proposal."""
+"""What one step of a search learns from its trials, and again from each dry run of a proposal.
+
+The score of a printed robot has steps of a per cent, where a section grows or a part takes another place. The processes
+smooth over them, and promise nothing where a ridge of steps goes on. Points a step away along each axis (compass
+search: Kolda, Lewis and Torczon, SIAM Review 2003) and some aslant are estimated, and the best of them are evaluated;
+near and far ones where a proposal promises nothing.
+"""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -9,7 +15,6 @@ import numpy as np
 
 from jumpcad.search.propose.acquisition import DIGITS, HELD_BONUS, Proposal
 from jumpcad.search.propose.dry_run import DryRun
-from jumpcad.search.propose.local_search import WITHIN, neighbours
 from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.space import Space
 from jumpcad.search.study.trial import Trial, best_trial
@@ -26,6 +31,12 @@ better than the last one whose neighbours were; judgement. A search that follows
 what another axis is worth: see docs/decisions/default-search.md."""
 WORTH = 0.001
 """Least gain, as a share of the best score, that a further dry run must promise once one holds; judgement."""
+STEP = 0.02
+"""Distance of a neighbour, in the unit cube; judgement: 0.8 % of a link's length, 1.4° of the toes' angle."""
+DRAWN, DRAWN_STEP = 8, 0.04
+"""Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
+WITHIN = 0.005
+"""Of a neighbour's estimate: how much less than the best's it may be; judgement: about what it is wrong by."""
 
 
 class ProposalLoop:
@@ -167,3 +178,16 @@ def _best_of(proposals: Sequence[Proposal], posterior: SearchPosterior, best: fl
     improvement, feasible = posterior.log_improvement(units, best), posterior.log_feasible(units)
     chosen = int((improvement + feasible).argmax())
     return replace(proposals[chosen], log_improvement=float(improvement[chosen]), log_feasible=float(feasible[chosen]))
+
+
+def neighbours(space: Space, best: Trial, generator: np.random.Generator, wider: float = 1.0) -> list[Array]:
+    """Return points (d,) near a trial that differ along the axes of numbers on whose bounds it does not lie.
+
+    A step away along each of them, both ways, and `DRAWN` points that are drawn at such a distance; all of them so many
+    times `wider`.
+    """
+    centre = space.to_unit(best.variant)
+    inside = (centre > 0.5 * STEP) & (centre < 1.0 - 0.5 * STEP) & (np.array(space.categories) == 0)
+    ways = wider * STEP * np.eye(space.dimension)[inside]
+    drawn = wider * DRAWN_STEP * inside * generator.standard_normal((DRAWN, space.dimension))
+    return list(space.snap(np.clip(centre + np.vstack([ways, -ways, drawn]), 0.0, 1.0).round(DIGITS)))

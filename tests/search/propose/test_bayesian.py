@@ -12,6 +12,7 @@ from jumpcad.search.propose import bayesian
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.propose.bayesian import (
     IDLE_ALONE,
+    idle_steps,
     incumbent,
     learned_trials,
     run_bayesian,
@@ -208,3 +209,22 @@ def test_a_search_ends_after_so_many_steps_that_gained_too_little(monkeypatch):
 
         monkeypatch.setattr(bayesian, "run_steps", steps_of)
         assert run_bayesian(one, stage(40, 0, least_gain=least_gain)) is ended, (steps, least_gain, score)
+
+
+def test_a_search_stands_still_as_long_as_nothing_is_gained():
+    """After a score of 4, and with 1 % as the least gain; of a batch the best counts, other methods do not."""
+    for steps, idle in (
+        ([(3.9,)], 1), ([(3.9,), (None,)], 2), ([(3.9,), (4.1,)], 0), ([(4.03,), (4.03,)], 2), ([(4.1,), (4.0,)], 1),
+        ([(3.9, 4.1)], 0), ([(4.1, 3.9), (4.0, 4.1)], 1),
+    ):  # fmt: skip
+        trials = scored(4.0, step=0)
+        for number, scores in enumerate(steps, start=1):
+            trials += scored(*scores, step=number, theta={})
+        assert idle_steps(trials, 0.0, 0.01) == idle, steps
+        assert idle_steps([replace(one, phase="ga") for one in trials], 0.0, 0.01) == 0
+        assert idle_steps(trials, 9.0, 0.01) == len(steps)  # what was known before is better
+
+
+def test_before_the_first_jump_no_search_stands_still():
+    trials = [*scored(None, step=0), *scored(None, step=1, theta={}), *scored(None, step=2, theta={})]
+    assert idle_steps(trials, 0.0, 0.01) == 0

@@ -13,9 +13,8 @@ from support.stages import stage
 from jumpcad.search.estimate.estimate import Estimate
 from jumpcad.search.estimate.estimated_robot import LAID
 from jumpcad.search.models import robot_model
-from jumpcad.search.propose.bayesian import IDLE, run_bayesian
+from jumpcad.search.propose.bayesian import IDLE, STALLED, idle_steps, run_bayesian
 from jumpcad.search.propose.dry_run import FAILED, TRIED, DryRun
-from jumpcad.search.propose.local_search import STALLED, idle_steps
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator

@@ -8,10 +8,11 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.search.propose.acquisition import Proposal
-from jumpcad.search.propose.local_search import DRAWN, STEP, WITHIN
-from jumpcad.search.propose.proposal_loop import HELD, ROUNDS, ProposalLoop
+from jumpcad.search.propose.proposal_loop import DRAWN, HELD, ROUNDS, STEP, WITHIN, ProposalLoop, neighbours
+from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
+from jumpcad.workshop import load_workshop
 
 
 def trial_of(unit):
@@ -198,3 +199,27 @@ def test_what_has_no_room_may_not_be_proposed(refused):
 
 def variant_of(loop, key):
     return next(one for one in map(SMALL.to_variant, loop.tried) if one.key == key)
+
+
+def test_neighbours_lie_along_the_axes_that_are_on_no_bound():
+    """A step to both sides of each, then some aslant; at a bound, and along names, they are where the best is."""
+    few = SMALL.free[1].name, SMALL.free[2].name
+    fixed = {name: value for name, value in SMALL.to_design(np.full(3, 0.5)) if name not in few}
+    space = Space.make(fixed=fixed, choices={"bought.retention": ["clips", "nuts"]}, workshop=load_workshop())
+    name = int(np.flatnonzero(space.categories)[0])
+    place = np.where(np.arange(3) == name, 0.0, [0.4, 1.0, 1.0])
+    variant = space.to_variant(place)
+    best = Trial("bo", 1, 0, variant.design, Evaluation("jump"), 1.0, "m", 0.0, workshop=variant.workshop)
+    points = np.array(neighbours(space, best, np.random.default_rng(0)))
+    assert points[:2, 0] == pytest.approx([0.4 + STEP, 0.4 - STEP])
+    assert (points[:, 1:] == place[1:]).all()
+    assert len(points) == 2 + DRAWN
+    whole = replace(best, design=SMALL.to_design(np.array([0.4, 0.5, 0.6])), workshop={})
+    points = np.array(neighbours(SMALL, whole, np.random.default_rng(0)))
+    assert len(points) == 6 + DRAWN
+    assert (np.abs(points[6:] - [0.4, 0.5, 0.6]) > 0.0).all()
+    edge = replace(best, design=SMALL.to_design(np.array([0.004, 0.5, 0.996])), workshop={})  # nearer than half a step
+    near = np.array(neighbours(SMALL, edge, np.random.default_rng(0)))
+    assert near[:, [0, 2]] == pytest.approx(np.tile([0.004, 0.996], (2 + DRAWN, 1)), abs=1e-3)
+    wider = np.array(neighbours(SMALL, whole, np.random.default_rng(0), 2.5)) - [0.4, 0.5, 0.6]
+    assert wider == pytest.approx(2.5 * (points - [0.4, 0.5, 0.6]), abs=3e-4)  # of the same draws, to four digits

@@ -14,8 +14,7 @@ from support.places import TESTS
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.propose.bayesian import IDLE_ALONE
-from jumpcad.search.propose.local_search import idle_steps
+from jumpcad.search.propose.bayesian import IDLE_ALONE, idle_steps
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
 from jumpcad.search.study.objective import Evaluation, find_objective
@@ -243,7 +242,7 @@ def test_it_ends_where_its_last_steps_gain_too_little_and_goes_on_where_less_is_
     ("changes", "ended"),
     [
         ({"method": "ga", "evaluations": 40}, {"by": "evaluations"}),
-        ({"method": "bo", "evaluations": 40, "until_percent": 5.0}, {"by": "until", "until_percent": 5.0}),
+        ({"method": "bo", "evaluations": 70, "until_percent": 5.0}, {"by": "until", "until_percent": 5.0}),
         ({"method": "ga", "evaluations": 40, "hours": 1e-12}, {"by": "hours", "hours": 1e-12}),
         ({"method": "bo", "space": FEW}, {"by": "space"}),
     ],

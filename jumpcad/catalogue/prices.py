@@ -1,0 +1,46 @@
+"""Prices that ship: what a shop shows on a date, and estimates for the rest."""
+
+from functools import cache
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from jumpcad.files import TomlTable, find_template, read_toml
+from jumpcad.files.names import Name, Text
+
+Euros = Annotated[float, Field(gt=0, le=1e4)]
+
+
+class Price(TomlTable):
+    """Price of one piece; without a shop it is an estimate."""
+
+    price: Euros
+    currency: Literal["EUR", "USD"] = "EUR"
+    shop: Text = ""
+    date: Text = ""
+
+
+class Prices(TomlTable):
+    """Prices by the beginnings of articles' names, of filament, and of a dollar."""
+
+    eur_per_usd: Euros
+    filament_eur_per_kg: Euros
+    pieces: dict[Name, Price]
+
+    def eur(self, article: str) -> tuple[float, str] | None:
+        """Return the price of an article (€), and the shop with its date, or `estimate`; None if there is none."""
+        beginnings = [beginning for beginning in self.pieces if article.startswith(beginning)]
+        if not beginnings:
+            return None
+        found = self.pieces[max(beginnings, key=len)]
+        price = found.price * (self.eur_per_usd if found.currency == "USD" else 1.0)
+        return price, f"{found.shop}, {found.date}" if found.shop else ESTIMATE
+
+
+ESTIMATE = "estimate"
+
+
+@cache
+def shipped_prices() -> Prices:
+    """Return the prices that ship."""
+    return Prices(**read_toml(find_template("hardware", "prices"))[0])
