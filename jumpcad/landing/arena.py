@@ -99,14 +99,14 @@ class Arena:
         self._friction = np.array([of.get(int(body), 0.0) for body in model.geom_bodyid])
         self.watch: Callable[[], None] | None = None
         """Called after each of MuJoCo's own steps, where something must see them all."""
-        self._rods = np.array([model.geom(index).name.startswith(CAGE) for index in range(model.ngeom)])
-        self._rods &= model.geom_solref[:, 0] > ROD_S
+        self.rods = np.array([model.geom(index).name.startswith(CAGE) for index in range(model.ngeom)])
+        self.rods &= model.geom_solref[:, 0] > ROD_S
         self.stand_on(Floor())
 
     def stand_on(self, floor: Floor) -> None:
         """Take another floor; the cage's rods stay as soft as they are."""
         self.model.geom_friction[:, 0] = floor.friction * self._friction
-        self.model.geom_solref[~self._rods] = max(floor.softness_s, 2.0 * STEP_S), 1.0
+        self.model.geom_solref[~self.rods] = max(floor.softness_s, 2.0 * STEP_S), 1.0
 
     def stand(self, key: str = "wound") -> None:
         """Stand in a key frame: `home`, springs at rest, or `wound`, held by the latch."""

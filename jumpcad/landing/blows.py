@@ -20,18 +20,19 @@ from jumpcad.findings import Finding, at_most
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.pads import TOE_AHEAD_MM, TOE_BACK_MM
 from jumpcad.robot import Robot
+from jumpcad.strength.cage import landing_n
 
 if TYPE_CHECKING:
     from jumpcad.landing.arena import Arena
 
-BLOW_S = 0.01
-"""How long a blow lasts at most; a body that has not touched the floor for as long is hit anew."""
+BLOW_S, ROD_BLOW_S = 0.01, 0.05
+"""How long a blow lasts at most, also on a cage's rods; a part that was as long off the floor is hit anew."""
 LEAST_J = 1e-3
 """Blows with less are left out."""
 EDGE_MM = 6.0
 """Radius of printed edges seen from the side; judgement: plates are drawn around axles and screws."""
-NOSE, TOE = "nose", "toe"
-"""Where a foot is hit: before and behind the ankle."""
+NOSE, TOE, CAGE = "nose", "toe", "cage"
+"""Where a foot is hit, before and behind the ankle; and the rods of a cage."""
 BEARS = {
     "front_link_buckling": NOSE,
     "front_bar_buckling": NOSE,
@@ -70,20 +71,23 @@ class Blows:
         if not data.ncon:
             return
         time, contact = float(data.time), data.contact
-        hit = model.geom_bodyid[contact.geom].max(axis=1)
+        shape = contact.geom.max(axis=1)  # the floor comes first
+        hit = model.geom_bodyid[shape]
         arm = contact.pos - data.subtree_com[self._arena.bodies["body"]]
         falling = -(data.cvel[hit, 5] + data.cvel[hit, 0] * arm[:, 1] - data.cvel[hit, 1] * arm[:, 0])
         ahead = np.einsum("ni,ni->n", contact.pos - data.xpos[hit], data.xmat[hit][:, ::3]) > 0.0
+        rods = self._arena.rods[shape]
         for number, body in enumerate(hit):
             name = self._names[int(body)]
-            part = name if name != FOOT else NOSE if ahead[number] else TOE
+            part = CAGE if rods[number] else name if name != FOOT else NOSE if ahead[number] else TOE
             push = float(data.efc_force[contact.efc_address[number]]) if contact.efc_address[number] >= 0 else 0.0
             blow, last = self._now.get(part, (None, 0.0))
-            if blow is None or time - last > BLOW_S:
+            lasts_s = ROD_BLOW_S if part == CAGE else BLOW_S
+            if blow is None or time - last > lasts_s:
                 blow = Blow(part, 0.0, time)
                 self.all.append(blow)
             self._now[part] = blow, time
-            if time - blow.begun_s < BLOW_S:
+            if time - blow.begun_s < lasts_s:
                 blow.impulse_ns += push * float(model.opt.timestep)
                 blow.speed_m_s = max(blow.speed_m_s, float(falling[number]))
 
@@ -102,9 +106,9 @@ class PartForce:
 def part_forces(robot: Robot, blows: Iterable[Blow]) -> list[PartForce]:
     """Return the hardest blow on each part, hardest first.
 
-    On a hard floor a foot's blow is met by its pad, with the front link or the toe behind it, F = √(2·E·k); one on
-    printed edges crushes them, F = 2·b·R·√(2·r·d) over the dent d. Both are upper bounds. On a soft one it is met
-    evenly over `safety.landing_stop_mm`, F = E/s, as the checks take it.
+    On a hard floor a foot's blow is met by its pad, with the front link or the toe behind it, and one on a cage by its
+    hoop: F = √(2·E·k). One on printed edges crushes them, F = 2·b·R·√(2·r·d) over the dent d. All are upper bounds. On
+    a soft one a blow is met evenly over `safety.landing_stop_mm`, F = E/s, as the checks take it.
     """
     hardest: dict[str, Blow] = {}
     for blow in blows:
@@ -120,7 +124,9 @@ def part_forces(robot: Robot, blows: Iterable[Blow]) -> list[PartForce]:
 
 def hard_n(case: LoadCase, part: str, energy_nmm: float) -> float:
     """Return the largest force (N) of a blow of some energy on a floor that gives nothing."""
-    sections, shell, workshop = case.layout.sections, case.shell, case.workshop
+    sections, shell, workshop, cage = case.layout.sections, case.shell, case.workshop, case.layout.cage
+    if part == CAGE and cage is not None:
+        return landing_n(cage.rod, min(arc.radius_mm for arc in cage.arcs), energy_nmm / 1000.0)
     if part not in (NOSE, TOE):
         plates, material = 2.0 * float(np.diff(case.layout.lateral.left_plate)[0]), workshop.material("body")
         width = plates if part == "body" else sections.thickness_mm

@@ -7,6 +7,8 @@ import jumpcad
 from jumpcad.checks import check
 from jumpcad.evaluation import evaluate
 from jumpcad.findings import errors
+from jumpcad.landing.arena import Arena
+from jumpcad.landing.blows import CAGE, Blows, part_forces
 from jumpcad.landing.landing import land, share_righted
 from jumpcad.landing.series import jumps
 from jumpcad.robot import Robot
@@ -45,6 +47,19 @@ def test_it_jumps_ten_times_from_its_feet(robot: Robot) -> None:
     series = jumps(robot, 10)
     assert series.stood == 10
     assert series.way_m > 5.0
+
+
+def test_upside_down_its_hoops_land_first_and_softly(robot: Robot) -> None:
+    """A hoop of some 50 N/m under a robot of 1.6 N from 0.2 m."""
+    pytest.importorskip("mujoco")
+    arena = Arena(robot)
+    arena.put(np.array([0.0, 1.0, 0.0, 0.0]), 0.2, np.zeros(3), np.zeros(3))
+    arena.watch = blows = Blows(arena)
+    arena.step(0.3)
+    assert blows.all[0].part == CAGE
+    (on_hoop,) = (one for one in part_forces(robot, blows.all) if one.part == CAGE)
+    assert 0.02 < on_hoop.energy_j < robot.mass_kg * 9.81 * 0.25
+    assert on_hoop.hard_n == pytest.approx((2.0 * on_hoop.energy_j * 50.0) ** 0.5, rel=0.5)
 
 
 @pytest.mark.thorough
