@@ -36,8 +36,8 @@ BASIS = {
     ),
     "wiring_ground": Basis("every board has a terminal in the net of the battery's minus; 0, or -1", "net list"),
     "wiring_cut_off": Basis(
-        "a switch and a plug lie between battery and boards; 0, or -1",
-        "judgement: a program that hangs may drive the motor, or hold loaded springs",
+        "a plug lies between battery and boards, and a switch, but with a battery of one cell; 0, or -1",
+        "judgement: a program that hangs may drive the motor, or hold loaded springs; plugs of more cells spark",
     ),
     "wiring_capacitor": Basis(
         "a capacitor lies at the driver's supply; 0, or -1", "judgement: usual at a motor driver"
@@ -66,11 +66,13 @@ def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
         "every board is connected to the battery's minus" if not lacking else f"no ground at {', '.join(lacking)}",
         'give the board a pin with "ground"',
     )  # fmt: skip
-    missing = [role for role in CUT_OFF if role not in chosen.components]
+    needed_roles = CUT_OFF if chosen.battery.cells > 1 else ("plug",)
+    missing = [role for role in needed_roles if role not in chosen.components]
+    there = [role for role in CUT_OFF if role in chosen.components]
     yield _yes_or_no(
         "wiring_cut_off", not missing, "error",
         f"no {' and no '.join(missing)}: a motor that the program does not stop runs on" if missing
-        else "switch and plug cut off the battery",
+        else f"{' and '.join(there)} cut{'s' if len(there) == 1 else ''} off the battery",
         " and ".join(f"name one in bought.{role}" for role in missing or CUT_OFF),
     )  # fmt: skip
     yield _yes_or_no(

@@ -21,15 +21,17 @@ from jumpcad.bundle.guide import guide_values as module
 from jumpcad.bundle.guide import operation_values
 from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.bundle.guide.markdown import bill_text, duration, put_on, with_bill, write_guide
+from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.step_pictures import named_views
 from jumpcad.design import Design
 from jumpcad.files import template_names, templates_folder
 from jumpcad.files.rendering import environment, render
-from jumpcad.findings import limit
+from jumpcad.findings import errors, limit
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_steps import assembly_steps
+from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop
 from jumpcad.workshop.varied import varied
 
@@ -86,7 +88,7 @@ def test_every_robot_and_workshop_has_a_guide() -> None:
     for name in template_names("robots"):
         require_whole(built(name))
     for name in template_names("workshops"):
-        require_whole(built("best-printable", name))
+        require_whole(built("kenan-2.0", name))
     for kit in shop.catalogue.kits:
         require_whole(of_kit(kit))
     for robot in (geared(), built(LONG_TOES), built("kenan-2.0", leg="carbon-strip-3x6")):
@@ -343,3 +345,16 @@ def test_glued_bars_and_printed_pads_have_their_own_steps() -> None:
     pads = write_guide(build(design("kenan-2.0"), varied(load_workshop(), {"ground.pad": "tpu-2"}), "own"))
     assert "Glue them on with a thin coat of super glue" in pads
     assert Counter(re.findall(r"epoxy|TPU 95A|Press pads on", guide())) == {"Press pads on": 1}
+
+
+@pytest.mark.thorough
+def test_a_first_robot_has_springs_from_stock_and_no_switch() -> None:
+    """One spool of PLA, no limit violated, 0.5 m far; its guide names no switch but the sensor's."""
+    robot = build(design("kenan-2.0"), load_workshop("first-robot"), "first")
+    assert {part.material for part in robot.parts} == {"PLA"}
+    assert errors(limits_of(robot)) == []
+    assert (simulate(robot).ballistic_range_m or 0.0) > 0.5
+    text = write_guide(robot)
+    assert "it is the switch" in text
+    assert re.findall(r"[^.]*\bswitch (?:on|off)\b[^.]*", text, re.IGNORECASE) == []
+    assert text.count("torsion spring 9271K589") >= 2

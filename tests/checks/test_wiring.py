@@ -52,6 +52,8 @@ def test_what_is_left_out_is_missed() -> None:
     for role in ("switch", "plug"):
         finding = found(without(chosen, role))["wiring_cut_off"]
         assert (finding.severity, finding.remedy) == ("error", f"name one in bought.{role}")
+    found_alone = found(without(parts("light-1s"), "switch"))["wiring_cut_off"]
+    assert (found_alone.severity, found_alone.message) == ("info", "plug cuts off the battery")  # 4.2 V do not spark
     apart = board(chosen, "controller", diode_at=[])
     assert found(without(apart, "diode"))["wiring_diode"].severity == "info"
     fed = board(parts("light-1s"), "controller", supply_v={"VSYS": (1.8, 5.5)}, diode_at=["VSYS"])
