@@ -24,7 +24,7 @@ from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import Array, chained, pose_at
 from jumpcad.variation import variants
-from jumpcad.workshop import Workshop
+from jumpcad.workshop import Workshop, load_workshop, own_workshop
 
 try:
     import gymnasium
@@ -85,7 +85,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
     robot
         A template's name, a design or its file, or a robot.
     workshop
-        In which a design is built; the default without.
+        In which a design is built; without, a template's own or the default.
     start
         `loaded` (held by the cam), `standing` with relaxed springs, or `lying` in any attitude; `reset` also takes it,
         as `options={"start": "lying"}`.
@@ -239,7 +239,7 @@ def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot
         return one
     design = one if isinstance(one, Design) else load_design(one)
     name = "robot" if isinstance(one, Design) else Path(one).name.removesuffix(".toml")
-    return build(design, workshop, name)
+    return build(design, workshop or load_workshop(own_workshop(str(one))), name)
 
 
 if gymnasium is not None:

@@ -5,9 +5,11 @@ import re
 from pathlib import Path
 
 import pytest
+from support.built import built
 from typer.testing import CliRunner
 
 from jumpcad import checks
+from jumpcad.bundle.limits import limit_values, limits_of
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -31,6 +33,7 @@ def test_rows_and_the_limits_left_out_are_all_that_count(monkeypatch: pytest.Mon
     every = json.loads(CliRunner().invoke(app, ["check", "kenan-2.0", "--json"]).output)
     uses = {one["name"]: one["use"] for one in every["findings"]}
     assert held == every["limits"] == sum(use is None or use >= 0.1 for use in uses.values())
+    assert limit_values(limits_of(built("kenan-2.0")))["count"] == held  # as report.html says
     assert uses["supply_voltage_plug"] == pytest.approx(4.2 / 100.0)
 
 
