@@ -47,7 +47,7 @@ FIGURES = JUMP_FIGURES | {
     "winding_time_s": "time to wind",
     "cost_eur": "parts and filament, partly estimated, in euros",
     "jumps_per_charge": "jumps of a full battery",
-    "rights_itself": "share of attitudes from which winding puts it on its feet, at least; where it is required",
+    "rights_itself": "share of attitudes from which it rolls onto its feet (stable poses); where required",
     "body_mass_kg": "mass of the body",
     "main_leg_mass_kg": "mass of the main leg",
     "front_link_mass_kg": "mass of the front link",
@@ -90,7 +90,7 @@ class EvaluationResult:
 
     @cached_property
     def rights_itself(self) -> float:
-        """Share of attitudes from which the winding robot comes to stand on its feet, at least: its stable poses."""
+        """Share of attitudes from which the wound robot rolls onto its feet, by its stable poses."""
         from jumpcad.scene.stable_poses import share_on_feet
 
         return share_on_feet(self.robot)

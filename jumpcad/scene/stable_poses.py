@@ -1,4 +1,4 @@
-"""The poses in which a wound robot lies still, from the convex hull of all of it: a quick bound on righting itself."""
+"""The poses in which a wound robot lies still, from the convex hull of all of it: a quick look at righting itself."""
 
 import math
 
@@ -20,8 +20,8 @@ SHIFTS_M = ((0.0, 0.0, 0.003), (0.004, 0.0, 0.0), (-0.004, 0.0, 0.0), (0.0, 0.00
 def share_on_feet(robot: Robot) -> float:
     """Return the probability that the loaded robot, put down in any attitude, lies on its feet.
 
-    The quasi-static probabilities of Goldberg et al., Part pose statistics (1999): a lower bound of what a robot does
-    that is righted while it winds.
+    Quasi-static probabilities (Goldberg et al., Part pose statistics, 1999). With a cage the winding robot does as
+    well or better; without one it winds where it lies, and does worse.
     """
     return _share(*_loaded(robot))
 

@@ -1,4 +1,4 @@
-"""How a search's winner rights itself, simulated: where `rights_itself` is required, whose figure is a lower bound."""
+"""How a search's winner rights itself, simulated: where `rights_itself` is required, whose figure is an estimate."""
 
 from typing import Annotated
 
