@@ -349,11 +349,11 @@ def test_glued_bars_and_printed_pads_have_their_own_steps() -> None:
 
 @pytest.mark.thorough
 def test_a_first_robot_has_springs_from_stock_and_no_switch() -> None:
-    """One spool of PLA, no limit violated, 0.5 m far; its guide names no switch but the sensor's."""
-    robot = build(design("kenan-2.0"), load_workshop("first-robot"), "first")
+    """One spool of PLA, no limit violated, 0.9 m far; its guide names no switch but the sensor's."""
+    robot = build(design("first-robot"), load_workshop("first-robot"), "first-robot")
     assert {part.material for part in robot.parts} == {"PLA"}
     assert errors(limits_of(robot)) == []
-    assert (simulate(robot).ballistic_range_m or 0.0) > 0.5
+    assert (simulate(robot).ballistic_range_m or 0.0) > 0.9
     text = write_guide(robot)
     assert "it is the switch" in text
     assert re.findall(r"[^.]*\bswitch (?:on|off)\b[^.]*", text, re.IGNORECASE) == []
