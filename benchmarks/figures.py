@@ -27,7 +27,7 @@ from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
-from jumpcad.landing.landing import Landings, land, share_righted
+from jumpcad.landing.landing import distances_m, land, share_righted
 from jumpcad.landing.series import jumps
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
@@ -184,14 +184,9 @@ def _prototype(row: PublishedResult) -> dict[str, tuple[str, str]]:
 
 def _rests(name: str) -> str:
     """Return quantiles of the distance at which a robot rests after its jumps."""
-    low, middle, high = np.quantile([one.rest_m for one in landings(name).tries], (0.1, 0.5, 0.9))
+    found = distances_m(built(name)[0], LANDINGS, np.random.default_rng(0))
+    low, middle, high = np.quantile([rest for _, rest in found], (0.1, 0.5, 0.9))
     return f"{1000.0 * low:.0f}…{1000.0 * middle:.0f}…{mm(high)}"
-
-
-@cache
-def landings(name: str) -> Landings:
-    """Return landings of a template."""
-    return land(built(name)[0], LANDINGS)
 
 
 def _least_energy_share(row: PublishedResult) -> float:
@@ -268,7 +263,7 @@ def of_landings() -> dict[str, str]:
     rows = []
     for name in ROBOTS:
         robot, jump, _ = built(name)
-        found = landings(name)
+        found = land(robot, LANDINGS)
         rests = sorted(one.rest_m for one in found.tries)
         side, often = next(iter(found.rests_on.items()))
         rows.append(

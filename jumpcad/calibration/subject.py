@@ -20,7 +20,7 @@ from jumpcad.design import load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.landing.landing import travels_m
+from jumpcad.landing.landing import distances_m
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
@@ -91,7 +91,8 @@ class Subject:
         """Return the robot with the travel of simulated landings: normal, with their mean and deviation (MuJoCo)."""
         rng, found = np.random.default_rng(0), []
         for energy in LANDINGS:
-            found += travels_m(with_spring_factor(self.robot, energy), TRIES, rng)
+            jumps = distances_m(with_spring_factor(self.robot, energy), TRIES, rng)
+            found += [rest - touchdown for touchdown, rest in jumps]
         mean, deviation = 1000.0 * float(np.mean(found)), 1000.0 * float(np.std(found))
         return replace(self, travel=Prior("normal", mean, deviation, "simulated landings", 0.0))
 

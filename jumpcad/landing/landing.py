@@ -115,8 +115,8 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
     return Landings(found, righted, tuple(forces), landing_strength(robot, forces))
 
 
-def travels_m(robot: Robot, tries: int, rng: np.random.Generator) -> list[float]:
-    """Return how much farther than it touches down the robot comes to rest, in as many of its own jumps (m).
+def distances_m(robot: Robot, tries: int, rng: np.random.Generator) -> list[tuple[float, float]]:
+    """Return how far away the robot touches down and comes to rest, in as many of its own jumps (m).
 
     Raises
     ------
@@ -124,8 +124,7 @@ def travels_m(robot: Robot, tries: int, rng: np.random.Generator) -> list[float]
         If the robot does not leave the floor, or MuJoCo is not installed.
     """
     arena = Arena(robot)
-    found = (_fly_and_rest(arena, rng) for _ in range(tries))
-    return [rest - touchdown for touchdown, rest in found]
+    return [_fly_and_rest(arena, rng) for _ in range(tries)]
 
 
 def share_righted(robot: Robot, drops: int, rng: np.random.Generator, settings: Settings | None = None) -> float:
