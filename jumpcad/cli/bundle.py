@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 EXPORTS = Path("exports")
 PICTURES = "pictures"
 GIF = "jump.gif"
-WIDE = 140
-"""Width of a table that is not printed on a terminal (characters)."""
 LABEL = 15
 """Width of the words before the lines below it."""
 
@@ -56,6 +54,7 @@ def build(
     step: Annotated[bool, typer.Option("--step", help="Write STEP files of the parts too.")] = False,
     ros2: Annotated[bool, typer.Option("--ros2", help="Write a ROS 2 description package too.")] = False,
     anyway: Annotated[bool, typer.Option("--anyway", help="Write the files of a robot that does not jump.")] = False,
+    parts: Annotated[bool, typer.Option("--parts", help="List all parts with their masses.")] = False,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -93,7 +92,7 @@ def build(
     if as_json:
         print_json(facts)
     else:
-        _print_facts(facts)
+        _print_facts(facts, parts)
 
 
 def render(
@@ -231,16 +230,23 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
     }
 
 
-def _print_facts(facts: dict[str, Any]) -> None:
-    masses = table("part", ">quantity", "material", ">g each", ">g", "mass from")
-    for line in facts["masses"]:
-        grams = 1000.0 * line["mass_kg"]
-        row = (line["quantity"], line["material"], f"{grams:.2f}", f"{line['quantity'] * grams:.2f}", line["source"])
-        masses.add_row(line["name"], *map(str, row))
-    masses.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
+def _print_facts(facts: dict[str, Any], parts: bool) -> None:
     screen = console()
-    console(width=screen.width if screen.is_terminal else WIDE).print(masses)
-    print()
+    if parts:
+        masses = table("part", ">quantity", "material", ">g each", ">g", "mass from")
+        for line in facts["masses"]:
+            grams = 1000.0 * line["mass_kg"]
+            row = (
+                line["quantity"],
+                line["material"],
+                f"{grams:.2f}",
+                f"{line['quantity'] * grams:.2f}",
+                line["source"],
+            )
+            masses.add_row(line["name"], *map(str, row))
+        masses.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
+        screen.print(masses)
+        print()
     text = text_of(
         "build",
         **facts,
@@ -249,10 +255,10 @@ def _print_facts(facts: dict[str, Any]) -> None:
         pictured=any(path.startswith(f"{PICTURES}/") for path in facts["files"]),
     )
     for line in text.splitlines():
-        print(_wrapped(line, screen.width) if screen.is_terminal else line)
+        print(_wrapped(line, screen.width))
 
 
 def _wrapped(line: str, width: int) -> str:
-    """Return a line for a terminal: what it is too narrow for stands below the text."""
+    """Return a line as wide as a terminal, 80 characters elsewhere: what is left stands below the text."""
     indent, width = " " * LABEL, max(width, 2 * LABEL)
     return textwrap.fill(line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
