@@ -88,8 +88,11 @@ def _search_documents(folder: str) -> dict[str, Any]:
     study = ("--study", f"{folder}/s.db")
     found = _json("optimize", "ga", *small, "--evaluations", "24", "--seed", "0", *study, "-o", f"{folder}/w.toml")
     found["active_bounds"] = [asdict(ActiveBound("c_coef", "lower", 0.8, 0.78, -0.1))]  # this search ends on none
+    several = ("--study", f"{folder}/t.db", "-o", f"{folder}/t.toml")
+    seeds = _json("optimize", "ga", *small, "--evaluations", "24", "--seeds", "0:2", *several)
     documents = {
         "jumpcad optimize --json": found,
+        "jumpcad optimize --seeds 0:2 --json": {"seeds": seeds["seeds"]},
         "jumpcad study F.db --json": _json("study", f"{folder}/s.db"),
         "jumpcad study F.db G.db --json": _json("study", f"{folder}/s.db", f"{folder}/s.db"),
     }

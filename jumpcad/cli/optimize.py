@@ -1,5 +1,6 @@
 """`jumpcad optimize`: search for the best printable robot."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -8,6 +9,7 @@ import typer
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, shell_quoted, status
 from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_search_options
+from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
 from jumpcad.errors import without_controls
 from jumpcad.plural import counted
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from jumpcad.findings import Finding
     from jumpcad.search.models import RobotModel
     from jumpcad.search.study.evaluator import Watch
+    from jumpcad.search.study.request import Request
     from jumpcad.search.study.result import Result
     from jumpcad.search.study.trial import Trial
 
@@ -23,8 +26,11 @@ _MEANINGS = "; ".join(f"{name}: {method.meaning}" for name, method in METHODS.it
 _SEQUENCES = "; ".join(f"{name}: {first}, then {second} on its results" for name, (first, second) in SEQUENCES.items())
 
 MethodArgument = Annotated[
-    str | None,
-    typer.Argument(help=f"{_MEANINGS}; {_SEQUENCES}. Without one: {DEFAULT}.", metavar=f"[{'|'.join(NAMES)}]"),
+    list[str] | None,
+    typer.Argument(
+        help=f"{_MEANINGS}; {_SEQUENCES}. Without one: {DEFAULT}. Several with --seeds.",
+        metavar=f"[{'|'.join(NAMES)}]…",
+    ),
 ]
 EvaluationsOption = Annotated[int, typer.Option(help="Most designs to evaluate, those of the robust pick included.")]
 AroundOption = Annotated[
@@ -74,9 +80,11 @@ OutputOption = Annotated[
 @with_search_options
 def optimize(
     *,
-    method: MethodArgument = None,
+    context: typer.Context,
+    methods: MethodArgument = None,
     evaluations: EvaluationsOption = EVALUATIONS,
     options: SearchOptions,
+    seeds: SeedsOption = None,
     around: AroundOption = None,
     only: OnlyOption = None,
     within: WithinOption = None,
@@ -97,6 +105,8 @@ def optimize(
 
     Every evaluation is kept in the study file; the same command continues
     after an interruption. The exit code is 1 if every design is rejected.
+    --seeds runs a search for each seed, of one method or of several that
+    are compared; the design is the most robust winner of all.
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
@@ -111,15 +121,24 @@ def optimize(
     robot = options.robot_model().requiring(require or ())
     changes = (options.fix or (), options.bound or (), options.choose or ())
     space = Space.parse(*changes, centre, names, within, robot.workshop)
-    request = Request.make(
-        space, robot, method, options.objective,
-        evaluations=evaluations, seed=options.seed, preset=preset, batch=batch, prior=from_study,
-        until_percent=until, hours=hours, screen=screen, against=against,
-    )  # fmt: skip
-    path = options.study or Path(request.default_name())
-    require_study(path)
-    design_file = output or path.with_suffix(".toml")
-    outputs = {"the study": path, "the design file": design_file, "--plots": plots}
+    source = context.get_parameter_source("seed")
+    asked = seeds_of(seeds, methods or (), source is not None and source.name == "COMMANDLINE")
+    requests = [
+        Request.make(
+            space, robot, method, options.objective,
+            evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=from_study,
+            until_percent=until, hours=hours, screen=screen, against=against,
+        )
+        for method in methods or (None,)
+        for seed in asked or (options.seed,)
+    ]  # fmt: skip
+    base = options.study or Path(requests[0].default_name())
+    paths = [base] if asked is None else study_files(requests, options.study)
+    for path in paths:
+        require_study(path)
+    design_file = output or base.with_suffix(".toml")
+    studies = {f"the study{f' {number}' if asked else ''}": path for number, path in enumerate(paths, 1)}
+    outputs = {**studies, "the design file": design_file, "--plots": plots}
     if space.of_workshop:
         outputs["the workshop file"] = workshop_file(design_file)
         require_target(workshop_file(design_file), (".toml",), force)
@@ -129,25 +148,31 @@ def optimize(
     )
     require_target(design_file, (".toml",), force)
     require_plots(plots, force)
-    where = f"{request.method} on the {options.model} robot"
-    heading = f"study {without_controls(str(path))}: {where}, free parameters: {space.dimension}"
-    pick = f", {request.pick} for the robust pick" if request.pick else ""
-    heading += f"\nevaluations: {request.searched} for the search{pick}"
-    with options.pool() as pool, watching(evaluations, as_json) as watch:
-        result = run_study(request, path, pool, watch if as_json else _headed(heading, watch))
+    results = []
+    with options.pool() as pool:
+        for request, path in zip(requests, paths, strict=True):
+            with watching(evaluations, as_json) as watch:
+                headed = watch if as_json else _headed(_heading(request, path), watch)
+                results.append(run_study(request, path, pool, headed))
+    chosen = most_robust(results)
+    result, path, facts = results[chosen], paths[chosen], seeds_facts(results, paths) if asked else None
     if result.winner is not None:
         result.save(design_file, force)
-    pictures = _plot(path, plots)
+    pictures = _plot(path, plots, results if asked else [])
     violated = _violated(result, robot)
     if as_json:
         written = None if result.winner is None else str(design_file)
         data: dict[str, Any] = {"study": str(path), "pictures": pictures, "design_file": written}
         if space.of_workshop:
             data["workshop_file"] = None if result.winner is None else str(workshop_file(design_file))
+        if facts:
+            data["seeds"] = facts
         data["violated"] = [finding.to_dict() for finding in violated]
         print_json(data | result.to_dict())
     else:
         of_winner = result.winner is not None and result.winner.workshop
+        if facts:
+            print_seeds(facts, chosen, result.request.objective)
         used = str(workshop_file(design_file)) if of_winner else options.workshop
         made = shell_quoted(str(design_file)) + (f" --workshop {shell_quoted(used)}" if used else "")
         print_text(
@@ -170,6 +195,14 @@ def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
         return errors(costly_findings(build(result.design, robot.varied(result.winner.workshop).workshop)))
 
 
+def _heading(request: "Request", path: Path) -> str:
+    """Return what is printed before a search."""
+    name = request.model.describe()["name"]
+    free, pick = request.space.dimension, f", {request.pick} for the robust pick" if request.pick else ""
+    study = f"study {without_controls(str(path))}: {request.method} on the {name} robot, free parameters: {free}"
+    return f"{study}\nevaluations: {request.searched} for the search{pick}"
+
+
 def _headed(heading: str, watch: "Watch") -> "Watch":
     """Return a watch that prints the heading before the first trial, when the study has been opened without error."""
     waiting = [heading]
@@ -182,11 +215,16 @@ def _headed(heading: str, watch: "Watch") -> "Watch":
     return headed
 
 
-def _plot(path: Path, folder: Path | None) -> list[str]:
+def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[Result]") -> list[str]:
     if folder is None:
         return []
+    from jumpcad.search.report.figures import save_figure
+    from jumpcad.search.report.seed_plots import best_so_far
     from jumpcad.search.report.study_plots import plot_study
     from jumpcad.search.study.store import StudyStore
 
     with StudyStore.read(path) as store:
-        return [str(picture) for picture in plot_study(store, folder)]
+        pictures = plot_study(store, folder)
+    if of_seeds:
+        pictures.append(save_figure(best_so_far(of_seeds), folder, "seeds"))
+    return [str(picture) for picture in pictures]

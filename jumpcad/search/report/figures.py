@@ -16,7 +16,7 @@ from jumpcad.files.outputs import sealed, sealed_png, write_files
 from jumpcad.files.templates import templates_folder
 
 PICTURES = (
-    "history", "slices", "parallel", "pareto", "acquisition-first", "acquisition",
+    "history", "slices", "parallel", "pareto", "acquisition-first", "acquisition", "seeds",
     "sweeps", "pca", "importance", "feasibility",
 )  # fmt: skip
 """Names of the pictures of a study, then of those of the design space."""

@@ -1,0 +1,113 @@
+"""`jumpcad optimize --seeds`: the same search with many seeds, and methods against each other."""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from statistics import median
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jumpcad.cli.output import console, table
+from jumpcad.errors import JumpcadError, without_controls
+from jumpcad.search.phases import FRONTS
+
+if TYPE_CHECKING:
+    from jumpcad.search.study.request import Request
+    from jumpcad.search.study.result import Result
+
+SeedsOption = Annotated[
+    str | None,
+    typer.Option(help="A search with each of these seeds: 0:10 for 0 to 9. Methods are compared.", metavar="FIRST:END"),
+]
+MOST_SEEDS = 1000
+
+
+def seeds_of(text: str | None, methods: Sequence[str], seed_given: bool) -> range | None:
+    """Return the seeds that are asked for; None for one search.
+
+    Raises
+    ------
+    JumpcadError
+        If they are no range of seeds, or do not go together with `--seed` or the methods.
+    """
+    if text is None:
+        if len(methods) > 1:
+            raise JumpcadError(f"{' '.join(methods)}: methods are compared by several searches; add --seeds 0:5")
+        return None
+    if seed_given:
+        raise JumpcadError(f"seeds = {text} and --seed exclude each other: leave out one")
+    found = re.fullmatch(r"(\d{1,10}):(\d{1,10})", text, re.ASCII)
+    seeds = range(*map(int, found.groups())) if found else range(0)
+    if not 0 < len(seeds) <= MOST_SEEDS or seeds[-1] >= 2**32:
+        raise JumpcadError(f"seeds = {text!r} must be FIRST:END, 1 to {MOST_SEEDS} seeds: 0:10 for seeds 0 to 9")
+    for method in methods:
+        if methods.count(method) > 1 or method in FRONTS:
+            raise JumpcadError(f"{method}: --seeds takes each method once, and no front, as that has no best score")
+    return seeds
+
+
+def study_files(requests: Sequence["Request"], study: Path | None) -> list[Path]:
+    """Return a study file for each search: the usual name, or that of `study` with the method if there are several."""
+    several, files = len({one.method for one in requests}) > 1, []
+    for one in requests:
+        base = study or Path(replace(one, seed=0).default_name())
+        method = f"-{one.method.replace('+', '-')}" if study and several else ""
+        files.append(base.with_stem(f"{base.stem}{method}-seed{one.seed}"))
+    return files
+
+
+def most_robust(results: Sequence["Result"]) -> int:
+    """Return which search has the best winner: of those whose neighbours were tried, by what these reach."""
+
+    def merit(one: "Result") -> tuple[bool, bool, float]:
+        if one.winner is None or not one.candidates:
+            return False, one.winner is not None, one.score if one.winner else 0.0
+        return True, not one.candidates[0].fails, one.candidates[0].robust_score
+
+    return max(range(len(results)), key=lambda index: merit(results[index]))
+
+
+def seeds_facts(results: Sequence["Result"], paths: Sequence[Path]) -> dict[str, Any]:
+    """Return plain data for JSON: the figures of each search, and of each method.
+
+    A search without a jump is the worst: a median or a least score that falls on it is not finite.
+    """
+    searches: list[dict[str, Any]] = []
+    scores: dict[str, list[float]] = {}
+    for one, path in zip(results, paths, strict=True):
+        best, winner, request = one.best, one.winner, one.request
+        scores.setdefault(request.method, []).append(-math.inf if best is None or best.score is None else best.score)
+        searches.append({
+            "method": request.method, "seed": request.seed, "searched": len(one.trials),
+            "best": best and best.score, "winner": winner and winner.score,
+            "robust_score": one.candidates[0].robust_score if one.candidates else None, "study": str(path),
+        })  # fmt: skip
+    methods = [
+        {"method": method, "searches": len(found), "median": median(found), "best": max(found), "least": min(found),
+         "spread": max(found) - min(found)}
+        for method, found in scores.items()
+    ]  # fmt: skip
+    return {"searches": searches, "methods": methods}
+
+
+def print_seeds(facts: Mapping[str, Any], chosen: int, objective: str) -> None:
+    """Print a table of all searches, one of the methods, and whose winner is the best."""
+    each = table("method", ">seed", ">designs", ">best", ">winner", ">neighbours", "study", wraps="study")
+    whole = table("method", ">searches", ">median", ">best", ">least", ">spread")
+    for shown, rows in ((each, facts["searches"]), (whole, facts["methods"])):
+        for row in rows:
+            shown.add_row(*map(_cell, row.values()))
+    print(f"\n{objective}: best of each search, its winner, what nine of ten of the winner's neighbours reach")
+    console().print(each, "", whole, sep="\n")
+    best = facts["searches"][chosen]
+    if best["winner"] is not None:
+        print(f"\nthe most robust winner is that of {best['method']} with seed {best['seed']}:")
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.4f}" if math.isfinite(value) else "none"
+    return "none" if value is None else without_controls(str(value))
