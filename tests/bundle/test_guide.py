@@ -60,6 +60,8 @@ def require_whole(robot: Robot) -> None:
     for text in (write_guide(robot), dict(firmware_files(robot))["firmware/README.md"]):
         assert not re.search(r"\{[{%]|\bNone\b(?! fits)|\bnan\b|  \n", text), robot.name
     steps = re.split(r"(?m)^## ", write_guide(robot))
+    bill, wiring = steps[2], next(step for step in steps if step.startswith("Wiring"))
+    assert set(re.findall(r"(?m)\| (\w+)(?: \d+)? \|$", wiring)) <= set(re.findall(r"AWG \d+, (\w+)", bill)), robot.name
     numbered = [step for step in steps if re.match(r"\d+\. ", step)]
     assert len(numbered) == len(assembly_steps(robot))
     assert [step.splitlines()[0] for step in numbered if "\n- ☐ " not in step] == []

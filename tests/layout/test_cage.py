@@ -1,6 +1,7 @@
 """The cage: arcs by the rule of the chord, free of what moves, in every file alike."""
 
 import math
+import re
 import xml.etree.ElementTree as ET
 
 import numpy as np
@@ -10,6 +11,7 @@ from support.built import built
 import jumpcad
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.facts import cage_facts
+from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.mjcf_robot import write_robot
@@ -123,11 +125,31 @@ def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
         assert f"{arc.name.removeprefix('cage_').replace('_', ' ')} {arc.length_mm:.0f} mm" in guide
     assert sum(thing.name.startswith("cage_") for thing in steps["cage"].added) == 2 + len(cage.arcs) + 4
     assert "rest" not in steps
+    count, metres = map(int, re.search(r"from (\d) rods of (\d) m", guide).groups())  # type: ignore[union-attr]
+    short, middle, _ = lengths = sorted(arc.length_mm for arc in cage.arcs)
+    assert metres == 1
+    assert count == (1 if sum(lengths) < 996.0 else 2 if short + middle < 998.0 else 3)  # a cut loses 2 mm
+
+
+def test_a_caged_robot_is_laid_on_a_box_that_lifts_its_hoops_off_the_table(robot: Robot) -> None:
+    cage, texts = robot.layout.cage, (write_guide(robot), dict(firmware_files(robot))["firmware/README.md"])
+    assert cage is not None
+    rear, front = (bar.place_mm[0] for bar in cage.bars)
+    for text in texts:
+        assert "on its side" not in text
+        length, height = map(float, re.search(r"at most (\d+) mm long, at least (\d+) mm high", text).groups())  # type: ignore[union-attr]
+        assert length < front - rear
+        assert height > robot.layout.lateral.outside[0] - min(arc.points_mm[:, 1].min() for arc in cage.arcs)
+
+
+def test_bill_facts_and_steps_of_a_robot_without_a_cage_have_none(robot: Robot) -> None:
     bare = jumpcad.build(FLAT)
     assert "cage" not in {step.key for step in assembly_steps(bare)}
     assert cage_facts(bare) is None
     facts = cage_facts(robot)
     assert facts is not None
+    cage = robot.layout.cage
+    assert cage is not None
     assert [rod["length_mm"] for rod in facts["rods"]] == [pytest.approx(arc.length_mm, abs=0.05) for arc in cage.arcs]
     added = robot.mass_kg - bare.mass_kg
     assert 0.6 * added < facts["mass_kg"] < added  # the rest are horns

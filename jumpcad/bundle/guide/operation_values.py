@@ -26,6 +26,8 @@ METER_OHM, METER = 10e6, 0.01
 """Input resistance and error of a usual multimeter; judgement."""
 CONVERTER_V = 0.035
 """Largest error of the ESP32-C3's calibrated converter over its range up to 2.5 V; its data sheet, from memory."""
+BOX_FREE_MM = 8.0
+"""Between a box on which a robot lies and its cage, and from the hoops down to the table; judgement."""
 
 
 @carried
@@ -85,8 +87,20 @@ def operation_values(robot: Robot) -> dict[str, Any]:
         "lift_deg": math.degrees(cam.law.lift_rad),
         "pull_n": 2.0 * robot.layout.drive.spring.torque_nmm / robot.design.carrying_link_mm,
         "shaft_hole_mm": train.motor.shaft_mm + 2.0 * workshop.fits.loose_mm,
+        "box_mm": _box_mm(robot),
         "preloaded": robot.layout.stop_preload_rad > 0.0,
     }
+
+
+def _box_mm(robot: Robot) -> tuple[float, float] | None:
+    """Return the most length and the least height of a box on which a plate lies between hoops; None without a cage."""
+    cage = robot.layout.cage
+    if cage is None:
+        return None
+    (rear, front), (low, high) = cage.bars, robot.layout.lateral.outside
+    between = float(front.place_mm[0] - rear.place_mm[0]) - 2.0 * BOX_FREE_MM
+    beside = max(arc.radius_mm for arc in cage.arcs) - (high - low) / 2.0 + BOX_FREE_MM
+    return 10.0 * math.floor(between / 10.0), 10.0 * math.ceil(beside / 10.0)
 
 
 def pin_share(wiring: Wiring) -> tuple[float, float]:

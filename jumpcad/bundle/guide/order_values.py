@@ -33,8 +33,8 @@ EYES_OFF_MM = 0.2
 """By which the eyes of a glued leg may be off; judgement: a caliper and two rods."""
 STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
-CAGE_SPARE_MM = 300.0
-"""Of rod to order beyond what the cage needs: a hoop that splinters; judgement."""
+CAGE_ROD_M = 1.0
+"""Length in which shops sell rods for cages, or a multiple of it; judgement."""
 STRAP_OVERLAP_MM = 20.0
 """Of a strap, hook on loop; judgement."""
 STEEL_FROM_G_CM3 = 7.0
@@ -79,16 +79,30 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
 
 
 def _cage(robot: Robot) -> dict[str, Any] | None:
-    """Return the cage's rod, the lengths to cut by hoop or bow (mm), and what holds them; None without a cage."""
+    """Return the cage's rod, the lengths to cut by hoop or bow and those of bars (mm), and how many rods give them.
+
+    None without a cage.
+    """
     cage = robot.layout.cage
     if cage is None:
         return None
     cut = {arc.name.removeprefix("cage_").replace("_", " "): round(arc.length_mm) for arc in cage.arcs}
+    rod_m = CAGE_ROD_M * math.ceil(max(cut.values()) / 1000.0 / CAGE_ROD_M)
+    left: list[float] = []  # of each rod, the longest pieces cut first (mm)
+    for length in sorted(cut.values(), reverse=True):
+        index = next((at for at, rest in enumerate(left) if rest >= length), len(left))
+        left[index:index] = [1000.0 * rod_m] * (index == len(left))
+        left[index] -= length + SAW_MM
     return {
         "rod": cage.rod,
         "cut": cut,
-        "long_mm": sum(cut.values()) + CAGE_SPARE_MM,
-        "across_mm": {bar.name.removeprefix("cage_bar_"): 2.0 * bar.half_mm for bar in cage.bars},
+        "rods": len(left),
+        "rod_m": rod_m,
+        "bar_mm": {
+            part.name.removeprefix("cage_bar_"): float(np.ptp(part.drawing.shape.bounds_mm[:, 0]))
+            for part in robot.parts
+            if part.name.startswith("cage_bar_")
+        },
         "bow": any(bar.post_mm for bar in cage.bars),
         "socket_mm": SOCKET_MM,
         "push_n": cage.rod.bending_nmm2 / min(arc.radius_mm for arc in cage.arcs) ** 2,
