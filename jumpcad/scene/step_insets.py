@@ -40,5 +40,6 @@ INSETS = (
     Inset("cam", "dog", "Dog: jaws of the cam, pockets of the gear", "cam|cam_gear|cam_axle", "cam|cam_gear",
           View(24.0, 20.0)),
     Inset("cage", "bar", "Front bar: notches over the horns, ties, sockets with the hoop's ends",
-          "cage_bar_front|cage_hoop_front|cage_tie_[34]|body_plate_.*", "cage_bar_front|cage_tie_[34]", View(62.0, 28.0)),
+          "cage_bar_front|cage_hoop_front|cage_tie_[34]|body_plate_.*", "cage_bar_front|cage_tie_[34]",
+          View(62.0, 28.0)),
 )  # fmt: skip
