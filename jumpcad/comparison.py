@@ -40,7 +40,7 @@ FIGURES = {
     "spring_energy_j": ("spring energy", "mJ", 1000.0, 0),
     "electrical_energy_j": ("energy of a jump", "J", 1.0, 2),
     "winding_time_s": ("winding", "s", 1.0, 1),
-    "metres_per_charge": ("metres per charge", "m", 1.0, 0),
+    "metres_per_charge": ("metres per charge, ten jumps in a row", "m", 1.0, 0),
     "cost_eur": ("cost, as far as known", "€", 1.0, 2),
 }
 """Label, unit, factor from SI and digits of each figure that is compared."""
@@ -98,8 +98,16 @@ class Comparison:
 
     @cached_property
     def differs(self) -> dict[str, list[Any]]:
-        """What differs in designs and workshops: a value of each robot by name, None where it has no such value."""
-        names = dict.fromkeys(name for one in self.robots for name in one.values)
+        """What differs in designs and workshops: a value of each robot by name, None where it has no such value.
+
+        Sources of values are left out, and materials that not all robots have: their roles differ.
+        """
+        every = set.intersection(*(set(one.values) for one in self.robots))
+        names = [
+            name
+            for name in dict.fromkeys(name for one in self.robots for name in one.values)
+            if not name.endswith(".source") and (name in every or not name.startswith("materials."))
+        ]
         values = {name: [one.values.get(name) for one in self.robots] for name in names}
         return {name: found for name, found in values.items() if any(value != found[0] for value in found)}
 
