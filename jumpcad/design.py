@@ -17,7 +17,7 @@ from pydantic import Field
 from jumpcad.arguments import check_arguments
 from jumpcad.dimensions import unit_of_key
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.files import Record, find_template, to_toml
+from jumpcad.files import Record, find_template, read_toml, to_toml
 from jumpcad.files.complaints import described
 
 
@@ -198,4 +198,10 @@ def load_design(name_or_path: str | Path) -> Design:
     JumpcadError
         If there is no such file, or a key is missing, unknown or out of range.
     """
-    return Design.from_toml(find_template("robots", name_or_path))
+    path = find_template("robots", name_or_path)
+    if (data := read_toml(path)[0]) and not data.keys() & Design.model_fields.keys():
+        raise JumpcadError(
+            f"{path}: is no design, for it has none of its keys, {', '.join(Design.model_fields)}: a workshop is given "
+            "with --workshop, and a robot of bodies to jumpcad simulate alone"
+        )
+    return Design.from_toml(path)

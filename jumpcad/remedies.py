@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from jumpcad.checks import CHECKS, Check
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
@@ -27,6 +28,7 @@ class Remedies:
     def __init__(self, design: Design, workshop: Workshop) -> None:
         self._design, self._workshop, self._left = design, workshop, TRIES
         self._tried: dict[tuple[str, float], frozenset[str]] = {}
+        self._costly: tuple[Check, ...] = ()
 
     def of_findings(self, findings: Iterable[Finding]) -> list[Finding]:
         """Return findings; the remedies of violated limits have a number where one is found.
@@ -35,6 +37,7 @@ class Remedies:
         """
         findings = list(findings)
         wrong = frozenset(one.name for one in findings if one.severity != "info")
+        self._costly = tuple(one for one in CHECKS if not one.cheap and wrong & one.basis.keys())
         cured: dict[str, str] = {}
         numbered = []
         for one in findings:
@@ -104,7 +107,8 @@ class Remedies:
             result = evaluate(design, workshop)
         except JumpcadError:
             return frozenset([FAILS])
-        return frozenset(one.name for one in result.findings if one.severity != "info")
+        found = [*result.findings, *(one for check in self._costly for one in check.find(result.robot))]
+        return frozenset(one.name for one in found if one.severity != "info")
 
 
 def asked(remedy: str) -> Iterator[tuple[str, int]]:

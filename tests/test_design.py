@@ -154,3 +154,12 @@ def test_designs_are_values() -> None:
     assert hash(design) == hash(Design.from_vector(KENAN_2))
     with pytest.raises(JumpcadError, match=r"^Design\.\w+ cannot be changed: make a copy that differs, [^\n]+$"):
         design.c_coef = 2.0  # type: ignore[misc]
+
+
+def test_files_of_another_kind_are_named_in_one_clause(tmp_path: Path) -> None:
+    file = tmp_path / "x.toml"
+    for text in ('base = "default"\n[cage]\nrod = "glass-1.5"\n', "[bodies.foot]\nmass_g = 2.0\n", "[design]\n"):
+        file.write_text(text, encoding="utf-8")
+        with pytest.raises(JumpcadError, match=r"x\.toml: is no design") as told:
+            load_design(file)
+        assert "missing" not in str(told.value), text

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from jumpcad.checks.cage import ELSEWHERE
 from jumpcad.checks.interference import Piece, may_share, shared_volume_mm3
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.poses import body_poses
@@ -96,6 +97,8 @@ def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]
         remedy = "raise carrying_link_mm or d_coef (a longer body), or choose another bought.retention"
         if one.name.startswith(OF_FOOT):
             remedy = "lower ground_link_angle_deg (toes that point more ahead)"
+        elif "cage_" in (one.name[:5], one.by[:5]):
+            remedy = ELSEWHERE
         margin = TOLERANCE_MM2 - one.share_mm2
         yield Finding(name, "error", margin, "mm²", message, remedy, value=one.share_mm2, limit=TOLERANCE_MM2)
     if not blocked:

@@ -58,6 +58,7 @@ BASIS = {
         "Goldberg et al., Part pose statistics (1999); limit: judgement",
     ),
 }
+ELSEWHERE = "change cage.front_ahead_mm, cage.rear_behind_mm or the radii, or leave them 0"
 SOFTER = "another cage.rod, or a larger cage.rear_radius_mm or cage.front_radius_mm"
 CROUCH = "raise compression_ratio, so that it crouches lower, or change cage.rear_radius_mm and cage.front_radius_mm"
 
@@ -111,7 +112,7 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
         "cage_clear", min(free, above), FREE_MM, "mm",
         f"the cage stays {free:.1f} mm from what moves, and {above:.1f} mm above the ground, springs loaded; "
         f"{FREE_MM:g} mm are needed",
-        "change cage.front_ahead_mm, cage.rear_behind_mm or the radii, or leave them 0",
+        ELSEWHERE,
     )  # fmt: skip
 
 

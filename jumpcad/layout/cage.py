@@ -124,10 +124,11 @@ class CageArc(ByValue):
 class Cage(ByValue):
     """Both bars, the rear one first, and the arcs: two hoops, and the bow if there is one.
 
-    `socket_mm` is the outside of the sockets, which with the bars lie on one bed.
+    `bar_mm` is the height of the bars, and `socket_mm` the outside of the sockets, which lie on one bed.
     """
 
     rod: CageRod
+    bar_mm: float
     socket_mm: float
     bars: tuple[CageBar, CageBar]
     arcs: tuple[CageArc, ...]
@@ -177,7 +178,7 @@ def with_cage(layout: Layout, workshop: Workshop) -> Layout:
     if table.bow:
         rear, front, bow = _bow(rear, front, lean, level)
         arcs.append(bow)
-    return replace(layout, cage=Cage(rod, socket, (rear, front), tuple(arcs)))
+    return replace(layout, cage=Cage(rod, table.bar_mm, socket, (rear, front), tuple(arcs)))
 
 
 def plate_ends_mm(layout: Layout) -> tuple[float, float]:

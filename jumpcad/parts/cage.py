@@ -49,14 +49,14 @@ def cage_bars(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
     if cage is None:
         return
     for bar in cage.bars:
-        shape = holes.chamfered(_bar(cage, bar, layout, workshop, holes))
+        shape = holes.chamfered(_bar(cage, bar, layout, holes))
         pose = chained(bar.T_body_bar, pose_at(np.eye(3), (0.0, 0.0, -BAR_MM / 2.0)))
         yield Drawing(bar.name, "links", shape, (Placement(BODY, pose),))
 
 
-def _bar(cage: Cage, bar: CageBar, layout: Layout, workshop: Workshop, holes: HoleSizes) -> Stack:
+def _bar(cage: Cage, bar: CageBar, layout: Layout, holes: HoleSizes) -> Stack:
     """Return a bar in printing orientation: its frame is that of the bar, on the bed."""
-    height, width = workshop.cage.bar_mm, cage.socket_mm
+    height, width = cage.bar_mm, cage.socket_mm
     bore = cage.rod.diameter_mm + 2.0 * holes.fits.lying_mm
     whole = [stadium((-bar.half_mm, 0.0), (bar.half_mm, 0.0), height)]
     sockets, bores = [], []
@@ -119,7 +119,7 @@ def cage_hardware(layout: Layout) -> Iterator[BoughtPart]:
         yield _rod(cage, arc)
     plates = (layout.lateral.left_plate, layout.lateral.right_plate)
     for number, (bar, (low, high)) in enumerate(itertools.product(cage.bars, plates), start=1):
-        yield _tie(f"cage_tie_{number}", bar, (low + high) / 2.0, high - low)
+        yield _tie(f"cage_tie_{number}", bar, max(cage.bar_mm, LAP_HEIGHT_MM) / 2.0, (low + high) / 2.0, high - low)
 
 
 def _rod(cage: Cage, arc: CageArc) -> BoughtPart:
@@ -138,9 +138,9 @@ def _rod(cage: Cage, arc: CageArc) -> BoughtPart:
     return part.seen_as(DrawnWire(arc.points_mm, rod.diameter_mm))
 
 
-def _tie(name: str, bar: CageBar, y_mm: float, plate_mm: float) -> BoughtPart:
+def _tie(name: str, bar: CageBar, top: float, y_mm: float, plate_mm: float) -> BoughtPart:
     """Return the tie around a crossing: through the horn's slot, up before the bar, over it and down behind."""
-    top, thick = LAP_HEIGHT_MM / 2.0, TIE_MM[1]
+    thick = TIE_MM[1]
     shape = Stack.of([(-BAR_MM / 2.0, BAR_MM / 2.0, rectangle((plate_mm, thick), (0.0, top + thick / 2.0)))])
     pose = chained(bar.T_body_bar, pose_at(np.eye(3), (y_mm - bar.T_body_bar[1, 3], 0.0, 0.0)))
     mass = shape.mass_properties(1.0).scaled_to(TIE_LEFT * TIE_G / 1000.0).placed(in_metres(pose))

@@ -152,7 +152,7 @@ class CageTable(TomlTable):
     front_ahead_mm: Annotated[float, Field(ge=0, le=100)]
     rear_radius_mm: Annotated[float, Field(ge=0, le=250)]
     front_radius_mm: Annotated[float, Field(ge=0, le=250)]
-    bar_mm: Annotated[float, Field(ge=4, le=20)]
+    bar_mm: Annotated[float, Field(ge=4, le=10)]
 
 
 class Seats(TomlTable):
