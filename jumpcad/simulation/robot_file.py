@@ -47,6 +47,9 @@ HEIGHTS_M = 0.01, 50.0
 GYRATION_SHARE = 1e-3, 1.0
 """Radius of gyration of a body over the length of the robot's largest link: outside, a unit is wrong."""
 
+TAKEN = {"world", "root x", "root z", "root pitch"}
+"""Names of a chain's model in MuJoCo."""
+
 Millimetres = Annotated[float, Field(ge=-1000, le=1000)]
 Point = Annotated[tuple[Millimetres, Millimetres], Field(strict=False)]
 Radius = Annotated[float, Field(ge=0.01, le=100)]
@@ -200,6 +203,10 @@ class RobotFile(Record):
                 reason = "must hang a new body on one that stands before it in the list; [[loops]] close loops"
                 yield ("joints", "child"), joint.child, reason
             known.add(joint.child)
+            low, high = joint.range_deg or (-math.inf, math.inf)
+            if not (low < high and low <= (low if joint.loaded_deg is None else joint.loaded_deg) <= high):
+                reason = f"must be the least and the largest angle of {joint.name}, loaded_deg between both"
+                yield ("joints", "range_deg"), joint.range_deg, reason
         ends = [name for loop in self.loops for name in (loop.body_a, loop.body_b)]
         for key, name in (("foot", self.foot.body), *(("loops", end) for end in ends)):
             if name not in self.bodies:
@@ -210,8 +217,12 @@ class RobotFile(Record):
         for spring in self.springs:
             if spring.joint not in joints:
                 yield ("springs", "joint"), spring.joint, f"is no joint; there are {', '.join(joints)}"
-        if not self.springs or len(set(joints)) < len(joints):
-            yield ("springs",), len(self.springs), "a chain needs springs, and joints with names of their own"
+        sprung = [spring.joint for spring in self.springs]
+        if not self.springs or len(set(joints)) < len(joints) or len(set(sprung)) < len(sprung):
+            reason = "a chain needs springs, at most one on a joint, and joints with names of their own"
+            yield ("springs",), len(self.springs), reason
+        for name in sorted({*self.bodies, *joints} & TAKEN):
+            yield ("name",), name, "is taken by the simulation: choose another name"
         if self.foot.body in self.bodies and not self.bodies[self.foot.body].contacts_mm:
             yield ("bodies", self.foot.body, "contacts_mm"), "nothing", "the foot stands on them: give x, z and radius"
 

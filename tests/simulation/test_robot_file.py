@@ -84,6 +84,11 @@ WRONG = [
     ),
     ("chain_jumper", 'body = "foot" ', 'body = "hand" ', "foot = 'hand': is no body; there are foot, left_shank"),
     ("chain_jumper", "mass_g = 24.0", "mass_kg = 24.0", "mass_kg: unknown key"),
+    ("chain_jumper", "[-20, 140]", "[140, -20]", "must be the least and the largest angle of left_knee"),
+    ("chain_jumper", "[-20, 140]", "[0, 50]", "loaded_deg between both"),
+    ("chain_jumper", 'joint = "right_knee"', 'joint = "left_knee"', "at most one on a joint"),
+    ("chain_jumper", "left_hip", "root pitch", "name = 'root pitch': is taken by the simulation"),
+    ("chain_jumper", "left_shank", "world", "name = 'world': is taken by the simulation"),
 ]
 
 
