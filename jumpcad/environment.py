@@ -1,7 +1,7 @@
 """A jumping robot for reinforcement learning: an environment of Gymnasium (extra `gym`), simulated in MuJoCo."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -10,10 +10,12 @@ import numpy as np
 import trimesh
 from scipy.spatial.transform import Rotation
 
+from jumpcad.arguments import check_arguments
 from jumpcad.building import build
 from jumpcad.bundle.renders import JUMP_VIEW, corners_of
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.files.complaints import described
 from jumpcad.landing.arena import STILL_M_S, STILL_RAD_S, Arena, Floor
 from jumpcad.landing.landing import DROP_M, scattered_floor
 from jumpcad.mechanism.model import BODY, FOOT
@@ -111,13 +113,14 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
     OBSERVATIONS = OBSERVATIONS
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 20}  # noqa: RUF012  Gymnasium's own type
 
+    @check_arguments
     def __init__(
         self,
         robot: Robot | Design | str | Path = "kenan-2.0",
         workshop: Workshop | None = None,
         start: Start = "loaded",
         control: Control = "switch",
-        steps_mm: tuple[float, float] = (0.0, 0.0),
+        steps_mm: Sequence[float] = (0.0, 0.0),
         made: int = 0,
         episode_s: float = 20.0,
         step_s: float = 0.05,
@@ -132,14 +135,14 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         ):
             if value not in known:
                 raise JumpcadError(f"{name} = {value!r}: must be one of {', '.join(map(repr, known))}")
-        if not 0.0 <= steps_mm[0] <= steps_mm[1] <= 1000.0 * STEP_M[2]:
+        if len(steps_mm) != 2 or not 0.0 <= steps_mm[0] <= steps_mm[1] <= 1000.0 * STEP_M[2]:
             raise JumpcadError(f"steps_mm = {steps_mm}: must be the least and the largest height, 0 to 500 mm")
         if not 0.0 < step_s <= episode_s:
             raise JumpcadError(f"step_s = {step_s:g}: must be above 0, and at most episode_s = {episode_s:g}")
         self.robot = _robot(robot, workshop)
         self._robots = variants(self.robot, made) if made else (self.robot,)
         self._arenas: dict[int, Arena] = {}
-        self._start, self._control, self._steps_mm = start, control, steps_mm
+        self._start, self._control, self._steps_mm = start, control, (steps_mm[0], steps_mm[1])
         self._scattered, self._episode_s, self._step_s = made > 0, episode_s, step_s
         self.render_mode = render_mode
         low, high = np.array([limits for _, *limits in OBSERVATIONS.values()], dtype=np.float32).T
@@ -177,8 +180,9 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
     def step(self, action: Any) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         """Act for a step's time; return observation, way forward (m), False, whether the time is over, and figures."""
         arena, before = self._arena, self._arena.centre_of_mass_m[0]
+        action = self._asked(action)
         if self._control == "torque":
-            arena.push(float(np.clip(action[0], 0.0, 1.0)))
+            arena.push(min(max(action, 0.0), 1.0))
         elif action == WIND:
             arena.wind_on(self._step_s / arena.robot.layout.drive.train.winding_s)
         elif action == RELEASE and arena.held and arena.loaded >= LOADED:
@@ -191,6 +195,18 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         way = float(arena.centre_of_mass_m[0] - before)
         over = arena.data.time - self._begun_s >= self._episode_s - 0.5 * self._step_s
         return self._observed(), way, False, bool(over), self._figures()
+
+    def _asked(self, action: Any) -> float:
+        """Return an action as a number."""
+        try:
+            found = float(np.asarray(action, dtype=float).item())
+        except (TypeError, ValueError):
+            found = math.nan
+        torque = self._control == "torque"
+        if not (math.isfinite(found) if torque else found in (WAIT, WIND, RELEASE)):
+            known = "a torque from 0 to 1" if torque else f"{WAIT} (wait), {WIND} (wind) or {RELEASE} (release)"
+            raise JumpcadError(f"action = {described(action)}: must be {known}")
+        return found
 
     def render(self) -> Any:
         """Return a picture (height, width, 3) of the robot from its right; None without a render mode."""

@@ -185,3 +185,13 @@ def test_a_vector_may_be_of_any_numbers() -> None:
 def test_a_robot_without_parts_is_not_exported(tmp_path: Path) -> None:
     with pytest.raises(JumpcadError, match=r"takes a Robot or a Design, not <Mechanism"):
         jumpcad.export(CAPSULE, tmp_path / "out")
+
+
+def test_a_seed_is_not_below_zero() -> None:
+    @check_arguments
+    def sown(seed: int) -> int:
+        return seed
+
+    assert sown(0) == 0
+    with pytest.raises(JumpcadError, match="seed = -1: must be 0 or more"):
+        sown(-1)

@@ -1,5 +1,6 @@
 """The environment of Gymnasium: its checker, the law of what it rewards, and who is refused."""
 
+import math
 import subprocess
 import sys
 
@@ -110,9 +111,18 @@ def test_wrong_arguments_are_one_line() -> None:
         ({"control": "will"}, "control = 'will'"),
         ({"steps_mm": (60.0, 10.0)}, "must be the least and the largest height"),
         ({"step_s": 0.0}, "step_s = 0: must be above 0"),
+        ({"step_s": None}, r"JumpEnv\(\) takes a number as step_s, not None"),
+        ({"steps_mm": (1.0,)}, "must be the least and the largest height"),
+        ({"workshop": "default"}, "takes a Workshop"),
     ):
         with pytest.raises(JumpcadError, match=words):
             jumpcad.JumpEnv(built("kenan-2.0"), **options)
+    for control, actions in (("switch", (3, 0.5, "x", None)), ("torque", (math.nan, [], [0.0, 0.0], "x"))):
+        env = jumpcad.JumpEnv(built("kenan-2.0"), control=control)
+        env.reset(seed=0)
+        for action in actions:
+            with pytest.raises(JumpcadError, match=r"action = .*: must be"):
+                env.step(action)
 
 
 def test_without_gymnasium_the_way_to_install_it_is_said() -> None:

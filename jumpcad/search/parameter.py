@@ -23,6 +23,8 @@ from jumpcad.workshop.varied import Value
 Kind = Literal["fix", "bound", "choose"]
 ACTIVE = 1e-3
 """Largest distance from a bound that is active, over its range; judgement."""
+INSIDE = 0.01
+"""Share of a range at which its workshop is tried, besides at its ends."""
 DECIMALS = 10
 """Of the values that a search tries: what is written is then what a person would write."""
 FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
@@ -212,6 +214,8 @@ def _of_workshop(kind: Kind, name: str, asked: Sequence[Any], workshop: Workshop
         if broken and kind != "bound":
             raise JumpcadError(f"{name} = {broken[0]:g} is not a whole number, and it takes nothing else")
         parameter = _parameter(kind, name, [float(value) for value in values])
+        if kind == "bound":  # 0 may mean "found", and small values be refused
+            _tried(workshop, name, parameter.lower + INSIDE * parameter.width)
         if isinstance(held, int) and parameter.free and not parameter.choices:
             whole = [float(number) for number in range(math.ceil(parameter.lower), math.floor(parameter.upper) + 1)]
             if not whole:
@@ -229,6 +233,8 @@ def _tried(workshop: Workshop, name: str, value: Any) -> Value:
     if not isinstance(value, int | float | str | np.integer | np.floating):
         raise JumpcadError(f"{name} = {described(value)} is neither a number nor a name")
     tried: list[Value] = [value] if isinstance(value, str) else [float(value)]
+    if isinstance(workshop_value(workshop, name), bool):
+        tried = [{"true": 1.0, "false": 0.0}.get(str(value), tried[0])]
     if isinstance(value, str):
         with suppress(ValueError):
             tried.append(float(value))

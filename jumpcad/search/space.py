@@ -100,6 +100,10 @@ class Space:
         for kind, name, values in asked:
             require_new(name, changed)
             changed[name] = changed_parameter(kind, name, values, workshop)
+        if workshop and not workshop.cage.rod and "cage.rod" not in changed:
+            for name in changed:
+                if name.startswith("cage."):
+                    raise JumpcadError(f"{name}: the workshop has no cage: fix cage.rod too, cage.rod=glass-1.5")
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
         for name, limits in SEARCH_BOUNDS.items():

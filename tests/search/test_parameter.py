@@ -88,6 +88,18 @@ def test_a_whole_number_of_the_workshop_stays_one_from_bound_to_bound() -> None:
     assert found.choices == ()
 
 
+def test_values_of_a_cage_are_searched_where_there_is_one() -> None:
+    shop = load_workshop("best-jumper")
+    assert Space.parse(choose=["cage.bow=true,false"], workshop=shop).describe()["cage.bow"] == {"choices": [0.0, 1.0]}
+    for bounds, workshop, reason in (
+        ("cage.rear_radius_mm=0:100", shop, "cage.rear_radius_mm = 1.0: must be at least 40, or 0"),
+        ("cage.rear_radius_mm=80:100", load_workshop(), "cage.rear_radius_mm: the workshop has no cage: fix cage.rod"),
+    ):
+        with pytest.raises(JumpcadError, match=reason):
+            Space.parse(bound=[bounds], workshop=workshop)
+    Space.parse(bound=["cage.rear_radius_mm=80:100"], fix=["cage.rod=glass-1.5"], workshop=load_workshop())
+
+
 @pytest.mark.parametrize("workshop", [None, load_workshop()], ids=["capsule", "printed"])
 @pytest.mark.parametrize("kind", ["fix", "bound", "choose"])
 def test_a_name_that_no_parameter_has_is_not_passed_over(kind, workshop):

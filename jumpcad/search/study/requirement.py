@@ -1,12 +1,14 @@
 """Limits that a search keeps on any figure: `-30<=touchdown_pitch_deg<=30`, `mass_kg<=0.15`, `leg_strength>=5`."""
 
+import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
+from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.files.complaints import shown
+from jumpcad.files.complaints import described, shown
 from jumpcad.findings import Finding, at_least, at_most
 
 NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)"
@@ -46,6 +48,7 @@ class Requirement:
         return cls.of(name, least, value if sign == "<=" else None)
 
     @classmethod
+    @check_arguments
     def of(cls, name: str, least: float | None, most: float | None) -> "Requirement":
         """Return a requirement on a figure.
 
@@ -54,8 +57,14 @@ class Requirement:
         JumpcadError
             If nothing can keep it.
         """
+        if not (limits := [one for one in (least, most) if one is not None]) or not all(map(math.isfinite, limits)):
+            raise JumpcadError(
+                f"{name} = ({least}, {most}): give a number as least or largest value, None for no limit"
+            )
         if least is not None and most is not None and not least <= most:
             raise JumpcadError(f"{name}: at least {least:g} and at most {most:g} cannot both hold; exchange them")
+        if name == "rights_itself" and least is not None and least > 1.0:
+            raise JumpcadError(f"{name}>={least:g}: it is a share, at most 1: require 0.9 for 90 %")
         return cls(name, least, most)
 
     def findings(self, value: float) -> Iterator[Finding]:
@@ -82,6 +91,9 @@ def requirements_of(asked: Iterable[str] | Required, known: Iterable[str]) -> tu
         If one is none, or names no figure that is `known`.
     """
     if isinstance(asked, Mapping):
+        for name, limits in asked.items():
+            if not isinstance(limits, tuple | list) or len(limits) != 2:
+                raise JumpcadError(f"{name} = {described(limits)}: give (least, largest) value, None for no limit")
         found = [Requirement.of(name, *limits) for name, limits in asked.items()]
     else:
         found = [Requirement.parse(text) for text in asked]

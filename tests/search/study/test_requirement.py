@@ -39,6 +39,11 @@ def test_what_is_no_requirement_is_told_in_one_line() -> None:
         assert "\n" not in str(wrong.value)
     with pytest.raises(JumpcadError, match=r"turn_deg: at least 3 and at most 1 cannot both hold"):
         Requirement.parse("3<=turn_deg<=1")
+    with pytest.raises(JumpcadError, match=r"rights_itself>=98: it is a share"):
+        Requirement.parse("rights_itself>=98")
+    for limits in (0.9, (1.0, 2.0, 3.0), (None, None), (math.nan, None), ("a", None)):
+        with pytest.raises(JumpcadError):
+            requirements_of({"turn_deg": limits}, FIGURES)
     with pytest.raises(JumpcadError, match=r"turn_degs: .* \(did you mean turn_deg\?\)"):
         requirements_of(["turn_degs<=3"], FIGURES)
     with pytest.raises(JumpcadError, match="does not apply to the published robot"):
