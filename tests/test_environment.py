@@ -6,13 +6,14 @@ import sys
 
 import numpy as np
 import pytest
+from support import needs
 from support.built import built
 
 import jumpcad
 from jumpcad.environment import RELEASE, WAIT, WIND
 from jumpcad.errors import JumpcadError
 
-gymnasium = pytest.importorskip("gymnasium")
+gymnasium = needs.package("gymnasium")
 NAMES = list(jumpcad.JumpEnv.OBSERVATIONS)
 
 
