@@ -82,7 +82,7 @@ def _checked(title: str, given: Mapping[str, Any], hints: Mapping[str, Any]) -> 
             made = next((f": {MADE_BY[one]} makes one" for one in names if one in MADE_BY), "")
             raise JumpcadError(f"{title}() takes {wanted}{place}, not {wrong}{made}")
         if name == "seed" and isinstance(value, int) and value < 0:
-            raise JumpcadError(f"{title}(): seed = {value}: must be 0 or more")
+            raise JumpcadError(f"{title}(): seed = {value}: must be at least 0")
         found[name] = value
     return found
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.building import build
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.inputs import kept_design, kept_workshop
 from jumpcad.bundle.lanes import lane, lanes_values
 from jumpcad.bundle.limits import limits_of, ordered, used

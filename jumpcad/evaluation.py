@@ -7,7 +7,7 @@ from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import Design
 from jumpcad.findings import Finding, errors

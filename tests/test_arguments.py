@@ -193,5 +193,5 @@ def test_a_seed_is_not_below_zero() -> None:
         return seed
 
     assert sown(0) == 0
-    with pytest.raises(JumpcadError, match="seed = -1: must be 0 or more"):
+    with pytest.raises(JumpcadError, match="seed = -1: must be at least 0"):
         sown(-1)

@@ -13,7 +13,7 @@ import pytest
 from support.commands import exit_code_of
 
 from jumpcad.building import build
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError

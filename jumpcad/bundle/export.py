@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from jumpcad.building.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.atomic_write import require_place, write_folder
-from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of

@@ -10,7 +10,7 @@ from html import escape
 from typing import Any
 from urllib.parse import quote
 
-from jumpcad.bundle.bom import bill_of_materials, euros
+from jumpcad.building.bom import bill_of_materials, euros
 from jumpcad.bundle.compared import compared_of
 from jumpcad.bundle.limits import limit_values, limits_of
 from jumpcad.bundle.viewer import viewer_values

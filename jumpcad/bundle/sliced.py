@@ -9,8 +9,8 @@ import numpy as np
 import trimesh
 from manifold3d import Manifold, Mesh64
 
+from jumpcad.building.bom import BilledPlate, bill_of_facts, write_bom
 from jumpcad.bundle.atomic_write import change_files
-from jumpcad.bundle.bom import BilledPlate, bill_of_facts, write_bom
 from jumpcad.bundle.guide.markdown import with_bill
 from jumpcad.bundle.inputs import WORKSHOP, kept_workshop
 from jumpcad.bundle.manifest import Bundle, few, open_bundle, verify

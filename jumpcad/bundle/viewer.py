@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.motion import motion, series_motion
 from jumpcad.bundle.renders import exploded
 from jumpcad.exporters.xml import allowed

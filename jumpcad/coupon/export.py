@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from jumpcad.building.bom import Bill, BillLine, mass_facts
 from jumpcad.bundle.atomic_write import require_place, write_folder
-from jumpcad.bundle.bom import Bill, BillLine, mass_facts
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces

@@ -90,7 +90,7 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]
         beside = path.parent / base
         base_path = beside if base.endswith(".toml") and os.path.isfile(beside) else find_template("workshops", base)
         real = os.path.realpath(path)  # unlike Path.resolve, also of links that lead round in a circle
-        if os.path.realpath(base_path) in (real, *above):
+        if os.path.exists(base_path) and os.path.realpath(base_path) in (real, *above):
             raise JumpcadError(f"{path}: base = {shown(base)}: leads back to a file that builds on it")
         whole, _ = _assembled(base_path, (*above, real))
     if isinstance(data.get("printer"), str):

@@ -13,7 +13,7 @@ import pytest
 from support.built import LONG_TOES, built, design, geared, of_kit
 
 from jumpcad.building import build
-from jumpcad.bundle.bom import Bill, BilledPlate, bill_of_materials
+from jumpcad.building.bom import Bill, BilledPlate, bill_of_materials
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.firmware_numbers import numbers

@@ -11,7 +11,7 @@ import pytest
 from support.built import built, geared, of_kit, part, placed
 
 from jumpcad.building import build
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.facts import jumps_per_charge
 from jumpcad.bundle.firmware_numbers import numbers

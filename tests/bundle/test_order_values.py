@@ -12,7 +12,7 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.guide.order_values import _screw_axles, nutted_screw, order_values, strap_mm
 from jumpcad.design import load_design

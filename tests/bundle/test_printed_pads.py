@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from jumpcad import build, load_design, load_workshop
-from jumpcad.bundle.bom import bill_of_facts, bill_of_materials, mass_facts
+from jumpcad.building.bom import bill_of_facts, bill_of_materials, mass_facts
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.exporters.stl import stl_files
 from jumpcad.exporters.threemf import plate_files, threemf_files

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 from support.built import built, geared, placed
 
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.viewer import _embedded, parts_facts, turning_parts
 from jumpcad.robot import Robot
 

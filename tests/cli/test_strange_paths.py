@@ -129,6 +129,7 @@ def test_every_command_and_every_reader_is_at_home_there(
         ("optimize", "ga", *small, "--evaluations", "12", "--objective", goal, "--study", study, *near),
         ("study", study, "--export", place / "alle ä.csv"),
         ("report", study, "-o", place / "studie ä.html"),
+        ("validate", "--plots", place / "bilder ä"),
         ("build", bundle, "--no-pictures"),
     ]  # fmt: skip
     if shutil.which("prusa-slicer"):

@@ -9,7 +9,7 @@ import pytest
 from support.built import built
 
 import jumpcad
-from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.facts import cage_facts
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide

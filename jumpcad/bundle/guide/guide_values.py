@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.bundle.bom import Bill
+from jumpcad.building.bom import Bill
 from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.guide.incoming_inspection import inspection_values

@@ -4,7 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 
-from jumpcad.bundle.bom import Bill, bill_of_materials, euros
+from jumpcad.building.bom import Bill, bill_of_materials, euros
 from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.files.rendering import render
 from jumpcad.parts.part import Part

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.bundle.bom import Bill
+from jumpcad.building.bom import Bill
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
 from jumpcad.exporters.threemf import print_plates
 from jumpcad.layout.cage import SOCKET_MM

@@ -10,7 +10,7 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
-from jumpcad.bundle.bom import BilledPlate, bill_of_facts, bill_of_materials, write_bom
+from jumpcad.building.bom import BilledPlate, bill_of_facts, bill_of_materials, write_bom
 from jumpcad.bundle.guide.markdown import bill_text
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
