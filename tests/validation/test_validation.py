@@ -81,6 +81,9 @@ def test_a_remembered_figure_judges_nothing_until_it_is_entered(
     assert {rows(robots, key)[name]["verdict"] for key, name in by_energy} == {"not judged"}
     assert rows(robots, "msu-2013")["distance_m"]["verdict"] == "agrees"
     assert rows(robots, "seu-2012")["distance_m"]["verdict"] == "differs"
+    strider = rows(robots, "strider-2015")["height_m"]
+    assert strider["measured"] > 1.65**2 / (2.0 * G) >= strider["high"]  # without air, of 1.6 m/s as rounded
+    assert strider["verdict"] == "above the bound"
     assert len({one["key"] for one in robots}) >= 10
     assert [one["tier"] for one in robots] == sorted((one["tier"] for one in robots), key=TIERS.index)
     for one in robots:
