@@ -56,13 +56,7 @@ def engine_named(name: str) -> "Engine":
         If there is none of the name, or it is not installed.
     """
     require_engine(name)
-    entry = ENGINES[name]
-    try:
-        engine: Engine = getattr(importlib.import_module(entry.module), entry.maker)()
-    except ModuleNotFoundError:
-        if entry.is_installed:
-            raise
-        raise JumpcadError(f"the engine {name} needs the package {entry.package}, which is not installed") from None
+    engine: Engine = getattr(importlib.import_module(ENGINES[name].module), ENGINES[name].maker)()
     return engine
 
 

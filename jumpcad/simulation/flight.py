@@ -17,7 +17,6 @@ from jumpcad.mechanism.planar import about_common_centre, frames, points, seen_f
 from jumpcad.mechanism.reflected import flying_inertias
 from jumpcad.simulation.ballistics import Ballistics
 from jumpcad.simulation.mechanics import Mechanics, State
-from jumpcad.simulation.obstacles import obstacles
 from jumpcad.transforms import Array
 
 SWING_POINTS = 9
@@ -83,8 +82,48 @@ def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: S
     bottoms = centre[flown, None] + _arms_m(mechanism, mechanics, around, swing.leg_rad, (pitch + turn)[flown])
     return Flight(
         (arrived + 180.0) % 360.0 - 180.0, math.degrees(turned), math.degrees(swing.rate_rad_s), air,
-        *vars(obstacles(bottoms, centre[flown].real, float((stood + standing).real.max()))).values(),
+        *obstacles(bottoms, centre[flown].real, float((stood + standing).real.max())),
     )  # fmt: skip
+
+
+def obstacles(bottoms_m: Complex, centre_m: Array, nose_m: float) -> tuple[float, float, float, float]:
+    """Return the last four figures of a `Flight`: what it passes over and lands on.
+
+    Parameters
+    ----------
+    bottoms_m
+        Lowest points of the robot's parts, x + iz (n, parts), at n moments up to the touchdown.
+    centre_m
+        Where the centre of mass is along the way (n,).
+    nose_m
+        Where the standing robot ends in front: no obstacle is nearer.
+
+    Notes
+    -----
+    All parts have passed a bar by the touchdown. The edge of a step lies below whatever passes it while the robot
+    rises, and before the centre of mass when the robot, falling, comes down to its height.
+    """
+    if len(bottoms_m) < 2 or not np.ptp(bottoms_m.real, axis=0).any():  # straight up: over nothing
+        return 0.0, 0.0, 0.0, 0.0
+    lowest, width = bottoms_m.imag.min(axis=1), 1.5 * float(np.abs(np.diff(bottoms_m.real, axis=0)).max())
+    apex, first = int(np.argmax(lowest)), float(bottoms_m.real.min())
+    bins = ((bottoms_m.real - first) / width).astype(int)
+    whole, rising = (np.full(bins.max() + 1, np.inf) for _ in range(2))
+    np.minimum.at(whole, bins, bottoms_m.imag)
+    np.minimum.at(rising, bins[: apex + 1], bottoms_m.imag[: apex + 1])
+    place = first + width * (np.arange(len(whole)) + 0.5)
+    passed = (place > nose_m) & (place < bottoms_m[-1].real.min()) & np.isfinite(whole)
+    bar = int(np.argmax(np.where(passed, whole, -np.inf)))
+    bar_m = float(whole[bar]) if passed[bar] else 0.0
+    over = np.where(place > nose_m, rising, -np.inf)
+    edges = np.maximum.accumulate(over)  # the best edge up to a place
+    before = np.clip(np.searchsorted(place, centre_m[apex:]) - 1, 0, len(place) - 1)
+    heights = np.minimum(lowest[apex:], edges[before])
+    best = int(np.argmax(heights))
+    step_m, edge = float(heights[best]), float(place[int(np.argmax(over[: before[best] + 1]))])
+    found = [(bar_m, float(place[bar])), (step_m, edge)]
+    figures = [(1000.0 * high, 1000.0 * (at - nose_m)) if high > 0.0 else (0.0, 0.0) for high, at in found]
+    return *figures[0], *figures[1]
 
 
 @dataclass(frozen=True)

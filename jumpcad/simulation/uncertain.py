@@ -6,7 +6,7 @@ polynomial that is fitted to all jumps (ANOVA by regression; Rabitz and Alis 199
 Saltelli's scheme; the rest of the variance is due to interactions of groups.
 """
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -29,6 +29,8 @@ DEGREE, RESAMPLES = 3, 100
 """Degree of the polynomial; bootstrap resamples."""
 FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
 """Figures of a jump whose uncertainty is computed, and their names in texts."""
+INPUTS = 8
+"""Uniform variables of all groups together, where the settings have draws."""
 EDGE, TINY = 1e-9, 1e-30
 """Least distance of a sample from 0 and 1; least variance that is divided by."""
 
@@ -54,23 +56,6 @@ class Uncertainty:
         return dict(vars(self))
 
 
-Applied = tuple[Robot, Settings]
-Apply = Callable[[Robot, Settings, Array], Applied]
-
-
-@dataclass(frozen=True)
-class Group:
-    """Uncertain inputs that belong together.
-
-    `inputs` is their number of uniform variables; `values` maps these (n, inputs) to values (n, k); `apply` changes a
-    robot and its settings by one row of values (k,).
-    """
-
-    inputs: int
-    values: Callable[[Array], Array]
-    apply: Apply
-
-
 def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0, samples: int = SAMPLES) -> Uncertainty:
     """Return the uncertainty of a printed robot's jump.
 
@@ -91,29 +76,20 @@ def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0,
     JumpcadError
         If there is no such engine, or it is not installed.
     """
-    groups = _groups(robot, settings)
-    width = sum(group.inputs for group in groups.values())
-    points = sobol(width, samples, np.random.default_rng(seed))
-    inputs, start = {}, 0
-    for name, group in groups.items():
-        inputs[name] = group.values(np.clip(points[:, start : start + group.inputs], EDGE, 1.0 - EDGE))
-        start += group.inputs
-    figures = np.array(
-        [
-            _jump(robot, settings, engine, [(group.apply, inputs[name][row]) for name, group in groups.items()])
-            for row in range(samples)
-        ]
-    )
+    points = sobol(INPUTS + (not settings.draws), samples, np.random.default_rng(seed))
+    inputs = varied_inputs(robot, settings, np.clip(points, EDGE, 1.0 - EDGE))
+    rows = ({name: values[row] for name, values in inputs.items()} for row in range(samples))
+    figures = np.array([_jump(robot, settings, engine, values) for values in rows])
     generator = np.random.default_rng([seed, 1])
     again = [_first_order(inputs, figures, generator.integers(0, samples, samples)) for _ in range(RESAMPLES)]
     low, high = np.quantile(np.array(again), (0.1, 0.9), axis=0)
     shares = _first_order(inputs, figures, np.arange(samples))
     return Uncertainty(
         {name: np.quantile(figures[:, k], QUANTILES).tolist() for k, name in enumerate(FIGURES)},
-        {name: dict(zip(FIGURES, shares[g].tolist(), strict=True)) for g, name in enumerate(groups)},
+        {name: dict(zip(FIGURES, shares[g].tolist(), strict=True)) for g, name in enumerate(inputs)},
         {
             name: {figure: [float(low[g, k]), float(high[g, k])] for k, figure in enumerate(FIGURES)}
-            for g, name in enumerate(groups)
+            for g, name in enumerate(inputs)
         },
         samples,
         float((figures[:, 0] > 0.0).mean()),
@@ -140,61 +116,48 @@ def _first_order(inputs: dict[str, Array], figures: Array, rows: npt.NDArray[np.
     return np.array(shares)
 
 
-def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
-    """Return the groups of uncertain inputs, by name."""
+def varied_inputs(robot: Robot, settings: Settings, points: Array) -> dict[str, Array]:
+    """Return the values (n, k) of each group of inputs at points (n, INPUTS) of the unit cube, one more without draws.
+
+    Draws of a calibration are pairs: one coordinate chooses among them.
+    """
     workshop, rubs, draws = robot.workshop, coefficients(robot, settings), settings.draws
-    tolerance_mm = workshop.fits.link_tolerance_mm
-    rate = Prior("normal", 1.0, workshop.safety.spring_rate_scatter / 2.0, "workshop", 0.3)
-    mass = Prior("normal", 1.0, PRINTED_MASS_SHARE, "model", 0.3)
-    floor = Prior("lognormal", rubs.ground, FLOOR_SHARE, "workshop")
-    pins = Prior("lognormal", rubs.pin, PIN_FRICTION.second, "workshop")
-    efficiency, given = SPRING_EFFICIENCY, settings.spring_efficiency
-    if given != Settings().spring_efficiency:
-        efficiency = replace(SPRING_EFFICIENCY, first=given, source="settings", least=0.1)
-
-    def drawn(at: Array) -> Array:
+    *first, springs, mass, floor = points.T
+    if draws:
         pairs = np.column_stack([draws.spring_efficiency, draws.pin_friction])
-        found: Array = pairs[np.minimum((at[:, 0] * len(pairs)).astype(int), len(pairs) - 1)]
-        return found
-
-    def assumed(at: Array) -> Array:
-        return np.column_stack([efficiency.at(ndtri(at[:, 0])), pins.at(ndtri(at[:, 1]))])
-
-    def calibrated(robot: Robot, settings: Settings, value: Array) -> Applied:
-        return robot, _changed(settings, spring_efficiency=value[0], pin_friction=value[1])
-
-    def lengths(robot: Robot, settings: Settings, value: Array) -> Applied:
-        return with_lengths(robot, with_length_errors(robot.design, value)), settings
-
-    def springs(robot: Robot, settings: Settings, value: Array) -> Applied:
-        return with_spring_factor(robot, float(value[0])), settings
-
-    def masses(robot: Robot, settings: Settings, value: Array) -> Applied:
-        """A factor on the mass has the effect of its inverse on the springs."""
-        return with_spring_factor(robot, 1.0 / float(value[0])), settings
-
-    def floors(robot: Robot, settings: Settings, value: Array) -> Applied:
-        return robot, _changed(settings, ground_friction=value[0])
-
-    return {
-        "calibration": Group(1, drawn, calibrated) if draws else Group(2, assumed, calibrated),
-        "lengths": Group(4, lambda at: tolerance_mm * (2.0 * at - 1.0), lengths),
-        "springs": Group(1, lambda at: rate.at(ndtri(at)), springs),
-        "mass": Group(1, lambda at: mass.at(ndtri(at)), masses),
-        "floor": Group(1, lambda at: floor.at(ndtri(at)), floors),
+        calibrated = pairs[np.minimum((first[0] * len(pairs)).astype(int), len(pairs) - 1)]
+    else:
+        efficiency, given = SPRING_EFFICIENCY, settings.spring_efficiency
+        if given != Settings().spring_efficiency:
+            efficiency = replace(SPRING_EFFICIENCY, first=given, source="settings", least=0.1)
+        pins = Prior("lognormal", rubs.pin, PIN_FRICTION.second, "workshop")
+        calibrated = np.column_stack([efficiency.at(ndtri(first[0])), pins.at(ndtri(first[1]))])
+    single = {
+        "springs": (springs, Prior("normal", 1.0, workshop.safety.spring_rate_scatter / 2.0, "workshop", 0.3)),
+        "mass": (mass, Prior("normal", 1.0, PRINTED_MASS_SHARE, "model", 0.3)),
+        "floor": (floor, Prior("lognormal", rubs.ground, FLOOR_SHARE, "workshop")),
     }
+    lengths = workshop.fits.link_tolerance_mm * (2.0 * np.column_stack(first[-4:]) - 1.0)
+    others = {name: prior.at(ndtri(share))[:, None] for name, (share, prior) in single.items()}
+    return {"calibration": calibrated, "lengths": lengths} | others
 
 
-def _jump(robot: Robot, settings: Settings, engine: str, changes: list[tuple[Apply, Array]]) -> tuple[float, ...]:
+def changed(robot: Robot, settings: Settings, values: Mapping[str, Array]) -> tuple[Robot, Settings]:
+    """Return robot and settings with one row of every group's inputs.
+
+    A factor on the mass has the effect of its inverse on the springs.
+    """
+    (efficiency, pins), (floor,) = values["calibration"].tolist(), values["floor"].tolist()
+    friction = {"spring_efficiency": efficiency, "pin_friction": pins, "ground_friction": floor}
+    robot = with_lengths(robot, with_length_errors(robot.design, values["lengths"]))
+    robot = with_spring_factor(robot, float(values["springs"][0]))
+    return with_spring_factor(robot, 1.0 / float(values["mass"][0])), settings.model_copy(update=friction)
+
+
+def _jump(robot: Robot, settings: Settings, engine: str, values: Mapping[str, Array]) -> tuple[float, ...]:
     """Return the `FIGURES` of one jump; 0 where there is no jump or the changed design cannot be built."""
     try:
-        for apply, value in changes:
-            robot, settings = apply(robot, settings, value)
-        jump = simulate(robot, settings, engine)
+        jump = simulate(*changed(robot, settings, values), engine)
     except CannotBuildError:
         return (0.0,) * len(FIGURES)
     return tuple(getattr(jump, name) or 0.0 for name in FIGURES)
-
-
-def _changed(settings: Settings, **values: float) -> Settings:
-    return settings.model_copy(update={name: float(value) for name, value in values.items()})

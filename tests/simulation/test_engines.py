@@ -24,16 +24,6 @@ FINE = Settings(dt_s=1 / 16000, solver_iterations=200)
 """Both engines are of first order in the step: conservation holds to that order."""
 
 
-def test_an_engine_without_its_package_is_a_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Its module imports a package that is not there; one that is there and broken is a bug."""
-    monkeypatch.syspath_prepend(tmp_path)
-    (tmp_path / "module_without_package.py").write_text("import a_package_that_nobody_has\n")
-    for package, kind in (("a_package_that_nobody_has", JumpcadError), ("numpy", ModuleNotFoundError)):
-        monkeypatch.setitem(engines.ENGINES, "own", EngineEntry("module_without_package", "Own", package))
-        with pytest.raises(kind, match="a_package_that_nobody_has"):
-            engine_named("own")
-
-
 @pytest.mark.parametrize("engine", ENGINES)
 def test_flight_keeps_momentum_and_follows_the_parabola(kenan: Robot, engine: str) -> None:
     """Once in the air, with springs, damping and loop at work inside: v_x is kept and v_z falls by g·t."""

@@ -11,7 +11,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
 from jumpcad.simulation import simulate, uncertain
-from jumpcad.simulation.uncertain import Uncertainty, _first_order, _groups, uncertain_jump
+from jumpcad.simulation.uncertain import Uncertainty, _first_order, changed, uncertain_jump, varied_inputs
 from jumpcad.workshop import varied
 
 
@@ -58,70 +58,52 @@ def test_the_workshop_says_how_much_springs_scatter(robot: Robot) -> None:
     assert found.first_order["springs"]["ballistic_range_m"] == pytest.approx(0.0, abs=1e-9)
 
 
+def at(robot: Robot, settings: Settings, share: float) -> tuple[Robot, Settings]:
+    """Robot and settings with every input at the same share."""
+    inputs = varied_inputs(robot, settings, np.full((1, 9), share))
+    return changed(robot, settings, {name: values[0] for name, values in inputs.items()})
+
+
 def test_inputs_are_spread_as_the_workshop_and_the_model_say(robot: Robot) -> None:
     """In the middle of every input the robot is as it was built; one standard deviation up, at a share of 0.8413:
 
     springs stiffer by half of the scatter, a mass of 1.04 (which acts as weaker springs), a floor of e^0.15 times its
     friction; links are longer or shorter by the tolerance at most.
     """
-    shop, rubs = robot.workshop, coefficients(robot, Settings())
-    groups = _groups(robot, Settings())
-    assert [groups[name].inputs for name in ("calibration", "lengths", "springs", "mass", "floor")] == [2, 4, 1, 1, 1]
-
-    def changed(name: str, share: float) -> tuple[Robot, Settings]:
-        group = groups[name]
-        (value,) = group.values(np.full((1, group.inputs), share))
-        return group.apply(robot, Settings(), value)
-
-    up = ndtr(1.0)
+    shop, rubs, up = robot.workshop, coefficients(robot, Settings()), ndtr(1.0)
     scatter, tolerance = shop.safety.spring_rate_scatter, shop.fits.link_tolerance_mm
-    for name, factor in (("springs", 1.0 + scatter / 2.0), ("mass", 1.0 / 1.04)):
-        for share, expected in ((0.5, 1.0), (up, factor)):
-            found = changed(name, share)[0].spring.stiffness_nm_per_rad
-            assert found == pytest.approx(expected * robot.spring.stiffness_nm_per_rad), name
-    assert changed("floor", 0.5)[1].ground_friction == pytest.approx(rubs.ground)
-    assert changed("floor", up)[1].ground_friction == pytest.approx(rubs.ground * np.exp(0.15))
-    for share, more in ((0.5, 0.0), (1.0, tolerance), (0.0, -tolerance)):
-        found = changed("lengths", share)[0].design
-        links = [
-            (found.l2_mm, robot.design.l2_mm),
-            (found.l3_mm, robot.design.l3_mm),
-            (found.l4_mm, robot.design.l4_mm),
-        ]
-        for length, built_mm in links:
-            assert length == pytest.approx(built_mm + more, abs=1e-6)
-    middle, above = (changed("calibration", share)[1] for share in (0.5, up))
-    assert (middle.spring_efficiency, middle.pin_friction) == pytest.approx((0.95, rubs.pin))
-    assert (above.spring_efficiency, above.pin_friction) == pytest.approx((1.0, rubs.pin * np.exp(0.4)))
+    for share, factor, rubber, efficiency in ((0.5, 1.0, 1.0, 0.95), (up, (1.0 + scatter / 2.0) / 1.04, 0.15, 1.0)):
+        made, settings = at(robot, Settings(), share)
+        assert made.spring.stiffness_nm_per_rad == pytest.approx(factor * robot.spring.stiffness_nm_per_rad)
+        raised = (1.0, 1.0) if share == 0.5 else np.exp([rubber, 0.4])
+        assert settings.ground_friction == pytest.approx(rubs.ground * raised[0])
+        assert (settings.spring_efficiency, settings.pin_friction) == pytest.approx((efficiency, rubs.pin * raised[1]))
+    for share, more in ((0.5, 0.0), (1.0 - 1e-9, tolerance), (1e-9, -tolerance)):
+        found = at(robot, Settings(), share)[0].design
+        for length in ("l2_mm", "l3_mm", "l4_mm"):
+            assert getattr(found, length) == pytest.approx(getattr(robot.design, length) + more, abs=1e-6)
 
 
-def test_what_workshop_and_settings_say_of_lengths_floor_and_pins_is_what_varies(robot: Robot) -> None:
-    """Sliding fits of 0.25 mm let links be 0.5 mm off; a floor and pins that were measured are the middle."""
+def test_what_workshop_and_settings_say_of_lengths_springs_floor_and_pins_is_what_varies(robot: Robot) -> None:
+    """Sliding fits of 0.25 mm let links be 0.5 mm off; springs, floor and pins that were measured are the middle."""
     loose = replace(robot, workshop=varied(robot.workshop, {"fits.sliding_mm": 0.25}))
-    groups = _groups(loose, Settings(ground_friction=0.5, pin_friction=0.4))
-    assert groups["lengths"].values(np.array([[0.0, 1.0, 0.5, 0.0]]))[0] == pytest.approx([-0.5, 0.5, 0.0, -0.5])
-    assert groups["floor"].values(np.array([[0.5]]))[0] == pytest.approx([0.5])
-    assert groups["calibration"].values(np.array([[0.5, 0.5]]))[0] == pytest.approx([0.95, 0.4])
-
-
-@pytest.mark.parametrize("efficiency", [0.1, 0.6, 1.1])
-def test_an_efficiency_of_springs_that_is_given_is_the_middle_of_what_varies(robot: Robot, efficiency: float) -> None:
-    """As settings say it without draws: the interval holds their jump."""
-    (given,) = _groups(robot, Settings(spring_efficiency=efficiency))["calibration"].values(np.full((1, 2), 0.5))
-    assert given[0] == pytest.approx(efficiency)
+    points = np.array([[0.5, 0.5, 0.0, 1.0, 0.5, 0.0, 0.5, 0.5, 0.5]])
+    for efficiency in (0.1, 0.6, 1.1):
+        given = Settings(ground_friction=0.5, pin_friction=0.4, spring_efficiency=efficiency)
+        inputs = varied_inputs(loose, given, points)
+        assert inputs["lengths"][0] == pytest.approx([-0.5, 0.5, 0.0, -0.5])
+        assert inputs["floor"][0] == pytest.approx([0.5])
+        assert inputs["calibration"][0] == pytest.approx([efficiency, 0.4])
 
 
 def test_draws_of_a_calibration_are_taken_in_pairs(robot: Robot) -> None:
     """Each as often as the others, the efficiency with the friction that was drawn with it."""
     draws = Draws(spring_efficiency=(0.9, 0.95, 1.0, 0.8), pin_friction=(0.1, 0.2, 0.3, 0.4))
-    group = _groups(robot, Settings(draws=draws))["calibration"]
-    assert group.inputs == 1
-    pairs = group.values(np.array([[0.0], [0.2499], [0.25], [0.5], [0.75], [1.0 - 1e-9], [1.0]]))
+    points = np.full((7, 8), 0.5)
+    points[:, 0] = [0.0, 0.2499, 0.25, 0.5, 0.75, 1.0 - 1e-9, 1.0]
+    pairs = varied_inputs(robot, Settings(draws=draws), points)["calibration"]
     assert pairs[:, 0].tolist() == [0.9, 0.9, 0.95, 1.0, 0.8, 0.8, 0.8]
     assert pairs[:, 1].tolist() == [0.1, 0.1, 0.2, 0.3, 0.4, 0.4, 0.4]
-    same, changed = group.apply(robot, Settings(ground_friction=0.7), pairs[3])
-    assert same is robot
-    assert (changed.spring_efficiency, changed.pin_friction, changed.ground_friction) == (1.0, 0.3, 0.7)
 
 
 def test_the_polynomial_is_a_cubic() -> None:
