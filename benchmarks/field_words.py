@@ -149,7 +149,6 @@ WORDS = {
     "joint_damping_j": "lost in joints and pins",
     "slip_j": "lost by friction on the ground",
     "contact_j": "lost in impacts, and the engine's rounding",
-    "published": "the study's own measures; with `published_quantities` in the settings",
     "engines": "by engine, verdict, figures and findings of its jump",
     "range_difference_percent": "range of the second engine beyond that of the first; null where one does not jump",
     "uncertain.quantiles.ballistic_range_m": "10, 50, 90 % of all samples; one that does not jump counts as 0",

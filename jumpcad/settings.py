@@ -73,9 +73,6 @@ class Settings(Record):
     max_time_s: Annotated[float, Field(ge=1e-3, le=60, description="simulated time at which a run is stopped")] = 3.0
     trajectory: Annotated[bool, Field(description="record the poses and energies over time")] = False
     trajectory_rate_hz: Annotated[float, Field(ge=0.01, le=1e6, description="poses a second at most")] = 500.0
-    published_quantities: Annotated[
-        bool, Field(description="go on to the first contact later than 0.5 s, as the published study did")
-    ] = False
     draws: Draws = Draws()
 
     def contradictions(self) -> Iterator[Contradiction]:

@@ -91,18 +91,6 @@ class Trajectory(ByValue):
             yield dict(zip(columns, values, strict=True))
 
 
-@dataclass(frozen=True)
-class PublishedQuantities:
-    """The published study's measures for this run; they are not those of the jump.
-
-    `base_distance_m` is where the body is at the first contact later than 0.5 s after release (tumbling included),
-    `base_height_m` the greatest absolute height of the body (standing height included).
-    """
-
-    base_distance_m: float | None
-    base_height_m: float
-
-
 @dataclass(frozen=True, repr=False)
 class Jump:
     """The result of one simulation.
@@ -139,7 +127,6 @@ class Jump:
     step_distance_mm: float | None = None
     lateral_offset_mm: float | None = None
     energy: EnergyBudget | None = None
-    published: PublishedQuantities | None = None
     trajectory: Trajectory | None = field(default=None, hash=False)
     findings: tuple[Finding, ...] = ()
 
@@ -163,6 +150,5 @@ class Jump:
         data = {name: value for name, value in vars(self).items() if name not in ("trajectory", "findings")}
         data["energy"] = None if self.energy is None else asdict(self.energy)
         data["energy_account_j"] = self.energy_account_j
-        data["published"] = None if self.published is None else asdict(self.published)
         data["findings"] = [finding.to_dict() for finding in self.findings]
         return data

@@ -24,8 +24,8 @@ from jumpcad.simulation.planar_state import PushOff, StepState
 from jumpcad.simulation.run import AIRBORNE_S, AUDIT_EVERY_S, TAKEOFF_WITHIN_S, Run, Takeoff
 from jumpcad.transforms import Array
 
-LACKING = ("restitution", "rolling_friction_m", "published_quantities")
-"""Settings that a planar engine, or a run that ends at touchdown, does not support."""
+LACKING = ("restitution", "rolling_friction_m")
+"""Settings that a planar engine does not support."""
 BASIS = {
     **run.BASIS,
     "body_contact": Basis("least height of the body above the ground during the push-off ≥ 0 (mm)", "geometry"),

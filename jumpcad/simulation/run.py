@@ -16,7 +16,7 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.settings import Settings, takeoff_clearance_m
 from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_m_s2, drag_per_m
 from jumpcad.simulation.flight import Flight, flight
-from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
+from jumpcad.simulation.jump import EnergyBudget, Trajectory
 from jumpcad.simulation.mechanics import Mechanics, State, loaded_state
 from jumpcad.transforms import Array
 
@@ -25,7 +25,6 @@ AIRBORNE_S = 0.004
 """Without normal force for this long, and rising: the robot has taken off."""
 TAKEOFF_WITHIN_S = 0.060
 """A robot on the ground this long after the springs have passed zero does not jump."""
-PUBLISHED_CONTACT_AFTER_S = 0.5
 ENERGY_RATIO_LIMIT = 1.005
 """Mechanical energy over that at release; the run starts at 1, and only what an engine adds can raise it."""
 LOOP_GAP_LIMIT_M = 0.0005
@@ -103,7 +102,6 @@ class Run:
         self.steps = 0
         self.takeoff: Takeoff | None = None
         self.touchdown_distance_m: float | None = None
-        self.published: PublishedQuantities | None = None
         self.start = world.state()
         self.loaded = self.start if mechanism.roller_off is None else loaded_state(mechanism)
         self.start_energy_j = self.mechanics.energies(self.start).total_j
@@ -123,8 +121,7 @@ class Run:
         """Carry out the run as far as the settings ask."""
         self._look(self.start, self.settings.trajectory)
         self.takeoff = self._push_off()
-        settings = self.settings
-        if self.takeoff and self.sound and (settings.flight == "simulated" or settings.published_quantities):
+        if self.takeoff and self.sound and self.settings.flight == "simulated":
             self._fly()
         self._look(self.world.state(), self.settings.trajectory)
 
@@ -230,28 +227,16 @@ class Run:
         return float(self.mechanics.velocity_m_s(state)[2]) > 0.0
 
     def _fly(self) -> None:
-        """Advance to the first touchdown, and to the published study's last contact if asked for."""
-        world, settings = self.world, self.settings
-        distance: float | None = None
-        height = self._body_position_m(self.start)[2]
-        while self.time_s < settings.max_time_s and self.sound:
+        """Advance to the first touchdown."""
+        while self.time_s < self.settings.max_time_s and self.sound:
             if self.drag_per_m:
                 self._brake()
             self._advance(1)
-            if settings.published_quantities:
-                height = max(height, self._body_position_m(world.state())[2])
-            if not world.loaded():
-                continue
-            here = float(self._body_position_m(world.state())[0] - self._body_position_m(self.loaded)[0])
-            if self.touchdown_distance_m is None:
-                self.touchdown_distance_m = here
-            if not settings.published_quantities:
-                break
-            if self.time_s > PUBLISHED_CONTACT_AFTER_S:
-                distance = here
-                break
-        if settings.published_quantities:
-            self.published = PublishedQuantities(distance, float(height))
+            if self.world.loaded():
+                states = self.world.state(), self.loaded
+                here, start = (self.mechanics.frame_positions_m(state)[BODY_INDEX, 0] for state in states)
+                self.touchdown_distance_m = float(here - start)
+                return
 
     def _brake(self) -> None:
         """Let air act on all bodies alike, as a part of gravity: it turns nothing."""
@@ -310,7 +295,3 @@ class Run:
         reach = 2.0 * self.mechanism.design.l_max_mm / 1000.0  # farther than any contact is from the centre
         path = ballistics(start, here, velocity, self.settings.gravity_m_s2, self.drag_per_m, reach)
         return Takeoff(time_s, path, flight(self.mechanism, mechanics, self.loaded, state, path), budget, left / wound)
-
-    def _body_position_m(self, state: State) -> Array:
-        position: Array = self.mechanics.frame_positions_m(state)[BODY_INDEX]
-        return position

@@ -109,7 +109,6 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
         lateral_offset_mm=1000.0 * offset_m,
         touchdown_distance_m=run.touchdown_distance_m,
         energy=takeoff.energy,
-        published=run.published,
         trajectory=run.trajectory(),
         findings=findings,
     )

@@ -113,7 +113,7 @@ def test_what_the_push_off_gained_counts_as_a_share_of_the_springs(
 
 @pytest.mark.parametrize(
     ("key", "value"),
-    [("restitution", 0.5), ("rolling_friction_m", 0.01), ("published_quantities", True)],
+    [("restitution", 0.5), ("rolling_friction_m", 0.01)],
 )
 def test_what_the_plane_does_not_have_is_refused(kenan: Robot, key: str, value: float) -> None:
     with pytest.raises(JumpcadError, match=f"{key} = {value}.*pybullet"):
