@@ -9,6 +9,8 @@ from jumpcad.calibration.measurements import DISTANCES, Jumps, Measurements
 
 LEAST_FRICTION, MOST_FRICTION = 0.1, 2.0
 """Of a floor test: below ice and above any rubber the unit is wrong."""
+PULLED = "pull the standing robot by its foot, along the floor, and give newtons (100 gf are 0.98 N)"
+TILTED = "give the slope's angle in degrees, at which the robot begins to slip on its feet"
 FLOOR_FACTOR = 2.0
 """By which tests of one floor may differ; judgement."""
 SERIES_FACTOR = 3.0
@@ -38,27 +40,20 @@ def contradictions(measured: Measurements, standing_m: float, weight_n: float) -
 
 def _of_floor(measured: Measurements, weight_n: float) -> Iterator[str]:
     """Yield floor tests that are of no floor, or of two."""
-    tests = measured.floor
-    pulls = [(pull / weight_n, f"floor.pull_n = {pull:g}") for pull in tests.pull_n]
-    slopes = [(math.tan(math.radians(slope)), f"floor.slope_deg = {slope:g}") for slope in tests.slope_deg]
-    for friction, test in pulls:
+    tests = [(pull / weight_n, f"floor.pull_n = {pull:g}", PULLED) for pull in measured.floor.pull_n]
+    tests += [
+        (math.tan(math.radians(slope)), f"floor.slope_deg = {slope:g}", TILTED) for slope in measured.floor.slope_deg
+    ]
+    for friction, test, how in tests:
         if not LEAST_FRICTION <= friction <= MOST_FRICTION:
+            yield f"{test}: is a friction of {friction:.3g}: {how}"
+    if len(tests) > 1:
+        (low, one, _), (high, other, _) = min(tests), max(tests)
+        if high > FLOOR_FACTOR * low:
             yield (
-                f"{test}: is a friction of {friction:.3g}: pull the standing robot by its foot, along the floor, and "
-                "give newtons (100 gf are 0.98 N)"
+                f"{one} is a friction of {low:.2f}, and {other} one of {high:.2f}: one floor has one friction: test "
+                "both again, on the floor of the jumps"
             )
-    for friction, test in slopes:
-        if not LEAST_FRICTION <= friction <= MOST_FRICTION:
-            yield (
-                f"{test}: is a friction of {friction:.3g}: give the slope's angle in degrees, at which the robot "
-                "begins to slip on its feet"
-            )
-    if len(both := sorted(pulls + slopes)) > 1 and both[-1][0] > FLOOR_FACTOR * both[0][0]:
-        (low, one), (high, other) = both[0], both[-1]
-        yield (
-            f"{one} is a friction of {low:.2f}, and {other} one of {high:.2f}: one floor has one friction: test both "
-            "again, on the floor of the jumps"
-        )
 
 
 def _of_distances(series: tuple[Jumps, ...]) -> Iterator[str]:

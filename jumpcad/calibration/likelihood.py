@@ -219,20 +219,18 @@ def _log_density(datum: Datum, value: Array, deviation: Array) -> Array:
     """Return the logarithm of a measurement's density: lengths along the ground by Student's t, others normal."""
     positive = value > 0.0
     safe = np.where(positive, value, 1.0)
+    if datum.what in ("distance", "battery", "speed"):
+        scale = deviation / safe
+        off = np.log(datum.value / safe) / scale
+    else:
+        scale, off = deviation, (datum.value - value) / deviation
     if datum.what == "distance":
-        share = deviation / safe
-        off = np.log(datum.value / safe) / share
         constant = (
             gammaln((STUDENT_T_DEGREES + 1.0) / 2.0)
             - gammaln(STUDENT_T_DEGREES / 2.0)
             - 0.5 * math.log(STUDENT_T_DEGREES * math.pi)
         )
-        found = constant - (STUDENT_T_DEGREES + 1.0) / 2.0 * np.log1p(off * off / STUDENT_T_DEGREES) - np.log(share)
-    elif datum.what in ("battery", "speed"):
-        share = deviation / safe
-        off = np.log(datum.value / safe) / share
-        found = -0.5 * off * off - np.log(share)
+        found = constant - (STUDENT_T_DEGREES + 1.0) / 2.0 * np.log1p(off * off / STUDENT_T_DEGREES) - np.log(scale)
     else:
-        off = (datum.value - value) / deviation
-        found = -0.5 * off * off - np.log(deviation)
+        found = -0.5 * off * off - np.log(scale)
     return np.where(positive & np.isfinite(found), found, -np.inf)

@@ -10,13 +10,7 @@ from typing import Any
 import numpy as np
 
 from jumpcad.arguments import check_arguments
-from jumpcad.calibration.likelihood import (
-    CalibrationModel,
-    Datum,
-    Predicted,
-    energy_per_mass,
-    predict,
-)
+from jumpcad.calibration.likelihood import CalibrationModel, Datum, Predicted, energy_per_mass, predict
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import load_subject, renamed, require_each_once, require_pairs
 from jumpcad.errors import JumpcadError
@@ -157,7 +151,12 @@ def sampled(
     JumpcadError
         If a robot has no measured jump, if no draw from the priors explains the jumps, or if emcee is not installed.
     """
-    require_data(model)
+    for subject in model.subjects:
+        if not any(datum.subject == subject.name and datum.what != "battery" for datum in model.data):
+            raise JumpcadError(
+                f"{subject.name}: too little to calibrate on: give at least one [[jumps]] with distance_mm and "
+                "distance_of, or one of [[videos]]"
+            )
     emcee = _emcee()
     dimension = len(model.parameters)
     walkers = 2 * (walkers_each * dimension // 2)
@@ -185,22 +184,6 @@ def sampled(
     # At random: every n-th draw could be from the same few walkers.
     chosen = np.sort(generator.choice(len(chain), min(KEPT, len(chain)), replace=False))
     return CalibrationPosterior(model, chain[chosen], autocorrelation, left, walkers)
-
-
-def require_data(model: CalibrationModel) -> None:
-    """Require a measured jump or video of every robot.
-
-    Raises
-    ------
-    JumpcadError
-        If a robot has none.
-    """
-    for subject in model.subjects:
-        if not any(datum.subject == subject.name and datum.what != "battery" for datum in model.data):
-            raise JumpcadError(
-                f"{subject.name}: too little to calibrate on: give at least one [[jumps]] with distance_mm and "
-                "distance_of, or one of [[videos]]"
-            )
 
 
 def _start(model: CalibrationModel, walkers: int, generator: np.random.Generator) -> Array:

@@ -6,13 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.calibration.likelihood import (
-    STUDENT_T_DEGREES,
-    CalibrationModel,
-    Datum,
-    Predicted,
-    predict,
-)
+from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, CalibrationModel, Datum, Predicted, predict
 from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import Subject
@@ -59,8 +53,8 @@ class Prediction:
 
     def _beside(self, datum: Datum, reading: str) -> dict[str, Any]:
         value = self.predicted.of(datum.what, reading)
-        noise = self.generator.standard_t(STUDENT_T_DEGREES, len(value)) if datum.what == "distance" else None
-        noise = self.generator.standard_normal(len(value)) if noise is None else noise
+        count, drawn = len(value), self.generator
+        noise = drawn.standard_t(STUDENT_T_DEGREES, count) if datum.what == "distance" else drawn.standard_normal(count)
         seen = np.nan_to_num(value + noise * self.predicted.deviation(datum, reading, value))
         return {
             "what": datum.what,

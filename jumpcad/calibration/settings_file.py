@@ -15,7 +15,8 @@ SAVED = 100
 DIGITS = 4
 MOST_DEVIATIONS = 10.0
 """By how many standard deviations a measurement may be off: beyond, it is a mistake, not an error; judgement."""
-KEYS = ("spring_efficiency", "pin_friction")
+LIMITS = {"spring_efficiency": (0.1, 1.5), "pin_friction": (0.0, 2.0)}
+"""What settings take."""
 
 
 def settings_toml(posterior: CalibrationPosterior) -> str:
@@ -35,7 +36,7 @@ def settings_toml(posterior: CalibrationPosterior) -> str:
                 f"{one['robot']}: {one['what']} = {one['measured']:.3g} {unit} is off by {off:+.1f} standard "
                 f"deviations, more than {MOST_DEVIATIONS:g}: no settings are written: check it, or leave it out"
             )
-    values = {key: np.clip(np.round(posterior.values[key], DIGITS), *_limits(key)) for key in KEYS}
+    values = {key: np.clip(np.round(posterior.values[key], DIGITS), *limits) for key, limits in LIMITS.items()}
     names = ", ".join(subject.name for subject in posterior.model.subjects)
     comment = [f"# Calibrated on {names} by jumpcad calibrate: medians, and under [draws] what stays open."]
     if "drive_efficiency" in posterior.values:
@@ -68,8 +69,3 @@ def elsewhere(posterior: CalibrationPosterior) -> Iterator[str]:
             yield f"{name}, in its design: stiffness_nmm_per_deg = {factor * robot.design.stiffness_nmm_per_deg:.3g}"
         else:
             yield f"{name}, in [springs.{stock.name}]: rate_nmm_per_deg = {factor * stock.rate_nmm_per_deg:.3g}"
-
-
-def _limits(key: str) -> tuple[float, float]:
-    least, most = {"spring_efficiency": (0.1, 1.5), "pin_friction": (0.0, 2.0)}[key]
-    return least, most

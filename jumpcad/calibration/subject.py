@@ -26,15 +26,14 @@ from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.mechanics import Mechanics, loaded_state
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import load_workshop
 
 LANDINGS = (0.7, 0.85, 1.0, 1.2, 1.5)
 """Spring energies over the model's at which the touchdown is simulated."""
 TRIES = 8
 """Landings at each of them, where they are simulated."""
 UNITS = {
-    "mass": ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?")),
-    "part": ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?")),
+    **dict.fromkeys(("mass", "part"), ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?"))),
     "rate": (
         (180.0 / math.pi, "is that per radian?"), (1e-3, "is that N·m/deg?"), (0.5, "is that of one spring?"),
         (180.0 / math.pi / 1000.0, "is that N·m/rad?"), (10.0, "a digit too many?"), (0.1, "a digit too few?"),
@@ -166,7 +165,8 @@ def load_subject(name_or_path: str | Path) -> Subject:
     robot = build(design, workshop, name)
     if measured.mass.parts_g:
         _require_parts(measured.mass.parts_g, robot, str(path))
-        robot = build(design, _with_weights(workshop, measured.mass.parts_g), name)
+        mass = workshop.mass.model_copy(update={"weighed_g": workshop.mass.weighed_g | measured.mass.parts_g})
+        robot = build(design, workshop.model_copy(update={"mass": mass}).revalidated(), name)
     subject = Subject(path.stem, measured, robot, ())
     videos = [(path.parent / video.points, video.slow_motion) for video in measured.videos]
     seen = (seen_takeoff(read_points(file), str(file), subject.fastest_m_s, slow) for file, slow in videos)
@@ -198,13 +198,6 @@ def _beside(path: Path, name: str) -> str | Path:
     """Return the path of a TOML file relative to the measurements, or a template's name or absolute path as it is."""
     beside = path.parent / name
     return beside if name.endswith(".toml") and not Path(name).is_absolute() else name
-
-
-def _with_weights(workshop: Workshop, parts_g: dict[str, float]) -> Workshop:
-    if not parts_g:
-        return workshop
-    mass = workshop.mass.model_copy(update={"weighed_g": workshop.mass.weighed_g | parts_g})
-    return workshop.model_copy(update={"mass": mass}).revalidated()
 
 
 def _require_parts(parts_g: dict[str, float], robot: Robot, source: str) -> None:

@@ -51,20 +51,6 @@ def test_a_height_is_read_to_15_mm() -> None:
     assert deviation("height", "rise", 1, 0.08, 0.03) == pytest.approx(math.hypot(0.015, 0.016, 0.006))
 
 
-def test_a_better_drive_takes_less_from_the_battery() -> None:
-    """Of 2 J by the model: a fifth more efficient, and springs that are a tenth stiffer."""
-    surface = SimpleNamespace(at=lambda *_: None)
-    measured = SimpleNamespace(release="dog")
-    subject = SimpleNamespace(
-        name="a", pair="a", measured=measured, surface=surface, electrical_j=2.0, beyond_m=(0.0, 0.0), standing_m=0.1
-    )
-    values = {
-        "rate:a": 1.1 * ONE, "mass:a": ONE, "floor:a": ONE, "pin_friction": ONE, "spring_efficiency": ONE,
-        "drive_efficiency": 1.2 * ONE,
-    }  # fmt: skip
-    assert predict(subject, values).battery_j == pytest.approx([2.0 * 1.1 / 1.2])  # type: ignore[arg-type]
-
-
 @pytest.mark.parametrize(
     ("what", "known"),
     [
@@ -263,12 +249,6 @@ def test_springs_of_a_pair_have_the_pair_s_rate() -> None:
     assert predict(robot, values).battery_j == pytest.approx([2.2])
 
 
-def test_travel_is_drawn_in_mm_and_said_in_m() -> None:
-    values = {"spring_efficiency": ONE, "pin_friction": ONE, "rate:a": ONE, "mass:a": ONE, "floor:a": ONE}
-    assert predict(measured_robot(), values).of("distance", "resting-place") == pytest.approx([0.12])
-    assert predict(measured_robot(), values | {"travel:a": 30.0 * ONE}).travel_m == pytest.approx([0.03])
-
-
 def test_a_posterior_is_prior_times_the_mean_of_the_readings() -> None:
     """Bayes, for one distance of which it is not known what it is of, and the energy from the battery."""
     model = CalibrationModel([measured_robot(jumps=JUMPED)])
@@ -312,14 +292,3 @@ def test_of_several_robots_all_measurements_count() -> None:
         own = z[:, [keys.index(one.key) for one in alone.parameters]]
         parts.append(alone.log_probability(own) + 0.5 * (own**2).sum(axis=1))
     assert model.log_probability(z) == pytest.approx(parts[0] + parts[1] - 0.5 * (z**2).sum(axis=1))
-
-
-def test_each_parameter_is_called_after_what_it_belongs_to() -> None:
-    """A rate after its pair of springs, the others after their robot."""
-    robot = measured_robot(jumps=JUMPED, release="fixed", spring={"pair": "ours"})
-    assert {one.key: one.label for one in CalibrationModel([robot]).parameters} == {
-        "spring_efficiency": "spring efficiency", "pin_friction": "friction of pins",
-        "back_efficiency": "back efficiency of release", "drive_efficiency": "drive efficiency / model",
-        "rate:ours": "ours: spring rate / design", "mass:a": "a: mass / model", "floor:a": "a: friction of floor",
-        "travel:a": "a: travel after landing (mm)",
-    }  # fmt: skip

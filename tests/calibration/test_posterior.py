@@ -3,7 +3,6 @@
 import math
 import sys
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ import pytest
 from jumpcad.calibration import posterior as module
 from jumpcad.calibration.likelihood import CalibrationModel, CalibrationParameter, Datum, Predicted
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.posterior import CalibrationPosterior, _residual, _verdict, require_data, sampled
+from jumpcad.calibration.posterior import CalibrationPosterior, _residual, sampled
 from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, SPRING_EFFICIENCY
 from jumpcad.calibration.subject import Subject
 from jumpcad.calibration.surface import JumpAt
@@ -65,13 +64,6 @@ def test_chains_are_long_enough_or_say_so(posterior: CalibrationPosterior) -> No
     assert posterior.effective > 500
 
 
-def test_differential_evolution_needs_a_quarter_of_the_steps_of_emcees_usual_move(
-    posterior: CalibrationPosterior,
-) -> None:
-    """By the stretch move, its default, the same chains were doubled until 6400 steps were left of them."""
-    assert posterior.steps <= 6400 / 4
-
-
 def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: CalibrationPosterior) -> None:
     first, again = (sampled(CalibrationModel(posterior.model.subjects), 1, **SHORTEST) for _ in range(2))
     assert np.array_equal(again.z, first.z)
@@ -79,16 +71,6 @@ def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: Calibra
     assert first.walkers == 8 * len(posterior.model.parameters)
     assert first.steps == SHORTEST["steps"] - SHORTEST["steps"] // 3  # a third is burn-in, and is not kept
     assert len(first.z) == first.steps * first.walkers
-
-
-def test_a_calibration_is_of_each_robot_that_is_named_and_drawn_by_its_seed(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, made in (
-        ("load_subject", lambda name: SimpleNamespace(name=name, pair=name)),
-        ("CalibrationModel", list),
-    ):
-        monkeypatch.setattr(module, name, made)
-    monkeypatch.setattr(module, "sampled", lambda model, seed=0: ([subject.name for subject in model], seed))
-    assert module.calibrate(["kenan-1.0", "kenan-2.0"], 7) == (["kenan-1.0", "kenan-2.0"], 7)
 
 
 def test_distance_of_an_unknown_kind_is_wider(subject: Subject, posterior: CalibrationPosterior) -> None:
@@ -165,19 +147,6 @@ def test_without_emcee(subject: Subject, monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setitem(sys.modules, "emcee", None)
     with pytest.raises(JumpcadError, match=r'pip install "jumpcad\[calibrate\]"'):
         fitted(subject, jumps=({"distance_mm": (250.0,), "distance_of": "centre-of-mass"},))
-
-
-@pytest.mark.parametrize(
-    ("spread", "shift", "words"),
-    [
-        (0.1, 0.0, "identified"), (0.5, 3.0, "identified"), (0.51, 0.0, "partly identified"),
-        (0.85, 0.0, "partly identified"), (0.86, 0.9, "stays at its prior"), (0.86, 1.0, "partly identified"),
-        (0.99, -1.5, "partly identified"),
-    ],
-)  # fmt: skip
-def test_data_identify_what_they_make_twice_as_sure(spread: float, shift: float, words: str) -> None:
-    """Half of the prior's deviation; partly from 0.85 of it on, or where the mean has moved by one deviation."""
-    assert _verdict(spread, shift) == words
 
 
 def drawn(z: np.ndarray, autocorrelation: float = 30.0, steps: int = 1500) -> CalibrationPosterior:
@@ -257,16 +226,6 @@ def test_each_robot_has_its_own_energy(subject: Subject) -> None:
     kept = 0.95 * (0.4 + 0.6 * 0.5)
     by_mass = [kept / (1.0 + deviation * math.hypot(0.2, 0.01)) for deviation in (1.0, 0.0, -1.0)]
     assert found["other"] == pytest.approx(np.quantile(by_mass, (0.1, 0.5, 0.9)))
-
-
-@pytest.mark.parametrize(
-    "jump", [{"distance_mm": (240.0,), "distance_of": "unknown"}, {"height_mm": (80.0,), "height_of": "rise"}]
-)
-def test_a_distance_or_a_height_is_enough_to_calibrate_on(subject: Subject, jump: dict[str, Any]) -> None:
-    """Both tell of the springs' energy; that of the battery tells of the drive alone."""
-    require_data(CalibrationModel([measured(subject, jumps=(jump,))]))
-    with pytest.raises(JumpcadError, match="too little"):
-        require_data(CalibrationModel([measured(subject, jumps=({"battery_j": (1.5,)},))]))
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,6 @@
 """A robot that was not calibrated on: its own properties stay open, shared ones follow the calibration."""
 
 import math
-import tomllib
 from dataclasses import replace
 from typing import Any
 
@@ -12,7 +11,7 @@ from jumpcad.calibration.likelihood import CalibrationModel
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, sampled
 from jumpcad.calibration.prediction import predicted_jump
-from jumpcad.calibration.settings_file import SAVED, _limits, elsewhere, settings_toml
+from jumpcad.calibration.settings_file import SAVED, elsewhere, settings_toml
 from jumpcad.calibration.subject import Subject
 from jumpcad.settings import Settings, load_settings
 
@@ -101,13 +100,3 @@ def test_what_is_no_setting_is_told_with_its_place(posterior: CalibrationPosteri
         replace(posterior, model=CalibrationModel([subject.remeasured(Measurements(**SAID, jumps=JUMPS))]))
     )
     assert "ground" not in line
-
-
-def test_the_draws_of_a_file_are_spread_over_the_whole_chain(posterior: CalibrationPosterior) -> None:
-    """From the first to the last, in pairs: neighbours are of the same walkers and alike."""
-    kept, found = tomllib.loads(settings_toml(posterior))["draws"], posterior.values
-    rows = np.linspace(0, len(posterior.z) - 1, 100).astype(int)
-    assert len(posterior.z) > 10 * len(rows)
-    for key in ("spring_efficiency", "pin_friction"):
-        low, high = _limits(key)
-        assert kept[key] == pytest.approx(np.clip(found[key][rows], low, high), abs=6e-5)

@@ -26,10 +26,6 @@ def test_quantiles(prior: Prior, known: stats.rv_continuous) -> None:
     assert prior.quantiles(SHARES) == pytest.approx(known.ppf(SHARES), rel=1e-9)
 
 
-def test_a_normal_one_ends_at_its_least_value() -> None:
-    assert Prior("normal", 1.0, 0.2, "", 0.1).at(np.array([-50.0, 0.0])).tolist() == [0.1, 1.0]
-
-
 def test_weights_and_floors() -> None:
     """A robot of 110 g by the model that weighs 121 ± 2 g; pulls of 0.5 and 0.7 have the mean 0.6."""
     mass = weighed_mass(121.0, 110.0, 2.0)

@@ -5,10 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from jumpcad.calibration import surface as module
-from jumpcad.calibration.priors import FLOOR
 from jumpcad.calibration.subject import Subject
-from jumpcad.calibration.surface import CHECKED_POINTS, DT_S, FINE, NODES, Surface, _lines, surface_of
+from jumpcad.calibration.surface import DT_S, FINE, NODES, Surface, _lines, surface_of
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
@@ -35,15 +33,6 @@ def test_its_error_is_said(surface: Surface) -> None:
     assert surface.errors.max() < 0.05
 
 
-def test_its_error_is_that_of_jumps_with_its_own_settings(surface: Surface, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = []
-    jump = Jump("jump", "planar", 0.1, 0.2, ballistic_range_m=0.5)
-    monkeypatch.setattr(module, "_jump", lambda robot, settings, *point: asked.append(settings) or jump)
-    light = Settings(dt_s=DT_S, gravity_m_s2=5.0)
-    assert len(replace(surface, settings=light).errors) > 0
-    assert asked == [light] * CHECKED_POINTS
-
-
 def test_weaker_springs_are_a_heavier_robot(subject: Subject) -> None:
     """Newton: with all masses and the stiffness k times as large, every path is the same."""
     robot, factor = subject.robot, 1.3
@@ -61,25 +50,6 @@ def test_weaker_springs_are_a_heavier_robot(subject: Subject) -> None:
 def test_no_jump_is_no_number(surface: Surface) -> None:
     found = surface.at(np.array([0.2, 3.0, 1.0]), np.full(3, 0.25), np.full(3, 0.8))
     assert np.isnan(found.range_m).tolist() == [True, True, False]
-
-
-def test_default_nodes_ascend_and_hold_what_is_believed() -> None:
-    """The model's energy is a node, as are the ends of the floor's prior; pins end at 99.9 % of theirs.
-
-    Steps of energy are even to a factor; every interval between nodes has two of the even points.
-    """
-    energy, pins, floors = (np.array(one) for one in NODES)
-    for one, count in zip((np.log(energy), pins, floors), FINE, strict=True):
-        steps = np.diff(one)
-        assert (steps > 0.0).all()
-        assert np.ptp(one) / (count - 1) <= steps.min() / 2.0 + 1e-9
-    assert 1.0 in energy
-    assert {FLOOR.first, FLOOR.second} <= set(floors)
-    assert pins[-1] > 0.25 * np.exp(3.0 * 0.4)
-    assert pins[0] == 0.0
-    ratios = np.diff(np.log(energy))[1:] / np.diff(np.log(energy))[:-1]
-    assert ((ratios > 0.6) & (ratios < 1.7)).all()
-    assert floors[-1] > FLOOR.second
 
 
 def test_a_line_on_log_energy_pins_and_floor_is_met_everywhere(surface: Surface) -> None:
@@ -116,18 +86,6 @@ def test_between_the_nodes_at_which_it_jumps_a_line_is_met_and_outside_there_is_
         values = np.full(5, np.nan)
         values[known] = 1.0
         assert np.isnan(_lines(values, nodes, even)).all()
-
-
-def test_lines_that_are_interpolated_together_are_those_of_each_alone() -> None:
-    """Bytes alike, in whatever order lines with and without holes lie; two axes of them keep their places."""
-    nodes, even = np.array([0.0, 1.0, 2.5, 3.0, 4.0]), np.linspace(0.0, 4.0, 17)
-    rng = np.random.default_rng(3)
-    values = np.where(rng.random((5, 4, 6)) < 0.3, np.nan, rng.random((5, 4, 6)))
-    found = _lines(values, nodes, even)
-    assert found.shape == (17, 4, 6)
-    assert 0.2 < np.isfinite(found).mean() < 0.9
-    for i, j in np.ndindex(4, 6):
-        assert found[:, i, j].tobytes() == _lines(values[:, i, j], nodes, even).tobytes()
 
 
 def test_a_robot_that_never_jumps_has_no_surface(subject: Subject, monkeypatch: pytest.MonkeyPatch) -> None:
