@@ -44,17 +44,6 @@ def test_the_account_has_every_entry_of_the_budget_once() -> None:
     assert sum(account.values()) == 511.0
 
 
-def test_what_does_not_jump_has_no_figures_of_a_jump() -> None:
-    """Fitness 0, and nothing else: no range, no rise, no energies, no take-off."""
-    stays = Jump("no_takeoff", "planar", 0.1, 0.2)
-    figures = {name: value for name, value in vars(stays).items() if value is not None}
-    assert figures == {
-        "verdict": "no_takeoff", "engine": "planar", "mass_kg": 0.1, "spring_energy_j": 0.2, "fitness": 0.0,
-        "findings": (),
-    }  # fmt: skip
-    assert stays.energy_account_j is None
-
-
 def test_no_loss_is_negative_and_the_account_still_adds_up() -> None:
     budget = EnergyBudget(0.05, 0.05, 0.01, 0.01, 0.002, 0.003, 0.004, 0.001, -0.0003)
     assert sum(budget.account_j.values()) == pytest.approx(sum(vars(budget).values()))

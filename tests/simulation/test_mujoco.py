@@ -19,16 +19,6 @@ def test_mujoco_refuses_what_it_does_not_have(kenan: Robot) -> None:
         simulate(kenan, Settings(restitution=0.5), "mujoco")
 
 
-def test_what_counts_as_carried_is_a_share_of_the_weight(kenan: Robot) -> None:
-    """On the Moon a sixth of what it is on the Earth."""
-    needs.package("mujoco")
-    carried = []
-    for gravity_m_s2 in (1.62, 9.81):
-        with engine_named("mujoco").world(kenan, Settings(gravity_m_s2=gravity_m_s2)) as world:
-            carried.append(world._carried_n)
-    assert carried[0] / carried[1] == pytest.approx(1.62 / 9.81)
-
-
 @pytest.mark.parametrize("turning", [False, True])
 def test_mujoco_begins_where_the_planar_engine_does(kenan: Robot, turning: bool) -> None:
     """Places, turns and both velocities of all four bodies; standing loaded, and as the roller leaves the cam."""

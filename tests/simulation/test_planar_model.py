@@ -1,13 +1,12 @@
 """The planar model: what the plane takes of a robot."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.machines import machine, rubbing
+from support.machines import rubbing
 
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, ContactSphere, Stop
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, ContactSphere
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.planar_model import planar_model
@@ -21,15 +20,6 @@ def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
     ranges = [simulate(kenan, settings, "planar").ballistic_range_m for settings in pairs]
     assert ranges[0] == ranges[1]
     assert ranges[2] > 1.5 * ranges[0]
-
-
-def test_gravity_and_stop_are_those_of_the_settings_and_the_robot(kenan: Robot) -> None:
-    """Capsules have no stop."""
-    moon = Settings(gravity_m_s2=1.62)
-    free = planar_model(kenan, moon)
-    held = planar_model(replace(kenan, stop=Stop("leg", 0.11, 25.0)), moon)
-    assert (free.gravity_m_s2, free.stop_rad, free.stop_nm_per_rad) == (1.62, math.inf, 0.0)
-    assert (held.gravity_m_s2, held.stop_rad, held.stop_nm_per_rad) == (1.62, 0.11, 25.0)
 
 
 @pytest.mark.parametrize("preload_rad", [0.0, 0.2])
@@ -53,24 +43,6 @@ def test_left_and_right_do_not_count(lopsided: Robot) -> None:
         simulate(robot, engine="planar").ballistic_range_m for robot in (lopsided, replace(lopsided, bodies=bodies))
     ]
     assert ranges[0] == ranges[1]
-
-
-def test_links_bodies_and_springs_are_those_of_the_robot_in_metres(lopsided: Robot) -> None:
-    """A loop of 100 mm legs, bodies by their names; springs that only push and are loaded at rest already."""
-    robot = machine(lopsided)
-    model, design, spring = planar_model(robot, Settings()), robot.design, robot.spring
-    assert (model.l1_m, model.l2_m) == pytest.approx((np.linalg.norm(robot.joint("front").origin_m) * 2.0, 0.1))
-    assert (model.l3_m, model.l4_m) == pytest.approx((robot.loop.point_a_m[0], robot.loop.point_b_m[0]))
-    assert model.rest_rad == pytest.approx(robot.joint("leg").rest_angle_rad)
-    assert math.degrees(model.rest_rad) == pytest.approx(design.rest_angle_deg)
-    assert model.total_kg == pytest.approx(sum(model.mass_kg))
-    for index, name in enumerate(BODY_NAMES):
-        body = robot.bodies[name]
-        assert (model.mass_kg[index], model.inertia_kg_m2[index]) == (body.mass_kg, body.inertia_kg_m2[1, 1])
-        assert (model.com_m[index].real, model.com_m[index].imag) == (body.com_m[0], body.com_m[2])
-    assert (model.stiffness_nm_per_rad, model.preload_rad) == (spring.stiffness_nm_per_rad, math.radians(3.0))
-    assert model.one_sided_spring
-    assert not planar_model(lopsided, Settings()).one_sided_spring
 
 
 @pytest.mark.parametrize("pin_forces", [False, True])

@@ -4,11 +4,10 @@ import pytest
 from support import needs
 
 from jumpcad.design import Design, load_design
-from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
-from jumpcad.simulation import Settings, run, simulate
+from jumpcad.simulation import Settings, simulate
 
 needs.package("pybullet")
 
@@ -43,19 +42,6 @@ def test_refused_designs_are_not_simulated(vector: list[float], verdict: str) ->
     assert refusal.remedy
 
 
-def test_the_first_test_that_fails_is_the_verdict(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where the loop does not close, what follows of the pose means nothing; both are told."""
-    found = [
-        Finding("loop", "error", -1.0, "°", "open", "close it"), Finding("below_ground", "info", 1.0, "mm", "", ""),
-        Finding("tips", "error", -2.0, "mm", "falls", "turn it"),
-    ]  # fmt: skip
-    monkeypatch.setattr("jumpcad.simulation.simulator.geometry_findings", lambda _: found)
-    jump = simulate(kenan, engine="planar")
-    assert (jump.verdict, jump.findings) == ("loop", tuple(found))
-    monkeypatch.setattr("jumpcad.simulation.simulator.geometry_findings", lambda _: found[::-1])
-    assert simulate(kenan, engine="planar").verdict == "tips"
-
-
 def test_heavier_gravity_makes_it_too_weak(kenan: Robot) -> None:
     """At 9.81 m/s² the springs hold 6.8 times the work of standing up."""
     assert simulate(kenan, Settings(gravity_m_s2=9.81 * 4)).verdict != "too_weak"
@@ -85,14 +71,3 @@ def test_a_robot_that_stays_on_the_ground_has_a_trajectory_and_the_audit_too() -
     assert {"loop", "below_ground", "tips", "too_weak", "audit_energy", "audit_loop"} < set(names)
     assert names[-1] == "no_takeoff"
     assert jump.energy is jump.takeoff_time_s is None
-
-
-def test_a_run_that_fails_its_audit_has_the_verdict_of_the_audit(monkeypatch: pytest.MonkeyPatch) -> None:
-    """And no figures, though it flew; both of its audits are told once."""
-    monkeypatch.setattr(run, "ENERGY_RATIO_LIMIT", 0.5)
-    robot = capsule_robot(load_design("kenan-2.0"))
-    jump = simulate(robot, Settings(trajectory=True), "planar")
-    assert (jump.verdict, jump.fitness, jump.ballistic_range_m) == ("audit_energy", 0.0, None)
-    assert [one.name for one in jump.findings].count("audit_energy") == 1
-    assert jump.findings[-1].name == "audit_loop"
-    assert jump.trajectory is not None

@@ -1,17 +1,13 @@
 """The stop's pad: it halts the leg and does not throw it back."""
 
-from dataclasses import replace
-
 import pytest
 from support import needs
 from support.built import built
 
 from jumpcad.exporters.mjcf import SUBSTEPS
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
-from jumpcad.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation.engines import engine_named
-from jumpcad.simulation.mechanics import StopPad
 
 BEYOND_RAD = 0.5
 """Past the stop: so far that a pad would push much more than is needed to halt the leg."""
@@ -28,15 +24,3 @@ def test_the_leg_is_halted_within_one_of_the_engines_own_steps(engine: str, subs
         held = world._pad.torque_nm(robot.stop.angle_rad + BEYOND_RAD, rate)
     inertia = leg_inertia_kg_m2(robot, robot.stop.angle_rad)
     assert held == pytest.approx(inertia * rate * substeps / dt_s)
-
-
-def test_a_leg_that_stands_still_is_held_against_springs_that_still_push(kenan: Robot) -> None:
-    """Preloaded by 0.9 rad they do, past rest; nothing is held before the stop, nor where there is none."""
-    robot = built("kenan-2.0")
-    assert robot.stop is not None
-    spring, at = replace(robot.spring, preload_rad=0.9), robot.stop.angle_rad + BEYOND_RAD
-    pad = StopPad(replace(robot, spring=spring), 0.0005)
-    assert pad.torque_nm(at, 0.0) == pytest.approx(spring.stiffness_nm_per_rad * (0.9 - at))
-    assert pad.torque_nm(robot.stop.angle_rad - 1e-6, 5.0) == 0.0
-    assert pad.torque_nm(at, -5.0) == 0.0  # it comes back by itself
-    assert StopPad(kenan, 0.0005).torque_nm(1.0, 5.0) == 0.0
