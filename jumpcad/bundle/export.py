@@ -94,7 +94,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
     shown = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     guide = write_guide(robot, list(seen))
     page = write_page(guide, robot.name, shown | {path: svg.encode() for path, svg in drawings.items()})
-    files |= {**shown, **drawings, "assembly.md": guide, "assembly.html": page}
+    files |= {**shown, **drawings, **guide, "assembly.html": page}
     files["report.html"] = _page(robot, seen, glb if pictures and isinstance(glb, bytes) else None, files)
     return files.items()
 

@@ -27,7 +27,7 @@ STRAIGHT_MM = 1e-4
 """Corners nearer than this to a straight line are dropped: they come from the triangles of a flat wall."""
 SMALLEST_MM2 = 1e-2
 """Cross-sections that differ by less are the same: STL files hold 32-bit floats."""
-BOM, GUIDE = "bom.csv", "assembly.md"
+BOM, ORDER = "bom.csv", "order.md"
 PLATE = re.compile(r"print/(plate-\d+-(.+))\.3mf")
 LARGEST_MM = 2000.0
 """Largest coordinate that is accepted in a part's file; a changed file may have any."""
@@ -138,17 +138,17 @@ def slice_bundle(
         sliced = slice_plate(path, workshop.printer, workshop.process, workshop.materials[material_name])
         ignored |= sliced.ignored
         plates.append(SlicedPlate(name, material_name, _grams(path, sliced), sliced.time_s))
-    billed = workshop == built_in and {BOM, GUIDE} <= set(bundle.files)
+    billed = workshop == built_in and {BOM, ORDER} <= set(bundle.files)
     return SlicedBundle(bundle, version, workshop, billed, tuple(parts), tuple(plates), ignored)
 
 
 def write_times(found: SlicedBundle) -> Bundle:
-    """Write the printing times into a bundle's bill of materials and guide, and return the changed bundle.
+    """Write the printing times into a bundle's bill of materials and order.md, and return the changed bundle.
 
     Raises
     ------
     JumpcadError
-        If the guide is not text, a user's file would be lost, or the folder cannot be written.
+        If order.md is not text, a user's file would be lost, or the folder cannot be written.
     """
     bundle = found.bundle
     bill = bill_of_facts(bundle.manifest["masses"], found.workshop).sliced(
@@ -156,10 +156,10 @@ def write_times(found: SlicedBundle) -> Bundle:
         [BilledPlate(plate.name, plate.material, plate.time_s) for plate in found.plates],
     )
     try:
-        guide = bundle.file(GUIDE).read_text(encoding="utf-8")
+        order = bundle.file(ORDER).read_text(encoding="utf-8")
     except UnicodeDecodeError:
-        raise JumpcadError(f"{bundle.folder}: {GUIDE}: not a text file in UTF-8") from None
-    changes = {BOM: write_bom(bill), GUIDE: with_bill(guide, bill)}
+        raise JumpcadError(f"{bundle.folder}: {ORDER}: not a text file in UTF-8") from None
+    changes = {BOM: write_bom(bill), ORDER: with_bill(order, bill)}
     return change_files(bundle, changes, {"PrusaSlicer": found.version})
 
 

@@ -29,7 +29,7 @@ def slice_command(
 ) -> None:
     """Slice a bundle with PrusaSlicer: masses beside the model's, printing times, settings that it ignored.
 
-    The times are written into the bundle's bill of materials and guide,
+    The times are written into the bundle's bill of materials and order.md,
     unless --workshop is given.
     """
     from jumpcad.bundle.sliced import slice_bundle, write_times
@@ -52,7 +52,7 @@ def slice_command(
         return
     _print_sliced(found)
     if found.billed:
-        print(f"written   the times, into bom.csv and assembly.md of {without_controls(str(bundle))}")
+        print(f"written   the times, into bom.csv and order.md of {without_controls(str(bundle))}")
     if write_masses is not None:
         name = without_controls(str(write_masses))
         print(f"written   {name}: try jumpcad build DESIGN --workshop {name}")

@@ -1,8 +1,9 @@
-"""assembly.md: nothing in the bill is missing, figures are those of springs, motor and battery, each step is ticked."""
+"""The guide: nothing in the bill is missing, figures are those of springs, motor and battery, each step is ticked."""
 
 import math
 import re
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -40,7 +41,12 @@ TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
 
 @cache
 def guide(name: str = "kenan-2.0") -> str:
-    return write_guide(built(name))
+    return whole(built(name))
+
+
+def whole(robot: Robot, pictures: Sequence[str] = ()) -> str:
+    """Return all documents of a guide, one after the other."""
+    return "\n".join(write_guide(robot, pictures).values())
 
 
 def bought(**changed: object) -> Robot:
@@ -57,11 +63,11 @@ def numbers_in(pattern: str, text: str) -> list[float]:
 
 def require_whole(robot: Robot) -> None:
     """Require of a guide and a firmware's README that no instruction is cut off, and of every step a box to tick."""
-    for text in (write_guide(robot), dict(firmware_files(robot))["firmware/README.md"]):
+    for text in (whole(robot), dict(firmware_files(robot))["firmware/README.md"]):
         assert not re.search(r"\{[{%]|\bNone\b(?! fits)|\bnan\b|  \n", text), robot.name
-    steps = re.split(r"(?m)^## ", write_guide(robot))
-    bill, wiring = steps[2], next(step for step in steps if step.startswith("Wiring"))
-    assert set(re.findall(r"(?m)\| (\w+)(?: \d+)? \|$", wiring)) <= set(re.findall(r"AWG \d+, (\w+)", bill)), robot.name
+    steps = re.split(r"(?m)^## ", whole(robot))
+    bill, wiring = steps[2], next(step for step in steps if step.startswith("Every wire"))
+    assert set(re.findall(r"(?m)\|(\w+)(?: \d+)?\|$", wiring)) <= set(re.findall(r"AWG \d+, (\w+)", bill)), robot.name
     numbered = [step for step in steps if re.match(r"\d+\. ", step)]
     assert len(numbered) == len(assembly_steps(robot))
     assert [step.splitlines()[0] for step in numbered if "\n- ☐ " not in step] == []
@@ -71,9 +77,9 @@ def test_a_guide_has_every_article_and_a_box_and_a_picture_for_each_step_in_5000
     robot = built("kenan-2.0")
     require_whole(robot)
     pictures = [name for name, _ in named_views(robot)]
-    text = write_guide(robot, pictures)
+    text = whole(robot, pictures)
     assert len(text.split()) <= 5000
-    assert re.findall(r"!\[.*\]\(pictures/(.*)\.png\)", text) == pictures
+    assert re.findall(r"!\[.*\]\(pictures/(step-.*)\.png\)", text) == pictures
     assert "--no-pictures" in guide()
     assert "--no-pictures" not in text
     bill = bill_of_materials(robot)
@@ -142,10 +148,11 @@ def test_both_plates_hold_the_springs_pin_before_an_arm_is_pushed() -> None:
 
 def test_a_guide_takes_times_in_and_changes_nothing_else() -> None:
     bill = bill_of_materials(built("kenan-2.0"))
-    timed = with_bill(guide(), bill.sliced({"foot": 5400.0}, [BilledPlate("plate-1-PETG", "PETG", 7260.0)]))
+    order = write_guide(built("kenan-2.0"))["order.md"]
+    timed = with_bill(order, bill.sliced({"foot": 5400.0}, [BilledPlate("plate-1-PETG", "PETG", 7260.0)]))
     assert "| plate-1-PETG | 2:01 h |" in timed
-    assert timed.split("## Print settings")[1] == guide().split("## Print settings")[1]
-    assert with_bill(timed, bill) == guide()
+    assert timed.split("## Print settings")[1] == order.split("## Print settings")[1]
+    assert with_bill(timed, bill) == order
     for seconds, written in ((29.0, "0:00 h"), (31.0, "0:01 h"), (3599.0, "1:00 h"), (9089.0, "2:31 h")):
         assert duration(seconds) == written
 
@@ -222,7 +229,7 @@ def test_times_of_charging_and_of_boards_left_on_follow_from_the_capacity() -> N
 def test_two_cells_are_never_charged_inside_the_robot() -> None:
     robot = of_kit("strong-2s")
     capacity = robot.workshop.catalogue.batteries[robot.workshop.bought.battery].capacity_mah
-    for text in (write_guide(robot), dict(firmware_files(robot))["firmware/README.md"]):
+    for text in (whole(robot), dict(firmware_files(robot))["firmware/README.md"]):
         assert "USB socket, switch on" not in text
         assert f"Charge with {capacity:.0f} mA at most (1 C)" in text
         assert "by a charger with a balance lead, set to LiPo 2S, outside the robot" in text
@@ -237,7 +244,7 @@ def test_a_board_without_a_button_is_told_by_typing_and_reads_no_current_of_usb(
     for kit, readable in (("light-1s", False), ("strong-2s", True)):
         board = '[boards.typed]\nlike = "xiao-esp32c3"\nbutton = ""\nsource = "a board of my own"'
         (tmp_path / "own.toml").write_text(f'[bought]\nkit = "{kit}"\ncontroller = "typed"\n{board}\n')
-        text = write_guide(build(design("kenan-2.0"), load_workshop(tmp_path / "own.toml"), "own"))
+        text = whole(build(design("kenan-2.0"), load_workshop(tmp_path / "own.toml"), "own"))
         assert "the button" not in text, kit
         assert "Type `wind`." in text, kit
         assert ("10 A range on its terminals" in text) == ("mA standing" in text) == readable, kit
@@ -247,7 +254,7 @@ def test_a_board_without_a_button_is_told_by_typing_and_reads_no_current_of_usb(
 def test_the_switch_bears_the_blocked_motor_and_its_slider_reaches_through_the_plate() -> None:
     """Half an ampere, which sellers state, is enough or not; 1.5 mm of slider are left for a finger."""
     for robot in (built("kenan-2.0"), of_kit("strong-2s")):
-        text, cells = write_guide(robot), 2 if robot.workshop.bought.kit == "strong-2s" else 1
+        text, cells = whole(robot), 2 if robot.workshop.bought.kit == "strong-2s" else 1
         volts, amperes = numbers_in(r"A at ([\d.]+) V\. The blocked motor draws ([\d.]+) A\.", text)
         assert volts == pytest.approx(4.2 * cells)
         assert ("0.5 A type" in text) == (amperes <= 0.5)
@@ -264,7 +271,7 @@ NEAR_SCREW = [100.0, 0.96812, 0.5, 1.07992, 0.8, 70.0, 30.0, 15.404]
 def test_the_block_under_the_motor_meets_the_plate_alone() -> None:
     """No screw's head, tie or bent end outside of the right plate stands where the guide puts the wooden block."""
     for robot in (*map(built, TEMPLATES), build(Design.from_vector(NEAR_SCREW))):
-        text = write_guide(robot)
+        text = whole(robot)
         groove, *block = numbers_in(r"groove (\d+) mm wide, .* piece of wood of ([\d.]+) x (\d+) mm", text)
         size = np.array(block)
         assert 6.0 <= size[0] - groove <= 12.0  # 3 to 6 mm on either side
@@ -299,7 +306,7 @@ def test_tools_go_through_what_they_are_for() -> None:
 @pytest.mark.thorough
 def test_clips_and_screws_of_axles_are_put_on_where_the_robot_has_them() -> None:
     """And tape closes the lower plate's open bores before anything stands in them."""
-    clips, nuts = write_guide(bought(retention="clips", axle="silver-steel")), write_guide(bought(retention="nuts"))
+    clips, nuts = whole(bought(retention="clips", axle="silver-steel")), whole(bought(retention="nuts"))
     for words, told in (
         ("turn the lock nuts on", (False, False, True)), ("press a clip into every groove", (False, True, False)),
         ("its closed bores hold the axles", (True, False, False)), ("The bores are open", (False, True, True)),
@@ -308,7 +315,7 @@ def test_clips_and_screws_of_axles_are_put_on_where_the_robot_has_them() -> None
         assert tuple(text.count(words) == 1 for text in (guide(), clips, nuts)) == told, words
     lean = built("kenan-2.0")
     lean = replace(lean, layout=replace(lean.layout, spring_boss_mm=0.0))
-    assert write_guide(lean).count("strip of") == 2  # of tape, in place of the boss, and off again
+    assert whole(lean).count("strip of") == 2  # of tape, in place of the boss, and off again
     assert "its boss holds it" in guide()
     assert nuts.index("The bores are open") < nuts.index("Stand axles and springs' pin in their bores")
 
@@ -320,7 +327,7 @@ def test_preloaded_and_stock_springs_are_handled_as_such() -> None:
         "spring": shop.spring.model_copy(update={"preload_deg": 5.0}),
         "bought": shop.bought.model_copy(update={"spring": "9271K589"}),
     }
-    text = write_guide(build(design("kenan-1.0"), shop.model_copy(update=changed), "own"))
+    text = whole(build(design("kenan-1.0"), shop.model_copy(update=changed), "own"))
     assert "Two torsion springs 9271K589, one of each hand, from stock" in text
     assert "asks for 4.60 N·mm/°; the robot is computed with 26.36 N·mm/°" in text
     assert "by the preload | 132 N·mm |" in text  # 26.36 · 5
@@ -336,15 +343,15 @@ def test_a_forbidden_robot_is_told_with_its_limits(monkeypatch: pytest.MonkeyPat
         broken = [limit(name, -1.0, "mm", "found", "remedy") for name in names]
         found = [*broken, limit("holes", 1.0, "mm", "found", "remedy")]
         monkeypatch.setattr(module, "limits_of", lambda _, found=found: found)
-        assert words in write_guide(built("kenan-2.0"))
+        assert words in whole(built("kenan-2.0"))
 
 
 @pytest.mark.thorough
 def test_glued_bars_and_printed_pads_have_their_own_steps() -> None:
-    bars = write_guide(built("kenan-2.0", leg="carbon-strip-3x6"))
+    bars = whole(built("kenan-2.0", leg="carbon-strip-3x6"))
     assert bars.count("Glue it with epoxy into both ends") == 1
-    assert "## 2. Front link from its bar" in bars
-    pads = write_guide(build(design("kenan-2.0"), varied(load_workshop(), {"ground.pad": "tpu-2"}), "own"))
+    assert "## 7. Front link from its bar" in bars
+    pads = whole(build(design("kenan-2.0"), varied(load_workshop(), {"ground.pad": "tpu-2"}), "own"))
     assert "Glue them on with a thin coat of super glue" in pads
     assert Counter(re.findall(r"epoxy|TPU 95A|Press pads on", guide())) == {"Press pads on": 1}
 
@@ -356,7 +363,7 @@ def test_a_first_robot_has_springs_from_stock_and_no_switch() -> None:
     assert {part.material for part in robot.parts} == {"PLA"}
     assert errors(limits_of(robot)) == []
     assert (simulate(robot).ballistic_range_m or 0.0) > 0.9
-    text = write_guide(robot)
+    text = whole(robot)
     assert "it is the switch" in text
     assert re.findall(r"[^.]*\bswitch (?:on|off)\b[^.]*", text, re.IGNORECASE) == []
     assert text.count("torsion spring 9271K589") >= 2

@@ -67,16 +67,16 @@ def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, prete
     pretend(OBEDIENT.replace("TAMPER", ""))
     code, out, err = run("slice", "frog")
     assert (code, err) == (0, "")
-    assert "written   the times, into bom.csv and assembly.md of frog" in out
+    assert "written   the times, into bom.csv and order.md of frog" in out
     lines = {line["item"]: line for line in csv.DictReader((bundle / "bom.csv").open(encoding="utf-8-sig"))}
     assert lines["ring"]["print_time_s"] == lines["plate-1-PLA"]["print_time_s"] == "3750"
     assert {line["print_time_s"] for line in lines.values() if line["kind"] == "bought"} == {""}
     assert [line["print_time_s"] for line in lines.values() if line["kind"] == "total"] == ["7500"]
-    assert "| plate-1-PLA | 1:02 h |" in (bundle / "assembly.md").read_text()
+    assert "| plate-1-PLA | 1:02 h |" in (bundle / "order.md").read_text()
     assert verify(bundle) == []
     before, after = (open_bundle(folder).manifest for folder in (built, bundle))
     changed = {path for path in after["files"] if after["files"][path] != before["files"][path]}
-    assert changed == {"bom.csv", "assembly.md"}
+    assert changed == {"bom.csv", "order.md"}
     assert after["versions"] == before["versions"] | {"PrusaSlicer": "2.9.1"}
 
 

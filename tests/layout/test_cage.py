@@ -119,7 +119,7 @@ def test_every_simulation_file_has_the_rods(robot: Robot) -> None:
 def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
     cage, steps = robot.layout.cage, {step.key: step for step in assembly_steps(robot)}
     assert cage is not None
-    guide, names = write_guide(robot), [line.name for line in bill_of_materials(robot).items]
+    guide, names = "".join(write_guide(robot).values()), [line.name for line in bill_of_materials(robot).items]
     for arc in cage.arcs:
         assert f"pultruded glass fibre rod 1.5 mm, cut {arc.length_mm:.0f} mm long" in names
         assert f"{arc.name.removeprefix('cage_').replace('_', ' ')} {arc.length_mm:.0f} mm" in guide
@@ -132,7 +132,7 @@ def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
 
 
 def test_a_caged_robot_is_laid_on_a_box_that_lifts_its_hoops_off_the_table(robot: Robot) -> None:
-    cage, texts = robot.layout.cage, (write_guide(robot), dict(firmware_files(robot))["firmware/README.md"])
+    cage, texts = robot.layout.cage, (write_guide(robot)["trouble.md"], dict(firmware_files(robot))["firmware/README.md"])
     assert cage is not None
     rear, front = (bar.place_mm[0] for bar in cage.bars)
     for text in texts:

@@ -1,4 +1,4 @@
-"""assembly.md: what to print and how, what to buy and check, how to wire, assemble, start and weigh the robot."""
+"""The guide's five documents: what to order, to check on arrival, how to wire, to assemble, and what helps in trouble."""
 
 import re
 from collections import Counter
@@ -13,29 +13,28 @@ from jumpcad.scene.assembly_steps import Step, assembly_steps
 from jumpcad.scene.step_views import label_of
 from jumpcad.scene.visuals import Visual
 
-GUIDE, BILL = "guides/assembly.md.j2", "guides/bill.md.j2"
+PARTS = ("order", "arrival", "wiring", "assembly", "trouble")
+"""The guide's documents, in the order in which a builder needs them."""
+BILL, LAST_WIRED = "guides/bill.md.j2", "power"
 BY_ROLE = ("motor", "battery", "controller", "driver", "regulator", "switch", "sensor", "capacitor", "plug")
 """What a step and its picture call by its part in the robot, not by its article."""
 
 
-def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
-    """Return the guide in Markdown; `pictures` are the names of those in `pictures/`."""
+def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> dict[str, str]:
+    """Return the guide's documents in Markdown by their files; `pictures` are the names of those in `pictures/`."""
     steps, bill = assembly_steps(robot), bill_of_materials(robot)
     shown = [
-        (
-            step,
-            [name for name in pictures if re.fullmatch(rf"step-{number}(-.*)?", name)],
-            put_on(step),
-        )
+        (number, step, [name for name in pictures if re.fullmatch(rf"step-{number}(-.*)?", name)], put_on(step))
         for number, step in enumerate(steps, start=1)
     ]
     values = {
         **guide_values(robot, steps, bill),
         "bill": bill_text(bill),
         "steps": shown,
+        "wired": next(number for number, step, *_ in shown if step.key == LAST_WIRED),
         "pictures": pictures,
     }
-    return render(GUIDE, values)
+    return {f"{part}.md": render(f"guides/{part}.md.j2", values) for part in PARTS}
 
 
 def bill_text(bill: Bill) -> str:
@@ -45,10 +44,10 @@ def bill_text(bill: Bill) -> str:
     return render(BILL, {"bill": bill, "printed": printed, "bought": bought, "duration": duration, "euros": euros})
 
 
-def with_bill(guide: str, bill: Bill) -> str:
-    """Return a written guide with another bill in place of its own."""
+def with_bill(order: str, bill: Bill) -> str:
+    """Return a written order.md with another bill in place of its own."""
     tables = re.compile(r"(?<=\n)## Print\n.*\n## Buy\n.*?(?=\n\n## |\Z)", re.DOTALL)
-    return tables.sub(lambda _: bill_text(bill).rstrip("\n"), guide, count=1)
+    return tables.sub(lambda _: bill_text(bill).rstrip("\n"), order, count=1)
 
 
 def duration(seconds: float) -> str:

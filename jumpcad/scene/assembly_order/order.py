@@ -32,31 +32,6 @@ SMALL = r"(tape|tie)_(?!(sensor|motor)_leads).*|plug|capacitor|wiring_(?!sensor|
 
 SUBASSEMBLIES: tuple[Plan, ...] = (
     Plan(
-        "leg", "Main leg", LEG,
-        (
-            Move("main_leg"),
-            Move("main_leg_bar|main_leg_end", way="laid"),
-            Move("hub_bearing_1", "from the right"),
-            Move("hub_bearing_2", "from the left"),
-            Move("roller_washer"),
-            Move("roller"),
-            Move("roller_screw", "from the left", tool=HEX_M3),
-            Move("roller_nut", "from the right", past="roller_screw", tool=NUT_M3, reach="from the right"),
-        ),
-    ),
-    Plan(
-        "front", "Front link from its bar", FRONT,
-        (Move(r"front_link_(\d|bar)", way="laid"),),
-    ),
-    Plan(
-        "foot", "Foot and front link", FOOT,
-        (
-            Move("foot"),
-            Move("nose_pad_.*", "from below"),
-            Move(TOE_PADS, "from below", lacks="toe_left"),
-        ),
-    ),
-    Plan(
         "motor", "Motor, standoffs, right plate", ROBOT,
         (
             Move("body_plate_right"),
@@ -98,8 +73,33 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
     Plan(
         "power", "First power-up, on the bench", ROBOT, (),
     ),
+    Plan(
+        "leg", "Main leg", LEG,
+        (
+            Move("main_leg"),
+            Move("main_leg_bar|main_leg_end", way="laid"),
+            Move("hub_bearing_1", "from the right"),
+            Move("hub_bearing_2", "from the left"),
+            Move("roller_washer"),
+            Move("roller"),
+            Move("roller_screw", "from the left", tool=HEX_M3),
+            Move("roller_nut", "from the right", past="roller_screw", tool=NUT_M3, reach="from the right"),
+        ),
+    ),
+    Plan(
+        "front", "Front link from its bar", FRONT,
+        (Move(r"front_link_(\d|bar)", way="laid"),),
+    ),
+    Plan(
+        "foot", "Foot and front link", FOOT,
+        (
+            Move("foot"),
+            Move("nose_pad_.*", "from below"),
+            Move(TOE_PADS, "from below", lacks="toe_left"),
+        ),
+    ),
 )  # fmt: skip
-"""On the bench: leg, foot, right plate with motor, trays, left plate; first power-up."""
+"""On the bench: what is wired, up to the first power-up; then leg and foot."""
 
 AXLES = r"(leg|front|cam|idler)_axle"
 
