@@ -21,8 +21,8 @@ def page_of(text: str, name: str = "A", **others: str) -> ET.Element:
 
 def test_the_page_is_well_formed_and_needs_no_other_file() -> None:
     guide = write_guide(built("kenan-2.0"), ["rest", "step-1", "step-13-springs"])
-    files = {"pictures/step-1.png": PNG, "pictures/step-13-springs.png": PNG, "pictures/rest.png": PNG, "wiring.svg": b"<svg/>"}
-    files |= {"soldering.svg": b"<svg/>", "leads.svg": b"<svg/>"}
+    files = {f"pictures/{name}.png": PNG for name in ("rest", "step-1", "step-13-springs")}
+    files |= {f"{name}.svg": b"<svg/>" for name in ("wiring", "soldering", "leads")}
     page = write_page(guide, "kenan-2.0", files)
     root = ET.fromstring(page.replace("<!DOCTYPE html>", "", 1))
     images = [image.get("src") or "" for image in root.iter("img")]

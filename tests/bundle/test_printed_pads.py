@@ -65,7 +65,8 @@ def test_printed_pads_have_a_plate_of_their_own() -> None:
 
 def test_the_guide_prints_and_glues_pads_and_does_not_order_them() -> None:
     robot = soled()
-    printed, buy = write_guide(robot)["order.md"].split("## Print\n")[1].split("## Print settings\n")[0].split("## Buy\n")
+    order = write_guide(robot)["order.md"]
+    printed, buy = order.split("## Print\n")[1].split("## Print settings\n")[0].split("## Buy\n")
     assert "| TPU 95A | nose_pad_left, nose_pad_right, toe_left_pad, toe_right_pad |" in printed
     assert "TPU" not in buy
     assert "self-adhesive" in buy  # the stop's is cut

@@ -132,7 +132,8 @@ def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
 
 
 def test_a_caged_robot_is_laid_on_a_box_that_lifts_its_hoops_off_the_table(robot: Robot) -> None:
-    cage, texts = robot.layout.cage, (write_guide(robot)["trouble.md"], dict(firmware_files(robot))["firmware/README.md"])
+    cage = robot.layout.cage
+    texts = (write_guide(robot)["trouble.md"], dict(firmware_files(robot))["firmware/README.md"])
     assert cage is not None
     rear, front = (bar.place_mm[0] for bar in cage.bars)
     for text in texts:

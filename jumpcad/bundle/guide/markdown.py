@@ -1,4 +1,4 @@
-"""The guide's five documents: what to order, to check on arrival, how to wire, to assemble, and what helps in trouble."""
+"""The guide's five documents: order, check on arrival, wire, assemble, and when something goes wrong."""
 
 import re
 from collections import Counter
