@@ -28,7 +28,7 @@ def write_page(guide: Mapping[str, str], name: str, pictures: Mapping[str, bytes
     opening, mark, steps = guide["assembly.md"].partition("\n## ")
     heads: dict[str, str] = {}
     parts = []
-    for path, text in (guide | {"assembly.md": f"# 4. Assemble\n{mark}{steps}"}).items():
+    for path, text in {**guide, "assembly.md": f"# 4. Assemble\n{mark}{steps}"}.items():
         anchor, tokens = path.removesuffix(".md"), reader.parse(allowed(text))
         heads[anchor] = tokens[1].content
         parts.append(_document(tokens, anchor, reader, pictures))
