@@ -10,26 +10,14 @@ that is switched off. MuJoCo's key frames do not store whether a constraint is a
 """
 
 import math
-import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESH_FOLDER, MESHES_FROM_BESIDE
 from jumpcad.exporters.collision import capsules
-from jumpcad.exporters.mjcf import (
-    CONTACT_IMPEDANCE,
-    FREE_RAD,
-    IMPEDANCE,
-    SUBSTEPS,
-    add_bodies,
-    add_key,
-    add_loop,
-    add_options,
-    add_springs,
-    stiff,
-)
-from jumpcad.exporters.mjcf_scene import HOLD, readme, write_scene
-from jumpcad.exporters.xml import Value, add, document, shorten, wxyz
+from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, FREE_RAD, IMPEDANCE, SUBSTEPS, Attributes, filled, springs, stiff
+from jumpcad.exporters.xml import Value, allowed, shortened, wxyz
+from jumpcad.files.rendering import fill, render
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot import Robot
@@ -49,6 +37,12 @@ ROD_DAMPING = 0.3
 """Damping ratio of the cage's rods; judgement: their ties and sockets rub."""
 TOUCH = 1.2
 """Radius of a touch sensor's volume over that of the contact sphere in it."""
+HOLD = 1.25
+"""Torque of the motor that holds the leg against its limit, over that of the loaded springs; judgement."""
+LEAST_MUJOCO, NEWEST_MUJOCO = "3.3.1", "4.0.0"
+"""Versions that the notes' code runs with: 3.2.4 aborts while it loads the scene, 3.2.7 has no `attach`."""
+MILLIMETRES: Attributes = {"scale": "0.001 0.001 0.001"}
+FLOOR: Attributes = {"name": "floor", "type": "plane", "size": "0 0 0.05"}
 
 
 def mjcf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
@@ -56,8 +50,24 @@ def mjcf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     for name, hull in body_hulls(robot, visuals(robot)).items():
         yield f"urdf/{MESH_FOLDER}/{name}{HULL}.stl", write_stl(hull)
     yield f"mjcf/{robot.name}.xml", write_robot(robot, visuals(robot))
-    yield "mjcf/scene.xml", write_scene(robot)
+    yield "mjcf/scene.xml", allowed(fill("mjcf/scene.xml.j2", {"name": robot.name}))
     yield "mjcf/README.md", readme(robot)
+
+
+def readme(robot: Robot) -> str:
+    """Return the text of README.md."""
+    rubs = coefficients(robot, Settings())
+    values = {
+        "name": robot.name,
+        "released": bool(robot.roller_off),
+        "hold_nm": -HOLD * robot.spring.peak_torque_nm,
+        "wind_s": robot.layout.drive.train.winding_s,
+        "least": LEAST_MUJOCO,
+        "newest": NEWEST_MUJOCO,
+        "foot": rubs.contact("foot"),
+        "body": rubs.contact("body"),
+    }
+    return render("mjcf/README.md.j2", values)
 
 
 def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: bool = True, floor: bool = False) -> str:
@@ -66,100 +76,66 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
     Without `looks` it has no files of meshes beside it; with `floor` it stands on one.
     """
     settings = Settings(dt_s=SUBSTEPS * STEP_S)
-    root = ET.Element("mujoco", model=mechanism.name)
-    add(root, "compiler", angle="radian", meshdir=MESHES_FROM_BESIDE, inertiafromgeom="false")
-    add_options(root, settings)
-    hulls = body_hulls(mechanism, visible)
-    seen = visible if looks else ()
-    _assets(root, seen, hulls)
-    _defaults(root, mechanism, settings)
-
-    def dress(node: ET.Element, body: Body) -> None:
-        for shape in (shape for shape in seen if shape.body == body.name):
-            _visual(node, shape)
-        if body.name in hulls:
-            _collision(node, body.name, body, type="mesh", mesh=f"{body.name}{HULL}")
-        else:
-            for number, link in enumerate(capsules(mechanism, body.name), start=1):
-                _collision(node, f"{body.name}_{number}", body, type="capsule", fromto=(*link.start_m, *link.end_m),
-                           size=link.radius_m)  # fmt: skip
-        for number, link in enumerate(cage_capsules(mechanism) if body.name == BODY else (), start=1):
-            _collision(node, f"cage_{number}", body, type="capsule", fromto=(*link.start_m, *link.end_m),
-                       size=link.radius_m, **_softness(link, mechanism.mass_kg))  # fmt: skip
-        for contact in body.contacts:
-            _collision(node, f"{body.name}_{contact.name}", body, type="sphere", pos=contact.centre_m,
-                       size=contact.radius_m)  # fmt: skip
-        for contact in (contact for contact in body.contacts if contact.surface == FOOT):
-            add(node, "site", name=contact.name, pos=contact.centre_m, size=TOUCH * contact.radius_m)
-
-    world = add(root, "worldbody")
-    if floor:
-        add(world, "geom", name="floor", type="plane", size="0 0 0.05")
-    base, order = add_bodies(world, mechanism, settings, dress)
-    base.set("childclass", "robot")
-    base.insert(1, ET.Element("site", name="imu", size="0.005"))
-    contact = add(root, "contact")
-    for one, other in _excluded(mechanism):
-        add(contact, "exclude", body1=one, body2=other)
-    tendons, spring = add(root, "tendon"), mechanism.spring
-    add_springs(tendons, spring)
-    limit = add(tendons, "fixed", name="wound", limited="true", range=(-spring.wind_rad, FREE_RAD),
-                solreflimit=stiff(settings)["solref"], solimplimit=IMPEDANCE)  # fmt: skip
-    add(limit, "joint", joint=spring.joint, coef=1.0)
-    equality = add(root, "equality")
-    add_loop(root, equality, mechanism, settings)
-    add(equality, "joint", name="latch", joint1=spring.joint, polycoef=(-spring.wind_rad, 0.0, 0.0, 0.0, 0.0),
-        active="false", **stiff(settings))  # fmt: skip
-    hold = HOLD * spring.peak_torque_nm
-    add(add(root, "actuator"), "motor", name="cam", joint=spring.joint, ctrlrange=(-hold, 0.0))
-    _sensors(root, mechanism)
-    keys = add(root, "keyframe")
-    add_key(keys, "home", standing(mechanism, 0.0), order, ctrl=0.0)
-    add_key(keys, "wound", standing(mechanism, 1.0), order, ctrl=-hold)
+    hulls, seen = body_hulls(mechanism, visible), visible if looks else ()
+    spring, hold = mechanism.spring, HOLD * mechanism.spring.peak_torque_nm
+    limit: Attributes = {"name": "wound", "limited": "true", "range": (-spring.wind_rad, FREE_RAD),
+                         "solreflimit": stiff(settings)["solref"], "solimplimit": IMPEDANCE}  # fmt: skip
+    keys = {"home": (standing(mechanism, 0.0), 0.0), "wound": (standing(mechanism, 1.0), -hold)}
     if mechanism.roller_off:
-        add_key(keys, "released", release_pose(mechanism), order, ctrl=0.0)
-    shorten(root)
-    return document(root)
+        keys["released"] = release_pose(mechanism), 0.0
+    return filled(
+        mechanism, settings, shortened,
+        {name: [*_shapes(mechanism, body, seen, name in hulls)] for name, body in mechanism.bodies.items()},
+        {name: (pose, {"ctrl": ctrl}) for name, (pose, ctrl) in keys.items()},
+        tendons=[*springs(spring), limit],
+        floor=FLOOR if floor else {},
+        excluded=list(_excluded(mechanism)),
+        hold_nm=hold,
+        meshes=MESHES_FROM_BESIDE,
+        colours={_material(colour): colour for colour in dict.fromkeys(shape.colour for shape in seen)},
+        assets=[*_assets(seen, hulls)],
+        contact_impedance=CONTACT_IMPEDANCE,
+    )  # fmt: skip
 
 
-def _assets(root: ET.Element, visible: Sequence[Visual], hulls: "Mapping[str, trimesh.Trimesh]") -> None:
-    """Append one material for each colour, the meshes, and the hulls: by their corners where nothing is seen."""
-    asset = add(root, "asset")
-    for colour in dict.fromkeys(shape.colour for shape in visible):
-        add(asset, "material", name=_material(colour), rgba=(*colour, 1.0))
+def _shapes(
+    mechanism: Mechanism, body: Body, visible: Sequence[Visual], has_hull: bool
+) -> Iterator[tuple[str, Attributes]]:
+    """Yield what is seen of a body, what collides, and the volumes of its touch sensors."""
+
+    def collides(name: str, **shape: Value) -> tuple[str, Attributes]:
+        return "geom", {"name": f"{name}_collision", "class": "grip" if body.surface == FOOT else "collision", **shape}
+
+    for shape in (shape for shape in visible if shape.body == body.name):
+        pose = shape.T_body_mesh
+        yield "geom", {"name": shape.name, "class": "visual", "mesh": shape.mesh_name,
+                       "material": _material(shape.colour), "pos": pose[:3, 3],
+                       "quat": wxyz(pose[:3, :3])}  # fmt: skip
+    if has_hull:
+        yield collides(body.name, type="mesh", mesh=f"{body.name}{HULL}")
+    links = [] if has_hull else [*capsules(mechanism, body.name)]
+    cage = cage_capsules(mechanism) if body.name == BODY else []
+    for kind, rods in ((body.name, links), ("cage", cage)):
+        for number, rod in enumerate(rods, start=1):
+            yield collides(f"{kind}_{number}", type="capsule", fromto=(*rod.start_m, *rod.end_m), size=rod.radius_m,
+                           **_softness(rod, mechanism.mass_kg))  # fmt: skip
+    for one in body.contacts:
+        yield collides(f"{body.name}_{one.name}", type="sphere", pos=one.centre_m, size=one.radius_m)
+    for one in (contact for contact in body.contacts if contact.surface == FOOT):
+        yield "site", {"name": one.name, "pos": one.centre_m, "size": TOUCH * one.radius_m}
+
+
+def _assets(visible: Sequence[Visual], hulls: "Mapping[str, trimesh.Trimesh]") -> Iterator[Attributes]:
+    """Yield the meshes, and the hulls: by their corners where nothing is seen."""
     for name in dict.fromkeys(shape.mesh_name for shape in visible):
-        add(asset, "mesh", name=name, file=f"{name}.stl", scale="0.001 0.001 0.001")
+        yield {"name": name, "file": f"{name}.stl"} | MILLIMETRES
     for name, hull in hulls.items():
-        if visible:
-            add(asset, "mesh", name=f"{name}{HULL}", file=f"{name}{HULL}.stl", scale="0.001 0.001 0.001")
-        else:
-            add(asset, "mesh", name=f"{name}{HULL}", vertex=hull.vertices.ravel() / 1000.0)
+        file: Attributes = {"file": f"{name}{HULL}.stl"} | MILLIMETRES
+        corners: Attributes = {"vertex": hull.vertices.ravel() / 1000.0}
+        yield {"name": f"{name}{HULL}"} | (file if visible else corners)
 
 
-def _defaults(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
-    """Append the classes `visual`, `collision`, and `grip`: collision geometry with the friction of the foot's pads."""
-    rubs = coefficients(mechanism, settings)
-    whole = add(add(root, "default"), "default", class_="robot")
-    add(whole, "site", group="5")
-    add(add(whole, "default", class_="visual"), "geom", type="mesh", contype="0", conaffinity="0", group="2")
-    collision = add(whole, "default", class_="collision")
-    add(collision, "geom", group="3", condim="3", priority="1", friction=rubs.contact("body"),
-        solref=stiff(settings)["solref"], solimp=CONTACT_IMPEDANCE)  # fmt: skip
-    add(add(collision, "default", class_="grip"), "geom", friction=rubs.contact("foot"))
-
-
-def _visual(node: ET.Element, shape: Visual) -> None:
-    pose = shape.T_body_mesh
-    add(node, "geom", name=shape.name, class_="visual", mesh=shape.mesh_name, material=_material(shape.colour),
-        pos=pose[:3, 3], quat=wxyz(pose[:3, :3]))  # fmt: skip
-
-
-def _collision(node: ET.Element, name: str, body: Body, **shape: Value) -> None:
-    kind = "grip" if body.surface == FOOT else "collision"
-    add(node, "geom", name=f"{name}_collision", class_=kind, **shape)
-
-
-def _softness(link: Capsule, mass_kg: float) -> dict[str, Value]:
+def _softness(link: Capsule, mass_kg: float) -> Attributes:
     """Return MuJoCo's `solref` of a rod that gives: the time constant √(m/k)/ζ of the robot on it."""
     if not math.isfinite(link.n_per_m):
         return {}
@@ -175,18 +151,3 @@ def _excluded(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
     joined = {frozenset((joint.parent, joint.child)) for joint in mechanism.joints}
     for index, one in enumerate(BODY_NAMES):
         yield from ((one, other) for other in BODY_NAMES[index + 1 :] if frozenset((one, other)) not in joined)
-
-
-def _sensors(root: ET.Element, mechanism: Mechanism) -> None:
-    """Append sensors that a robot could have, and position and velocity of the centre of mass."""
-    sensor = add(root, "sensor")
-    for kind in ("accelerometer", "gyro"):
-        add(sensor, kind, name=kind, site="imu")
-    add(sensor, "framequat", name="attitude", objtype="site", objname="imu")
-    for contact in mechanism.bodies[FOOT].contacts:
-        add(sensor, "touch", name=f"{contact.name}_touch", site=contact.name)
-    for joint in mechanism.joints:
-        add(sensor, "jointpos", name=f"{joint.name}_angle", joint=joint.name)
-    add(sensor, "actuatorfrc", name="cam_torque", actuator="cam")
-    add(sensor, "subtreecom", name="com", body=BODY)
-    add(sensor, "subtreelinvel", name="com_velocity", body=BODY)

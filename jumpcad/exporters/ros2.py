@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.exporters.collision import body_box, capsules
-from jumpcad.exporters.mjcf_scene import HOLD
+from jumpcad.exporters.mjcf_robot import HOLD
 from jumpcad.exporters.sdf import write_config, write_sdf
 from jumpcad.exporters.urdf import cage_cylinders, tree
 from jumpcad.exporters.xml import shortened

@@ -20,11 +20,6 @@ FORBIDDEN = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 """Characters that XML does not allow (XML 1.0, production 2)."""
 DIGITS = 12
 """Significant digits of shortened numbers: fewer than those in which processors differ."""
-NUMBERS = re.compile(r"[-+.e\d ]*\d[-+.e\d ]*")
-NAMES = {"actuator", "body", "body1", "body2", "childclass", "class", "file", "filename", "joint", "joint1", "link",
-         "material", "mesh", "meshdir", "model", "name", "objname", "reference", "site", "site1", "site2",
-         "type", "version"}  # fmt: skip
-"""Attributes that are names, also where they look like numbers."""
 SWING_RAD = math.pi / 2
 """Added to the travel on either side: simulators treat limits as stops, and legs swing past rest."""
 
@@ -44,16 +39,10 @@ def written(value: Value) -> str:
     return " ".join(repr(float(number) + 0.0) for number in np.ravel(value))
 
 
-def shorten(root: ET.Element) -> None:
-    """Round the numbers in attributes to `DIGITS` digits, and to 0 below 10^-DIGITS of the attribute's largest."""
-    for node in root.iter():
-        for key, text in node.attrib.items():
-            if key not in NAMES and NUMBERS.fullmatch(text):
-                node.set(key, shortened([float(word) for word in text.split()]))
-
-
-def shortened(value: npt.ArrayLike) -> str:
-    """Return numbers as text, of `DIGITS` digits, and 0 below 10^-DIGITS of the largest."""
+def shortened(value: Value) -> str:
+    """Return a value as text, numbers with `DIGITS` digits, and 0 below 10^-DIGITS of the largest."""
+    if isinstance(value, str):
+        return value
     numbers = [float(number) for number in np.ravel(value)]
     least = 10.0**-DIGITS * max(map(abs, numbers))
     return " ".join(f"{number if abs(number) > least else 0.0:.{DIGITS}g}" for number in numbers)

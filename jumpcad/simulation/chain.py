@@ -16,7 +16,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, SUBSTEPS, add_options, stiff
+from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, SUBSTEPS, options, stiff
 from jumpcad.exporters.xml import add, document, wxyz
 from jumpcad.findings import Finding
 from jumpcad.mechanism.model import Body, Joint, Loop, Spring
@@ -160,7 +160,7 @@ def chain_mjcf(chain: Chain, settings: Settings) -> str:
     """Return the MuJoCo model of a chain, in the plane, above the ground."""
     root = ET.Element("mujoco", model=chain.name)
     add(root, "compiler", angle="radian", inertiafromgeom="false")
-    add_options(root, settings)
+    add(root, "option", **options(settings))
     world = add(root, "worldbody")
     add(world, "geom", name="ground", type="plane", size="2 2 0.1", contype="0", conaffinity="0")
     first = chain.joints[0].parent

@@ -1,7 +1,9 @@
-"""MJCF for simulations by others, as MuJoCo compiles it: key frames, motor, latch, sensors, and who touches whom."""
+"""MJCF for simulations by others, as MuJoCo compiles it: key frames, motor, latch, sensors, who touches whom, notes."""
 
 import math
+import re
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,7 @@ from support.built import built
 from support.machines import one_sided
 
 from jumpcad.exporters.collision import capsules
-from jumpcad.exporters.mjcf_robot import write_robot
+from jumpcad.exporters.mjcf_robot import HOLD, mjcf_files, readme, write_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
@@ -153,3 +155,42 @@ def test_bodies_collide_by_the_convex_hull_of_their_parts(robot: Robot) -> None:
         np.testing.assert_allclose((hull @ upward.T).max(axis=0), (parts @ upward.T).max(axis=0), atol=2e-5)
         if name == FOOT:
             assert hull[:, 2].min() == pytest.approx(parts[:, 2].min() + 0.0005, abs=2e-5)
+
+
+@pytest.mark.parametrize("times", [1.0, 2.0])
+def test_the_motor_holds_by_a_quarter_more_than_the_springs_push(robot: Robot, times: float) -> None:
+    """Against their opening, which is positive: the control is negative."""
+    spring = replace(robot.spring, stiffness_nm_per_rad=times * robot.spring.stiffness_nm_per_rad)
+    (held,) = re.findall(
+        r"Its control (\S+) N·m holds the loaded leg, 0 releases it", readme(replace(robot, spring=spring))
+    )
+    assert float(held) == pytest.approx(-1.25 * times * robot.spring.peak_torque_nm, rel=5e-3)
+    assert HOLD == 1.25
+
+
+@pytest.mark.filterwarnings("ignore:Attach conflict")  # MuJoCo 4 says which options it does not take
+def test_the_notes_programs_run_and_the_robot_jumps_when_the_motor_lets_go(
+    robot: Robot, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Held for 0.1 s, it is in the air 0.3 s after; in another scene it has a prefix. From texts instead of files."""
+    monkeypatch.chdir(tmp_path)  # where MuJoCo writes its log
+    jump, _, attach = re.findall(r"```python\n(.*?)```", readme(robot), re.DOTALL)
+    alone, held = write_robot(robot), at_key(mujoco.MjModel.from_xml_string(write_robot(robot)), "wound")
+    given = {
+        "scene": dict(mjcf_files(robot))["mjcf/scene.xml"],
+        "files": {f"{robot.name}.xml": alone.encode()},
+        "alone": alone,
+    }
+    own = "<mujoco><worldbody><geom type='plane' size='0 0 0.05'/></worldbody></mujoco>"
+    exec(jump.replace('from_xml_path("scene.xml")', "from_xml_string(scene, files)"), given)
+    place = np.array([float(one) for one in re.findall(r"-?\d+\.\d+(?:e-?\d+)?", capsys.readouterr().out)])
+    assert place.shape == (3,)
+    assert place[2] > held.sensor("com").data[2] + 0.01
+    assert place[0] > held.sensor("com").data[0] + 0.05  # x is forward
+    program = attach.replace('from_file("your_scene.xml")', "from_string(own)")
+    exec(
+        program.replace(f'from_file("{robot.name}.xml")', "from_string(alone)"),
+        found := given | {"own": own, "mujoco": mujoco},
+    )
+    assert found["model"].joint("jumper-leg").id >= 0
+    assert found["model"].ngeom == mujoco.MjModel.from_xml_string(alone).ngeom + 1

@@ -2,13 +2,11 @@
 
 import json
 import math
-import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
 import pytest
 from support import needs
-from support.built import built
 from support.loaded import loaded_range_m
 
 from jumpcad.design import load_design
@@ -18,10 +16,8 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES, FOOT
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
-from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
-from jumpcad.strength.loads import pin_torque_nm
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
 
@@ -106,20 +102,6 @@ def test_missing_or_foreign_files_are_refused_in_one_line(small_robot: Robot, tm
     with pytest.raises(JumpcadError, match="not a robot that jumpcad build wrote") as error:
         robot_from_urdf(urdf)
     assert "\n" not in str(error.value)
-
-
-def test_the_legs_joint_has_the_friction_of_all_pins() -> None:
-    """What the pins dissipate in a push-off, as one torque; the other joints have that of the settings."""
-    robot = built("kenan-2.0")
-    root = ET.fromstring(write_urdf(robot, settings=Settings(joint_friction_nm=0.001)))
-    friction = {
-        str(joint.get("name")): float(dynamics.get("friction", ""))
-        for joint in root.iter("joint")
-        for dynamics in joint.iter("dynamics")
-    }
-    pins = pin_torque_nm(robot, robot.workshop.pins.friction)
-    assert pins > 1e-4
-    assert friction == pytest.approx({"leg": 0.001 + pins, "front": 0.001, "ankle": 0.001})
 
 
 def test_mujoco_loads_the_files_with_the_mass_of_the_root_and_what_is_seen(small_robot: Robot) -> None:
