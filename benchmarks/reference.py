@@ -13,21 +13,15 @@ from reference_checks import check_glossary
 from reference_commands import commands
 from reference_figures import figures
 from reference_files import files_and_json
-from reference_page import EXAMPLE
 from reference_workshop import workshop_keys
 
-import jumpcad
-from jumpcad.scene.parameters import parameter_drawing
-
 DOCS = Path(__file__).parents[1] / "docs"
-DRAWING = "pictures/parameters.svg"
 PAGES = {
     "reference/commands.md": commands,
     "reference/workshop.md": workshop_keys,
     "reference/checks.md": check_glossary,
     "reference/figures.md": figures,
     "reference/files.md": files_and_json,
-    DRAWING: lambda: parameter_drawing(jumpcad.load_design(EXAMPLE)),
 }
 """Every file that this program writes, under `docs`, and what returns its content."""
 

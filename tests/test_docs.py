@@ -21,9 +21,7 @@ from support.proposals import with_less_work
 
 import jumpcad
 from jumpcad.cli.commands import app, run
-from jumpcad.design import PARAMETERS, load_design
-from jumpcad.files import template_names
-from jumpcad.scene.parameters import parameter_drawing
+from jumpcad.design import PARAMETERS
 from jumpcad.search import optimization
 
 DOCS = ROOT / "docs"
@@ -81,17 +79,6 @@ def without_figures(text: str) -> str:
     And `together` as if it were empty: short chains may know parameters together that long ones do not.
     """
     return re.sub(r"-?\d+(?:[.,]\d+)*", "#", text.replace("`together` | list of list of text |", "`together` | list |"))
-
-
-@pytest.mark.parametrize("template", template_names("robots"))
-def test_the_drawing_names_the_eight_parameters(template: str) -> None:
-    drawing = parameter_drawing(load_design(template))
-    assert sorted(re.findall(r'class="parameter"[^>]*>(\w+)<', drawing)) == sorted(PARAMETERS)
-
-
-def test_the_drawing_of_the_chapter_is_the_example_s(reference: ModuleType) -> None:
-    drawing = (DOCS / reference.DRAWING).read_text(encoding="utf-8")
-    assert drawing == parameter_drawing(load_design(reference.EXAMPLE))
 
 
 def test_every_parameter_is_explained_with_its_ranges() -> None:

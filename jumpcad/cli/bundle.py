@@ -8,12 +8,12 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of
 from jumpcad.cli.subjects import (
+    DesignArgument,
     MaterialOption,
     PrinterOption,
     RowOption,
     WorkshopOption,
     bundle_of,
-    completion,
     design_file,
     name_of,
     note_template,
@@ -36,14 +36,7 @@ LABEL = 15
 
 
 def build(
-    design: Annotated[
-        str,
-        typer.Argument(
-            help="A template's name, a design file, a bundle.",
-            metavar="DESIGN|BUNDLE",
-            autocompletion=completion("robots"),
-        ),
-    ],
+    design: DesignArgument,
     workshop: WorkshopOption = None,
     printer: PrinterOption = None,
     material: MaterialOption = None,

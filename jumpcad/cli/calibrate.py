@@ -7,6 +7,7 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
 from jumpcad.cli.searching import PlotsOption, require_pictures
+from jumpcad.cli.subjects import SeedOption
 
 if TYPE_CHECKING:
     from jumpcad.calibration import CalibrationPosterior
@@ -25,7 +26,7 @@ def calibrate(
         Path | None,
         typer.Option("-o", "--output", help="Write settings for simulate and optimize.", metavar=str(SETTINGS)),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0,
+    seed: SeedOption = 0,
     landing: Annotated[
         bool, typer.Option("--landing", help="Resting places from simulated landings (MuJoCo), not from a free travel.")
     ] = False,

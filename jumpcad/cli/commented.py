@@ -1,7 +1,7 @@
 """Design and workshop files with a comment on every value."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from jumpcad.cli.output import shell_quoted
@@ -25,21 +25,26 @@ def commented_design(design: "Design", origin: str, file: str) -> str:
 
 def commented_workshop(workshop: "Workshop", origin: str) -> str:
     """Return the TOML document of a workshop: the default workshop's file, comments included, with other values."""
-    from jumpcad.files import find_template, to_toml
+    from jumpcad.files import find_template, read_toml, to_toml
 
-    text = find_template("workshops", "default").read_text(encoding="utf-8")
-    head, *sections = re.split(r"^(?=\[)", text.split('printer = "mk4"\n', 1)[1], flags=re.MULTILINE)
-    data, printer = workshop.model_dump(exclude_none=True), printer_name(workshop)
+    shipped, text = read_toml(find_template("workshops", "default"))
+    data, printer = workshop.model_dump(mode="json", exclude_none=True), printer_name(workshop)
+    changes = {}
+    for table in re.findall(r"^\[([\w.]+)\]", text, re.MULTILINE):
+        values, there = _at(data, table), _at(shipped, table)
+        values = _beyond_kit(values) if table == "bought" else values
+        changes[table] = {
+            key: value for key, value in values.items()
+            if not isinstance(value, dict) and (key not in there or there[key] != value)
+        }  # fmt: skip
     lines = [
         f"# A workshop, copied from {origin}: printer, fits, bought parts, limits. Use it with --workshop FILE.toml.",
         '# Figures marked "practice" or "judgement" are to be replaced by what you measure (jumpcad coupon).',
         *([f'printer = "{printer}"'] if printer else []),
-        head.rstrip("\n"),
+        changed_toml(text.split('printer = "mk4"\n', 1)[1], changes).rstrip("\n"),
     ]
-    for section in sections:
-        lines += _section(section, data)
     others = ({} if printer else {"printer": data["printer"]}) | _others(data)
-    return "\n".join(lines).rstrip("\n") + "\n" + ("\n" + to_toml(others) if others else "")
+    return "\n".join(lines) + "\n" + ("\n" + to_toml(others) if others else "")
 
 
 def changed_toml(text: str, changes: Mapping[str, Mapping[str, Any]]) -> str:
@@ -80,34 +85,12 @@ def printer_name(workshop: "Workshop") -> str:
     return ""
 
 
-def _section(text: str, data: Mapping[str, Any]) -> Iterator[str]:
-    """Yield the lines of a section of the default workshop with the values of another one."""
-    first, *lines = text.rstrip("\n").split("\n")
-    named = re.match(r"\[([\w.]+)\]", first)
-    path = named[1] if named else ""
-    values = dict(_at(data, path))
-    if path == "bought":
-        values = _beyond_kit(values)
-    yield first
-    for line in lines:
-        found = LINE.fullmatch(line)
-        if found is None:
-            yield line
-        elif found["key"] in values:
-            value = values.pop(found["key"])
-            same = _read(found["value"]) == _plain(value)
-            yield line if same else f"{found['key']} = {_written(value)}{found['comment'] or ''}"
-    rest = {key: value for key, value in values.items() if not isinstance(value, dict)}
-    yield from (f"{_written_key(key)} = {_written(value)}" for key, value in rest.items())
-    yield ""
-
-
 def _beyond_kit(bought: dict[str, Any]) -> dict[str, Any]:
     """Return the keys of `[bought]` whose values are not those of its kit."""
     from jumpcad.catalogue import load_catalogue
 
-    kit = load_catalogue().kits[bought["kit"]].model_dump() if bought["kit"] else {}
-    return {key: value for key, value in bought.items() if key not in kit or _plain(value) != _plain(kit[key])}
+    kit = load_catalogue().kits[bought["kit"]].model_dump(mode="json") if bought["kit"] else {}
+    return {key: value for key, value in bought.items() if key not in kit or value != kit[key]}
 
 
 def _others(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -131,18 +114,12 @@ def _at(data: Mapping[str, Any], path: str) -> Mapping[str, Any]:
     return data
 
 
-def _read(text: str) -> Any:
-    import tomllib
-
-    return tomllib.loads(f"x = {text}")["x"]
-
-
 def _written(value: Any) -> str:
     """Return a value as TOML, on one line."""
     import tomli_w
 
     return (
-        tomli_w.dumps({"x": _plain(value)})
+        tomli_w.dumps({"x": value})
         .removeprefix("x = ")
         .strip()
         .replace("[\n    ", "[")
@@ -155,7 +132,3 @@ def _written_key(key: str) -> str:
     import tomli_w
 
     return tomli_w.dumps({key: 0}).split(" = ")[0]
-
-
-def _plain(value: Any) -> Any:
-    return list(value) if isinstance(value, tuple) else value

@@ -163,17 +163,17 @@ def status(doing: str) -> Iterator[Callable[[str], None]]:
     thread = Thread(target=_log, args=(texts, done), daemon=True)
     thread.start()
     try:
-        yield texts.append
+        yield lambda text: texts.__setitem__(0, text)
     finally:
         done.set()
         thread.join()
 
 
 def _log(texts: Sequence[str], done: Event) -> None:
-    """Print the newest text every `LINE_EVERY_S` until all is done."""
+    """Print the text every `LINE_EVERY_S` until all is done."""
     while not done.wait(LINE_EVERY_S):
         with contextlib.suppress(OSError, ValueError):  # standard error is closed
-            print(f"jumpcad: {without_controls(texts[-1])}", file=sys.stderr, flush=True)
+            print(f"jumpcad: {without_controls(texts[0])}", file=sys.stderr, flush=True)
 
 
 def text_of(name: str, /, **values: Any) -> str:

@@ -1,12 +1,12 @@
-"""Progress of a search on standard error: a bar on a terminal, otherwise one line per minute."""
+"""Progress of a search on standard error: always on a terminal, otherwise one line per minute."""
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from jumpcad.cli.output import LINE_EVERY_S, console
+from jumpcad.cli.output import status
 from jumpcad.plural import counted
 
 if TYPE_CHECKING:
@@ -17,41 +17,32 @@ if TYPE_CHECKING:
 class Tally:
     """Progress of a search: evaluations done, best score, rate and time left.
 
-    Trials that are read from the study file count as done, but not for the rate. `clock` returns seconds.
+    Trials that are read from the study file count as done, but not for the rate.
     """
 
-    def __init__(self, total: int, clock: Callable[[], float] = time.monotonic) -> None:
-        self.total = total
-        self.done = 0
-        self.phase = "search"
-        self.best: float | None = None
-        self._clock = clock
-        self._start_s = clock()
-        self._computed = 0
+    def __init__(self, total: int) -> None:
+        self._total, self._done, self._computed = total, 0, 0
+        self._best: float | None = None
+        self._start_s = time.monotonic()
 
-    def add(self, trial: "Trial", computed: bool) -> None:
-        """Count a trial, which was `computed` or read from the study file."""
+    def add(self, trial: "Trial", computed: bool) -> str:
+        """Count a trial, which was `computed` or read from the study file; return the progress as one line of text."""
         from jumpcad.search.phases import SEARCH_PHASES
 
-        self.done += 1
-        self.total = max(self.total, self.done)
+        self._done += 1
+        self._total = max(self._total, self._done)
         searching = trial.phase in SEARCH_PHASES
-        self.phase = trial.phase if searching else "robust pick"
         if searching and trial.score is not None:
-            self.best = trial.score if self.best is None else max(self.best, trial.score)
-        if computed:
-            self._computed += 1
-        elif not self._computed:
-            self._start_s = self._clock()
-
-    def line(self) -> str:
-        """Return the progress as one line of text: the rate, and the time for the rest at it, from the first on."""
-        elapsed = self._clock() - self._start_s
+            self._best = trial.score if self._best is None else max(self._best, trial.score)
+        self._computed += computed
+        if not self._computed:
+            self._start_s = time.monotonic()
+        elapsed = time.monotonic() - self._start_s
         rate = self._computed / elapsed if elapsed > 0 else 0.0
-        best = "–" if self.best is None else f"{self.best:.4g}"
-        left = f", about {duration((self.total - self.done) / rate)} left" if rate else ""
-        done = f"{self.done} of {counted(self.total, 'evaluation')}"
-        return f"{self.phase}: {done}, best {best}, {rate:.2g}/s{left}"
+        best = "–" if self._best is None else f"{self._best:.4g}"
+        left = f", about {duration((self._total - self._done) / rate)} left" if rate else ""
+        done = f"{self._done} of {counted(self._total, 'evaluation')}"
+        return f"{trial.phase if searching else 'robust pick'}: {done}, best {best}, {rate:.2g}/s{left}"
 
 
 def duration(seconds: float) -> str:
@@ -62,38 +53,22 @@ def duration(seconds: float) -> str:
 
 
 @contextmanager
-def watching(total: int, quiet: bool, clock: Callable[[], float] = time.monotonic) -> Iterator["Watch"]:
+def watching(total: int, quiet: bool) -> Iterator["Watch"]:
     """Show the progress of a search while it runs; `total` is the number of evaluations.
 
     If none of its first designs jumps, print a warning with the numbers of reasons.
     """
-    from rich.progress import BarColumn, Progress, TextColumn
-
     from jumpcad.search.study.run import Hopeless
 
-    terminal = sys.stderr.isatty()
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[line]}"))
-    with Progress(*columns, console=console(stderr=True), disable=quiet or not terminal) as progress:
-        tally, printed_s, hopeless = Tally(total, clock), clock(), Hopeless()
-        task = progress.add_task("search", total=total, line="")
+    if quiet:
+        yield lambda trial, computed: None
+        return
+    tally, hopeless = Tally(total), Hopeless()
+    with status("search …") as tell:
 
         def watch(trial: "Trial", computed: bool) -> None:
-            nonlocal printed_s
-            tally.add(trial, computed)
-            warning = hopeless.warning(trial)
-            if quiet:
-                return
-            if warning:
-                progress.console.print(warning, markup=False) if terminal else _print_line(warning)
-            if terminal:
-                line = tally.line().removeprefix(f"{tally.phase}: ")
-                progress.update(task, completed=tally.done, total=tally.total, description=tally.phase, line=line)
-            elif computed and clock() - printed_s >= LINE_EVERY_S:
-                printed_s = clock()
-                _print_line(tally.line())
+            tell(tally.add(trial, computed))
+            if warning := hopeless.warning(trial):
+                print(f"jumpcad: {warning}", file=sys.stderr, flush=True)
 
         yield watch
-
-
-def _print_line(line: str) -> None:
-    print(f"jumpcad: {line}", file=sys.stderr, flush=True)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
+from jumpcad.cli.subjects import SeedOption
 from jumpcad.errors import JumpcadError
 from jumpcad.simulation.engines import ENGINES, in_words
 
@@ -41,7 +42,7 @@ class SearchOptions:
     study: Annotated[
         Path | None, typer.Option(help="The study file, new or to be continued.", metavar="F.db", dir_okay=False)
     ] = None
-    seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0
+    seed: SeedOption = 0
     fix: Annotated[
         list[str] | None, typer.Option(help="Fix a parameter, or a value of the workshop.", metavar="NAME=VALUE")
     ] = None

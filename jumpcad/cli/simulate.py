@@ -1,4 +1,4 @@
-"""`jumpcad simulate`: simulate one jump."""
+"""`jumpcad simulate`: one jump; with `--landing` and `--jumps` how the robot lands, rights itself and jumps again."""
 
 import csv
 import io
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
-from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, reject_workshop, robot_from_file
+from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, robot_from_file
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.plural import counted
 from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from jumpcad.simulation import Jump, Settings
     from jumpcad.simulation.jump import Trajectory
 
-TRAJECTORY_SUFFIXES = (".csv", ".json")
 DEFAULT_SETTINGS = "default"
 TRIES = 20
 """Landings that are tried unless asked for more."""
@@ -68,74 +67,81 @@ def simulate(
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.mechanism.capsule import capsule_robot
+    from jumpcad.robot import Robot
+    from jumpcad.simulation import load_settings, uncertain_jump
     from jumpcad.simulation import simulate as simulate_jump
     from jumpcad.simulation.chain import Chain
 
-    if capsule and published:
-        raise JumpcadError("--capsule and --published exclude each other: choose one model")
-    if capsule or published:
-        reject_workshop(workshop, "cannot apply to a robot that is not printed; leave it out")
-    if uncertain and (capsule or published):
-        raise JumpcadError("--uncertain is for printed robots: leave --capsule and --published out")
-    if published and (flight or trajectory):
-        raise JumpcadError("--flight and --trajectory cannot apply to --published; leave them out")
-    if published and settings != DEFAULT_SETTINGS:
-        raise JumpcadError(f"--settings {settings}: --published has the study's own; leave one of them out")
-    if seed and not (uncertain or landing or row):
-        raise JumpcadError(f"--seed {seed}: is that of --uncertain, --landing or --jumps; leave it out, or add one")
-    if tries != TRIES and not landing:
-        raise JumpcadError(f"--tries {tries}: is that of --landing; leave it out, or add --landing")
-    if landing or row:
-        given = {"--landing and --jumps": landing and row, "--capsule": capsule, "--published": published,
-                 f"--engine {engine}": engine not in (None, "mujoco"), "--flight": flight,
-                 "--trajectory": trajectory and landing, "--uncertain": uncertain}  # fmt: skip
-        if wrong := next((name for name, value in given.items() if value), None):
-            raise JumpcadError(f"{wrong}: a landing is simulated alone, of a printed robot, in MuJoCo: leave it out")
+    alone = "a landing is simulated alone, of a printed robot, in MuJoCo: leave it out"
+    landed, plain = landing or row is not None, capsule or published
+    for wrong, why in (
+        (capsule and published, "--capsule and --published exclude each other: choose one model"),
+        (plain and workshop is not None,
+         f"--workshop {workshop}: cannot apply to a robot that is not printed; leave it out"),
+        (plain and uncertain, "--uncertain is for printed robots: leave --capsule and --published out"),
+        (published and (flight or trajectory),
+         "--flight and --trajectory cannot apply to --published; leave them out"),
+        (published and settings != DEFAULT_SETTINGS,
+         f"--settings {settings}: --published has the study's own; leave one of them out"),
+        (seed and not (uncertain or landed),
+         f"--seed {seed}: is that of --uncertain, --landing or --jumps; leave it out, or add one"),
+        (tries != TRIES and not landing, f"--tries {tries}: is that of --landing; leave it out, or add --landing"),
+        (landing and row, f"--landing and --jumps: {alone}"),
+        (landed and capsule, f"--capsule: {alone}"),
+        (landed and published, f"--published: {alone}"),
+        (landed and engine not in (None, "mujoco"), f"--engine {engine}: {alone}"),
+        (landed and flight, f"--flight: {alone}"),
+        (landing and trajectory, f"--trajectory: {alone}"),
+        (landed and uncertain, f"--uncertain: {alone}"),
+    ):  # fmt: skip
+        if wrong:
+            raise JumpcadError(why)
     require_apart({"--trajectory": trajectory}, {"the design": design, "--workshop": workshop, "--settings": settings})
     if trajectory:
-        require_target(trajectory, TRAJECTORY_SUFFIXES, force)
+        require_target(trajectory, (".csv", ".json"), force)
     note_template(design)
     written = robot_from_file(design, workshop)
-    if isinstance(written, Chain):
-        if capsule or published or trajectory or flight:
-            raise JumpcadError(f"{design}: is no five-bar: leave --capsule, --published, --flight and --trajectory out")
-        engine = engine or "mujoco"
+    chain = isinstance(written, Chain)
+    if chain and (plain or trajectory or flight):
+        raise JumpcadError(f"{design}: is no five-bar: leave --capsule, --published, --flight and --trajectory out")
     subject: Any = None if isinstance(written, Chain) else written.design if written else load_design(design)
     if published:
         _published(subject, {"design": design, "model": "published"}, engine, as_json)
         return
-    engines = _engines(engine)
-    if trajectory and len(engines) > 1:
-        raise JumpcadError(f"--trajectory records one engine: choose --engine {in_words(ENGINES, 'or')}")
-    if uncertain and len(engines) > 1:
-        raise JumpcadError(f"--uncertain takes one engine: choose --engine {in_words(ENGINES, 'or')}")
+    engines = _engines(engine or ("mujoco" if chain else None))
+    for option, words in (("--trajectory", "records"), ("--uncertain", "takes")):
+        if len(engines) > 1 and (trajectory if option == "--trajectory" else uncertain):
+            raise JumpcadError(f"{option} {words} one engine: choose --engine {in_words(ENGINES, 'or')}")
+    of_printed = f"{design}: {{}} for printed robots: give the design, or its bundle"
     if uncertain and written and not Path(design).is_dir():
-        raise JumpcadError(f"{design}: --uncertain is for printed robots: give the design, or its bundle")
-    asked = _settings(settings, flight, trajectory is not None)
+        raise JumpcadError(of_printed.format("--uncertain is"))
+    changes = ({"flight": "simulated"} if flight else {}) | ({"trajectory": True} if trajectory else {})
+    asked = load_settings(settings).model_copy(update=changes)
     robot = capsule_robot(subject) if capsule else written or printed_robot(design, workshop)
     model = "capsule" if capsule else "printed"
     if written and not capsule:
-        model = "chain" if isinstance(written, Chain) else "own bodies" if Path(design).suffix == ".toml" else "URDF"
+        model = "chain" if chain else "own bodies" if Path(design).suffix == ".toml" else "URDF"
     heading = {"design": design, "model": model, "settings": settings}
-    if landing or row:
-        from jumpcad.cli.landing import report_jumps, report_landing
-        from jumpcad.robot import Robot
-
+    if landed:
         if not isinstance(robot, Robot):
-            raise JumpcadError(
-                f"{design}: --landing and --jumps are for printed robots: give the design, or its bundle"
-            )
-        if row:
-            series = report_jumps(robot, heading, asked, row, seed, as_json, trajectory is not None)
-            if trajectory and series.trajectory:
-                write_trajectory(trajectory, series.trajectory)
+            raise JumpcadError(of_printed.format("--landing and --jumps are"))
+        if row is None:
+            _land(robot, heading, asked, tries, seed, as_json)
         else:
-            report_landing(robot, heading, asked, tries, seed, as_json)
+            _jump_on(robot, heading, asked, row, seed, as_json, trajectory)
         return
-    jumps = [simulate_jump(robot, asked, engine) for engine in engines]
-    if trajectory:
-        _write_trajectory(trajectory, jumps[0])
-    spread = _uncertain(printed_robot(design, workshop), settings, engines[0], seed) if uncertain else None
+    jumps = [simulate_jump(robot, asked, one) for one in engines]
+    if trajectory and (path := jumps[0].trajectory):
+        _write_trajectory(trajectory, path)
+    elif trajectory:
+        reason = f"{jumps[0].verdict}: a robot that is rejected before its release does not move"
+        print(f"jumpcad: {without_controls(str(trajectory))}: not written; {reason}", file=sys.stderr)
+    spread = None
+    if uncertain:
+        with status("simulating samples of the uncertain inputs …"):
+            spread = uncertain_jump(
+                printed_robot(design, workshop), load_settings(settings), engines[0], seed
+            ).to_dict()
     _report(heading, jumps, as_json, spread)
     if any(jump.verdict != "jump" for jump in jumps):
         raise typer.Exit(1)
@@ -168,22 +174,42 @@ def _engines(asked: str | None) -> list[str]:
     return [engine]
 
 
-def _settings(name: str, flight: bool, trajectory: bool) -> "Settings":
-    from jumpcad.simulation import load_settings
+def _land(robot: "Robot", heading: dict[str, str], settings: "Settings", tries: int, seed: int, as_json: bool) -> None:
+    """Let a robot land a number of times, and print where it rests, on what, and whether winding rights it."""
+    import numpy as np
 
-    settings = load_settings(name)
-    changes: dict[str, Any] = {"flight": "simulated"} if flight else {}
-    if trajectory:
-        changes["trajectory"] = True
-    return settings.model_copy(update=changes)
+    from jumpcad.landing.landing import land
+    from jumpcad.scene.stable_poses import share_on_feet
+
+    found, static = land(robot, tries, seed, settings), share_on_feet(robot)
+    if as_json:
+        print_json(heading | {"landing": found.to_dict() | {"share_on_feet_static": static}})
+        return
+    names = {"touches down at": "touchdown_m", "rests at": "rest_m"}
+    distances = {
+        label: np.quantile([getattr(one, name) for one in found.tries], [0.0, 0.5, 1.0])
+        for label, name in names.items()
+    }
+    print_text(
+        "landing", design=heading["design"], tries=tries, distances=distances, found=found, static=static,
+        stop_mm=robot.workshop.safety.landing_stop_mm,
+    )  # fmt: skip
 
 
-def _uncertain(robot: "Robot", settings: str, engine: str, seed: int) -> dict[str, Any]:
-    """Return quantiles of a jump and its sensitivity to each uncertain input, as plain data."""
-    from jumpcad.simulation import uncertain_jump
+def _jump_on(
+    robot: "Robot", heading: dict[str, str], settings: "Settings", count: int, seed: int, as_json: bool,
+    trajectory: Path | None,
+) -> None:  # fmt: skip
+    """Let a robot jump a number of times in a row, print a line each and the sums, and write its way if asked."""
+    from jumpcad.landing.series import jumps
 
-    with status("simulating samples of the uncertain inputs …"):
-        return uncertain_jump(robot, _settings(settings, False, False), engine, seed).to_dict()
+    series = jumps(robot, count, seed, settings, trajectory is not None)
+    if as_json:
+        print_json(heading | {"series": series.to_dict()})
+    else:
+        print_text("jumps", design=heading["design"], count=count, series=series)
+    if trajectory and series.trajectory:
+        _write_trajectory(trajectory, series.trajectory)
 
 
 def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread: dict[str, Any] | None) -> None:
@@ -214,25 +240,14 @@ def _difference_percent(jumps: "list[Jump]") -> float | None:
     return 100.0 * (ranges[1] / ranges[0] - 1.0)
 
 
-def _write_trajectory(path: Path, jump: "Jump") -> None:
-    """Write the trajectory of a jump; a design that the gate rejects has none."""
-    if jump.trajectory is None:
-        reason = f"{jump.verdict}: a robot that is rejected before its release does not move"
-        print(f"jumpcad: {without_controls(str(path))}: not written; {reason}", file=sys.stderr)
-        return
-    write_trajectory(path, jump.trajectory)
-
-
-def write_trajectory(path: Path, trajectory: "Trajectory") -> None:
+def _write_trajectory(path: Path, trajectory: "Trajectory") -> None:
     """Write a trajectory, one row per moment, as CSV or JSON."""
     from jumpcad.files.outputs import write_atomically
 
-    if path.suffix == ".json":
-        columns = {name: values.tolist() for name, values in trajectory.columns().items()}
-        write_atomically(path, json.dumps(columns, indent=1) + "\n")
-        return
+    columns = {name: values.tolist() for name, values in trajectory.columns().items()}
     text = io.StringIO()
-    table = csv.DictWriter(text, fieldnames=list(trajectory.columns()), lineterminator="\n")
-    table.writeheader()
-    table.writerows(trajectory.rows())
+    if path.suffix == ".json":
+        text.write(json.dumps(columns, indent=1) + "\n")
+    else:
+        csv.writer(text, lineterminator="\n").writerows([columns, *zip(*columns.values(), strict=True)])
     write_atomically(path, text.getvalue())

@@ -28,6 +28,13 @@ def completion(kind: str) -> Callable[[str], list[str]]:
     return names
 
 
+DesignArgument = Annotated[
+    str,
+    typer.Argument(
+        help="A template's name, a design file, a bundle.", metavar="DESIGN|BUNDLE", autocompletion=completion("robots")
+    ),
+]
+SeedOption = Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)]
 RowOption = Annotated[int | None, typer.Option("--jumps", help="Show so many jumps in a row (MuJoCo).", min=1, max=20)]
 WorkshopOption = Annotated[
     str | None,

@@ -6,6 +6,7 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
 from jumpcad.cli.searching import PlotsOption, require_pictures
+from jumpcad.cli.subjects import SeedOption
 from jumpcad.errors import JumpcadError
 
 
@@ -14,7 +15,7 @@ def validate(
         list[str] | None,
         typer.Option(help="A figure that you read in its paper, ROBOT.NAME=VALUE; may be repeated.", metavar="FIGURE"),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0,
+    seed: SeedOption = 0,
     plots: PlotsOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,

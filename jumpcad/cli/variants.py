@@ -6,22 +6,15 @@ from typing import Annotated
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, status
-from jumpcad.cli.subjects import WorkshopOption, completion, note_template, printed_robot
+from jumpcad.cli.subjects import DesignArgument, SeedOption, WorkshopOption, note_template, printed_robot
 from jumpcad.errors import JumpcadError, without_controls
 
 
 def variants(
-    design: Annotated[
-        str,
-        typer.Argument(
-            help="A template's name, a design file, a bundle.",
-            metavar="DESIGN|BUNDLE",
-            autocompletion=completion("robots"),
-        ),
-    ],
+    design: DesignArgument,
     count: Annotated[int, typer.Option(help="Number of robots.", min=1, max=10_000)] = 100,
     kind: Annotated[str, typer.Option("--format", help="mjcf or urdf.", metavar="mjcf|urdf")] = "mjcf",
-    seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0,
+    seed: SeedOption = 0,
     workshop: WorkshopOption = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Folder.", show_default="NAME-variants")] = None,
     force: ForceFlag = False,

@@ -1,6 +1,5 @@
 """The result of a simulation."""
 
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -83,12 +82,6 @@ class Trajectory(ByValue):
             table |= {f"{name}_{axis}_m": self.position_m[:, index, i] for i, axis in enumerate("xyz")}
             table |= {f"{name}_q{axis}": self.quaternion_xyzw[:, index, i] for i, axis in enumerate("xyzw")}
         return table | {"kinetic_j": self.kinetic_j, "potential_j": self.potential_j, "spring_j": self.spring_j}
-
-    def rows(self) -> Iterator[dict[str, float]]:
-        """Yield one plain dictionary per moment."""
-        columns = {name: values.tolist() for name, values in self.columns().items()}
-        for values in zip(*columns.values(), strict=True):
-            yield dict(zip(columns, values, strict=True))
 
 
 @dataclass(frozen=True, repr=False)

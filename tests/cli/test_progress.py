@@ -2,7 +2,7 @@
 
 from support.hills import SMALL, Hill
 
-from jumpcad.cli.progress import watching
+from jumpcad.cli.progress import Tally, watching
 from jumpcad.search.study.run import FIRST
 from jumpcad.search.study.trial import Trial
 
@@ -13,20 +13,19 @@ def trial(number, score=5.0, phase="bo"):
     return Trial(phase, number, 0, DESIGN, Hill()(DESIGN), score, "m", 0.1)
 
 
-class Clock:
-    """A clock that stands still until it is moved."""
+def test_a_quiet_search_says_nothing_and_another_that_no_design_jumps(capfd):
+    for quiet in (True, False):
+        with watching(FIRST, quiet) as watch:
+            for number in range(FIRST):
+                watch(trial(number, None), True)
+        out, err = capfd.readouterr()
+        assert (out, bool(err)) == ("", not quiet)
 
-    def __init__(self):
-        self.now = 0.0
 
-    def __call__(self):
-        return self.now
-
-
-def test_a_quiet_search_says_nothing(capfd):
-    clock = Clock()
-    with watching(FIRST, True, clock) as watch:
-        for number in range(FIRST):
-            clock.now += 61.0
-            watch(trial(number, None), True)
-    assert capfd.readouterr() == ("", "")
+def test_a_line_says_what_is_done_and_the_best_of_the_search():
+    """What is read from the study counts too, but not for the rate; neighbours of the best are no better ones."""
+    tally = Tally(40)
+    assert tally.add(trial(1, 5.0), False) == "bo: 1 of 40 evaluations, best 5, 0/s"
+    line = tally.add(trial(2, 4.0, "pick"), True)
+    assert line.startswith("robust pick: 2 of 40 evaluations, best 5, ")
+    assert line.endswith(" left")

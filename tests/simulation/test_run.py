@@ -167,8 +167,8 @@ def test_trajectory(kenan: Robot) -> None:
         index = path.body_names.index(name)
         ends.append(path.position_m[:, index] + Rotation.from_quat(path.quaternion_xyzw[:, index]).apply(point))
     np.testing.assert_allclose(ends[0], ends[1], atol=5e-5)
-    assert len(list(path.rows())) == len(path.time_s)
-    assert list(next(path.rows()))[:2] == ["time_s", "body_x_m"]
+    assert {len(values) for values in path.columns().values()} == {len(path.time_s)}
+    assert list(path.columns())[:2] == ["time_s", "body_x_m"]
 
 
 def test_recording_and_flying_do_not_change_the_jump(kenan: Robot) -> None:

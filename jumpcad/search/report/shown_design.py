@@ -4,6 +4,7 @@ A side view shows links as the lines between their joints, from the eight number
 flat foot.
 """
 
+import cmath
 import math
 import shlex
 from collections.abc import Iterable, Sequence
@@ -15,8 +16,8 @@ import numpy as np
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import FIGURES
-from jumpcad.mechanism.linkage import Linkage
-from jumpcad.scene.parameters import standing_joints
+from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
+from jumpcad.mechanism.planar import points
 from jumpcad.search.fronts import Cost, energy_j, front
 from jumpcad.search.models import PUBLISHED_FIGURES
 from jumpcad.search.report.drawings import MOST_DOTS, Axes, evenly, scale
@@ -28,7 +29,7 @@ HEADLINES = ("ballistic_range_m", "com_rise_m", "mass_kg", "winding_time_s")
 RADIUS, LEAST_RADIUS = 6.0, 3.5
 """Of a point, and of one that has others near it."""
 POINTS = {"toe tip": "toe", "ankle": "ankle", "front eye": "eye", "front pivot": "front", "back pivot": "back"}
-"""Joints, and their names in `standing_joints`."""
+"""Joints, and their names in `_standing_joints`."""
 LINKS = {
     "toes": ("toe tip", "ankle"),
     "foot": ("ankle", "front eye"),
@@ -137,11 +138,21 @@ def joints_mm(design: Design) -> dict[str, dict[str, tuple[float, float]]]:
     found = {}
     for name, leg_rad in zip(POSES, (-design.compression_rad, 0.0), strict=True):
         # Toes spread sideways, so that from the side they look shorter.
-        at = standing_joints(Linkage(design), leg_rad)
+        at = _standing_joints(Linkage(design), leg_rad)
         corners = (at[one] for one in POINTS.values())
         places = np.round([(point.real, point.imag) for point in corners], 1) + 0.0
         found[name] = dict(zip(POINTS, map(tuple, places.tolist()), strict=True))
     return found
+
+
+def _standing_joints(linkage: Linkage, leg_rad: float) -> dict[str, complex]:
+    """Return the joints in the frame of the ankle with the foot flat, as x + iz (mm); the toes' tip from the side."""
+    pose = linkage.pose([leg_rad])
+    turn = cmath.exp(1j * float(pose.foot_rad[0]))
+    ankle, eye = (complex(points(joint)[0]) for joint in (pose.ankle_mm, pose.front_eye_mm))
+    back, front = (complex(points(joint)) for joint in (linkage.back_pivot_mm, linkage.front_pivot_mm))
+    seen = {name: (joint - ankle) * turn for name, joint in {"back": back, "front": front, "eye": eye}.items()}
+    return seen | {"ankle": 0j, "toe": complex(float(toe_tip_mm(linkage.design)[0]), 0.0)}
 
 
 def box_mm(designs: Iterable[Design]) -> Box:
