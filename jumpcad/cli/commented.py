@@ -85,7 +85,7 @@ def printer_name(workshop: "Workshop") -> str:
     return ""
 
 
-def _beyond_kit(bought: dict[str, Any]) -> dict[str, Any]:
+def _beyond_kit(bought: Mapping[str, Any]) -> dict[str, Any]:
     """Return the keys of `[bought]` whose values are not those of its kit."""
     from jumpcad.catalogue import load_catalogue
 
