@@ -1,16 +1,16 @@
 """What is inside a part's perimeters, and what of it other layers leave open.
 
-A cross-section that is an outline less a pocket inside it is treated as the outline, once for all its pockets, and
-the pocket.
+A cross-section that is an outline less pockets inside it is treated as the outline, once for all its pockets, and the
+pockets.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.solids.moments import areas_and_borders, borders_mm
 from jumpcad.solids.outline import Region, box_around, union
-from jumpcad.solids.slab import NOTHING, CrossSections
+from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, CrossSections
 from jumpcad.transforms import Array
 
 OUTLINE_TOLERANCE_MM = 0.01
@@ -27,50 +27,84 @@ def section_moments(sections: CrossSections) -> tuple[Array, Array]:
     return areas, borders
 
 
-def cores(sections: CrossSections, numbers: Sequence[int], shell_mm: float, spacing_mm: float) -> dict[int, Region]:
-    """Return what is inside the perimeters of cross-sections, each under its number.
+class Cores:
+    """What is inside the perimeters of a part's cross-sections, by their numbers.
 
     It is empty where all of it is narrower than a line, as perimeters then widen to fill it; the same in PrusaSlicer
     (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
     """
-    inside: dict[int, Region] = {}
-    for number in numbers:
-        around, pocket = _parted(sections, number)
-        if around not in inside:
-            inside[around] = _set_back(sections.outlines[around], shell_mm)
-        if number != around:
-            outline = sections.outlines[around]  # less what is nearer to the pocket than the perimeters are thick
-            inside[number] = inside[around] ^ _set_back(box_around(outline, 2.0 * shell_mm) - pocket, shell_mm)
-    borders = borders_mm([inside[number] for number in numbers]).tolist()
-    found = {}
-    for number, border in zip(numbers, borders, strict=True):
-        core = inside[number]
-        slim = 2.0 * core.area() < spacing_mm * border
-        narrow = slim and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
-        found[number] = NOTHING if narrow else core
-    return found
+
+    def __init__(self, sections: CrossSections, numbers: Iterable[int], shell_mm: float, spacing_mm: float) -> None:
+        self._sections = sections
+        self._cut: dict[tuple[int, int], Region | None] = {}
+        self._divided: dict[tuple[int, frozenset[int], frozenset[int]], tuple[Region, Region]] = {}
+        self.inside: dict[int, Region] = {}
+        whole: dict[int, Region] = {}
+        for number in numbers:
+            around, pocket = self._parted(number)
+            if around not in whole:
+                whole[around] = _moved(sections.outlines[around], -shell_mm)
+            # less what is nearer to the pocket than the perimeters are thick
+            self.inside[number] = whole[around] if number == around else whole[around] - _moved(pocket, shell_mm)
+        borders = borders_mm(list(self.inside.values())).tolist()
+        for (number, core), border in zip(self.inside.items(), borders, strict=True):
+            slim = 2.0 * core.area() < spacing_mm * border
+            if slim and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty():
+                self.inside[number] = NOTHING
+
+    def divided(self, number: int, others: Sequence[int]) -> tuple[Region, Region]:
+        """Return of the core of a cross-section what does not lie in all of some others, and what does.
+
+        Where all of it does, the second one is the core itself.
+        """
+        own = self._parted(number)[1]
+        parted = [self._parted(other) for other in others]
+        pockets = [pocket for _, pocket in parted if pocket is not own and not pocket.is_empty()]
+        outlines = dict.fromkeys(outline for outline, _ in parted)
+        cuts = {outline: cut for outline in outlines if (cut := self._within(number, outline)) is not None}
+        key = number, frozenset(cuts), frozenset(map(id, pockets))
+        if key not in self._divided:
+            self._divided[key] = self._split(self.inside[number], cuts, pockets)
+        return self._divided[key]
+
+    def _split(self, core: Region, cuts: dict[int, Region], pockets: Sequence[Region]) -> tuple[Region, Region]:
+        """Return a core outside and inside some outlines, given what each leaves of it, and not in some pockets."""
+        sparse, bounds = core, list[Region]()
+        for outline, cut in sorted(cuts.items(), key=lambda case: case[1].area()):
+            smaller = sparse ^ self._sections.outlines[outline] if bounds else cut
+            if not _same_area(sparse, smaller):
+                sparse = smaller
+                bounds.append(self._sections.outlines[outline])
+        if pockets and not sparse.is_empty():
+            void = union(pockets) if len(pockets) > 1 else pockets[0]
+            smaller = sparse - void
+            if not _same_area(sparse, smaller):
+                sparse = smaller
+                bounds.append(box_around(core, 1.0) - void)
+        if not bounds or sparse.is_empty():
+            return (core, NOTHING) if bounds else (NOTHING, core)
+        common = CrossSection.batch_boolean(bounds, OpType.Intersect) if len(bounds) > 1 else bounds[0]
+        return core - common, sparse  # not `core - sparse`: slivers would remain along the border that they share
+
+    def _within(self, number: int, outline: int) -> Region | None:
+        """Return what of a core lies within an outline; None where that is all of it."""
+        if (number, outline) not in self._cut:
+            core = self.inside[number]
+            cut = core if outline == self._parted(number)[0] else core ^ self._sections.outlines[outline]
+            self._cut[number, outline] = None if _same_area(core, cut) else cut
+        return self._cut[number, outline]
+
+    def _parted(self, number: int) -> tuple[int, Region]:
+        """Return the number of a cross-section's outline, and the pocket in it."""
+        count = len(self._sections.outlines)
+        return self._sections.pockets[number - count] if number >= count else (number, NOTHING)
 
 
-def shared(core: Region, number: int, others: Sequence[int], sections: CrossSections) -> Region:
-    """Return a region that has the same of the core of a cross-section as all of some others have."""
-    around, pocket = _parted(sections, number)
-    regions, beyond = [], []
-    for outline, other in (_parted(sections, other) for other in others):
-        if outline == around:
-            beyond.append(other - pocket)
-        else:
-            regions.append(sections.outlines[outline] - other if not other.is_empty() else sections.outlines[outline])
-    if beyond:
-        regions.append(box_around(core, 1.0) - union(beyond))
-    return CrossSection.batch_boolean(regions, OpType.Intersect)
+def _moved(region: Region, distance_mm: float) -> Region:
+    """Return a region whose border is moved outwards by a distance."""
+    return region.simplify(OUTLINE_TOLERANCE_MM).offset(distance_mm, JoinType.Miter)
 
 
-def _parted(sections: CrossSections, number: int) -> tuple[int, Region]:
-    """Return the number of a cross-section's outline, and the pocket in it."""
-    count = len(sections.outlines)
-    return sections.pockets[number - count] if number >= count else (number, NOTHING)
-
-
-def _set_back(outline: Region, distance_mm: float) -> Region:
-    """Return what is at least a distance inside an outline."""
-    return outline.simplify(OUTLINE_TOLERANCE_MM).offset(-distance_mm, JoinType.Miter)
+def _same_area(whole: Region, part: Region) -> bool:
+    """Tell whether a part of a region is all of it."""
+    return part is whole or whole.area() - part.area() < SMALLEST_AREA_MM2

@@ -15,7 +15,7 @@ import numpy as np
 from manifold3d import CrossSection, OpType
 
 from jumpcad.mechanism.mass import MassProperties
-from jumpcad.printing.cores import cores, section_moments, shared
+from jumpcad.printing.cores import Cores, section_moments
 from jumpcad.printing.runs import LayerRun, Numbers, jumps_of, runs_of
 from jumpcad.solids.moments import areas_and_borders, mass_of, prism_moments
 from jumpcad.solids.outline import Region
@@ -130,11 +130,8 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
     void = (process.line_width_mm - spacing) / 2.0
     shell = process.perimeters * spacing + void
     cases = [(int(which[middle]), _window(middle, which, jumps, process)) for middle in middles]
-    inside = cores(sections, list(dict.fromkeys(number for number, _ in cases)), shell, spacing)
-    fillings = {
-        (number, window): _filled(inside[number], number, window, sections, process.solid_below_area_mm2)
-        for number, window in dict.fromkeys(cases)
-    }
+    cores = Cores(sections, dict.fromkeys(number for number, _ in cases), shell, spacing)
+    fillings = {case: _filled(cores, *case, process.solid_below_area_mm2) for case in dict.fromkeys(cases)}
     bridged = _bridged(runs, cases, fillings, math.floor(nozzle_mm / process.layer_height_mm + 1e-9))
     hollow = 1.0 - process.infill
     thread = math.pi * nozzle_mm**2 / 4.0 / (nozzle_mm + BRIDGE_GAP_MM)
@@ -163,15 +160,15 @@ def _window(middle: int, which: Numbers, jumps: Sequence[int], process: Process)
     return tuple(number for number in numbers if number != which[middle])
 
 
-def _filled(core: Region, number: int, window: Window, sections: CrossSections, solid_below_mm2: float) -> Filling:
+def _filled(cores: Cores, number: int, window: Window, solid_below_mm2: float) -> Filling:
     """Return how the core of a cross-section is filled: sparsely where it lies in all those of a window, else solidly.
 
     Pieces of the sparse region that are smaller than `solid_below_mm2` become solid.
     """
+    core = cores.inside[number]
     if window is None or core.is_empty():
         return Filling(core, NOTHING)
-    common = shared(core, number, window, sections) if window else core
-    sparse = core ^ common if window else core
+    solid, sparse = cores.divided(number, window)
     if solid_below_mm2 > 0.0:
         pieces = sparse.decompose()
         large = [piece for piece in pieces if piece.area() >= solid_below_mm2]
@@ -182,7 +179,7 @@ def _filled(core: Region, number: int, window: Window, sections: CrossSections, 
         return Filling(NOTHING, core, all_sparse=True)
     if sparse.area() < SMALLEST_AREA_MM2:
         return Filling(core, NOTHING)
-    return Filling(core - common, sparse)  # not `core - sparse`: slivers would remain along the border that they share
+    return Filling(solid, sparse)
 
 
 def _bridged(

@@ -1,6 +1,7 @@
 """Slabs, of which stacks are made, and cross-sections of what has them."""
 
 import functools
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -85,6 +86,39 @@ class Slab:
 SlabLike = Slab | tuple[float, float, Region]
 
 
+def pocketed(sections: CrossSections) -> CrossSections:
+    """Return the same cross-sections, outlines that differ in some holes as one outline and pockets.
+
+    The numbers of the sections are other ones.
+    """
+    contours = [{contour.tobytes(): contour for contour in outline.to_polygons()} for outline in sections.outlines]
+    alike = defaultdict[bytes, list[int]](list)
+    for number, found in enumerate(contours):
+        alike[next(iter(found), b"")].append(number)
+    if len(alike) == len(contours):
+        return sections
+    outlines: list[Region] = []
+    cases: dict[int, tuple[int, Region]] = {}
+    for numbers in alike.values():
+        common = set.intersection(*(set(contours[number]) for number in numbers))
+        more = {number: [c for key, c in contours[number].items() if key not in common] for number in numbers}
+        if len(numbers) > 1 and all(_is_hole(contour) for extra in more.values() for contour in extra):
+            plain = next((number for number, extra in more.items() if not extra), None)
+            shared = [contour for key, contour in contours[numbers[0]].items() if key in common]
+            cases |= {number: (len(outlines), _filling(extra)) for number, extra in more.items()}
+            outlines.append(CrossSection(shared) if plain is None else sections.outlines[plain])
+        else:
+            cases |= {number: (len(outlines) + place, NOTHING) for place, number in enumerate(numbers)}
+            outlines += [sections.outlines[number] for number in numbers]
+    for number, (outline, pocket) in enumerate(sections.pockets, start=len(sections.outlines)):
+        around, hole = cases[outline]
+        cases[number] = around, pocket if hole.is_empty() else hole + pocket
+    pockets = [cases[number] for number in sorted(cases) if not cases[number][1].is_empty()]
+    later = iter(range(len(outlines), len(outlines) + len(pockets)))
+    numbers = [around if pocket.is_empty() else next(later) for _, (around, pocket) in sorted(cases.items())]
+    return CrossSections(outlines, np.array(numbers)[sections.which], sections.inset_mm, pockets)
+
+
 def rounded_z(height_mm: float) -> float:
     """Return a height as it is kept."""
     return round(float(height_mm), Z_DIGITS)
@@ -93,3 +127,14 @@ def rounded_z(height_mm: float) -> float:
 def _same(a: Region, b: Region) -> bool:
     """Tell whether two regions have the same corners."""
     return a is b or corners_key(a) == corners_key(b)
+
+
+def _is_hole(contour: Array) -> bool:
+    """Tell whether a contour (n, 2) is clockwise."""
+    x, y = contour.T
+    return float(np.dot(np.roll(x, 1), y) - np.dot(x, np.roll(y, 1))) < 0.0
+
+
+def _filling(holes: Sequence[Array]) -> Region:
+    """Return what clockwise contours (n, 2) enclose."""
+    return CrossSection([hole[::-1] for hole in holes]) if holes else NOTHING

@@ -18,7 +18,7 @@ from jumpcad.mechanism.mass import MassProperties
 from jumpcad.solids.moments import areas_moments, mass_of, prism_moments
 from jumpcad.solids.outline import Region, without_slivers
 from jumpcad.solids.skin import skin
-from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, CrossSections, Numbers, Slab, SlabLike, rounded_z
+from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, CrossSections, Numbers, Slab, SlabLike, pocketed, rounded_z
 from jumpcad.transforms import Array
 
 
@@ -162,7 +162,7 @@ class Stack:
         which = np.array([*(place[slab.number, slab.pocket_number] for slab in self.slabs), len(outlines) - 1])
         insets = np.array([*(slab.inset_mm for slab in self.slabs), 0.0])
         slabs = self._slabs_at(heights_mm)
-        return CrossSections(outlines, which[slabs], insets[slabs], pockets)
+        return pocketed(CrossSections(outlines, which[slabs], insets[slabs], pockets))
 
     def solid(self) -> Manifold:
         """Return the stack as one closed solid whose corners 32-bit floats hold exactly (on a grid of 1 µm)."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.each import each
 
-from jumpcad.printing.cores import cores, section_moments, shared
+from jumpcad.printing.cores import Cores, section_moments
 from jumpcad.solids.outline import Region, rectangle
 from jumpcad.solids.stack import Stack
 
@@ -12,7 +12,7 @@ from jumpcad.solids.stack import Stack
 def inside(region: Region, shell_mm: float, spacing_mm: float) -> Region:
     """Return what is inside the perimeters of a plate of one outline."""
     sections = Stack.of([(0.0, 1.0, region)]).sections_at(np.array([0.5]))
-    return cores(sections, [0], shell_mm, spacing_mm)[0]
+    return Cores(sections, [0], shell_mm, spacing_mm).inside[0]
 
 
 @pytest.mark.parametrize(("width_mm", "core_mm"), [(1.0, 0.0), (1.38, 0.0), (1.42, 0.42), (3.0, 2.0)])
@@ -35,7 +35,7 @@ def test_a_pocket_has_perimeters_of_its_own() -> None:
     stack = Stack.of([(0.0, 2.0, plate)]).pocketed([(1.0, 2.0, pocket)])
     sections = stack.sections_at(np.array([0.5, 1.5]))
     first, second = (int(number) for number in sections.which)
-    found = cores(sections, [first, second], 1.0, 0.4)
+    found = Cores(sections, [first, second], 1.0, 0.4).inside
     assert found[first].area() == pytest.approx(38.0**2)
     assert found[second].area() == pytest.approx(38.0**2 - 12.0**2)
     areas, borders = section_moments(sections)
@@ -55,10 +55,11 @@ def test_a_core_shares_with_other_layers_what_lies_in_all_of_them(number: int, o
     heights = np.array([0.5, 1.5, 2.5, 3.5])
     sections, layers = stack.sections_at(heights), stack.regions_at(heights)
     which = [int(one) for one in sections.which]
-    core = cores(sections, [which[number]], 1.0, 0.4)[which[number]]
-    expected = core
+    cores = Cores(sections, [which[number]], 1.0, 0.4)
+    expected = core = cores.inside[which[number]]
     for other in others:
         expected = expected ^ layers[other]
-    found = core ^ shared(core, which[number], [which[other] for other in others], sections)
+    rest, found = cores.divided(which[number], [which[other] for other in others])
     assert ((found - expected) + (expected - found)).area() < 1e-6
+    assert rest.area() == pytest.approx(core.area() - found.area())
     assert found.area() > 0.0
