@@ -111,21 +111,6 @@ def test_a_name_that_no_parameter_has_is_not_passed_over(kind, workshop):
         changed_parameter(kind, "body.plate", (1.0, 2.0), workshop)
 
 
-@pytest.mark.parametrize(
-    ("parameter", "record"),
-    [
-        (SearchParameter("c_coef", 0.9, 0.9), {"fixed": 0.9}),
-        (SearchParameter("c_coef", 0.8, 1.2), {"lower": 0.8, "upper": 1.2}),
-        (SearchParameter("c_coef", 0.8, 1.2, (0.8, 1.2)), {"choices": [0.8, 1.2]}),
-        (SearchParameter.of_names("bought.battery", ["one", "two"]), {"choices": ["one", "two"]}),
-        (SearchParameter.of_names("bought.battery", ["one"]), {"fixed": "one"}),
-    ],
-)
-def test_a_parameter_reads_back_from_its_record(parameter: SearchParameter, record: dict[str, object]) -> None:
-    assert parameter.describe() == record
-    assert SearchParameter.from_record(parameter.name, record) == parameter
-
-
 def test_names_are_numbered_and_unknown_ones_are_no_number() -> None:
     named = SearchParameter.of_names("bought.battery", ["one", "two", "three"])
     assert [named.number(value) for value in ("one", "three")] == [0.0, 2.0]

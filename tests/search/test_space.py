@@ -132,13 +132,6 @@ def test_a_variant_of_other_values_of_the_workshop_is_not_in_the_space():
         assert not space.contains(Variant(design, other))
 
 
-def test_points_outside_of_the_cube_are_moved_to_its_faces():
-    points = np.array([[-0.2, 0.5, 1.0 + 1e-9], [0.0, 1.3, 0.7]])
-    space = Space.parse(fix=FIXED)
-    assert space.snap(points).tolist() == [[0.0, 0.5, 1.0], [0.0, 1.0, 0.7]]
-    assert points[0, 0] == -0.2
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -4,7 +4,6 @@ import pickle
 
 import numpy as np
 import pytest
-from support.hills import FIXED, Hill
 from support.shops import HEIGHTS, PLATE_MM, SHOP, Shop
 from support.stages import stage
 
@@ -145,11 +144,3 @@ def test_the_winner_s_files_make_the_robot_that_was_searched(tmp_path, monkeypat
     again = evaluate(load_design(tmp_path / "best.toml"), load_workshop(tmp_path / "best-workshop.toml"))
     assert again.body_lengths == pytest.approx(result.score, rel=1e-12)
     assert load_workshop(tmp_path / "best-workshop.toml") == result.workshop
-
-
-def test_a_search_without_the_workshop_writes_none(tmp_path):
-    with local_pool(0) as pool:
-        result = run_study(Request(Space.parse(fix=FIXED), Hill(), method="ga", evaluations=30), None, pool)
-    result.save(tmp_path / "best.toml")
-    assert result.workshop is None
-    assert [path.name for path in tmp_path.iterdir()] == ["best.toml"]

@@ -143,15 +143,6 @@ def test_what_is_far_worse_is_not_even_laid_out(monkeypatch):
         assert (found == {}) is laid_out
 
 
-def test_what_can_gain_next_to_nothing_is_not_built(monkeypatch):
-    """0.05 % of a best score of 1."""
-    monkeypatch.setattr(Quick, "admits", lambda *_: True)
-    for score, left_out in ((1.0004, True), (1.0006, False)):
-        screen = screen_of(lambda _, score=score: Estimate(score, {}))
-        screen._ratios = SimpleNamespace(predict=lambda _: (np.zeros(1), np.zeros(1)), scatter=0.0)
-        assert (Variant(BEST).key in screen.outcomes([Variant(BEST)], 1.0)) is left_out
-
-
 def test_what_masses_refuse_has_the_outcome_of_its_evaluation():
     """A robot with weak springs, before anything was built."""
     weak = Variant(BEST.model_copy(update={"stiffness_nmm_per_deg": 5.0, "compression_ratio": 0.2}))

@@ -1,6 +1,5 @@
 """Refusals before a robot is built: never of one that would have passed, and with the number that is missed."""
 
-import pickle
 import re
 from dataclasses import replace
 
@@ -16,9 +15,8 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.search.estimate.refusal import layout_findings, room_findings, statics_refusal
+from jumpcad.search.estimate.refusal import room_findings, statics_refusal
 from jumpcad.search.models import robot_model
-from jumpcad.search.study.objective import Evaluation
 from jumpcad.simulation import Settings, simulate
 from jumpcad.workshop import load_workshop, varied
 
@@ -90,16 +88,6 @@ def test_a_reserve_is_taken_from_the_room_between_the_legs():
     apart, _ = room_findings(layout, 1.5)
     gap, needed = re.findall(r"([\d.]+) mm", apart.message)
     assert float(gap) - float(needed) == pytest.approx(apart.margin, abs=0.0051)
-
-
-def test_a_refusal_without_a_number_has_no_finding():
-    assert layout_findings(CannotBuildError("no")) == ()
-    assert Evaluation("cannot_build").reasons == ("cannot_build",)
-
-
-def test_a_refusal_survives_the_way_from_a_worker():
-    error = pickle.loads(pickle.dumps(CannotBuildError("no room", "stop_room", -2.5)))
-    assert (str(error), error.limit, error.margin, error.unit) == ("no room", "stop_room", -2.5, "mm")
 
 
 def test_a_robot_that_stays_on_the_ground_says_how_much_speed_is_missing():

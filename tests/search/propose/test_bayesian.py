@@ -1,14 +1,12 @@
 """Bayesian optimisation: few evaluations, batches, resumption."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 from support.stages import scored, stage
 
-from jumpcad.search.propose import bayesian
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.propose.bayesian import (
     IDLE_ALONE,
@@ -20,9 +18,7 @@ from jumpcad.search.propose.bayesian import (
     unproposed,
 )
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.request import default_initial
-from jumpcad.search.study.trial import Trial
 
 
 def best(trials):
@@ -190,25 +186,6 @@ def test_steps_end_when_it_is_said_or_time_is_over_or_nothing_is_proposed(evalua
     dry = evaluator()
     assert run_steps(dry, "bo", stage(20, 0, initial=3), lambda *_: []) is False
     assert dry.store.notes() == ["ended after 3 designs: no other was found that is new and has room"]
-
-
-def test_a_search_ends_after_so_many_steps_that_gained_too_little(monkeypatch):
-    """With no least gain it goes on, and where all scores are alike."""
-    first = Trial("ga", 0, 0, SMALL.to_design([0.5] * 3), Evaluation("jump"), 2.0, "m", 0.0)
-    for steps, least_gain, score, ended in (
-        (IDLE_ALONE - 1, 0.01, 1.0, False), (IDLE_ALONE, 0.01, 1.0, True), (IDLE_ALONE, 0.0, 1.0, False),
-        (IDLE_ALONE, 0.01, 2.0, False),
-    ):  # fmt: skip
-        one = SimpleNamespace(trials=[first], prior=[], space=SMALL, model=Hill())
-        later = [replace(first, phase="bo", step=n, score=score, proposal={"theta": {}}) for n in range(1, steps + 1)]
-
-        def steps_of(evaluator, phase, stage, proposer, end, later=later):
-            assert phase == "bo"
-            evaluator.trials += later
-            return end()
-
-        monkeypatch.setattr(bayesian, "run_steps", steps_of)
-        assert run_bayesian(one, stage(40, 0, least_gain=least_gain)) is ended, (steps, least_gain, score)
 
 
 def test_a_search_stands_still_as_long_as_nothing_is_gained():

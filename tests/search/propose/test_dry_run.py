@@ -23,7 +23,6 @@ from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.variant import Variant
-from jumpcad.simulation import simulate
 
 STAGE = stage(15, 0, initial=10)
 WHOLE = Space.default()
@@ -196,13 +195,3 @@ def test_what_had_room_but_would_not_jump_is_a_failure_too_with_its_margins():
     assert second.evaluation.margins == {"tips": -3.0, "too_weak": 0.2}
     dry_run.ranked = []
     assert list(dry_run.estimates([], points)) == [holds.key]
-
-
-def test_estimates_take_the_planar_engine_with_long_steps_where_it_has_what_the_settings_ask_for():
-    model = robot_model()
-    assert (model.estimate_engine, model.estimate_settings.dt_s) == ("planar", 0.002)
-    slow = replace(model, settings=model.settings.model_copy(update={"dt_s": 0.004, "restitution": 0.1}))
-    assert (slow.estimate_engine, slow.estimate_settings.dt_s) == (slow.engine, 0.004)
-    jump = simulate(LIKE)
-    quick_jump = simulate(LIKE, model.estimate_settings, model.estimate_engine)
-    assert quick_jump.ballistic_range_m == pytest.approx(jump.ballistic_range_m, rel=0.02)

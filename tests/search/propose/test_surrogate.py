@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from sklearn.gaussian_process import GaussianProcessRegressor
 
-from jumpcad.search.propose import surrogate
 from jumpcad.search.propose.surrogate import JITTER, Surrogate, _kernel, one_hot
 
 
@@ -89,12 +88,3 @@ def test_a_fit_finds_by_how_much_values_scatter(data):
     noise = y.std() / 6.0
     seen = y + noise * np.random.default_rng(4).choice([-1.0, 1.0], len(y))
     assert Surrogate(x, seen).scatter == pytest.approx(noise, rel=0.4)
-
-
-def test_a_fit_begins_where_the_one_before_ended(data, monkeypatch):
-    """One step from there is nearer to it than a step from where the first fit begins."""
-    x, y = data
-    before = Surrogate(x[:30], y[:30]).theta
-    monkeypatch.setattr(surrogate, "_FIT_STEPS", 1)
-    after, anew = Surrogate(x, y, before).theta, Surrogate(x, y).theta
-    assert np.abs(np.subtract(after, before)).max() < 0.5 < np.abs(np.subtract(anew, before)).max()

@@ -11,7 +11,6 @@ import pytest
 from support.hills import FIXED, SMALL
 
 from jumpcad.files.rendering import environment, fill
-from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.report.drawings import Axes, _best, _gain, _line, _spread, evenly, history, parallel, scale, slices
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
@@ -54,21 +53,6 @@ def test_a_history_tells_what_its_last_fifth_gained() -> None:
     for scores, said in GAINS:
         assert _gain(np.array(scores)) == said
         assert _gain(np.array(scores), is_explored=True) == said.partition(" The last fifth")[0]
-
-
-@pytest.mark.parametrize(
-    ("number", "said"),
-    [
-        (70.0, "70° at the upper end"), (20.0, "20° at the lower end"), (20.04, "20.04° at the lower end"),
-        (20.06, "20.06°"),
-    ],
-)  # fmt: skip
-def test_the_best_value_is_told_with_the_end_that_it_lies_on(number: float, said: str) -> None:
-    """To a thousandth of the range, here 0.05°."""
-    value, at, end = said.partition(" at ")
-    found = _best(SearchParameter("rest_angle_deg", 20.0, 70.0), number)
-    assert found == (f"{value}, at {end} of the range" if at else value)
-    assert _best(SearchParameter.of_names("bought.battery", ["one", "two"]), 1.0) == "two"
 
 
 def trial(*unit: float) -> Trial:
@@ -200,19 +184,6 @@ def test_parallel_lines_are_the_stronger_the_better_and_lie_on_axes_with_their_e
     assert parallel(replace(found, space=line), ()) == parallel(known(None), ()) == {}
 
 
-def test_an_axis_reaches_from_margin_to_margin() -> None:
-    """Five per cent beyond the values on both sides; upwards in the picture is more."""
-    low, high, ticks = across = scale([2.0, 4.0, 3.0])
-    axes = Axes(across, across)
-    assert (low, high) == pytest.approx((1.9, 4.1))
-    assert ticks == sorted(ticks)
-    assert low <= ticks[0] < ticks[-1] <= high
-    assert len(ticks) >= 4
-    assert [axes.x(value) for value in (low, 3.0, high)] == pytest.approx([LEFT, (LEFT + RIGHT) / 2.0, RIGHT])
-    assert [axes.y(value) for value in (low, 3.0, high)] == pytest.approx([FOOT, (FOOT + TOP) / 2.0, TOP])
-    assert all(tick == round(tick) for tick in scale([1.0, 9.0], whole=True)[2])
-
-
 def test_an_axis_of_one_value_or_none_has_a_length() -> None:
     for values in ([], [0.0], [5.0, 5.0]):
         low, high, _ = scale(values)
@@ -243,16 +214,6 @@ def test_lines_and_words_of_an_axis_stand_at_their_values() -> None:
     assert [said for *_, said in words[-2:]] == ["energy (J)", "range (mm)"]
     assert words[-2][0] == pytest.approx((LEFT + RIGHT) / 2.0)
     assert words[-1][1] < TOP
-
-
-def test_a_front_goes_level_to_the_next_design_and_then_up() -> None:
-    """A robot with more energy may always be one with less: the score holds to the right."""
-    axes = Axes((0.0, 1.0, []), (0.0, 1.0, []))
-    path = axes.steps([(0.0, 0.0), (0.5, 0.5), (1.0, 1.0)])
-    middle = f"{(LEFT + RIGHT) / 2.0:.1f}", f"{(TOP + FOOT) / 2.0:.1f}"
-    assert path == f"M{LEFT:.1f} {FOOT:.1f}H{middle[0]}V{middle[1]}H{RIGHT:.1f}V{TOP:.1f}H{RIGHT:g}"
-    assert axes.steps([]) == ""
-    assert axes.dots([(0.0, 1.0)]) == f"M{LEFT:.1f} {TOP:.1f}h0"
 
 
 def test_of_many_things_some_are_chosen_evenly_with_both_ends() -> None:

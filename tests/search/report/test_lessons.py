@@ -16,7 +16,7 @@ from jumpcad.plural import counted
 from jumpcad.search.explore import Importance
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.report import lessons
-from jumpcad.search.report.lessons import _cost, bound_rows, importances, reason_rows, rising
+from jumpcad.search.report.lessons import bound_rows, importances, reason_rows, rising
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial
@@ -73,16 +73,6 @@ def test_three_that_are_clear_matter_most_the_largest_first(monkeypatch: pytest.
         assert said in text(known(WON, replace(WON, score=3.0)))
 
 
-def test_the_longest_bar_is_full_and_two_hundred_designs_tell_evenly_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of 401 that jump every third one; a fall of R² of 0.6 is a whole bar, one of 0.4 two thirds of it."""
-    asked = []
-    monkeypatch.setattr(lessons, "importance_in", lambda *given: asked.append(given) or LEARNED)
-    trials = [replace(WON, place=place, score=1.0 + place) for place in range(401)]
-    widths = re.findall(r"width: (\d+)%", page(known(*trials)))
-    assert asked == [(SMALL, trials[::3], 7)]
-    assert [int(width) for width in widths] == [100, 67, 33, 17, 8]
-
-
 def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_important(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -101,22 +91,6 @@ def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_impor
 
     monkeypatch.setattr(lessons, "importance_in", refused)
     assert text(two).startswith("Importance 2 designs that jumped: too few to say what is important.")
-
-
-@pytest.mark.parametrize(
-    ("worth", "reason", "score", "said"),
-    [
-        (0.25, "", 2.0, "+0.25 m (+12.5 %)"), (-0.25, "", -2.0, "-0.25 m (-12.5 %)"), (0.25, "", 0.0, "+0.25 m"),
-        (None, NOT_EXAMINED, 2.0, "not examined in this study"), (None, "strange", 2.0, "rejected, strange"),
-        (None, "tips, hub_strength", 2.0,
-         "rejected, tips, hub_strength: with loaded springs the centre of mass is not above the foot: it falls over; "
-         "the main leg would break beside its hub's bore"),
-    ],
-)  # fmt: skip
-def test_what_lies_beyond_a_bound_is_told_with_its_share_of_the_score(
-    worth: float | None, reason: str, score: float, said: str
-) -> None:
-    assert _cost(ActiveBound("c_coef", "upper", 1.2, 1.25, worth, reason), "m", score) == said
 
 
 def test_a_score_rises_where_it_gains_more_than_a_twentieth_of_a_per_cent() -> None:

@@ -8,7 +8,7 @@ from support.bumps import REST, studied
 from support.hills import SMALL
 
 from jumpcad.findings import Finding
-from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
+from jumpcad.search.explore import FeasibilityMap, Importance, Sweep
 from jumpcad.search.fronts import energy_j
 from jumpcad.search.report import plots
 from jumpcad.search.report.figures import PICTURES, meanings, panels, save_figure
@@ -106,14 +106,6 @@ def test_each_importance_has_its_own_error():
     (errors,) = axes.collections
     ends = [[float(x) for x, _ in segment] for segment in errors.get_segments()]
     assert ends == [pytest.approx(pair) for pair in ([0.08, 0.12], [0.17, 0.23], [0.29, 0.31])]
-
-
-def test_shares_of_components_stand_beside_equal_ones():
-    """Of four parameters each would have a quarter, however many views there are."""
-    view = Components(("a", "b", "c", "d"), np.array([0.6, 0.2, 0.15, 0.05]), np.eye(4), 20)
-    for axes in plots.components({"sampled": view, "elite": view}).axes:
-        assert list(axes.lines[0].get_ydata()) == [0.25, 0.25]
-        assert [bar.get_height() for bar in axes.patches] == [0.6, 0.2, 0.15, 0.05]
 
 
 def test_a_map_has_its_ring_where_the_centre_is_and_a_colour_for_each_first_reason():

@@ -10,7 +10,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost
 from jumpcad.search.report.drawings import Axes, scale
-from jumpcad.search.report.shown_design import HEADLINES, _radii, box_mm, chart, joints_mm, shown_design
+from jumpcad.search.report.shown_design import HEADLINES, box_mm, chart, joints_mm, shown_design
 from jumpcad.search.report.words import with_unit
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
@@ -30,14 +30,6 @@ def told(**metrics: float) -> tuple[dict[str, str], dict[str, str]]:
     found = shown_design(one, 7, "my study.db")
     assert found["command"] == "jumpcad studio 'my study.db' --trial 7"
     return dict(found["first"]), dict(found["others"])
-
-
-def test_points_are_as_large_as_their_neighbours_leave_them() -> None:
-    """Half way to the nearest, from 3.5 to 6."""
-    assert _radii([(0.0, 0.0), (10.0, 0.0), (100.0, 0.0), (100.0, 8.0), (200.0, 1.0), (203.0, 5.0)]) == [
-        5.0, 5.0, 4.0, 4.0, 3.5, 3.5
-    ]  # fmt: skip
-    assert _radii([(0.0, 0.0)]) == _radii([(0.0, 0.0), (30.0, 40.0)])[:1] == [6.0]
 
 
 def test_every_design_is_a_point_at_its_energy_and_score() -> None:

@@ -2,18 +2,16 @@
 
 import errno
 import os
-import re
 import sqlite3
 import subprocess
 import sys
 import textwrap
-from pathlib import Path
 
 import pytest
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.study.database import is_written, lock, plain_errors, require_study
+from jumpcad.search.study.database import is_written, lock, require_study
 from jumpcad.search.study.store import StudyStore
 
 
@@ -41,28 +39,6 @@ def test_locked_by_another_program(tmp_path, monkeypatch):
     ):
         it.append(trials(1))
     other.close()
-
-
-def test_what_sqlite_complains_of_is_said_in_one_line():
-    for name, said in (
-        ("SQLITE_BUSY", "is locked by another program"),
-        ("SQLITE_LOCKED_SHAREDCACHE", "is locked by another program"),
-        ("SQLITE_FULL", r"cannot be written (it\x07 said)"), ("SQLITE_IOERR_WRITE", r"cannot be written (it\x07 said)"),
-        ("SQLITE_READONLY_DIRECTORY", "cannot be opened"), ("SQLITE_CANTOPEN", "cannot be opened"),
-        ("SQLITE_CORRUPT", "is damaged, or is not a study file"), ("", "is damaged, or is not a study file"),
-    ):  # fmt: skip
-        error = sqlite3.DatabaseError("it\x07 said")
-        error.sqlite_errorname = name
-        with pytest.raises(JumpcadError, match=re.escape(f"s.db: {said}")), plain_errors(Path("s.db")):
-            raise error
-
-
-def test_what_is_no_error_of_the_file_is_passed_on():
-    for error in (sqlite3.IntegrityError("twice"), ValueError("else")):
-        with pytest.raises(type(error)), plain_errors(Path("s.db")):
-            raise error
-    with pytest.raises(JumpcadError, match="invalid text"), plain_errors(Path("s.db")):
-        b"\xff".decode()
 
 
 def test_a_study_is_written_while_its_lock_is_held(tmp_path):

@@ -122,16 +122,6 @@ def test_what_is_left_out_is_a_row_with_its_outcome_and_is_not_evaluated(evaluat
     assert [one.holds(Variant.of(design)) for design in designs(4)] == [True, True, True, False]
 
 
-def test_a_design_that_was_seen_before_does_not_count(evaluator):
-    seen = []
-    one = evaluator()
-    one._watch = lambda trial, computed: seen.append((trial.place, computed))
-    one.evaluate(designs(3), "ga", 0)
-    one.evaluate(designs(3), "ga", 1)
-    assert len(one.trials) == 3
-    assert seen == [(0, True), (1, True), (2, True)]
-
-
 def test_a_step_is_read_whole_or_not_at_all(evaluator, tmp_path):
     first = evaluator(tmp_path / "s.db")
     first.evaluate(designs(3), "ga", 2)

@@ -38,13 +38,6 @@ def test_scores_of_a_jump(name, score):
     assert find_objective(name).score(Evaluation("jump", JUMP)) == pytest.approx(score)
 
 
-def test_a_score_is_shown_with_its_unit():
-    """What an own objective is counted in is not known."""
-    assert find_objective("range").shown(0.25) == "0.2500 m"
-    assert find_objective("jumps-per-joule").shown(2.0) == "2.0000 1/J"
-    assert find_objective(lambda figures: 1.0).shown(0.25) == "0.2500"
-
-
 def test_a_refused_design_has_no_score():
     assert find_objective("fitness").score(Evaluation("tips")) is None
     broken = Evaluation("jump", JUMP, (finding("leg_stress", "error", -3.0), finding("bed", "warning", -1.0)))

@@ -114,18 +114,6 @@ def test_the_winner_is_the_most_robust_and_without_candidates_the_best() -> None
     assert repr(robust) == "<Result ga: range 4, 5 trials, 2 candidates>"
 
 
-def test_where_nothing_jumps_the_five_most_frequent_reasons_are_told() -> None:
-    """Of six, by one to six designs."""
-    reasons = [f"limit_{letter}" for letter in "fedcba"]
-    trials = [
-        replace(trial_of(None, place), evaluation=Evaluation(reason))
-        for place, reason in enumerate(reason for count, reason in enumerate(reasons, start=1) for _ in range(count))
-    ]
-    told = "limit_a 6, limit_b 5, limit_c 4, limit_d 3, limit_e 2"
-    with pytest.raises(CannotBuildError, match=rf"^none of 21 designs jumps \({told}\): widen the bounds"):
-        _ = found(trials=trials, best=None, candidates=[]).design
-
-
 def test_plain_data_has_every_figure_under_its_name() -> None:
     result = found()
     data = result.to_dict()

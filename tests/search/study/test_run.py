@@ -17,36 +17,17 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.propose.bayesian import IDLE_ALONE, idle_steps
 from jumpcad.search.space import Space
 from jumpcad.search.study import run as study
-from jumpcad.search.study.objective import Evaluation, find_objective
+from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import _read_prior, run_study
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.study.trial import Trial
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4, until_percent=0.0)
 FEW = Space.parse(choose=["c_coef=0.9,1.0"], around=load_design("best-ga"), only=["c_coef"])
 SCRIPT = TESTS / "support" / "study_script.py"
 
 pytestmark = pytest.mark.usefixtures("quick_proposals")
-
-
-def test_a_search_is_told_to_be_hopeless_after_fifty_designs_that_fail():
-    """Its reasons are counted; one that jumps, or what the search has not proposed, is no reason to complain."""
-
-    def trial(number, score=None, phase="ga"):
-        outcome = Evaluation("tips" if number % 5 else "loop")
-        return Trial(phase, 0, number, load_design("best-ga"), outcome, score, "m", 0.0)
-
-    hopeless = study.Hopeless()
-    said = [hopeless.warning(trial(number)) for number in range(120)]
-    assert [number for number, text in enumerate(said, start=1) if text] == [50]
-    assert "none of the first 50 designs jumps (tips 40, loop 10)" in said[49]
-    for first in (0, 30, 49):
-        hopeless = study.Hopeless()
-        assert not any(hopeless.warning(trial(n, 1.0 if n == first else None)) for n in range(120))
-    hopeless = study.Hopeless()
-    assert not any(hopeless.warning(trial(number, phase="pick")) for number in range(120))
 
 
 def test_an_hour_counts_from_what_was_read_to_what_is_computed(monkeypatch):

@@ -15,7 +15,7 @@ from support.studies import IDENTITY, trials
 from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
 from jumpcad.search.study.database import connect
-from jumpcad.search.study.store import ENDED, FORMAT, MOST_NOTES, StudyStore, difference
+from jumpcad.search.study.store import ENDED, FORMAT, MOST_NOTES, StudyStore
 
 
 def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
@@ -176,18 +176,6 @@ def test_a_study_that_another_program_changed_is_refused_in_a_line(tmp_path):
         path.unlink()
 
 
-def test_what_is_noted_once_stands_there_once(tmp_path):
-    """Also where the run is continued; other notes are as many as they were made."""
-    for _ in range(2):
-        with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
-            for _ in range(2):
-                store.note_once("none jumps")
-            store.note_once("ended")
-            store.note("failed")
-    with StudyStore.read(tmp_path / "s.db") as store:
-        assert sorted(store.notes()) == ["ended", "failed", "failed", "none jumps"]
-
-
 def test_a_study_of_another_format_is_refused(tmp_path):
     for number in (0, FORMAT - 1, FORMAT + 1):
         path = edited(tmp_path / "s.db", f"PRAGMA user_version = {number}")
@@ -233,17 +221,6 @@ def test_progress_counts_phases_and_has_the_best_of_what_the_search_proposed(tmp
         assert store.progress() == ({"robust": 3}, None)
         store.append(found)
         assert store.progress() == ({"ga": 6, "robust": 3}, 5.0)
-
-
-def test_the_first_difference_of_two_studies_is_named():
-    for there, here, said in (
-        ({"a": 1, "b": {"c": 2}}, {"a": 1, "b": {"c": 2}}, ""), ({"a": 1}, {"a": 2}, "a: 1 there, 2 here"),
-        ({"a": {"b": 1, "c": 2}}, {"a": {"b": 1, "c": 3}}, "a.c: 2 there, 3 here"),
-        ({"a": 1, "b": 2}, {"a": 1}, "b: 2 there, null here"), ({}, {"b": [1]}, "b: null there, [1] here"),
-        ({"x": 1, "y": 2}, {"x": 3, "y": 4}, "x: 1 there, 3 here"),
-        ({"a": {"b": 1}}, {"a": 1}, 'a: {"b": 1} there, 1 here'),
-    ):  # fmt: skip
-        assert difference(there, here) == said
 
 
 def test_of_very_many_notes_the_newest_are_read_in_their_order(tmp_path):

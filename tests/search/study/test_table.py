@@ -52,22 +52,6 @@ def test_tables_that_cannot_be_written(trials, tmp_path):
     assert (tmp_path / "t.csv").read_text() == "mine"
 
 
-def test_of_several_findings_of_a_name_the_worst_margin_counts(tmp_path):
-    design = load_design("kenan-2.0")
-    wall = [Finding("wall", "error", margin, "mm", "thin", "thicken it") for margin in (0.4, -0.2, 0.1)]
-    write_table(
-        [Trial("ga", 0, 0, design, Evaluation("jump", findings=tuple(wall)), None, "m", 0.0)], tmp_path / "t.csv"
-    )
-    with (tmp_path / "t.csv").open(newline="") as stream:
-        (record,) = csv.DictReader(stream)
-    assert float(record["margin_wall"]) == -0.2
-
-
-def test_a_table_of_nothing_has_a_head_alone(tmp_path):
-    write_table([], tmp_path / "t.csv")
-    assert (tmp_path / "t.csv").read_text() == "phase\n"
-
-
 def test_a_row_has_every_column_of_any_trial_each_with_its_own_value(tmp_path):
     """A figure, margin or value of the workshop that a trial does not have is empty, whichever trial stands first."""
     design = load_design("kenan-2.0")

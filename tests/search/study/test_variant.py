@@ -17,10 +17,3 @@ def test_each_value_is_changed_where_it_belongs() -> None:
     assert (VARIANT.workshop["body.plate_mm"], VARIANT.design) == (3.0, DESIGN)
     with pytest.raises(JumpcadError):
         VARIANT.changed({"c_coef": 1e3})
-
-
-def test_values_are_read_by_name() -> None:
-    assert [VARIANT.value(name) for name in ("bought.retention", "c_coef")] == ["nuts", DESIGN.c_coef]
-    assert VARIANT.key == (*DESIGN.to_vector(), 3.0, "nuts")
-    assert Variant.of(VARIANT) is VARIANT
-    assert Variant.of(DESIGN) == Variant(DESIGN, {})
