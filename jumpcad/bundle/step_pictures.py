@@ -1,5 +1,7 @@
 """The pictures of assembly: one for each step with names and arrows, and details of some steps."""
 
+from types import MappingProxyType
+
 import numpy as np
 from PIL import Image
 
@@ -16,6 +18,8 @@ SIZE = (560, 520)
 MARGIN = 190
 """Pixels on either side, for names."""
 INSET_SIZE = (420, 360)
+COMPASS = MappingProxyType({"front": 0, "left": 1})
+"""What every picture of a step marks: axes of the standing robot."""
 ROOM = 1.12
 """Size of the picture's frame over that of the view's."""
 COMPRESSION = 6
@@ -57,7 +61,8 @@ def _picture(view: StepView, number: dict[str, int], scene: Renderer, size: tupl
     seen = np.round(camera.seen(points, size)[0], 2)
     names = [label.text for label in view.labels]
     turns = [np.round(camera.seen(curve, size)[0], 2) for curve in view.turns_m]
-    sheet = labelled(picture, names, seen[:, 0], seen[:, 1], MARGIN, turns)
+    compass = {name: np.round(camera.axes[:2, axis] * (1.0, -1.0), 6) for name, axis in COMPASS.items()}
+    sheet = labelled(picture, names, seen[:, 0], seen[:, 1], MARGIN, turns, compass)
     return png_of(paletted(sheet), compress_level=COMPRESSION)
 
 

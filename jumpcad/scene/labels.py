@@ -3,7 +3,9 @@
 Letters are drawn as polygons, the outlines of a font that comes with the plotting library: the same pixels everywhere.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -14,7 +16,9 @@ from jumpcad.transforms import Array
 
 FINE = 3
 """Letters and lines are drawn this many times larger and scaled down."""
-CAPITAL_PX, ROW_PX, EDGE_PX = 9.0, 22.0, 8.0
+CAPITAL_PX, ROW_PX, EDGE_PX = 11.0, 24.0, 8.0
+COMPASS_PX, COMPASS_ROOM_PX = 45.0, 100
+"""Of the arrows in the lower left corner: length of one across the view, and the height that is kept free for them."""
 INK, LINE, ARROW = (25, 28, 33), (120, 125, 132), (200, 40, 30)
 HEAD_PX = 9.0
 
@@ -26,6 +30,7 @@ def labelled(
     place_px: Array,
     margin_px: int,
     turns_px: Sequence[Array] = (),
+    compass: Mapping[str, Array] = MappingProxyType({}),
 ) -> Image.Image:
     """Return a picture between two margins with labels.
 
@@ -42,6 +47,8 @@ def labelled(
         Width of either margin.
     turns_px
         Curves (k, 2), drawn as arrows: senses of rotation.
+    compass
+        Unit vectors (2,) of the picture by the names of their directions, drawn as arrows in the lower left corner.
     """
     size = (picture.width + 2 * margin_px, picture.height)
     sheet = Image.new("RGB", size, (255, 255, 255))
@@ -58,7 +65,12 @@ def labelled(
         curve = np.asarray(line) + beside
         draw.line([tuple(FINE * point) for point in curve[:-1]], fill=ARROW, width=2 * FINE)
         _arrow(draw, curve[-3], curve[-1])
-    for name, end, (x, y), left in _rows(names, ends, size):
+    middle = np.array([margin_px / 2.0, size[1] - COMPASS_ROOM_PX / 2.0])
+    for name, direction in compass.items():
+        tip = middle + COMPASS_PX * direction
+        _arrow(draw, middle, tip, INK)
+        _words(draw, name, tip[0] + math.copysign(EDGE_PX, direction[0]), tip[1], bool(direction[0] < 0.0))
+    for name, end, (x, y), left in _rows(names, ends, size, COMPASS_ROOM_PX if compass else 0):
         _words(draw, name, x, y, left)
         start = (x + EDGE_PX, y) if left else (x - EDGE_PX, y)
         draw.line([tuple(FINE * np.array(start)), tuple(FINE * end)], fill=LINE, width=FINE)
@@ -68,15 +80,18 @@ def labelled(
 
 
 def _rows(
-    names: Sequence[str], ends: Array, size: tuple[int, int]
+    names: Sequence[str], ends: Array, size: tuple[int, int], free_px: int
 ) -> list[tuple[str, Array, tuple[float, float], bool]]:
-    """Return for each name the end of its leader line at the part, its end at the text, and if it is on the left."""
+    """Return for each name the end of its leader line at the part, its end at the text, and if it is on the left.
+
+    On the left as much as `free_px` is left free below.
+    """
     order: list[int] = np.argsort(ends[:, 0], kind="stable").tolist()
     half = len(order) // 2
     rows = []
     for side, indices in ((True, order[:half]), (False, order[half:])):
         indices = sorted(indices, key=lambda index: ends[index, 1])
-        y = _spread([float(ends[index, 1]) for index in indices], size[1])
+        y = _spread([float(ends[index, 1]) for index in indices], size[1] - (free_px if side else 0))
         widest = max((_width(names[index]) for index in indices), default=0.0)
         x = EDGE_PX + widest if side else size[0] - EDGE_PX - widest
         rows += [(names[index], ends[index], (x, height), side) for index, height in zip(indices, y, strict=True)]
@@ -121,10 +136,10 @@ def _turn(points: Array) -> float:
     return float(np.sum(points[:, 0] * after[:, 1] - points[:, 1] * after[:, 0]))
 
 
-def _arrow(draw: ImageDraw.ImageDraw, start: Array, end: Array) -> None:
+def _arrow(draw: ImageDraw.ImageDraw, start: Array, end: Array, colour: tuple[int, int, int] = ARROW) -> None:
     along = (end - start) / np.hypot(*(end - start))
     across = np.array([-along[1], along[0]])
     neck = end - HEAD_PX * along
-    draw.line([tuple(FINE * start), tuple(FINE * neck)], fill=ARROW, width=2 * FINE)
+    draw.line([tuple(FINE * start), tuple(FINE * neck)], fill=colour, width=2 * FINE)
     head = [end, neck + 0.45 * HEAD_PX * across, neck - 0.45 * HEAD_PX * across]
-    draw.polygon([tuple(FINE * point) for point in head], fill=ARROW)
+    draw.polygon([tuple(FINE * point) for point in head], fill=colour)

@@ -209,6 +209,21 @@ def test_a_lead_is_one_line_from_end_to_end_dashed_where_a_plate_or_the_tray_hid
         assert lines == []
 
 
+def test_leads_end_at_the_pads_of_the_controller_in_their_order_from_the_usb_socket(robot: Robot) -> None:
+    """From above with USB to the right, the row that is left with USB ahead lies in front, at the board's edge."""
+    board = robot.electrical_parts.controller
+    (item,) = (one for one in robot.hardware if one.name == "controller")
+    corners = item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
+    (back, right, _), (front, left, _) = corners.min(axis=0), corners.max(axis=0)
+    found = {end.pin: at for lead in leads_of(robot) for end, at in zip(lead.ends, lead.points_mm[[0, -1]], strict=True)
+             if end.part == "controller"}  # fmt: skip
+    assert len(found) > 3
+    for names, edge in ((board.left, front), (board.right, back)):
+        rows = [found[pin] for pin in names if pin in found]
+        assert all(abs(at[0] - edge) < 2.0 and right < at[1] < left for at in rows)
+        assert [at[1] for at in rows] == sorted(at[1] for at in rows)  # away from the right plate
+
+
 def plated(robot: Robot, parts: tuple[str, str], side: str) -> bool:
     return any(plate_of(robot.layout, part) == side for part in parts)
 

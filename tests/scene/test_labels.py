@@ -25,7 +25,7 @@ def test_rows_are_apart_and_inside_the_picture(wanted: list[float]) -> None:
 def test_names_stand_on_the_side_of_their_parts_in_their_order() -> None:
     """The left half of the parts has its names on the left, the others on the right, each list from top to bottom."""
     ends = np.array([[300.0, 50.0], [20.0, 200.0], [40.0, 100.0], [280.0, 300.0]])
-    rows = {name: (end, text, left) for name, end, text, left in _rows(["a", "b", "c", "d"], ends, (400, 400))}
+    rows = {name: (end, text, left) for name, end, text, left in _rows(["a", "b", "c", "d"], ends, (400, 400), 0)}
     assert {name for name, (*_, left) in rows.items() if left} == {"b", "c"}
     for index, name in enumerate("abcd"):
         end, (x, y), left = rows[name]

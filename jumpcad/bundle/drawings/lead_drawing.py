@@ -2,15 +2,16 @@
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.bundle.drawings.lead_lines import Lead, leads_of
+from jumpcad.bundle.drawings.lead_lines import Lead, leads_of, pads_of
 from jumpcad.dimensions import TRAY_MM
+from jumpcad.electronics.nets import Terminal
 from jumpcad.exporters.dxf import sheet
 from jumpcad.files.rendering import fill
 from jumpcad.layout.lateral import Interval
@@ -28,6 +29,10 @@ LEAD_EDGE_MM = 1.0
 """What it shows beyond the outermost lead."""
 HEAD_MM = 2.9
 """Radius of a standoff's screw head (ISO 7380-1 M3)."""
+OUTSIDE = ("sensor", "motor")
+"""Parts whose terminals are seen from outside."""
+USB_MM = 2.5
+"""How much of the USB socket is drawn on the board; judgement."""
 FINE_MM = 0.05
 """Detail of outlines that is left out."""
 BADGE_MM, BADGES_APART_MM = 1.7, 3.9
@@ -53,7 +58,7 @@ def leads_svg(robot: Robot) -> str:
     width = (WIDTH_MM - 3.0 * MARGIN_MM) / 2.0
     places = {"left": MARGIN_MM, "right": 2.0 * MARGIN_MM + width}
     plates = [plate for side, left in places.items() if (plate := _plate(robot, leads, side, left, width))]
-    trays = _trays(robot.layout, leads, max((plate["bottom"] + 4.0 for plate in plates), default=0.0) + MARGIN_MM)
+    trays = _trays(robot, leads, max((plate["bottom"] + 4.0 for plate in plates), default=0.0) + MARGIN_MM)
     values = {
         "width": WIDTH_MM,
         "plates": plates,
@@ -81,6 +86,7 @@ def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float
     view = Projection(scale * np.array([[sign, 0.0, 0.0], [0.0, 0.0, -1.0]]),
                 np.array([left - scale * low_x, MARGIN_MM + TITLE_MM + scale * high_z]))  # fmt: skip
     mine = [lead for lead in leads if any(plate_of(layout, part) == side for part in lead.parts)]
+    named = {end: end.pin for lead in mine for end in lead.ends if end.part in OUTSIDE}
     outside = (y[1], np.inf) if side == "left" else (-np.inf, y[0])
     return {
         "side": side,
@@ -89,7 +95,7 @@ def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float
         "heads": [view.on([x, 0.0, z])[0] for x, z in layout.standoffs_mm],
         "head": scale * HEAD_MM,
         "boxes": [_box(view, box, words if "tray" in words else "") for words, box in _inside(layout)],
-        "leads": [_lines(view, lead, 1, outside) for lead in mine],
+        "leads": [_lines(view, lead, 1, outside, named) for lead in mine],
         "badges": _badges(view, mine, None),
         "names": [(words, view.on(at)[0]) for words, at in _named(layout, side)],
         "front": (left, "← front", "start") if side == "left" else (left + width, "front →", "end"),
@@ -122,8 +128,9 @@ def _inside(layout: Layout) -> Iterator[tuple[str, tuple[Array, Array]]]:
         yield name, (least, least + size)
 
 
-def _trays(layout: Layout, leads: list[Lead], top: float) -> dict[str, Any]:
+def _trays(robot: Robot, leads: list[Lead], top: float) -> dict[str, Any]:
     """Return the view of the trays from above, and its lower edge: what is below the upper tray is dashed."""
+    layout, pads = robot.layout, pads_of(robot)
     (x, z), (low, high), (along, across) = layout.tray_mm, layout.lateral.outside, BESIDE_TRAYS_MM
     holes = [place[0] for place in (layout.fittings.left_mm, layout.fittings.right_mm)]
     half = layout.electronics.length_mm / 2.0
@@ -161,14 +168,26 @@ def _trays(layout: Layout, leads: list[Lead], top: float) -> dict[str, Any]:
         size = np.array([switch.length_mm or 0.0, switch.height_mm or 0.0])
         least = np.array([place[0] - size[0] / 2.0, layout.lateral.inside[0], 0.0])
         boxes.append(_box(view, (least, least + np.array([*size, 0.0])), "switch"))
+    seat = layout.electronics.seats(layout.lateral.inside)["controller"]
+    middle, edge, half = x + seat.x_mm, seat.y_mm - seat.size_mm[1] / 2.0, layout.fittings.usb_size_mm[0] / 2.0
+    if layout.fittings.usb_mm is not None:
+        socket = np.array([middle - half, edge, 0.0]), np.array([middle + half, edge + USB_MM, 0.0])
+        boxes.append(_box(view, socket, "USB socket", "#c3c9d1"))
     above = (z + layout.electronics.upper_tray_mm, np.inf)
+    ends = {end for lead in leads for end in lead.ends}
+    below = " (underneath)" if pads else ""  # what is in no row
+    named = {
+        end: end.pin + below * (end.part == "controller") for end in ends if end not in pads and end.part not in OUTSIDE
+    }
     return {
         "left": left,
         "top": top,
         "plates": plates,
         "boxes": boxes,
         "frame": frame,
-        "leads": [_lines(view, lead, 2, above) for lead in leads],
+        "leads": [_lines(view, lead, 2, above, named) for lead in leads],
+        "pads": [(view.on(at)[0], end.pin, end in ends, at[0] > middle) for end, at in pads.items()],
+        "unknown": [role for role, board in robot.electrical_parts.boards.items() if not (board.left or board.right)],
         "badges": _badges(view, leads, frame),
         "height": float(frame[1][1]) + MARGIN_MM,
     }
@@ -183,8 +202,11 @@ def _ys_between(points_mm: Array, back: float, front: float) -> Iterator[float]:
                 yield float(at[1])
 
 
-def _lines(view: Projection, lead: Lead, axis: int, open_mm: Interval) -> dict[str, Any]:
-    """Return a lead's line in pieces, and which are seen: in the interval of an axis that is open to view."""
+def _lines(view: Projection, lead: Lead, axis: int, open_mm: Interval, named: Mapping[Terminal, str]) -> dict[str, Any]:
+    """Return a lead's line in pieces, and which are seen: in the interval of an axis that is open to view.
+
+    `named` terminals have those words at its ends.
+    """
     points = view.on(*lead.points_mm)
     seen = (lead.points_mm[:, axis] > open_mm[0]) & (lead.points_mm[:, axis] < open_mm[1])
     both = [bool(a and b) for a, b in itertools.pairwise(seen)]
@@ -192,7 +214,9 @@ def _lines(view: Projection, lead: Lead, axis: int, open_mm: Interval) -> dict[s
     for shown, group in itertools.groupby(range(len(both)), lambda index: both[index]):
         indices = list(group)
         pieces.append((points[indices[0] : indices[-1] + 2], shown))
-    return {"stroke": STROKES[lead.colour], "pieces": pieces, "ends": (points[0], points[-1])}
+    words = [named.get(end, "") for end in lead.ends]
+    ends = list(zip((points[0], points[-1]), words, strict=True))
+    return {"stroke": STROKES[lead.colour], "pieces": pieces, "ends": ends}
 
 
 def _badges(view: Projection, leads: list[Lead], frame: Array | None) -> list[dict[str, Any]]:

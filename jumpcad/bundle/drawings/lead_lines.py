@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from jumpcad.electronics.nets import Terminal
 from jumpcad.layout.layout import Layout
 from jumpcad.parts.lead_ways import battery_way, corners, outer_way, plate_of
 from jumpcad.parts.leads import lead_lengths
@@ -15,28 +16,54 @@ LANE_MM, GAP_LANE_MM, EDGE_MM = 1.0, 0.35, 1.5
 """Between leads that are drawn side by side at a part, and in the gap between boards; from a part's edge to leads."""
 
 
+PAD_PITCH_MM, PAD_EDGE_MM = 2.54, 1.3
+"""Between the pads of a board that plugs into a breadboard, and from its edge to them."""
+
+
 @dataclass(frozen=True)
 class Lead:
-    """A lead: its number in the wiring table, its colour, its parts, the corners (n, 3) of its way."""
+    """A lead: its number in the wiring table, its colour, both terminals, the corners (n, 3) of its way."""
 
     number: int
     colour: str
-    parts: tuple[str, str]
+    ends: tuple[Terminal, Terminal]
     points_mm: Array
+
+    @property
+    def parts(self) -> tuple[str, str]:
+        """Return the parts at its ends."""
+        return self.ends[0].part, self.ends[1].part
+
+
+def pads_of(robot: Robot) -> dict[Terminal, Array]:
+    """Return the middles (3,) of the controller's pads whose places are known: in rows, USB to the right."""
+    layout, board = robot.layout, robot.electrical_parts.controller
+    seat, (x, z) = layout.electronics.seats(layout.lateral.inside)["controller"], layout.tray_mm
+    pads: dict[Terminal, Array] = {}
+    if layout.fittings.usb_mm is None:
+        return pads
+    # from above with USB ahead the rows are left and right: here USB points to the right, so left is in front
+    for sign, names in ((1.0, board.left), (-1.0, board.right)):
+        for row, name in enumerate(names):
+            along = seat.y_mm + PAD_PITCH_MM * (row - (len(names) - 1) / 2.0)
+            across = x + seat.x_mm + sign * (seat.size_mm[0] / 2.0 - PAD_EDGE_MM)
+            pads[Terminal("controller", name)] = np.array([across, along, z + seat.bottom_mm + seat.size_mm[2]])
+    return pads
 
 
 def leads_of(robot: Robot) -> list[Lead]:
-    """Return every lead that is no part's own leg, side by side with the others at its parts."""
-    layout, wiring = robot.layout, robot.wiring
+    """Return every lead that is no part's own leg: to its pads, or side by side with the others at its parts."""
+    layout, wiring, pads = robot.layout, robot.wiring, pads_of(robot)
     rows = [
-        (number, colour, (start.part, end.part))
+        (number, colour, (start, end))
         for number, (_, start, end, colour, length) in enumerate(lead_lengths(layout, wiring), start=1)
         if length or {start.part, end.part} == {"battery", "plug"}
     ]
-    counts, taken = Counter(part for *_, parts in rows for part in parts), Counter[str]()
+    counts, taken = Counter(end.part for *_, ends in rows for end in ends), Counter[str]()
     at_plates = Counter[str]()
     leads = []
-    for index, (number, colour, parts) in enumerate(rows):
+    for index, (number, colour, ends) in enumerate(rows):
+        parts = (ends[0].part, ends[1].part)
         lane = [taken[part] - (counts[part] - 1) / 2.0 for part in parts]
         taken.update(parts)
         plate = next(filter(None, (plate_of(layout, part) for part in parts)), "")
@@ -45,13 +72,16 @@ def leads_of(robot: Robot) -> list[Lead]:
             points = battery_way(layout) + np.array([0.0, LANE_MM * lane[parts.index("battery")], 0.0])
         else:
             start, end = (
-                _outer(layout, part, one, counts[part], at_plates[plate]) for part, one in zip(parts, lane, strict=True)
+                pads[terminal][None]
+                if terminal in pads
+                else _outer(layout, terminal.part, one, counts[terminal.part], at_plates[plate])
+                for terminal, one in zip(ends, lane, strict=True)
             )
             inside = np.stack(corners(layout, *parts, start[-1], end[-1]))
             if not plate:
                 inside[:, 0] += GAP_LANE_MM * (index - len(rows) / 2.0)
             points = np.concatenate([start, inside, end[::-1]])
-        leads.append(Lead(number, colour, parts, points))
+        leads.append(Lead(number, colour, ends, points))
     return leads
 
 

@@ -7,13 +7,15 @@ from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.nets import Net, Terminal, Wiring
 from jumpcad.files.rendering import fill
-from jumpcad.parts.leads import lead_lengths
+from jumpcad.parts.leads import has_own_legs, lead_lengths
 from jumpcad.robot import Robot
 
 ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
            ("controller", "sensor", "upper resistor", "lower resistor", "pull-up resistor"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
+OWN_LEGS = "#8a8f96"
+"""Of nets without a wire: parts' own legs."""
 Point = tuple[float, float]
 
 
@@ -23,8 +25,11 @@ def drawings_of(robot: Robot) -> dict[str, str]:
 
 
 def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
-    """Return every wire: its net, both ends, colour and length to cut (mm)."""
-    return lead_lengths(robot.layout, robot.wiring)
+    """Return every wire: its net, both ends, colour (none of a part's own leg) and length to cut (mm)."""
+    return [
+        (net, start, end, "" if has_own_legs(start.part, end.part) else colour, length)
+        for net, start, end, colour, length in lead_lengths(robot.layout, robot.wiring)
+    ]
 
 
 def wiring_svg(robot: Robot) -> str:
@@ -32,7 +37,10 @@ def wiring_svg(robot: Robot) -> str:
     nets = robot.wiring.nets
     boxes, ends, height = _boxes(nets, _titles(robot.electrical_parts, robot.wiring, robot))
     width = COLUMN_MM * (len(COLUMNS) - 1) + BOX_MM + 8.0 * len(nets) + 3.0 * MARGIN_MM
-    drawn = [_lines(net, ends, lane) for lane, net in enumerate(nets)]
+    wired = {name for name, *_, colour, _ in wires(robot) if colour}
+    drawn = [
+        _lines(net, ends, lane, STROKES[net.colour] if net.name in wired else OWN_LEGS) for lane, net in enumerate(nets)
+    ]
     return fill("drawings/wiring.svg.j2", {"width": width, "height": height, "nets": drawn, "boxes": boxes})
 
 
@@ -66,7 +74,7 @@ def _boxes(nets: tuple[Net, ...], titles: dict[str, str]) -> tuple[list[dict[str
     return boxes, ends, height + 4.0 * len(nets) + MARGIN_MM
 
 
-def _lines(net: Net, ends: dict[Terminal, Point], lane: int) -> dict[str, Any]:
+def _lines(net: Net, ends: dict[Terminal, Point], lane: int, stroke: str) -> dict[str, Any]:
     """Return a net's lines: from each terminal to the right, down a track of its own, along a lane below all parts."""
     starts = [ends[terminal] for terminal in net.terminals]
     tracks = [x + 4.0 + 2.0 * lane for x, _ in starts]
@@ -74,4 +82,4 @@ def _lines(net: Net, ends: dict[Terminal, Point], lane: int) -> dict[str, Any]:
     bottom = max(y for _, y in ends.values()) + ROW_MM + 4.0 * lane if several else max(y for _, y in starts)
     wires = [[(x, y), (track, y), (track, bottom)] for (x, y), track in zip(starts, tracks, strict=True)]
     along = [(min(tracks), bottom), (max(tracks), bottom)] if several else []
-    return {"name": net.name, "stroke": STROKES[net.colour], "wires": wires, "lane": along}
+    return {"name": net.name, "stroke": stroke, "wires": wires, "lane": along}
