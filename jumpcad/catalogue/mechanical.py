@@ -8,6 +8,7 @@ from pydantic import Field
 
 from jumpcad.catalogue.articles import STEEL_G_CM3, Article, Length, Mass, Positive, Source
 from jumpcad.files import Contradiction
+from jumpcad.files.names import Text
 
 RINGS_MM = 2.0
 """Least difference of outside diameter and bore of a bearing: that of the smallest of ISO 15, 1 x 3 mm."""
@@ -53,9 +54,12 @@ class StockSpring(Article):
     """A torsion spring from stock, of which shops keep both hands: its arms are tangents of the coil.
 
     `arm_angle_deg` is the angle between the relaxed arms, 180 where they point in opposite directions; loading in the
-    closing direction lowers it. `rate_nmm_per_deg` is the torque per degree.
+    closing direction lowers it. `rate_nmm_per_deg` is the torque per degree. `left_hand` and `right_hand` are what to
+    order; without one of them it is ordered as the other's mirror image, without both by its name.
     """
 
+    left_hand: Text = ""
+    right_hand: Text = ""
     wire_mm: Annotated[Length, Field(le=10)]
     inside_diameter_mm: Length
     turns: Annotated[float, Field(ge=0.1, le=100)]
@@ -76,6 +80,17 @@ class StockSpring(Article):
             angle = (180.0 - 360.0 * self.turns) % 360.0
             reason = f"{self.turns:g} turns with tangent arms have {angle:.0f}° between them: correct one of the two"
             yield ("arm_angle_deg",), self.arm_angle_deg, reason
+
+    def article(self, hand: str) -> str:
+        """Return what to order of a hand, `left` or `right`."""
+        left, right = self.left_hand, self.right_hand
+        number, other = (left, right) if hand == "left" else (right, left)
+        if number or not other:
+            return f"torsion spring {number or self.name}, {hand} hand"
+        return (
+            f"torsion spring, {hand}-hand twin of {other} ({self.arm_angle_deg:g}°, wire {self.wire_mm:g} mm, outside "
+            f"diameter {self.inside_diameter_mm + 2.0 * self.wire_mm:.2f} mm, {self.turns:g} turns)"
+        )
 
     @property
     def _steel_rates(self) -> tuple[float, float]:

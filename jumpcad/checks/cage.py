@@ -12,13 +12,12 @@ from jumpcad.layout.room import EVERYWHERE, clearance
 from jumpcad.robot import Robot
 from jumpcad.scene.stable_poses import least_share_on_feet
 from jumpcad.strength.cage import FALLS, bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm
+from jumpcad.strength.stress import CREEP_MPA
 
 LANDING_FACTOR = 1.25
 """On the breaking strain at a landing; judgement: hoop and bar touch together, and the body takes what is left."""
 SAG_MM = 25.0
 """Most that a hoop gives under half of the robot; judgement: half of the height at which strong robots crouch."""
-CREEP_MPA = 10.0
-"""Stress that a printed bar bears for months; judgement, creep of PLA and PETG."""
 FREE_MM = 3.0
 """Least distance of rods and bars from what moves, and from the ground under the loaded robot; judgement."""
 RIGHTED = 90.0

@@ -18,7 +18,7 @@ from jumpcad.layout.stop import EAR_MM, GIVE_ROOM_RAD
 from jumpcad.robot import Robot
 from jumpcad.strength.axle_beam import AxleBeam
 from jumpcad.strength.stop import BLOW_FACTOR
-from jumpcad.strength.stress import Beam
+from jumpcad.strength.stress import CREEP_MPA, Beam
 
 PAD_STRAIN = 0.5
 """Largest deflection of a pad over its thickness; judgement: rubber bumpers are compressed to half."""
@@ -48,6 +48,11 @@ BASIS = {
         "stiffness",
         "energy of a spring; k: Gent, Engineering with Rubber; limit: judgement",
     ),
+    "stop_creep": Basis(
+        f"largest of these three stresses, with K·p/x for 2·F ≤ {CREEP_MPA:g} MPa; K stiffness of both springs, p "
+        "their preload on the stop, x from the pad to the hub; without a preload nothing is loaded there",
+        "printed PLA creeps for months at room temperature: arXiv:2302.11240; limit: judgement",
+    ),
     "stop_clearance": Basis(
         f"ω·√(I/k)/x ≤ {math.degrees(GIVE_ROOM_RAD):g}° + clearance/lever (°), x from the pad to the hub; ω, I and k "
         "as in `stop_pad`",
@@ -57,12 +62,12 @@ BASIS = {
 
 
 def stop_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield `stop_strength`, `stop_plates`, `stop_leg`, `stop_pad` and `stop_clearance`."""
+    """Yield `stop_strength`, `stop_plates`, `stop_leg`, `stop_pad`, `stop_clearance`; preloaded: `stop_creep`."""
     case, blow, stop = LoadCase(robot), robot.stop_blow, robot.layout.stop
     low, high = robot.layout.lateral.inside
     span, width = high - low, robot.layout.sections.thickness_mm
     moment = BLOW_FACTOR * blow.force_n * (span - width / 2.0) / 4.0
-    stress = float(Beam(STOP_PAD_MM, stop.depth_mm - STOP_SEAT_MM, case.shell).stress_mpa(moment))
+    most = stress = float(Beam(STOP_PAD_MM, stop.depth_mm - STOP_SEAT_MM, case.shell).stress_mpa(moment))
     strength = robot.workshop.material("links").strength_in_plane_mpa
     remedy = f"choose a softer body.stop_pad, or {SOFTER.partition(', or ')[2]}"
     yield stress_finding(
@@ -73,6 +78,7 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
     left, right = AxleBeam.of(robot.layout.lateral.plates_mm, (0.0, twice)).on_plates_n()[:, 1]
     ear = float(Beam(thickness, EAR_MM).stress_mpa(max(left, right) * stop.radius_mm))
     stress = max(ear, float(left) * _at_hole(robot, thickness))
+    most = max(most, stress)
     strength = robot.workshop.material("body").strength_in_plane_mpa
     yield stress_finding("stop_plates", "plates' ears at twice the impact force", stress, strength, remedy, "plate")
     sections, share = robot.layout.sections, stop.radius_mm / robot.design.l2_mm
@@ -82,10 +88,18 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
     stress = float(leg.stress_mpa(moment))
     strength = robot.workshop.material("links").strength_in_plane_mpa
     yield stress_finding("stop_leg", "main leg at its heel, at twice the impact force", stress, strength, remedy, "leg")
-    give, most = blow.give_mm, PAD_STRAIN * stop.pad.thickness_mm
+    if (loaded_rad := robot.spring.preload_rad - stop.angle_rad) > 0.0:
+        held_nm = robot.spring.stiffness_nm_per_rad * loaded_rad
+        lasting = max(most, stress) * held_nm / (BLOW_FACTOR * blow.torque_nm)
+        yield at_most(
+            "stop_creep", lasting, CREEP_MPA, "MPa",
+            f"plates, leg and rest stop under the springs' preload, which lasts: {lasting:.1f} of {CREEP_MPA:g} MPa",
+            "lower spring.preload_deg",
+        )  # fmt: skip
+    give, room = blow.give_mm, PAD_STRAIN * stop.pad.thickness_mm
     yield at_most(
-        "stop_pad", give, most, "mm",
-        f"the rest stop's pad is compressed by {give:.2f} mm at {1000.0 * blow.energy_j:.0f} mJ; {most:.2f} mm, "
+        "stop_pad", give, room, "mm",
+        f"the rest stop's pad is compressed by {give:.2f} mm at {1000.0 * blow.energy_j:.0f} mJ; {room:.2f} mm, "
         f"half of its thickness, are allowed",
         SOFTER,
     )  # fmt: skip

@@ -9,6 +9,7 @@ from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, beside
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.model import Spring
+from jumpcad.workshop.tables import PRELOAD_MAX_DEG
 
 BASIS = {
     "spring_rate": Basis(
@@ -42,7 +43,7 @@ def rate_finding(design: Design, stock: StockSpring) -> Finding:
     """Return `spring_rate`: the stiffness of a design compared with that of two springs from stock."""
     asked, have = design.stiffness_nmm_per_deg, 2.0 * stock.rate_nmm_per_deg
     return Finding(
-        "spring_rate", "info", have - asked, "N·mm/°",
+        "spring_rate", "info", abs(have - asked), "N·mm/°",  # no limit: springs may be softer, too
         f"two springs {stock.name} have {have:.2f} N·mm/°, with which the robot is built and simulated; the design "
         f"asks for {asked:.2f}",
         'bought.spring = "" has springs of the design\'s stiffness made to order', value=have,
@@ -108,9 +109,11 @@ def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: Spr
     # a larger angle between the arms turns the plate's pin by as much
     less, more = (ends[0] - math.degrees(last)) % 360.0, (math.degrees(first) - ends[1]) % 360.0
     fits = (stock.arm_angle_deg + (more + 1.0 if more < less else -less - 1.0)) % 360.0
+    preload = math.ceil(math.degrees(on_leg.preload_rad) + less)
+    load = f"set spring.preload_deg = {preload}, " if preload <= PRELOAD_MAX_DEG else ""
     return (
         f"bought.spring = {stock.name!r}: with arms {stock.arm_angle_deg:g}° apart, the plate's pin must be between "
         f"{ends[0]:.0f}° and {ends[1]:.0f}° from forward; there is room from {math.degrees(first):.0f}° to "
-        f"{math.degrees(last):.0f}°, {min(less, more):.0f}° away: choose a spring with arms about {fits:.0f}° "
-        "apart, or change rest_angle_deg"
+        f"{math.degrees(last):.0f}°, {min(less, more):.0f}° away: {load}choose a spring with arms about "
+        f"{fits:.0f}° apart, or change rest_angle_deg"
     )

@@ -92,7 +92,7 @@ def _springs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     arm_mass = math.pi / 4.0 * d**2 * spring.arm_length_mm * catalogue.wire.density_g_cm3 / 1000.0
     for side, sign, hand in zip(("left", "right"), (1.0, -1.0), spring.hands, strict=True):
         inner, outer = lateral.spring_left if side == "left" else lateral.spring_right[::-1]
-        order = spring_article(spring, hand)
+        order = spring_article(spring, hand, catalogue.springs)
         slabs = [(*_sorted(inner, outer), coil), (*_sorted(outer - sign * d, outer), body_arm)]
         middles = (outer - sign * d / 2.0, inner + sign * d / 2.0)
         wire = coil_with_arm(layout.hub_mm, spring, middles)

@@ -1,9 +1,11 @@
 """The wire of a torsion spring as it is seen, and what to order (mm)."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
+from jumpcad.catalogue import StockSpring
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.spring_arms import FULL_TURN_RAD
 from jumpcad.layout.drive_places import arm_line
@@ -20,11 +22,10 @@ CHOOSE = f"; order {ORDERED}, choose one"
 """End of the name of an article of which more are ordered than the robot needs."""
 
 
-def spring_article(spring: TorsionSpring, hand: str) -> str:
-    """Return what to order: a name from stock, or the figures that a spring maker needs."""
+def spring_article(spring: TorsionSpring, hand: str, springs: Mapping[str, StockSpring]) -> str:
+    """Return what to order: a spring from stock by its name, or the figures that a spring maker needs."""
     if spring.stock:
-        cut = f"arms cut to {spring.arm_length_mm:.1f} mm"
-        return f"torsion spring {spring.stock}, {hand} hand, {cut}{CHOOSE}"
+        return f"{springs[spring.stock].article(hand)}, arms cut to {spring.arm_length_mm:.1f} mm{CHOOSE}"
     return (
         f"torsion spring, {spring.rate_nmm_per_deg:.2f} N·mm/°, wire {spring.wire_mm:g} mm, inside diameter "
         f"{spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, {hand} hand{CHOOSE}"

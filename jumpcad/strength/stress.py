@@ -14,6 +14,8 @@ from jumpcad.workshop import Process
 
 VON_MISES = math.sqrt(3.0)
 """Tension that is equivalent to a shear stress of 1 (distortion energy)."""
+CREEP_MPA = 10.0
+"""Stress that a printed part bears for months; judgement, creep of PLA and PETG."""
 INFILL_ALONG = 0.5
 """Share of an infill's lines that run along a bar: half of a grid's."""
 STATIONS = 17

@@ -27,7 +27,7 @@ LIMITS_OF: dict[tuple[str, ...], tuple[str, ...]] = {
     ("roller",): ("cam_roller_load",),
     ("hub_bearing_1", "hub_bearing_2"): ("hub_bearing_load",),
     AXLES: ("axle_retention", "axle_fatigue"),
-    PLATES: ("plate_seat", "stop_plates"),
+    PLATES: ("plate_seat", "stop_plates", "stop_creep"),
     ("stop_bar",): ("stop_strength",),
     ("stop_pad",): ("stop_pad", "stop_clearance"),
     SPRINGS: ("spring_stress", "spring_fatigue", "spring_rate"),

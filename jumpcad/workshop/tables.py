@@ -196,10 +196,14 @@ class Pins(TomlTable):
     friction: Annotated[float, Field(ge=0, le=2)]
 
 
+PRELOAD_MAX_DEG = 90.0
+"""Judgement: arms of stock springs, mostly 180° apart, meet their pins with 60 to 80°."""
+
+
 class SpringTable(TomlTable):
     """The springs: loaded by `preload_deg` already in the rest pose."""
 
-    preload_deg: Annotated[float, Field(ge=0, le=45)]
+    preload_deg: Annotated[float, Field(ge=0, le=PRELOAD_MAX_DEG)]
 
 
 class Safety(TomlTable):

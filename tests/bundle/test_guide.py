@@ -366,4 +366,4 @@ def test_a_first_robot_has_springs_from_stock_and_no_switch() -> None:
     text = whole(robot)
     assert "it is the switch" in text
     assert re.findall(r"[^.]*\bswitch (?:on|off)\b[^.]*", text, re.IGNORECASE) == []
-    assert text.count("torsion spring 9271K589") >= 2
+    assert text.count("McMaster-Carr 9271K589") >= 2

@@ -59,7 +59,16 @@ def test_a_bearing_weighs_less_than_a_ring_of_steel_of_its_size() -> None:
         assert [place for place, *_ in found] == [("mass_g",)] * refused, mass_g
 
 
-@pytest.mark.parametrize("name", ["9271K619", "9271K589"])
+def test_each_hand_is_ordered_by_its_number_or_as_the_twin_of_the_other() -> None:
+    springs = load_catalogue().springs
+    assert springs["9271K272"].article("right") == "torsion spring McMaster-Carr 9271K271, right hand"
+    assert springs["9271K133"].article("right") == "torsion spring 9271K133, right hand"
+    twin = springs["9271K589"].article("right")
+    assert twin.startswith("torsion spring, right-hand twin of McMaster-Carr 9271K589 (90°, ")
+    assert "wire 2.667 mm, outside diameter 21.54 mm" in twin  # 0.105 and 0.848 in
+
+
+@pytest.mark.parametrize("name", list(load_catalogue().springs))
 def test_a_rate_per_radian_per_turn_or_in_newton_metres_is_refused(name: str) -> None:
     """Of stock springs the maker's rate is that of their steel wire, E·d⁴/(64·D·n), within 10 %."""
     spring = load_catalogue().springs[name]

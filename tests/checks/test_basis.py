@@ -29,6 +29,7 @@ NOT_MET = {
     "no_takeoff",
     "body_contact",
     "cage_rights",
+    "stop_creep",
 }
 """In the robots of the reference; they are told of others."""
 YES_OR_NO = {"wiring_pins", "wiring_strapping", "wiring_ground", "wiring_cut_off", "wiring_capacitor", "wiring_diode"}

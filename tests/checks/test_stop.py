@@ -114,6 +114,25 @@ def test_the_bar_of_solid_plastic_is_a_beam_on_two_supports() -> None:
     assert found(robot)["stop_strength"].value == pytest.approx(6.0 * moment / (8.0 * (6.0 - 0.6) ** 2))
 
 
+def test_the_preload_that_is_left_on_the_stop_bends_the_bar_for_good() -> None:
+    """K·(p - 3°) at the pad's radius on a bar of solid plastic, whose middle bears it; none up to the stop's 3°."""
+    solid = solid_kenan().workshop
+    for preload_deg in (0.0, 3.0, 20.0):
+        spring = solid.spring.model_copy(update={"preload_deg": preload_deg})
+        robot = build(load_design("kenan-2.0"), solid.model_copy(update={"spring": spring}))
+        held = 9.2 * (preload_deg - 3.0) / robot.layout.stop.radius_mm
+        low, high = robot.layout.lateral.inside
+        span = high - low - robot.layout.sections.thickness_mm / 2.0
+        bar = 6.0 * held * span / 4.0 / (8.0 * (6.0 - 0.6) ** 2)
+        limits = found(robot)
+        assert ("stop_creep" in limits) == (preload_deg > 3.0), preload_deg
+    largest = max(("stop_strength", "stop_plates", "stop_leg"), key=lambda name: limits[name].value or 0.0)
+    assert limits["stop_creep"].value == pytest.approx(
+        bar * (limits[largest].value or 0.0) / (limits["stop_strength"].value or 1.0), rel=1e-3
+    )
+    assert limits["stop_creep"].limit == 10.0
+
+
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_the_pad_may_be_pressed_by_half_and_the_leg_turn_3_degrees_and_the_cams_clearance(name: str) -> None:
     """The clearance between cam and roller, at the lever's end, is an angle of the leg."""

@@ -65,9 +65,9 @@ def test_two_of_them_are_the_robots_stiffness_and_a_finding_says_both(robot: Rob
 def test_a_stock_spring_can_be_built_in(robot: Robot) -> None:
     """Nearly six times as stiff as Kenan's, it breaks nothing; in a softer axle it would."""
     assert errors(constraint_findings(robot)) == []
-    assert {item.article.split(",")[0] for item in robot.hardware if "spring_l" in item.name} == {
-        "torsion spring 9271K589"
-    }
+    articles = {item.name: item.article for item in robot.hardware if item.name in ("spring_left", "spring_right")}
+    assert articles["spring_left"].startswith("torsion spring, right-hand twin of McMaster-Carr 9271K589 (90°")
+    assert articles["spring_right"].startswith("torsion spring McMaster-Carr 9271K589, left hand, arms cut to ")
 
 
 def test_its_stress_is_that_of_its_torque() -> None:
@@ -145,6 +145,24 @@ def test_preloaded_springs_are_told_where_their_pin_would_have_to_be(preload_deg
     middle = math.radians(sum(rooms[1]) / 2.0)
     fitted(askew, limits=replace(LIMITS, plate_pins_rad=(middle,)), preload_rad=math.radians(preload_deg))
     assert rooms[0][0] - rooms[1][0] == pytest.approx(preload_deg, abs=1.01)
+
+
+def test_springs_with_opposite_arms_fit_where_they_are_loaded_at_rest() -> None:
+    """By the preload that is named, in a room that stays; a robot with them keeps its limits, and has K·(q² - p²)/2."""
+    opposite = load_catalogue().springs["9271K621"]
+    with pytest.raises(CannotBuildError, match=r"set spring.preload_deg = (\d+), choose") as refused:
+        fitted(opposite)
+    named = math.radians(float(str(refused.value).partition("preload_deg = ")[2].partition(",")[0]))
+    fitted(opposite, preload_rad=named)
+    with pytest.raises(CannotBuildError, match="there is room from"):
+        fitted(opposite, preload_rad=named - math.radians(1.5))
+    workshop = with_stock("9271K621")
+    design = load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 20.0})  # which they need not have
+    loaded = workshop.model_copy(update={"spring": workshop.spring.model_copy(update={"preload_deg": 75.0})})
+    robot = build(design, loaded)
+    assert wrong(robot) == []
+    twice = (math.degrees(design.compression_rad) + 75.0) ** 2 - 75.0**2
+    assert robot.spring.energy_j == pytest.approx(2.0 * 6.56e-3 * math.radians(1.0) * twice / 2.0)
 
 
 @pytest.mark.parametrize("off_deg", [60.0, 150.0, 210.0, 300.0])
