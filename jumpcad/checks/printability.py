@@ -195,18 +195,24 @@ def _contours(region: Region, sign: float) -> Iterator[Region]:
 
 
 def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tuple[bool, float]]:
-    """Yield undersides over air: whether held on more than one side (a bridge), and how far they span (mm)."""
+    """Yield undersides over air: whether held on more than one side (a bridge), and how far they span (mm).
+
+    Those of a stack that are surely shorter than the longest of their kind before them are left out.
+    """
     angle = math.radians(fits.overhang_deg)
     if not isinstance(drawing.shape, Stack):
         yield from _mesh_undersides(drawing.mesh, angle)
         return
     leaning = process.layer_height_mm * math.tan(angle) + ROUND_OFF_MM
-    slabs = drawing.shape.slabs
+    slabs, longest = drawing.shape.slabs, {False: 0.0, True: 0.0}
     for below, above in itertools.pairwise(slabs):
-        carried = grown(below.region, leaning)
-        if (above.region - carried).area() < SMALLEST_PIECE_MM2:
+        over = above.region - below.region
+        if over.area() < SMALLEST_PIECE_MM2:
             continue
-        for ledge in (above.region - below.region).decompose():
+        carried = grown(below.region, leaning)
+        if (over - carried).area() < SMALLEST_PIECE_MM2:
+            continue
+        for ledge in over.decompose():
             if (ledge - carried).area() < SMALLEST_PIECE_MM2:
                 continue
             held = (grown(ledge, TOUCH_MM) ^ below.region).decompose()
@@ -215,11 +221,13 @@ def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tupl
             between = (
                 ledge - grown(hull(held), TOUCH_MM)
             ).is_empty()  # such as the roof of a socket that is open at one end
-            if len(held) > 1 or (ring and inside) or between:
-                yield True, _least(partial(_vanishes, ledge), _longest_mm(ledge))
-            else:
-                reach = _longest_mm(ledge)
-                yield False, _least(partial(_covered, ledge, below.region ^ box_around(ledge, 2.0 * reach)), reach)
+            bridge, top = len(held) > 1 or (ring and inside) or between, _longest_mm(ledge)
+            near = below.region ^ box_around(ledge, 2.0 * top)
+            holds = partial(_vanishes, ledge) if bridge else partial(_covered, ledge, near)
+            least = _least(holds, top, longest[bridge])
+            if least is not None:
+                longest[bridge] = max(longest[bridge], least)
+                yield bridge, least
 
 
 def _covered(ledge: Region, below: Region, reach_mm: float) -> bool:
@@ -231,10 +239,13 @@ def _longest_mm(region: Region) -> float:
     return math.hypot(high_x - low_x, high_y - low_y)
 
 
-def _least(holds: Callable[[float], bool], top_mm: float) -> float:
-    """Return the least length up to `top_mm` from which on something holds."""
-    low, high = 0.0, top_mm
-    for _ in range(HALVINGS + 3):
+def _least(holds: Callable[[float], bool], top_mm: float, longest_mm: float) -> float | None:
+    """Return the least length up to `top_mm` from which on something holds; None where it is surely below another."""
+    low, high, halvings = 0.0, top_mm, HALVINGS + 3
+    surely = longest_mm - top_mm / 2**halvings
+    if surely >= top_mm or (surely > 0.0 and holds(surely)):
+        return None
+    for _ in range(halvings):
         middle = (low + high) / 2.0
         low, high = (low, middle) if holds(middle) else (middle, high)
     return high

@@ -1,0 +1,65 @@
+"""Work beside this process, on another core: in a copy of it, where the system can make one at once."""
+
+import multiprocessing
+import os
+import pickle
+import signal
+import sys
+import threading
+import warnings
+from collections.abc import Callable
+from functools import cache, partial
+from multiprocessing.connection import Connection
+from typing import TypeVar
+
+from jumpcad.interrupts import deferred_interrupts
+
+T = TypeVar("T")
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def beside(function: Callable[..., T], *arguments: object) -> Callable[[], T]:
+    """Start a function in a copy of this process; return a function that waits for its result, which is pickled.
+
+    It is called here, when its result is asked for, where there is no other core, where copies of a process are not
+    safe (everywhere but on Linux, or from another thread than the first), and where the copy fails, so that an error is
+    raised as if there were none.
+    """
+    here = cache(partial(function, *arguments))
+    safe = sys.platform == "linux" and threading.current_thread() is threading.main_thread()
+    if cores() < 2 or not safe or multiprocessing.current_process().daemon:
+        return here
+    ours, theirs = multiprocessing.Pipe(duplex=False)
+    copy = multiprocessing.get_context("fork").Process(target=_answer, args=(theirs, here), daemon=True)
+    try:
+        with deferred_interrupts(), warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # other threads only print what is being done
+            copy.start()
+    except OSError:  # no memory, or too many processes
+        return here
+    theirs.close()
+
+    def result() -> T:
+        try:
+            with ours:
+                found: T = pickle.loads(ours.recv_bytes())
+        except (EOFError, OSError):
+            return here()
+        copy.join()
+        return found
+
+    return cache(result)
+
+
+def _answer(answer: Connection, function: Callable[[], object]) -> None:
+    """Send a function's result; nothing if it fails: it will fail again where it is seen."""
+    for number in (signal.SIGINT, signal.SIGTERM):  # the first goes to the whole group, and only its parent answers it
+        signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
+    try:
+        answer.send_bytes(pickle.dumps(function()))
+    except Exception:
+        answer.close()

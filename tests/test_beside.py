@@ -1,0 +1,57 @@
+"""Work in a copy of this process: its result, its errors, and where there is no copy."""
+
+import os
+import signal
+import sys
+from collections.abc import Callable
+
+import pytest
+from support.robots import make_small_robot
+
+from jumpcad import beside as module
+from jumpcad.beside import beside
+from jumpcad.checks import costly_findings
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux alone")
+
+
+@pytest.fixture(autouse=True)
+def two_cores(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "cores", lambda: 2)
+
+
+def test_a_function_runs_in_another_process_once_and_here_where_there_is_one_core(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    elsewhere = beside(os.getpid)
+    assert elsewhere() == elsewhere() != os.getpid()
+    monkeypatch.setattr(module, "cores", lambda: 1)
+    assert beside(os.getpid)() == os.getpid()
+
+
+def test_what_fails_there_fails_here() -> None:
+    """An error is raised where the result is asked for; what a copy cannot finish or send is done here."""
+    with pytest.raises(ZeroDivisionError):
+        beside(lambda: 1 // 0)()
+    here = os.getpid()
+
+    def killed() -> int:
+        if os.getpid() != here:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return 7
+
+    assert beside(killed)() == 7
+    unsent: Callable[[], Callable[[], int]] = lambda: lambda: 8  # noqa: E731  no pickle holds it
+    assert beside(unsent)()() == 8
+
+
+def test_interrupts_are_this_process_s_affair() -> None:
+    """Ctrl-C goes to the whole group of processes: the copy ignores it; SIGTERM ends it without a word."""
+    found = beside(lambda: [signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM)])()
+    assert found == [signal.SIG_IGN, signal.SIG_DFL]
+
+
+def test_findings_are_the_same_on_one_core_and_on_two(monkeypatch: pytest.MonkeyPatch) -> None:
+    two = costly_findings(make_small_robot())
+    monkeypatch.setattr(module, "cores", lambda: 1)
+    assert two == costly_findings(make_small_robot())
