@@ -29,13 +29,14 @@ def limit_values(findings: Sequence[Finding]) -> dict[str, Any]:
     violated = [finding for finding in every if finding.severity != "info"]
     kept = [finding for finding in every if finding.severity == "info"]
     without = [finding for finding in kept if finding.use is None]
+    just_kept = [finding for finding in without if used(finding) == JUST]
     return {
         "violated": violated,
         "violation": violation(findings),
         "violated_class": "error" if errors(violated) else "warning",
         "kept": [finding for finding in kept if finding.use is not None],
-        "without": without,
-        "just_kept": any(used(finding) == JUST for finding in without),
+        "just_kept": just_kept,
+        "without": without[len(just_kept) :],
         "count": counted_limits(findings),
         "uncounted": sum(not finding.counts and not finding.is_note for finding in findings),
         "used": used,

@@ -150,10 +150,16 @@ def _times(moments: list[PhasePose], lengths_s: Mapping[str, float]) -> tuple[li
         span = max(float(times[-1] - times[0]), 1e-9)
         real += np.round(times, 4).tolist()
         shown += np.round(start + length * (times - times[0]) / span, 4).tolist()
-        factor = length / span
-        words[phase] = f" ({factor:.1f} times slower)" if factor > 1.0 else f" ({1.0 / factor:.1f} times faster)"
+        words[phase] = f" ({speed_in_words(length / span)})"
         start += length
     return real, shown, words
+
+
+def speed_in_words(slower: float) -> str:
+    """Return how fast a motion is shown that takes `slower` times as long as in reality, as a player says it."""
+    if f"{slower:.1f}" == "1.0":
+        return "at real speed"
+    return f"slow motion, {slower:.3g} times" if slower > 1.0 else f"sped up, {1.0 / slower:.3g} times"
 
 
 def recorded_poses(trajectory: Trajectory, moment: int) -> dict[str, Array]:

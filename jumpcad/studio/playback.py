@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.bundle.motion import motion
+from jumpcad.bundle.motion import motion, speed_in_words
 from jumpcad.bundle.viewer import turning_parts
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
@@ -37,9 +37,8 @@ class ShownMoment:
 
     def to_text(self, slower: float = 1.0) -> str:
         """Return phase, time and time scale in words, of a motion that is played `slower` times slower still."""
-        factor = self.slower * slower
-        scale = f"{factor:.3g} times slower" if factor >= 1.0 else f"{1.0 / factor:.3g} times quicker"
-        return f"{self.phase}, {self.real_s:.{3 if self.real_s < 1.0 else 1}f} s ({scale} than real)"
+        time = f"{self.real_s:.{3 if self.real_s < 1.0 else 1}f} s"
+        return f"{self.phase}, {time} ({speed_in_words(self.slower * slower)})"
 
 
 @dataclass(frozen=True)

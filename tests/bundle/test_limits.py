@@ -57,6 +57,12 @@ def test_without_a_share_the_margin_is_said_in_units_that_people_read(margin: fl
         assert used(bare("one", severity, 0.0, "")) == "does not hold"
 
 
+def test_what_has_no_share_is_folded_unless_it_is_just_kept() -> None:
+    """The fold holds one of two; that just kept stands in the first table."""
+    table, fold = page(limit("just", 1e-4, "mm", "", ""), limit("far", 3.0, "mm", "", "")).split("<details>")
+    assert ("just" in table, "far" in table, "far" in fold, "just" in fold) == (True, False, True, False)
+
+
 def test_the_worst_limit_stands_first() -> None:
     """Violated ones by their use, then kept ones; without a share last, of these what is just kept first."""
     in_order = [
