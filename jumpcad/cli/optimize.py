@@ -219,8 +219,7 @@ def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[Result]") -> list
     if folder is None:
         return []
     from jumpcad.search.report.figures import save_figure
-    from jumpcad.search.report.seed_plots import best_so_far
-    from jumpcad.search.report.study_plots import plot_study
+    from jumpcad.search.report.study_plots import best_so_far, plot_study
     from jumpcad.search.study.store import StudyStore
 
     with StudyStore.read(path) as store:

@@ -10,8 +10,10 @@ Nothing here calls BLAS: the operations and their order are those written down, 
 """
 
 import math
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any, TypeVar, cast
 
-from jumpcad.simulation.planar_compile import compiled
 from jumpcad.simulation.planar_model import PlanarModel
 from jumpcad.simulation.planar_state import (
     Contact,
@@ -30,6 +32,34 @@ OPEN_SHARE = 1e-6
 TOLERANCE = 1e-12
 """Of impulses and velocities, over those of the step: error of a contact law by rounding."""
 SEPARATE, STICK, FORWARD, BACKWARD = 0, 1, 2, 3
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def compiled(function: Function) -> Function:
+    """Return a function compiled to machine code, kept on disk for the next process, or as it is without numba.
+
+    The same statements, and so the same numbers. Where no folder can be written (containers, system installs) every
+    process compiles anew, for some seconds. Numba notices a change in the file of a function, not one in the files of
+    what that function calls: everything that is compiled stands in this module.
+    """
+    try:
+        from numba import njit
+    except ImportError:
+        return function
+    try:
+        made = njit(cache=True, error_model="numpy")(function)
+    except RuntimeError:  # numba's "cannot cache function: no locator available"
+        return cast(Function, njit(error_model="numpy")(function))
+    if cache := getattr(made, "_cache", None):  # none where compiling is switched off
+        save = cache.save_overload
+
+        def save_if_possible(*given: Any) -> None:
+            with suppress(OSError):  # a full disk, or a quota: the next process compiles anew
+                save(*given)
+
+        cache.save_overload = save_if_possible
+    return cast(Function, made)
 
 
 @compiled

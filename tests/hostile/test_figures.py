@@ -20,7 +20,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import Record
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
-from jumpcad.simulation.loop_file import LoopFile
+from jumpcad.simulation.from_urdf import LoopFile
 from jumpcad.workshop import Workshop, load_workshop
 
 DESIGN = load_design("kenan-2.0")

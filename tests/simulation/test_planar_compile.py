@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from jumpcad.simulation import planar_kernel as kernel
-from jumpcad.simulation.planar_compile import compiled
+from jumpcad.simulation.planar_kernel import compiled
 from jumpcad.simulation.planar_state import Inertia
 
 WITHOUT_NUMBA = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
