@@ -33,11 +33,13 @@ def write_atomically(path: Path, data: str | bytes) -> None:
     JumpcadError
         If it cannot be written.
     """
-    _write_all({path: data})
+    write_files(path.parent, {path.name: data})
 
 
 def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
     """Write files into a folder, which is made with its parents; return them. All are written or none.
+
+    They get temporary names in the folder first, and are then renamed.
 
     Raises
     ------
@@ -45,20 +47,28 @@ def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
         If the folder or a file cannot be written.
     """
     require_path(folder)
-    made = not folder.is_dir()
+    made, at = not folder.is_dir(), folder
+    waiting = {folder / name: folder / f".jumpcad-{secrets.token_hex(8)}" for name in files}
     try:
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise JumpcadError(f"{folder}: cannot be written: {error.strerror}") from None
-    paths = {folder / name: data for name, data in files.items()}
-    try:
-        _write_all(paths)
-    except BaseException:
+        for (at, temporary), data in zip(waiting.items(), files.values(), strict=True):
+            with temporary.open("xb") as stream:  # with the permissions that the user's umask allows
+                stream.write(data.encode() if isinstance(data, str) else data)
+            if at.exists():
+                shutil.copymode(at, temporary)
+        for at, temporary in waiting.items():
+            os.replace(temporary, at)
+    except BaseException as error:
+        for temporary in waiting.values():
+            with suppress(OSError):
+                os.unlink(temporary)
         if made:
             with suppress(OSError):
                 folder.rmdir()
+        if isinstance(error, OSError):
+            raise JumpcadError(f"{at}: cannot be written: {error.strerror}") from None
         raise
-    return list(paths)
+    return list(waiting)
 
 
 def require_path(path: Path) -> None:
@@ -113,11 +123,11 @@ def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str |
     read = {name: Path(path) for name, path in files.items() if isinstance(path, Path) or path.endswith(FILES)}
     for number, (name, path) in enumerate(there.items()):
         for other, second in [*list(there.items())[:number], *read.items()]:
-            if same_file(path, second):
+            if _same_file(path, second):
                 raise JumpcadError(f"{name} {path}: is {other} itself; choose another name")
-            if second.suffix and not os.path.isdir(second) and _lies_below(path, second):
+            if _lies_below(path, second):
                 raise JumpcadError(f"{name} {path}: lies below {other} {second}, which is a file; choose another name")
-            if other in there and path.suffix and not os.path.isdir(path) and _lies_below(second, path):
+            if other in there and _lies_below(second, path):
                 raise JumpcadError(f"{other} {second}: lies below {name} {path}, which is a file; choose another name")
 
 
@@ -216,18 +226,17 @@ def sealed_png(png: bytes) -> bytes:
     return png[:-PNG_END] + chunk + png[-PNG_END:]
 
 
-def same_file(one: Path, other: Path) -> bool:
+def _same_file(one: Path, other: Path) -> bool:
     """Tell whether two paths are the same file, also through links, and also if it does not exist yet."""
     if os.path.realpath(one) == os.path.realpath(other):
         return True
-    try:
-        return os.path.samefile(one, other)
-    except OSError:
-        return False
+    return os.path.exists(one) and os.path.exists(other) and os.path.samefile(one, other)
 
 
 def _lies_below(path: Path, file: Path) -> bool:
-    return os.path.realpath(path).startswith(os.path.realpath(file) + os.sep)
+    """Tell whether a path would be in a folder of a file's name."""
+    folder = bool(file.suffix) and not os.path.isdir(file)
+    return folder and os.path.realpath(path).startswith(os.path.realpath(file) + os.sep)
 
 
 def is_sealed(path: Path) -> bool:
@@ -246,23 +255,3 @@ def is_sealed(path: Path) -> bool:
 def sha256(data: bytes) -> str:
     """Return a digest in hexadecimal."""
     return hashlib.sha256(data).hexdigest()
-
-
-def _write_all(files: Mapping[Path, str | bytes]) -> None:
-    """Write files under temporary names in the same folders, then rename them all."""
-    waiting = {path: path.parent / f".jumpcad-{secrets.token_hex(8)}" for path in files}
-    try:
-        for path, data in files.items():
-            with waiting[path].open("xb") as stream:  # with the permissions that the user's umask allows
-                stream.write(data.encode() if isinstance(data, str) else data)
-            if path.exists():
-                shutil.copymode(path, waiting[path])
-        for path in files:
-            os.replace(waiting[path], path)
-    except BaseException as error:
-        for temporary in waiting.values():
-            with suppress(OSError):
-                os.unlink(temporary)
-        if isinstance(error, OSError):
-            raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
-        raise

@@ -82,41 +82,28 @@ def read_text(path: Path, kind: str = "a text file") -> str:
 def read_bytes(path: Path, kind: str = "a file") -> bytes:
     """Return the content of a regular file of moderate size; `kind` says what it should be, such as `a TOML file`.
 
-    The opened file is checked, so it cannot be exchanged between check and reading; a pipe or a device does not block.
-
     Raises
     ------
     JumpcadError
         If it is no regular file, is too large, or cannot be read.
     """
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     try:
-        descriptor = os.open(path, flags)
-        try:
-            status = os.fstat(descriptor)
-            if stat.S_ISDIR(status.st_mode):
-                raise IsADirectoryError
-            if not stat.S_ISREG(status.st_mode):
-                raise JumpcadError(f"{path}: is a pipe or a device, not {kind}")
-            if status.st_size > LARGEST_BYTES:
-                raise JumpcadError(f"{path}: is larger than {LARGEST_BYTES >> 20} MiB, too large for {kind}")
-            with os.fdopen(descriptor, "rb", closefd=False) as stream:
-                content = stream.read(status.st_size + 1)
-        finally:
-            os.close(descriptor)
+        status = os.stat(path)
+        if stat.S_ISDIR(status.st_mode):
+            raise JumpcadError(f"{path}: is a folder, not {kind}")
+        if not stat.S_ISREG(status.st_mode):
+            raise JumpcadError(f"{path}: is a pipe or a device, not {kind}")
+        if status.st_size > LARGEST_BYTES:
+            raise JumpcadError(f"{path}: is larger than {LARGEST_BYTES >> 20} MiB, too large for {kind}")
+        return path.read_bytes()
     except FileNotFoundError:
         raise JumpcadError(f"{path}: no such file") from None
-    except IsADirectoryError:
-        raise JumpcadError(f"{path}: is a folder, not {kind}") from None
     except PermissionError:
         raise JumpcadError(f"{path}: may not be read (permission denied)") from None
     except OSError as error:
         raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError:
         raise JumpcadError(f"{shown(str(path))} cannot be the name of a file") from None
-    if len(content) > status.st_size:
-        raise JumpcadError(f"{path}: grows while it is read; try again")
-    return content
 
 
 def _no_constant(name: str) -> None:

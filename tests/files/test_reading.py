@@ -112,6 +112,6 @@ def test_a_file_of_somebody_elses_is_told_as_one_that_may_not_be_read(
     def refused(*_: object) -> int:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(os, "open", refused)
+    monkeypatch.setattr(os, "stat", refused)
     with pytest.raises(JumpcadError, match=r"a\.toml: may not be read \(permission denied\)$"):
         read_toml(tmp_path / "a.toml")
