@@ -8,8 +8,9 @@ from jumpcad.bundle.limits import JUST, ordered, used
 from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
+from jumpcad.files import read_toml, templates_folder
 from jumpcad.files.rendering import fill
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.simulation import Jump, simulate
@@ -37,6 +38,13 @@ class Printed:
         kept = [one for one in every if one.severity == "info"]
         just = [one for one in kept if one.use is None and used(one) == JUST]
         return [one for one in every if one.severity != "info"] + just + [one for one in kept if one.use is not None]
+
+    @property
+    def wrong_parts(self) -> frozenset[str]:
+        """The names of the parts that the violated limits are about."""
+        violated = {one.name for one in errors(self.findings)}
+        limits_of, _ = read_toml(templates_folder() / "texts" / "parts_of_limits.toml")
+        return frozenset(part for parts, names in limits_of.items() if violated & {*names} for part in parts.split())
 
     def to_markdown(self, before: "Printed | None" = None) -> str:
         """Return figures and limits as tables in Markdown, with the differences of the figures from another robot's."""

@@ -21,7 +21,6 @@ from jumpcad.studio.playback import Playback, playback
 from jumpcad.studio.player import Player
 from jumpcad.studio.points import STUDYS, Points
 from jumpcad.studio.stage import StudioStage
-from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop
 
 BY_NUMBER = "by its number"
@@ -192,7 +191,7 @@ class Studio:
             if found.robot is None:
                 self.stage.fade()
             else:
-                self.stage.show(found.robot, wrong_parts(found.findings))
+                self.stage.show(found.robot, found.wrong_parts)
         return found
 
     def _robot(self) -> Robot:

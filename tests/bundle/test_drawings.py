@@ -59,18 +59,6 @@ def test_all_is_on_the_page(drawings: dict[str, ET.Element]) -> None:
             assert places[1:, 0][places[1:, 0] < width].max() > 0.8 * width  # nor wider
 
 
-def words(root: ET.Element) -> list[tuple[str, float, float, float, float]]:
-    """Every text with its box; letters are half as wide as high."""
-    found = []
-    usual = float(root.get("font-size") or 3.4)
-    for one in root.iter(f"{SPACE}text"):
-        size, text = float(one.get("font-size") or usual), one.text or ""
-        x, y, wide = float(one.get("x")), float(one.get("y")), 0.45 * size * len(text)
-        left = x - {"end": wide, "middle": wide / 2.0}.get(one.get("text-anchor") or "", 0.0)
-        found.append((text, left, y - 0.6 * size, left + wide, y))
-    return found
-
-
 def test_a_spring_is_drawn_three_times_as_large(robot: Robot, drawings: dict[str, ET.Element]) -> None:
     """Circle of the mean diameter, wire as thick, two straight arms of their length; from the side a coil a turn."""
     spring = robot.layout.drive.spring

@@ -1,26 +1,16 @@
 """Bars of use: words and widths at their ends, and the order in which limits stand."""
 
 import re
-from collections.abc import Sequence
 
 import pytest
 
 from jumpcad.bundle.limits import limit_values, ordered, violation
-from jumpcad.bundle.page import robot_values
 from jumpcad.files.rendering import fill
 from jumpcad.findings import Finding, at_least, at_most, bare, limit
-from jumpcad.robot import Robot
-from jumpcad.simulation import simulate
 
 
 def page(*findings: Finding) -> str:
     return fill("report/limits.html.j2", limit_values(findings))
-
-
-def top(robot: Robot, findings: Sequence[Finding]) -> str:
-    """Return what the page of a robot that jumps says at its top."""
-    values = robot_values(robot) | limit_values(findings)
-    return fill("report/verdict.html.j2", values | {"jump": simulate(robot), "broken": [], "sure": None})
 
 
 def used(finding: Finding) -> str:

@@ -7,7 +7,6 @@ import pytest
 from support.decimals import decimals
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.catalogue.axles import Clip
 from jumpcad.catalogue.bars import LegBar
 
 BARS = load_catalogue().bars
@@ -55,7 +54,7 @@ def test_no_step_of_a_hole_stands_out_farther_than_is_asked_for(ledge_mm: float)
     assert TUBE.slabs_mm(0.07, 0.9) == TUBE.slabs_mm(0.07)
 
 
-def test_bars_and_clips_that_cannot_be_are_refused() -> None:
+def test_bars_that_cannot_be_are_refused() -> None:
     tube = TUBE.model_dump() | {"name": "x"}
     for changed, key in (
         ({"height_mm": 5.0}, "height_mm"), ({"bore_mm": 6.0}, "bore_mm"), ({"bore_mm": 5.9}, None),
@@ -64,10 +63,3 @@ def test_bars_and_clips_that_cannot_be_are_refused() -> None:
         assert found == ([((key,), changed[key])] if key else [])
     flat = STRIP.model_dump() | {"name": "x", "bore_mm": 3.0}
     assert [where for where, *_ in LegBar(**flat).contradictions()] == [("bore_mm",)]
-    clip = next(iter(load_catalogue().clips.values()))
-    assert not list(clip.contradictions())
-    for changed in ({"groove_mm": clip.shaft_mm}, {"outer_mm": clip.shaft_mm}):
-        wrong = Clip(**clip.model_dump() | {"name": "x"} | changed)
-        ((where, value, reason),) = wrong.contradictions()
-        assert (where, value) == (("groove_mm",), wrong.groove_mm)
-        assert reason.endswith(f"shaft_mm = {wrong.shaft_mm:g}, and that less than outer_mm = {wrong.outer_mm:g}")

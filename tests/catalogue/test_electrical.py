@@ -3,7 +3,6 @@
 import math
 
 import pytest
-from support.documented import documented_ranges, wrongly_taken
 
 from jumpcad.catalogue import Battery, load_catalogue
 
@@ -81,12 +80,6 @@ def test_a_battery_in_ampere_hours_or_kilograms_is_refused() -> None:
     ):  # fmt: skip
         found = battery.model_copy(update={key: value}).contradictions()
         assert [place for place, *_ in found] == [("capacity_mah",)] * refused, (key, value)
-
-
-@pytest.mark.parametrize(("kind", "ranges"), [("motors", 16), ("batteries", 11), ("boards", 14)])
-def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
-    assert len(documented_ranges(f"{kind}.NAME")) == ranges
-    assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []
 
 
 def test_a_cell_of_unknown_resistance_has_0_15_ohm() -> None:

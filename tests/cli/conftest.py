@@ -1,7 +1,5 @@
 """The command line as a function, and a bundle."""
 
-import errno
-import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -13,7 +11,6 @@ from support.places import ROOT
 from support.proposals import with_less_work
 
 from jumpcad.bundle import export
-from jumpcad.design import load_design
 from jumpcad.exporters.registry import Exporter, Files
 from jumpcad.robot import Robot
 
@@ -71,25 +68,3 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-@pytest.fixture
-def read_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let no file be made, as on a disk that is mounted to be read only."""
-    opened = os.open
-
-    def refuse(path: str, flags: int, *more: int, **where: int) -> int:
-        if flags & os.O_CREAT:
-            raise OSError(errno.EROFS, "Read-only file system")
-        return opened(path, flags, *more, **where)
-
-    monkeypatch.setattr(os, "open", refuse)
-
-
-@pytest.fixture
-def inputs(tmp_path: Path) -> None:
-    """A design and a workshop of one's own in the current folder, and beside them what may be a template's bundle."""
-    (tmp_path / "own.toml").write_text(load_design("kenan-2.0").to_toml())
-    (tmp_path / "shop.toml").write_text("[body]\nplate_mm = 2.5\n")
-    (tmp_path / "kenan-2.0").mkdir()
-    (tmp_path / "kenan-2.0" / "manifest.json").write_text("{}")

@@ -14,7 +14,6 @@ from support.pictures import with_few_pictures
 
 from jumpcad.cli.bundle import _print_facts
 from jumpcad.design import load_design
-from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES
 
@@ -230,13 +229,3 @@ def test_a_bundle_is_not_printed_elsewhere(run: Run, bundle: Path, tmp_path: Pat
         "plate-1-PLA.3mf",
         "plate-2-PLA.3mf",
     }
-
-
-@pytest.fixture
-def begun(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the work of a command end where it begins."""
-
-    def stop(*_: object) -> None:
-        raise JumpcadError("begun")
-
-    monkeypatch.setattr("jumpcad.cli.bundle.printed_robot", stop)

@@ -55,8 +55,6 @@ def test_calibrated_settings_are_what_uncertain_takes(run: Run, tmp_path: Path) 
     [
         (("calibrate", "kenan-3.0"), "neither a TOML file nor one of the measurements kenan-1.0, kenan-2.0"),
         (("calibrate", "kenan-2.0", "-o", "mine.csv"), "must end in .toml"),
-        (("simulate", "kenan-2.0", "--capsule", "--uncertain"), "--uncertain is for printed robots"),
-        (("simulate", "kenan-2.0", "--engine", "both", "--uncertain"), "--uncertain takes one engine"),
     ],
 )
 def test_wrong_requests(run: Run, arguments: tuple[str, ...], message: str) -> None:

@@ -27,7 +27,6 @@ def own_parts() -> Workshop:
 
 
 SHOPS = {
-    "default": DEFAULT, "light": load_workshop("light"), "fine": load_workshop("fine"),
     "varied": varied(DEFAULT, {"body.plate_mm": 2.0, "process.infill": 0.3, "bought.kit": "strong-2s"}),
     "own": own_parts(),
 }  # fmt: skip

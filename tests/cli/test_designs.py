@@ -7,7 +7,7 @@ from unittest.mock import ANY
 import pytest
 from support.commands import Run
 
-from jumpcad.design import SEARCH_BOUNDS, load_design
+from jumpcad.design import load_design
 from jumpcad.files import template_names
 from jumpcad.workshop import load_workshop
 
@@ -25,15 +25,6 @@ def test_new_keeps_what_is_there(run: Run, tmp_path: Path) -> None:
     assert code == 2
     assert "exists already" in err
     assert (tmp_path / "frog.toml").read_text() == "mine"
-
-
-def test_every_number_of_a_new_design_has_a_comment_with_its_searched_range(run: Run, tmp_path: Path) -> None:
-    run("new", "frog.toml", "--from", "best-ga")
-    text = (tmp_path / "frog.toml").read_text()
-    for key, bounds in SEARCH_BOUNDS.items():
-        line = rf"^# .+\n{key} = \S+ +# searches go through {bounds.lower:g} to {bounds.upper:g}$"
-        assert re.search(line, text, re.MULTILINE), key
-    assert load_design(tmp_path / "frog.toml") == load_design("best-ga")
 
 
 @pytest.mark.parametrize("name", template_names("workshops"))

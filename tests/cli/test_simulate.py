@@ -11,7 +11,7 @@ from support.places import ROOT
 
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.simulation import Settings, simulate
 
 
 @pytest.fixture
@@ -88,6 +88,7 @@ def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
         (["kenan-2.0", "--capsule", "--workshop", "fine"], "--workshop fine: cannot apply"),
         (["kenan-2.0", "--capsule", "--settings", "quick"], "'quick' is neither a TOML file nor"),
         (["kenan-3.0", "--capsule"], "did you mean kenan-2.0"),
+        (["kenan-2.0", "--capsule", "--uncertain"], "--uncertain is for printed robots"),
         (["kenan-2.0", "--engine", "both", "--uncertain"], "--uncertain takes one engine: choose --engine pybullet"),
     ],
 )
@@ -112,10 +113,6 @@ def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(command: Run, bu
     urdf = bundle / "urdf" / "kenan-2.0.urdf"
     refused = f"jumpcad: {urdf}: --uncertain is for printed robots: give the design, or its bundle\n"
     assert command(urdf, "--uncertain") == (2, "", refused)
-
-
-def ranges(*values: float | None) -> list[Jump]:
-    return [Jump("jump", "x", 0.1, 0.2, ballistic_range_m=value) for value in values]
 
 
 def test_robots_with_bodies_of_their_own(command: Run) -> None:

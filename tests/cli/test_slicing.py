@@ -117,15 +117,3 @@ def test_nothing_is_written_or_read_outside_of_a_bundle(
     assert "bom.csv: a link" in err
     assert (home / "bom.csv").read_bytes() == before
     assert (home / ".bashrc").read_text() == "precious"
-
-
-@pytest.mark.parametrize(
-    ("file", "complaint"),
-    [("mine.toml", "exists already"), ("mine.txt", "must end in .toml"), ("no/mine.toml", "there is no folder no")],
-)
-def test_masses_replace_nothing(run: Run, bundle: Path, file: str, complaint: str) -> None:
-    Path("mine.toml").write_text("years of weighing")
-    code, out, err = run("slice", str(bundle), "--write-masses", file)
-    assert (code, out) == (2, "")
-    assert complaint in err
-    assert Path("mine.toml").read_text() == "years of weighing"

@@ -5,8 +5,6 @@ from pathlib import Path
 
 from support.searches import QUICK, data, refusal, run
 
-from jumpcad.design import load_design
-
 
 def test_studies_compare_and_export(folder, monkeypatch):
     for seed in (0, 1):
@@ -29,20 +27,3 @@ def test_studies_compare_and_export(folder, monkeypatch):
     assert data("study", "0.db", "--plots", "pics") == summary | {"pictures": ["pics/a"]}
     assert "pictures" not in summary
     assert drawn == [Path("pics")]
-
-
-def summary(**changes: object) -> dict[str, object]:
-    """Return a made-up summary with a number of its own in every place."""
-    design = load_design("best-ga")
-    top = [
-        {"trial": 7, "score": 2.5, "phase": "bo", "design": design.model_dump(),
-         "workshop": {"body.plate_mm": 2.0, "bought.spring": "x"}},
-        {"trial": 3, "score": 1.25, "phase": "ga", "design": design.model_dump()},
-    ]  # fmt: skip
-    identity = {"method": "ga+bo", "model": {"name": "capsule"}, "objective": "range", "seed": 5}
-    plain = {
-        "study": "s.db", "identity": identity, "planned": 40, "evaluations": 31, "other_evaluations": 12,
-        "ended": None, "refused": {"tips": 6, "loop": 2}, "evaluation_time_s": 9.0, "best": top[0],
-        "top": top, "notes": ["a note"],
-    }  # fmt: skip
-    return plain | changes

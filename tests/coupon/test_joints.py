@@ -7,16 +7,7 @@ from manifold3d import CrossSection
 from jumpcad.coupon import joints
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
 from jumpcad.coupon.pieces import Piece, coupon_holes
-from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
-
-
-def openings(stack: Stack) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Bounds (2, 2) of the plate at its bottom, where nothing is engraved, and of its openings from left to right."""
-    region = min(stack.slabs, key=lambda slab: slab.z0_mm).region
-    boxes = [np.array([contour.min(axis=0), contour.max(axis=0)]) for contour in region.to_polygons()]
-    plate = max(boxes, key=lambda box: np.ptp(box, axis=0).prod())
-    return plate, sorted((box for box in boxes if box is not plate), key=lambda box: box[0, 0])
 
 
 def test_steps_lie_on_both_sides_of_a_fit_and_ribs_are_never_negative() -> None:

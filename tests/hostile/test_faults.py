@@ -197,26 +197,6 @@ def test_a_lost_worker_is_no_lost_search(sandbox: Sandbox) -> None:
     )  # fmt: skip
 
 
-INTERRUPTED_AT = ["typer", "pydantic", "jumpcad.design", "pybullet"]
-"""`cli/test_output.py` has numpy, which is compiled."""
-
-
-@pytest.mark.parametrize("module", INTERRUPTED_AT)
-def test_ctrl_c_in_the_first_moments_is_one_line(sandbox: Sandbox, module: str) -> None:
-    """The signal comes when a module is asked for, so that the moment is the same in every run."""
-    program = (
-        "import os, signal, sys\n"
-        "def hook(event, arguments):\n"
-        f"    if event == 'import' and arguments[0] == {module!r}:\n"
-        "        os.kill(os.getpid(), signal.SIGINT)\n"
-        "from jumpcad.cli import main\n"
-        "sys.addaudithook(hook)\n"
-        "main()\n"
-    )
-    exits = (0, 130) if module == "typer" else (130,)  # on some versions it is there by then
-    sandbox.process("simulate", "kenan-2.0", "--capsule", exits=exits, program=program)
-
-
 LONGER = ("optimize", "ga", "--model", "capsule", "--evaluations", "120", "--study", "s.db")
 PRESS = "os.kill(os.getpid(), signal.SIGINT)"
 

@@ -116,10 +116,6 @@ def with_figure(data: Any, place: Place, value: float | str) -> Any:
     return {**data, key: with_figure(data[key], place[1:], value)}
 
 
-def name_of(place: Place) -> str:
-    return ".".join(map(str, place))
-
-
 @each("place", WORKSHOP)
 def test_a_figure_at_its_limits_is_borne_or_refused(own: dict[str, Any], sandbox: Sandbox, place: Place) -> None:
     ends = WORKSHOP[place].ends()

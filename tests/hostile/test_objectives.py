@@ -75,11 +75,6 @@ BORNE = {
 }
 
 
-def aim(sandbox: Sandbox, text: str) -> object:
-    sandbox.write("o.py", text)
-    return find_objective("o.py:f")
-
-
 def refusal(call: object) -> str:
     with pytest.raises(JumpcadError) as caught:
         call()  # type: ignore[operator]

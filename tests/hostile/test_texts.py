@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 
 import pytest
-from support.each import each
 from support.sandbox import Sandbox
 
 TEXT = (
@@ -54,15 +53,3 @@ def test_odd_texts_stay_texts_in_every_file(built: Path) -> None:
         columns = [len(re.findall(r"(?<!\\)\|", line)) for line in text.splitlines() if "script" in line]
         assert set(columns) <= {0, 4, 5}, file
     assert "{WIND_S}" in (built / "firmware" / "README.md").read_text(encoding="utf-8")
-
-
-@each("function", ["gpio²", "gpio٣", "gpio" + "9" * 40, "gpio64", "gpio-1", "gpio"])
-def test_a_pin_has_a_number_or_is_refused(sandbox: Sandbox, function: str) -> None:
-    pins = "".join(f'D{pin} = ["gpio{pin}", "pwm", "adc"]\n' for pin in range(1, 5))
-    sandbox.write(
-        "x.toml",
-        f'[bought]\ncontroller = "own"\npins = {{ motor = "D0" }}\n[boards.own]\nlike = "xiao-esp32c3"\n'
-        f'source = "mine"\nbutton = ""\n[boards.own.pins]\nD0 = ["{function}", "adc", "pwm"]\nGND = ["ground"]\n{pins}',
-    )
-    done = sandbox.run("build", "kenan-2.0", "--workshop", "x.toml", "-o", "robot", "--no-pictures", exits=(2,))
-    assert "boards.own.pins.D0 = " in done.err

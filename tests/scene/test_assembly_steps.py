@@ -16,7 +16,7 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order.plan import HEX_AXLE, HEX_M3, NUT_M3, Move
-from jumpcad.scene.assembly_steps import REST, SIDES, Step, assembly_steps, travel
+from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
 from jumpcad.scene.step_views import step_views
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import pose_about_y, pose_about_z
@@ -274,11 +274,3 @@ def test_pads_are_put_on_what_is_there(name: str) -> None:
         assert names.index(under) < names.index(pad)
         _, move, thing = put[names.index(pad)]
         assert travel(robot, thing, move, poses[thing.body])[2] > 0.99, pad
-
-
-def test_what_is_only_tried_or_brought_from_earlier_steps_is_not_added() -> None:
-    def placed(thing: str, brings: str = "", trial: bool = False) -> SimpleNamespace:
-        return SimpleNamespace(move=SimpleNamespace(brings=brings, trial=trial), things=(thing,))
-
-    step = SimpleNamespace(placed=[placed("tried", trial=True), placed("brought", brings="gears"), placed("put on")])
-    assert Step.added.fget(step) == ("put on",)  # type: ignore[attr-defined]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.solids.outline import Region, rectangle
+from jumpcad.solids.outline import rectangle
 from jumpcad.solids.slab import Slab, rounded_z
 
 
@@ -37,15 +37,6 @@ def test_a_pocket_with_a_number_is_taken_out_before_the_border_is_set_back() -> 
     assert Slab(0.0, 1.0, outline, pocket=pocket, pocket_number=2).region.area() == pytest.approx(100.0 - 15.0)
     assert Slab(0.0, 1.0, outline, 0.5, 0, pocket, 1).region.area() == pytest.approx(81.0 - 24.0)
     assert Slab(0.0, 1.0, outline, pocket=pocket).region.area() == pytest.approx(100.0)
-
-
-def made(**changed: float | Region) -> Slab:
-    """Return a slab made of new regions, with some of its fields changed."""
-    given = {
-        "z0_mm": 1.0, "z1_mm": 4.0, "outline": rectangle((10.0, 8.0)), "inset_mm": 0.5, "number": 3,
-        "pocket": rectangle((2.0, 1.0)), "pocket_number": 5,
-    }  # fmt: skip
-    return Slab(**given | changed)  # type: ignore[arg-type]
 
 
 def test_faces_that_meet_do_so_in_32_bit_floats_too() -> None:

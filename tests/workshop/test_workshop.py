@@ -29,25 +29,10 @@ def test_parts_of_ones_own_are_written_too(written):
     assert load_workshop(written(text)) == own
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (
-            "[process]\nlayer_height_mm = 0.35",
-            r"my.toml:2: process.layer_height_mm = 0.35: must be at most 0.32",
-        ),
-        ("[process]\nline_width_mm = 0.2", r"nozzle of 0.4 mm lays lines of 0.32…0.8 mm"),
-        ("[fits]\nwall_mm = 0.85", r"fits.wall_mm = 0.85: must be at least 0.9, two lines"),
-        ("[fits]\nsliding_mm = 0.05", r"fits.sliding_mm = 0.05: must be at least fits.press_mm = 0.1"),
-        (
-            "[fits]\nm3_tap_mm = 3.1\nm3_clearance_mm = 3",
-            r"fits.m3_clearance_mm = 3.0: must be at least fits.m3_tap_mm = 3.1",
-        ),
-        ("[fits]\nfirst_layer_chamfer_mm = 0.7", r"leaves nothing of a wall of 1.2: must be less than 0.6"),
-    ],
-)
-def test_values_that_do_not_go_together_are_one_line(text, message, refusal):
-    assert re.search(message, refusal(text))
+def test_values_that_do_not_go_together_are_one_line(refusal):
+    text = "[process]\nlayer_height_mm = 0.35\n[fits]\nsliding_mm = 0.05"
+    assert re.search(r"my.toml:2: process.layer_height_mm = 0.35: must be at most 0.32", refusal(text))
+    assert re.search(r"my.toml:4: fits.sliding_mm = 0.05: must be at least fits.press_mm = 0.1", refusal(text))
 
 
 def test_a_workshop_cannot_be_changed():
@@ -79,6 +64,7 @@ def test_own_parts_are_checked_in_python_too() -> None:
         ("fits", {"wall_mm": 1.2, "wall_min_mm": 1.3}, "fits.wall_min_mm"),
         ("fits", {"wall_mm": 1.2, "first_layer_chamfer_mm": 0.6}, "fits.first_layer_chamfer_mm"),
         ("fits", {"press_mm": 0.21, "sliding_mm": 0.2}, "fits.sliding_mm"),
+        ("fits", {"m3_tap_mm": 3.1, "m3_clearance_mm": 3.0}, "fits.m3_clearance_mm"),
         ("release", {"rotor_kg_m2": (2e-9, 1e-9)}, "release.rotor_kg_m2"),
         ("release", {"backlash_deg": (5.0, 3.0)}, "release.backlash_deg"),
     ],
