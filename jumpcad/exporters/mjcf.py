@@ -18,13 +18,12 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from jumpcad.exporters.xml import Value, allowed, limits_rad, written, wxyz
+from jumpcad.exporters.xml import Value, allowed, friction_nm, limits, written, wxyz
 from jumpcad.files.rendering import fill
 from jumpcad.mechanism.model import BODY, Joint, Mechanism, Spring
 from jumpcad.mechanism.poses import ReleasePose, body_poses, release_pose, standing
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.settings import Settings, coefficients
-from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array, rotation_about_y
 
 Attributes = dict[str, Value]
@@ -152,15 +151,15 @@ def _numbered(mechanism: Mechanism, parent: str) -> Iterator[Joint]:
 
 def _hinge(joint: Joint, mechanism: Mechanism, settings: Settings) -> Attributes:
     spring, rubs = mechanism.spring, coefficients(mechanism, settings)
-    found: Attributes = {"damping": rubs.joint_damping_nms_per_rad, "frictionloss": settings.joint_friction_nm}
+    friction = friction_nm(joint, mechanism, settings)
+    found: Attributes = {"damping": rubs.joint_damping_nms_per_rad, "frictionloss": friction}
     if joint.name == spring.joint:
-        found["frictionloss"] = settings.joint_friction_nm + pin_torque_nm(mechanism, rubs.pin)
         if not spring.one_sided:
             found["stiffness"] = spring.stiffness_nm_per_rad
             if spring.preload_rad:
                 found["springref"] = spring.preload_rad
         found |= _limit(joint, mechanism)
-    if found["frictionloss"]:
+    if friction:
         found |= {"solreffriction": stiff(settings)["solref"], "solimpfriction": IMPEDANCE}
     return found
 
@@ -176,7 +175,7 @@ def _limit(joint: Joint, mechanism: Mechanism) -> Attributes:
     inertia = leg_inertia_kg_m2(mechanism, stop.angle_rad)
     return {
         "limited": "true",
-        "range": limits_rad(joint, mechanism),
+        "range": (limits(joint, mechanism)["lower"], stop.angle_rad),
         "solreflimit": (math.sqrt(inertia / stop.stiffness_nm_per_rad), 1.0),
         "solimplimit": IMPEDANCE,
     }

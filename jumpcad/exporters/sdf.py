@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from jumpcad.dimensions import MESHES_FROM_BESIDE
-from jumpcad.exporters.xml import allowed, limits_rad, rpy, written
+from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
 from jumpcad.files.rendering import fill
 from jumpcad.mechanism.model import Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
@@ -18,7 +18,6 @@ from jumpcad.robot import Robot
 from jumpcad.scene.hulls import cage_capsules
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Coefficients, Settings, coefficients
-from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array
 
 SDF = "1.9"
@@ -69,26 +68,20 @@ def write_sdf(
 
 def _limit(joint: Joint, mechanism: Mechanism) -> dict[str, float]:
     """Return what SDF says of a joint's limits: of the leg's also how stiff the stop is."""
-    lower, upper = limits_rad(joint, mechanism)
-    limit = {"lower": lower, "upper": upper, "effort": joint.effort_nm, "velocity": joint.velocity_rad_s}
     stop = mechanism.stop
     if stop is None or stop.joint != joint.name:
-        return limit
+        return limits(joint, mechanism)
     damping = 2.0 * math.sqrt(stop.stiffness_nm_per_rad * leg_inertia_kg_m2(mechanism, stop.angle_rad))
-    return limit | {"stiffness": stop.stiffness_nm_per_rad, "dissipation": damping}
+    return limits(joint, mechanism) | {"stiffness": stop.stiffness_nm_per_rad, "dissipation": damping}
 
 
 def _dynamics(joint: Joint, mechanism: Mechanism, settings: Settings, rubs: Coefficients) -> dict[str, float]:
     """Return damping and friction of a joint, of the leg's also its springs."""
-    spring, damping = mechanism.spring, rubs.joint_damping_nms_per_rad
+    spring = mechanism.spring
+    rubbed = {"damping": rubs.joint_damping_nms_per_rad, "friction": friction_nm(joint, mechanism, settings)}
     if joint.name != spring.joint:
-        return {"damping": damping, "friction": settings.joint_friction_nm}
-    return {
-        "damping": damping,
-        "friction": settings.joint_friction_nm + pin_torque_nm(mechanism, rubs.pin),
-        "spring_reference": spring.preload_rad,
-        "spring_stiffness": spring.stiffness_nm_per_rad,
-    }
+        return rubbed
+    return rubbed | {"spring_reference": spring.preload_rad, "spring_stiffness": spring.stiffness_nm_per_rad}
 
 
 def _six(pose: Array) -> tuple[float, ...]:

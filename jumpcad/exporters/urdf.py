@@ -13,13 +13,12 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from jumpcad.dimensions import MESH_FOLDER
-from jumpcad.exporters.xml import allowed, limits_rad, rpy, written
+from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
 from jumpcad.files.rendering import fill
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings, coefficients
-from jumpcad.strength.loads import pin_torque_nm
 
 if TYPE_CHECKING:
     from jumpcad.robot import Robot
@@ -84,11 +83,8 @@ def tree(
         shapes = [(shape, pose[:3, 3], rpy(pose[:3, :3])) for shape, pose in placed]
         links.append((body, moments, rpy(axes), shapes, cylinders.get(body.name, {})))
     for joint in mechanism.joints:
-        lower, upper = limits_rad(joint, mechanism)
-        limit = {"lower": lower, "upper": upper, "effort": joint.effort_nm, "velocity": joint.velocity_rad_s}
-        driven = joint.name == mechanism.spring.joint
-        friction = settings.joint_friction_nm + (pin_torque_nm(mechanism, rubs.pin) if driven else 0.0)
-        limit |= leg if leg and driven else {}
+        limit = limits(joint, mechanism) | (leg if leg and joint.name == mechanism.spring.joint else {})
+        friction = friction_nm(joint, mechanism, settings)
         joints.append((joint, limit, rubs.joint_damping_nms_per_rad, friction))
     common = {"links": links, "joints": joints, "meshes": meshes, "leg": mechanism.spring.joint}
     return allowed(fill("urdf/tree.xml.j2", {"base": "", "box": None, "mimics": {}} | common | values))

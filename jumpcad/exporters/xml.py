@@ -12,6 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.model import Joint, Mechanism
+from jumpcad.settings import Settings, coefficients
+from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array
 
 Value: TypeAlias = str | float | npt.ArrayLike
@@ -88,8 +90,19 @@ def wxyz(rotation: Array) -> Array:
     return quaternion
 
 
-def limits_rad(joint: Joint, mechanism: Mechanism) -> tuple[float, float]:
-    """Return lower and upper limit of a joint (rad from rest): its travel and `SWING_RAD`; above, its stop if any."""
+def limits(joint: Joint, mechanism: Mechanism) -> dict[str, float]:
+    """Return what URDF and SDF say of a joint's limits: lower and upper angle (rad from rest), effort and velocity.
+
+    The angles are its travel and `SWING_RAD`; above, its stop if any.
+    """
     stop = mechanism.stop
     upper = stop.angle_rad if stop and stop.joint == joint.name else joint.upper_rad + SWING_RAD
-    return joint.lower_rad - SWING_RAD, upper
+    return {"lower": joint.lower_rad - SWING_RAD, "upper": upper, "effort": joint.effort_nm,
+            "velocity": joint.velocity_rad_s}  # fmt: skip
+
+
+def friction_nm(joint: Joint, mechanism: Mechanism, settings: Settings) -> float:
+    """Return a joint's dry friction: that of the settings, and at the leg's that of all pins, as one torque."""
+    if joint.name != mechanism.spring.joint:
+        return settings.joint_friction_nm
+    return settings.joint_friction_nm + pin_torque_nm(mechanism, coefficients(mechanism, settings).pin)

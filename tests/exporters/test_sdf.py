@@ -12,23 +12,6 @@ from jumpcad.design import load_design
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, Mechanism
-from jumpcad.robot import Robot
-
-
-@pytest.fixture(scope="module")
-def model(small_robot: Robot) -> ET.Element:
-    return ET.fromstring(write_sdf(small_robot))[0]
-
-
-def numbers(element: ET.Element, path: str) -> np.ndarray:
-    return np.array([float(value) for value in element.findtext(path, "").split()])
-
-
-def pose(element: ET.Element) -> np.ndarray:
-    """Return the pose (4, 4) of a link or joint; roll, pitch and yaw turn about fixed axes."""
-    six, placed = numbers(element, "pose"), np.eye(4)
-    placed[:3, :3], placed[:3, 3] = Rotation.from_euler("xyz", six[3:]).as_matrix(), six[:3]
-    return placed
 
 
 @pytest.fixture(scope="module", params=["kenan-1.0", "best-bo"])
