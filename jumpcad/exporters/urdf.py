@@ -83,7 +83,7 @@ def tree(
         shapes = [(shape, pose[:3, 3], rpy(pose[:3, :3])) for shape, pose in placed]
         links.append((body, moments, rpy(axes), shapes, cylinders.get(body.name, {})))
     for joint in mechanism.joints:
-        limit = limits(joint, mechanism) | (leg if leg and joint.name == mechanism.spring.joint else {})
+        limit = {**limits(joint, mechanism), **(leg if leg and joint.name == mechanism.spring.joint else {})}
         friction = friction_nm(joint, mechanism, settings)
         joints.append((joint, limit, rubs.joint_damping_nms_per_rad, friction))
     common = {"links": links, "joints": joints, "meshes": meshes, "leg": mechanism.spring.joint}
