@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from jumpcad.building.used_up import used_up
 from jumpcad.catalogue.prices import ESTIMATE, shipped_prices
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
@@ -72,10 +73,11 @@ class BilledPlate:
 
 @dataclass(frozen=True)
 class Bill:
-    """All lines, printed parts first, and the print plates if they were sliced."""
+    """All lines, printed parts first, the print plates if they were sliced, and names of what is used up."""
 
     items: tuple[BillLine, ...]
     plates: tuple[BilledPlate, ...] = ()
+    used: tuple[str, ...] = ()
 
     @property
     def mass_kg(self) -> float:
@@ -117,7 +119,7 @@ class Bill:
         items = (
             replace(item, time_s=times_s.get(item.name)) if item.kind == "printed" else item for item in self.items
         )
-        return Bill(tuple(items), tuple(plates))
+        return Bill(tuple(items), tuple(plates), self.used)
 
 
 @carried
@@ -139,7 +141,7 @@ def bill_of_materials(robot: Robot) -> Bill:
         quantity = sum(thing.units for thing in things)
         each = sum(thing.mass_kg for thing in things) / quantity
         bought.append(BillLine("bought", article, quantity, "", each, "catalogue"))
-    return _priced([*printed, *bought], robot.workshop)
+    return replace(_priced([*printed, *bought], robot.workshop), used=used_up(robot))
 
 
 def mass_facts(bill: Bill) -> list[dict[str, Any]]:
@@ -157,10 +159,10 @@ def mass_facts(bill: Bill) -> list[dict[str, Any]]:
     ]
 
 
-def bill_of_facts(facts: Iterable[Mapping[str, Any]], workshop: Workshop) -> Bill:
-    """Return the bill of `mass_facts` in a manifest, with the prices of a workshop."""
+def bill_of_facts(facts: Iterable[Mapping[str, Any]], workshop: Workshop, used: Iterable[str] = ()) -> Bill:
+    """Return the bill of `mass_facts` in a manifest, with the prices of a workshop and what is used up."""
     keys = ("kind", "name", "quantity", "material", "mass_kg", "source")
-    return _priced([BillLine(*(line[key] for key in keys)) for line in facts], workshop)
+    return replace(_priced([BillLine(*(line[key] for key in keys)) for line in facts], workshop), used=tuple(used))
 
 
 def write_bom(bill: Bill) -> str:
@@ -174,6 +176,8 @@ def _rows(bill: Bill) -> Iterator[Sequence[object]]:
         prices = euros(item.price_eur, 3), euros(item.total_eur)
         row = (item.kind, item.name, item.quantity, item.ordered, item.material, each, total, item.mass_source)
         yield *row, *prices, _seconds(item.time_s), item.price_from
+    for name in bill.used:
+        yield "used up", name, *[""] * (len(COLUMNS) - 2)
     for plate in bill.plates:
         yield "plate", plate.name, 1, "", plate.material, "", "", "", "", "", _seconds(plate.time_s), ""
     total = f"{1000.0 * bill.mass_kg:.3f}"

@@ -118,6 +118,7 @@ def _facts(robot: Robot) -> dict[str, Any]:
     return {
         "mass_kg": robot.mass_kg,
         "masses": mass_facts(bill_of_materials(robot)),
+        "used_up": bill_of_materials(robot).used,
         "bodies": {
             name: {
                 "mass_kg": body.mass_kg,

@@ -151,7 +151,7 @@ def write_times(found: SlicedBundle) -> Bundle:
         If order.md is not text, a user's file would be lost, or the folder cannot be written.
     """
     bundle = found.bundle
-    bill = bill_of_facts(bundle.manifest["masses"], found.workshop).sliced(
+    bill = bill_of_facts(bundle.manifest["masses"], found.workshop, bundle.manifest.get("used_up", ())).sliced(
         {part.name: part.time_s for part in found.parts},
         [BilledPlate(plate.name, plate.material, plate.time_s) for plate in found.plates],
     )

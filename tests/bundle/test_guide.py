@@ -14,7 +14,7 @@ import pytest
 from support.built import LONG_TOES, built, design, geared, of_kit
 
 from jumpcad.building import build
-from jumpcad.building.bom import Bill, BilledPlate, bill_of_materials
+from jumpcad.building.bom import Bill, BilledPlate, bill_of_materials, write_bom
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.firmware_numbers import numbers
@@ -125,6 +125,27 @@ def test_templates_and_figures_name_the_same_values() -> None:
         render("firmware/README.md.j2", missing)
 
 
+USED = ("glue", "solder", "alcohol", "grease", "oil", "tape", "emery", "sandpaper", "gloves", "mask", "epoxy",
+        "baking paper", "cord", "stick", "knife", "vice", "tweezers", "card", "nail", "wedge", "caliper", "multimeter",
+        "crocodile", "marker", "glasses", "drill", "reamer", "saw", "wood", "pliers", "small screwdriver", "AA cells",
+        "scale")  # fmt: skip
+
+
+@pytest.mark.thorough
+def test_the_order_names_every_tool_and_what_is_used_up() -> None:
+    """What another document tells the builder to take stands in order.md too; the bill's rows are those of the list."""
+    caged = build(design("best-jumper"), load_workshop("best-jumper"), "caged")
+    for robot in (built("kenan-2.0"), caged, built("kenan-2.0", leg="carbon-strip-3x6")):
+        order, *others = write_guide(robot).values()
+        told = " ".join(others)
+        assert [
+            word for word in USED if re.search(rf"\b{word}", told, re.I) and not re.search(rf"\b{word}", order, re.I)
+        ] == []
+        used = [line.split(",")[1] for line in write_bom(bill_of_materials(robot)).splitlines() if "used up" in line]
+        assert len(used) > 8
+        assert [name.strip('"') for name in used if name.strip('"') not in order] == []
+
+
 def test_steps_that_others_refer_to_are_those_in_which_it_is_done() -> None:
     """The springs' pin, the battery, the sensor's ends and the wood of the press."""
     steps = {title: int(number) for number, title in re.findall(r"(?m)^## (\d+)\. (.*)$", guide())}
@@ -135,7 +156,7 @@ def test_steps_that_others_refer_to_are_those_in_which_it_is_done() -> None:
         (r"sensor's ends stay free until step (\d+)", "Left plate with the sensor"),
         (r"the sensor's check of step (\d+)", "Left plate with the sensor"),
         (r"none under its screw in step (\d+)", "Pinion; left plate for good"),
-        (r"wood for step (\d+)", "Pinion; left plate for good"),
+        (r"a piece for step (\d+)", "Pinion; left plate for good"),
     ):
         assert numbers_in(pattern, guide()) == [steps[title]], pattern
 
