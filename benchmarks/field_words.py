@@ -118,6 +118,7 @@ WORDS = {
     "score_unit": "unit of the score",
     "cage": "rods of the cage and its mass; null without one",
     "rights_itself.static": "least probability that the robot, put down anyhow, is wound upright",
+    "used_up": "what the guide tells the builder to use up, and spares",
     "limits": "limits that count; those used by less than a tenth do not",
     "grown": "sections that grew by themselves: what, by which factor, for which limit, its use before",
     "verdict": "`jump`, or why there is none",
