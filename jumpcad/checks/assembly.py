@@ -17,7 +17,7 @@ from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_order.plan import Tool
+from jumpcad.scene.assembly_order import Tool
 from jumpcad.scene.assembly_steps import SIDES, MovedParts, Step, assembly_steps, travel
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.solids.outline import disc

@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_order.plan import LEFT, LOWER, UPPER
+from jumpcad.scene.assembly_order import LEFT, LOWER, UPPER
 from jumpcad.scene.assembly_steps import Step, assembly_steps, travel
 from jumpcad.scene.camera import View
 from jumpcad.scene.step_insets import BEHIND, INSETS, Inset

@@ -26,7 +26,7 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.scene import assembly_order, assembly_steps
-from jumpcad.scene.assembly_order.plan import Tool
+from jumpcad.scene.assembly_order import Tool
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop

@@ -15,7 +15,7 @@ from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_order.plan import HEX_AXLE, HEX_M3, NUT_M3, Move
+from jumpcad.scene.assembly_order import TOOLS, Move
 from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
 from jumpcad.scene.step_views import step_views
 from jumpcad.scene.visuals import visuals
@@ -117,11 +117,12 @@ def test_the_springs_pin_of_the_leg_is_drawn_before_the_plate_through_whose_hole
 
 def test_a_key_needs_the_room_of_its_hexagon_and_a_nut_driver_that_of_a_nut() -> None:
     """Across corners, the width across flats over cos 30°; long arms of keys of 2 mm have 50 mm (ISO 2936)."""
-    for tool, across_mm in ((HEX_M3, 2.0), (HEX_AXLE, 2.5), (NUT_M3, 5.5)):
+    for tool, across_mm in (("hex_m3", 2.0), ("hex_axle", 2.5), ("nut_m3", 5.5)):
+        tool = TOOLS[tool]
         assert f" {across_mm:g} mm" in tool.name
         corners_mm = across_mm / math.cos(math.radians(30.0))
         assert corners_mm - 0.05 < tool.diameter_mm < corners_mm + 3.0, tool.name
-    assert HEX_M3.length_mm == 50.0
+    assert TOOLS["hex_m3"].length_mm == 50.0
 
 
 def test_what_no_step_knows_is_not_forgotten(small_robot: Robot) -> None:

@@ -1,38 +1,27 @@
-"""What a step of assembly does: its moves of parts, each with direction and tool.
+"""The order of assembly for any robot: `templates/guides/assembly_order.toml`, which says what each step does.
 
 Parts are named by regular expressions. Parts that a robot lacks are left out.
-Lengths and diameters of tools are those of a usual screwdriver, key or pair of pliers.
 """
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-ROBOT, LEG, FRONT, FOOT, STOP = "robot", "leg", "front link", "foot", "rest stop"
-LOWER, UPPER, LEFT = "lower tray", "upper tray", "left plate"
-"""Assemblies: the robot is built up on the right plate, the others on the bench."""
-TOE_PADS = "toe_(left|right)_pad"
-"""Pads under the toes' tips, which come on with toes that are parts of their own."""
+from jumpcad.files import read_toml, templates_folder
+
+ROBOT, LOWER, UPPER, LEFT = "robot", "lower tray", "upper tray", "left plate"
+"""Assemblies that other modules name: the robot is built up on the right plate, the others on the bench."""
 
 
 @dataclass(frozen=True)
 class Tool:
-    """A straight tool: the cylinder along the fastener's axis, from its end outwards, that must be free (mm)."""
+    """A straight tool: the cylinder along the fastener's axis, from its end outwards, that must be free (mm).
+
+    Lengths and diameters are those of a usual screwdriver, key or pair of pliers.
+    """
 
     name: str
     diameter_mm: float
     length_mm: float
-
-
-HEX_M3 = Tool("hex key 2 mm, long end", 3.0, 50.0)
-"""ISO 2936: 2.3 mm across corners, long arm 50 mm."""
-TORX_M2 = Tool("screwdriver T6", 3.0, 50.0)
-"""Socket 6 of ISO 14580; a blade of 3 mm."""
-HEX_AXLE = Tool("hex key 2.5 mm, long end", 3.5, 50.0)
-NUT_M3 = Tool("nut driver 5.5 mm", 9.0, 40.0)
-PLIERS = Tool("needle-nose pliers", 4.0, 40.0)
-"""Both jaws together at the tip of electronics pliers; judgement."""
-CLIP = Tool("clip applicator", 6.0, 30.0)
-PRESS = Tool("flat-ended bolt or thumb", 8.0, 40.0)
 
 
 @dataclass(frozen=True)
@@ -89,18 +78,16 @@ class Plan:
     moves: tuple[Move, ...] = ()
 
 
-def pin_moves(name: str, reach: str, clips: tuple[str, str] = ("from the right", "from the left")) -> tuple[Move, ...]:
-    """Return the moves of a pin with its split pin, to which pliers come from a side, or with its clips."""
-    return (
-        Move(name, "from the left"),
-        Move(rf"{name}_split_pin", "from the front", "bent", past=name, tool=PLIERS, reach=reach),
-        *clip_moves(name, clips),
-    )
+def _plan(step: dict[str, Any], tools: dict[str, Tool]) -> Plan:
+    """Return a step of the file; its moves name their tools."""
+    moves = []
+    for move in step.pop("moves", ()):
+        tool = tools[move.pop("tool")] if "tool" in move else None
+        moves.append(Move(**{"parts": "", "tool": tool} | move | {"retention": tuple(move.get("retention", ()))}))
+    return Plan(**step, moves=tuple(moves))
 
 
-def clip_moves(name: str, reach: tuple[str, str] = ("from the right", "from the left")) -> tuple[Move, ...]:
-    """Return the moves of the clips at the right and the left end of an axle, sideways onto their grooves."""
-    return tuple(
-        Move(rf"({name})_clip_{end}", "sideways", "snapped", past=rf"({name})", tool=CLIP, reach=side)
-        for end, side in enumerate(reach, start=1)
-    )
+_data, _ = read_toml(templates_folder() / "guides" / "assembly_order.toml")
+TOOLS = {name: Tool(**tool) for name, tool in _data["tools"].items()}
+ORDER: tuple[Plan, ...] = tuple(_plan(step, TOOLS) for step in _data["steps"])
+"""What is done, in this order."""
