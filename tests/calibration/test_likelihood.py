@@ -2,7 +2,6 @@
 
 import math
 import re
-from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
@@ -44,27 +43,6 @@ def test_the_mean_of_nine_jumps_has_a_third_of_the_deviation(what: str, of: str)
     one, nine = (deviation(what, of, count, 0.08, 0.0) for count in (1, 9))
     assert nine == pytest.approx(one / 3.0)
     assert deviation(what, of, 10**8, 0.08, 0.03) == pytest.approx(0.03 * 0.2, rel=1e-3)
-
-
-def test_a_height_is_read_to_15_mm() -> None:
-    assert deviation("height", "rise", 1, 0.0, 0.0) == pytest.approx(0.015)
-    assert deviation("height", "rise", 1, 0.08, 0.03) == pytest.approx(math.hypot(0.015, 0.016, 0.006))
-
-
-@pytest.mark.parametrize(
-    ("what", "known"),
-    [
-        ("distance", lambda off, scale: stats.t(STUDENT_T_DEGREES, scale=scale).logpdf(off)),
-        ("speed", lambda off, scale: stats.norm(scale=scale).logpdf(off) + 0.5 * math.log(2.0 * math.pi)),
-        ("battery", lambda off, scale: stats.norm(scale=scale).logpdf(off) + 0.5 * math.log(2.0 * math.pi)),
-    ],
-)
-def test_densities_are_those_of_the_logarithms_distributions(what: str, known: Callable[[float, float], float]) -> None:
-    """Of a measured 0.25 for a computed 0.2 with a deviation of 0.03: ln 1.25 in units of 0.15."""
-    datum = Datum("robot", what, what, 0.25, 1, 0.0, 0.0)
-    found = _log_density(datum, 0.2 * ONE, 0.03 * ONE)
-    assert found == pytest.approx([known(math.log(1.25), 0.15)])
-    assert _log_density(datum, -ONE, ONE).tolist() == [-math.inf]
 
 
 def test_heights_and_angles_have_a_normal_density() -> None:

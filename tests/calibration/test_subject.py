@@ -6,19 +6,14 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from jumpcad.calibration import subject as subject_module
-from jumpcad.calibration import surface as surface_module
 from jumpcad.calibration.likelihood import CalibrationModel
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.subject import (
-    LARGEST_FACTOR,
     Subject,
-    _require_energy,
     _require_plausible,
-    _require_unit,
     load_subject,
     renamed,
     require_each_once,
@@ -28,10 +23,6 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import templates_folder
 from jumpcad.landing.landing import land
 from jumpcad.mechanism.variants import with_spring_factor
-from jumpcad.robot import Robot
-from jumpcad.settings import Settings
-from jumpcad.simulation import Jump
-from jumpcad.transforms import Array
 from jumpcad.workshop import load_workshop, varied
 
 HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
@@ -200,99 +191,9 @@ def test_a_design_beside_the_measurements(tmp_path: Path, subject: Subject) -> N
     assert built.mass_kg < subject.robot.mass_kg
 
 
-def test_a_pull_along_the_floor_is_compared_with_the_weight_on_the_scale(
-    subject: Subject, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """With the model's where nothing is weighed."""
-    asked: list[float] = []
-    monkeypatch.setattr(subject_module, "contradictions", lambda _, standing, weight: asked.append(weight) or ())
-    monkeypatch.setattr(subject_module, "simulate", lambda *_: None)
-    said = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
-    for mass in ({}, {"robot_g": 150.0}):
-        _require_plausible(subject.remeasured(Measurements(**said, mass=mass)), "mine.toml")
-    assert asked == pytest.approx([9.81 * subject.robot.mass_kg, 9.81 * 0.15])
-
-
 def test_names_of_robots_differ(subject: Subject) -> None:
     names = [one.name for one in renamed([subject, subject, replace(subject, name="other"), subject])]
     assert names == ["kenan-2.0", "kenan-2.0 2", "other", "kenan-2.0 3"]
-
-
-MISTAKES = [
-    *((kind, factor, hint) for kind in ("mass", "part") for factor, hint in
-      ((0.001, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?"))),
-    ("rate", 180.0 / math.pi, "is that per radian?"), ("rate", 0.18 / math.pi, "is that N·m/rad?"),
-    ("rate", 0.001, "is that N·m/deg?"), ("rate", 0.5, "is that of one spring?"),
-    ("rate", 10.0, "a digit too many?"), ("rate", 0.1, "a digit too few?"),
-    ("length", 0.001, "is that m?"), ("length", 0.1, "is that cm?"), ("length", 10.0, "a digit too many?"),
-    ("energy", 1000.0, "is that mJ?"), ("energy", 1.0 / 3600.0, "is that Wh?"), ("energy", 10.0, "a digit too many?"),
-]  # fmt: skip
-"""What a value is of that is so many times the model's: 1 Wh is 3600 J, 1 rad is 57.3°."""
-
-
-@pytest.mark.parametrize(("kind", "factor", "hint"), MISTAKES)
-def test_a_value_in_another_unit_is_asked_about(kind: str, factor: float, hint: str) -> None:
-    """Robots differ: also where the value in its own unit would be a tenth above or below the model's."""
-    for share in (0.9, 1.0, 1.1):
-        with pytest.raises(JumpcadError) as caught:
-            _require_unit("mine.toml", "key", 20.0 * factor * share, 20.0, "units", kind)
-        assert str(caught.value) == (
-            f"mine.toml: key = {20.0 * factor * share:g}: the model has 20 units: {hint} give it in units"
-        )
-
-
-@pytest.mark.parametrize(
-    ("kind", "most"), [("mass", 2.5), ("part", 5.0), ("rate", 1.8), ("length", 5.0), ("energy", 5.0)]
-)
-def test_robots_differ_from_their_model_by_a_factor_at_most(kind: str, most: float) -> None:
-    """A robot may be 2.5 times as light as the model's (docs/calibration.md); no question far from all mistakes."""
-    for inside in (0.99 * most, 1.01 / most, 1.0):
-        _require_unit("mine.toml", "key", 20.0 * inside, 20.0, "g", kind)
-    for outside in (1.01 * most, 0.99 / most):
-        with pytest.raises(JumpcadError, match="the model has 20 g:"):
-            _require_unit("mine.toml", "key", 20.0 * outside, 20.0, "g", kind)
-    with pytest.raises(JumpcadError, match="the model has 20 g: give it in g"):
-        _require_unit("mine.toml", "key", 20.0 * 1e7, 20.0, "g", kind)
-    assert LARGEST_FACTOR[kind] == most
-
-
-def flight_needs(subject: Subject, share: float, weighed: bool) -> float:
-    """Return the height (mm) of a flight of 100 mm that takes a share of the springs' energy, by bisection."""
-    mass_kg = subject.robot.mass_kg * (1.0 if weighed else 1.0 / 2.5)
-    low, high = 0.05, 100.0
-    while high - low > 1e-6:
-        middle = (low + high) / 2.0
-        needs = mass_kg * 9.81 * (middle + 0.1**2 / (16.0 * middle))
-        low, high = (middle, high) if needs < share * subject.robot.spring.energy_j else (low, middle)
-    return 1000.0 * low
-
-
-@pytest.mark.parametrize("weighed", [True, False])
-@pytest.mark.parametrize(("share", "refused"), [(1.09, False), (1.11, True)])
-def test_a_flight_may_need_a_tenth_more_than_the_springs_hold(
-    subject: Subject, weighed: bool, share: float, refused: bool
-) -> None:
-    """Both have errors; a robot that was not weighed counts as 2.5 times as light as the model's."""
-    said = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
-    mass = {"robot_g": 1000.0 * subject.robot.mass_kg} if weighed else {}
-    robot = subject.remeasured(Measurements(**said, mass=mass))
-    high = flight_needs(robot, share, weighed)
-
-    def flown(distance_of: str, height_of: str, **more: Any) -> Subject:
-        far = {"distance_mm": (100.0,), "distance_of": distance_of}
-        jumps = (far | {"height_mm": (high,), "height_of": height_of},)
-        return subject.remeasured(Measurements(**said, mass=mass, jumps=jumps, **more))
-
-    for what in ("centre-of-mass", "first-touchdown"):
-        if refused:
-            with pytest.raises(JumpcadError, match="and the springs hold"):
-                _require_energy(flown(what, "rise"), "mine.toml")
-        else:
-            _require_energy(flown(what, "rise"), "mine.toml")
-    rate = {"rate_nmm_per_deg": 1.25 * subject.rate_nmm_per_deg, "springs": 2}
-    _require_energy(flown("first-touchdown", "rise", spring=rate), "mine.toml")  # these hold a quarter more
-    _require_energy(flown("resting-place", "rise"), "mine.toml")
-    _require_energy(flown("first-touchdown", "absolute"), "mine.toml")
 
 
 @pytest.mark.parametrize(
@@ -343,64 +244,6 @@ def test_measurements_are_named_once_under_one_name(tmp_path: Path) -> None:
     ):
         with pytest.raises(JumpcadError, match=words):
             require_each_once(names)
-
-
-def test_what_is_beyond_the_ballistic_range_is_seen_at_softer_and_harder_springs(
-    subject: Subject, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """From 0.7 to 1.5 times the energy; the mean and the deviation of five jumps, of which one does not fly here."""
-    asked: list[float] = []
-
-    def jump(robot: Robot, settings: Settings, engine: str) -> SimpleNamespace:
-        asked.append(robot.spring.energy_j / subject.robot.spring.energy_j)
-        assert (settings.flight, engine) == ("simulated", "planar")
-        flies = len(asked) != 2
-        return SimpleNamespace(
-            touchdown_distance_m=0.2 + 0.01 * len(asked) if flies else None, ballistic_range_m=0.2 if flies else None
-        )
-
-    monkeypatch.setattr(subject_module, "simulate", jump)
-    mean, deviation = Subject("again", subject.measured, subject.robot, ()).beyond_m
-    assert asked == pytest.approx([0.7, 0.85, 1.0, 1.2, 1.5])
-    seen = (0.01, 0.03, 0.04, 0.05)
-    assert mean == pytest.approx(sum(seen) / 4.0)
-    assert deviation == pytest.approx(math.sqrt(sum((one - mean) ** 2 for one in seen) / 4.0))
-
-
-def test_the_surface_of_a_robot_is_near_its_jumps_from_a_third_to_three_times_their_energy(
-    subject: Subject, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Jumps of a formula here: range grows with the energy, falls with the pins' friction, and bends with the floor's.
-
-    Within 1 % everywhere (docs/calibration.md gives the error on a real robot).
-    """
-
-    def range_m(energy: Array, pins: Array, floor: Array) -> Array:
-        found: Array = 0.2 * energy * (1.0 - 0.3 * pins) * floor / (0.3 + floor)
-        return found
-
-    def jump(robot: Robot, settings: Settings, engine: str) -> Jump:
-        energy = robot.spring.energy_j / subject.robot.spring.energy_j
-        assert (engine, settings.spring_efficiency) == ("planar", 1.0)
-        reach = float(range_m(energy, settings.pin_friction, settings.ground_friction))
-        return Jump(
-            "jump",
-            engine,
-            0.1,
-            0.2,
-            ballistic_range_m=reach,
-            com_rise_m=0.1,
-            takeoff_speed_m_s=1.0,
-            takeoff_angle_deg=60.0,
-        )
-
-    monkeypatch.setattr(surface_module, "simulate", jump)
-    found = Subject("again", subject.measured, subject.robot, ()).surface
-    rng = np.random.default_rng(0)
-    points = (
-        np.exp(rng.uniform(np.log(0.31), np.log(2.99), 300)), rng.uniform(0.0, 0.9, 300), rng.uniform(0.2, 1.3, 300),
-    )  # fmt: skip
-    assert found.at(*points).range_m == pytest.approx(range_m(*points), rel=0.01)
 
 
 def test_equal_words_beside_other_videos_are_other_jumps(tmp_path: Path) -> None:

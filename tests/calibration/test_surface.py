@@ -11,7 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
-from jumpcad.simulation.jump import EnergyBudget, Jump
+from jumpcad.simulation.jump import Jump
 
 
 def test_it_is_the_engine_at_its_nodes(surface: Surface, subject: Subject) -> None:
@@ -93,31 +93,3 @@ def test_a_robot_that_never_jumps_has_no_surface(subject: Subject, monkeypatch: 
     monkeypatch.setattr("jumpcad.calibration.surface._jump", lambda *_: stays)
     with pytest.raises(JumpcadError, match="jumps with no energy, friction or floor that a calibration tries"):
         surface_of(subject.robot)
-
-
-def test_where_the_foot_does_not_slip_more_friction_changes_nothing(
-    subject: Subject, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Such jumps are not made again; up to there each node has its own. Slip counts beside the springs' energy."""
-    asked = []
-
-    def jump(_: object, settings: Settings, energy: float, pins: float, floor: float) -> Jump:
-        asked.append((energy, pins, floor))
-        assert settings.dt_s == DT_S
-        slip_j = 2e-4 * (floor < 0.5) + 0.9e-4 * (floor >= 0.5)
-        return Jump(
-            "jump", "planar", 0.1, 0.5, ballistic_range_m=10.0 * energy + floor, com_rise_m=pins,
-            takeoff_speed_m_s=2.0, takeoff_angle_deg=60.0,
-            energy=EnergyBudget(0.1, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5 * slip_j, 0.0),
-        )  # fmt: skip
-
-    monkeypatch.setattr("jumpcad.calibration.surface._jump", jump)
-    monkeypatch.setattr("jumpcad.calibration.surface.FINE", (3, 3, 12))
-    nodes = ((0.5, 1.0), (0.0, 0.9), (0.2, 0.4, 0.6, 0.9, 1.3))
-    found = surface_of(subject.robot, nodes=nodes)
-    assert asked == [(e, p, f) for e in nodes[0] for p in nodes[1] for f in (0.2, 0.4, 0.6)]
-    jumps = found.at(np.full(6, 1.0), np.full(6, 0.9), np.array([0.2, 0.4, 0.6, 0.9, 1.1, 1.3]))
-    assert jumps.range_m == pytest.approx([10.2, 10.4, 10.6, 10.6, 10.6, 10.6])
-    assert jumps.rise_m == pytest.approx(0.9)
-    assert jumps.speed_m_s == pytest.approx(2.0)
-    assert jumps.angle_deg == pytest.approx(60.0)

@@ -2,11 +2,9 @@
 
 import pytest
 
-from jumpcad import published
 from jumpcad.bundle.compared import compared_of
 from jumpcad.design import load_design
 from jumpcad.files import template_names
-from jumpcad.paper import reproduction
 from jumpcad.paper.reproduction import HYPERPARAMETERS, PUBLISHED_RESULTS, Reproduction, reproduce
 
 
@@ -36,11 +34,6 @@ def test_published_figures_flatter_weak_jumpers(rows: dict[str, Reproduction]) -
         row = rows[name]
         assert row.again.distance_m > 1.5 * row.jump.ballistic_range_m
         assert row.again.base_height_m > 2 * row.jump.com_rise_m
-
-
-def test_hyperparameters_that_differ_are_the_known_three() -> None:
-    differing = {item.name for item in HYPERPARAMETERS if item.in_table not in (None, item.in_results)}
-    assert differing == {"lateral friction", "spinning friction", "restitution"}
 
 
 def test_hyperparameters_are_those_of_the_studys_table_and_of_its_code() -> None:
@@ -77,15 +70,3 @@ def test_a_row_says_what_was_measured_of_a_built_robot(rows: dict[str, Reproduct
         assert found["robot"] == name
         assert found["reproduced"]["distance_m"] == row.again.distance_m
         assert found["evaluated"]["touchdown_distance_m"] == row.jump.touchdown_distance_m
-
-
-@pytest.mark.parametrize("engine", ["pybullet", "planar"])
-def test_the_evaluators_jumps_are_of_the_engine_that_was_asked_for(
-    engine: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """With the flight simulated, up to the touchdown."""
-    asked = []
-    monkeypatch.setattr(reproduction, "simulate", lambda robot, settings, engine: asked.append((settings, engine)))
-    monkeypatch.setattr(published, "simulate", lambda design: None)
-    assert len(reproduce(engine)) == 4
-    assert [(settings.flight, one) for settings, one in asked] == [("simulated", engine)] * 4

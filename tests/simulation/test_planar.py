@@ -97,20 +97,6 @@ def test_a_body_that_comes_down_is_said(flights: list[Flight]) -> None:
     assert "body_contact" not in [one.name for one in run.findings()]
 
 
-def test_what_the_push_off_gained_counts_as_a_share_of_the_springs(
-    kenan: Robot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A tenth of their energy more than at release, somewhere on the way; the run is then not sound."""
-    push_off = PlanarWorld.push_off
-    more_j = 0.1 * kenan.spring.energy_j
-    monkeypatch.setattr(PlanarWorld, "push_off", lambda world: push_off(world)._replace(worst_gain_j=more_j))
-    with PlanarEngine().world(kenan, Settings()) as world:
-        run = PlanarRun(world, kenan, Settings())
-        run.go()
-    assert run.worst_energy_ratio == pytest.approx(1.1)
-    assert run.takeoff is None
-
-
 @pytest.mark.parametrize(
     ("key", "value"),
     [("restitution", 0.5), ("rolling_friction_m", 0.01)],

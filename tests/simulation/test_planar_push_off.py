@@ -21,30 +21,6 @@ def test_a_robot_flies_once_it_has_been_in_the_air_for_4_ms(kenan: Robot, more_s
     assert PlanarWorld(kenan, until).push_off().flown == flown
 
 
-@pytest.mark.parametrize("within_s", [0.002, 0.004])
-def test_who_has_not_flown_for_a_while_after_its_springs_came_to_rest_does_not_jump(
-    kenan: Robot, within_s: float
-) -> None:
-    """Counted from the first step past rest; here from a robot of which more time in the air is asked than it has."""
-    world = PlanarWorld(kenan, FINE)
-    moment, steps = world.moment, 0
-    while moment.leg_rad < 0.0:
-        moment, steps = kernel.advance(world.model, moment, FINE.dt_s, 1), steps + 1
-    found = kernel.push_off(world.model, world.moment, FINE.dt_s, 0.1, 0.0, within_s, FINE.max_time_s, 16)
-    assert not found.flown
-    assert (found.steps - steps) * FINE.dt_s == pytest.approx(within_s, abs=1.5 * FINE.dt_s)
-
-
-def test_the_energy_at_take_off_is_audited_however_seldom_others_are(kenan: Robot) -> None:
-    """It is what damping, impact and slip have left of the springs'."""
-    world = PlanarWorld(kenan, FINE)
-    found = kernel.push_off(world.model, world.moment, FINE.dt_s, 0.004, 0.0, 0.1, FINE.max_time_s, 10**9)
-    assert found.flown
-    change = kernel.energy(world.model, found.moment) - kernel.energy(world.model, world.moment)
-    assert found.worst_gain_j == pytest.approx(change, abs=1e-12)
-    assert -0.5 * kenan.spring.energy_j < found.worst_gain_j < 0.0
-
-
 def test_a_robot_whose_leg_stops_before_its_springs_are_at_rest_flies(kenan: Robot) -> None:
     """Against a hard stop 0.1 rad before rest: the leg extends no further, and the springs push on nothing else."""
     world = PlanarWorld(stopped(kenan, -0.1, 1e4), with_damping(FINE))

@@ -129,18 +129,3 @@ def test_a_draw_that_cannot_be_built_counts_as_no_jump(robot: Robot, monkeypatch
     assert (found.jumps, found.jumps_share) == (16, 0.75)
     assert all(quantiles[0] == 0.0 < quantiles[1] for quantiles in found.quantiles.values())
     assert found.to_dict()["jumps_share"] == 0.75
-
-
-def test_shares_of_a_resample_are_those_of_its_jumps_alone() -> None:
-    """Whatever the other jumps were, and wherever the zero of the figures is."""
-    rng = np.random.default_rng(3)
-    inputs = {"a": rng.normal(size=(64, 2)), "b": rng.random((64, 1))}
-    figures = np.column_stack([inputs["a"][:, 0] + 0.3 * rng.normal(size=64), inputs["b"][:, 0] ** 2])
-    rows = rng.integers(0, 16, 48)
-    found = _first_order(inputs, figures, rows)
-    assert found == pytest.approx(
-        _first_order({name: values[rows] for name, values in inputs.items()}, figures[rows], np.arange(48))
-    )
-    assert found == pytest.approx(_first_order(inputs, 100.0 + 7.0 * figures, rows))
-    assert found[0, 0] > 0.7 > 0.4 > found[1, 0]
-    assert found[1, 1] > 0.95

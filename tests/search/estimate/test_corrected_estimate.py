@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from support.quick import BEST, FIGURES, LIKE, SPACE, Quick, quick
 
-from jumpcad.errors import JumpcadError
 from jumpcad.search.estimate.corrected_estimate import PAIRS, Screen
 from jumpcad.search.estimate.estimate import LEAST, Estimate
 from jumpcad.search.estimate.estimated_robot import LAID
@@ -68,12 +67,6 @@ def test_a_search_that_was_interrupted_and_a_worker_give_the_same_rows(trials, t
     assert search(tmp_path / "again.db", workers=1) == trials
 
 
-def test_where_it_does_not_apply_it_is_refused():
-    for name, method in (("printed", "bo"), ("capsule", "ga")):
-        with pytest.raises(JumpcadError, match="screen"):
-            Request.make(SPACE, robot_model(name), method, screen=True)
-
-
 def screen_of(estimate):
     """Return a screen of a model without solids, with such estimates by the first coordinate of a variant."""
     screen = Screen(SPACE, quick(), find_objective("body_lengths"))
@@ -129,18 +122,6 @@ def test_of_a_generation_those_are_built_that_may_be_better_than_the_best_and_th
     }  # fmt: skip
     monkeypatch.setattr(Quick, "admits", lambda *_: False)
     assert screen.outcomes(variants.values(), 9.0) == {}  # refused at once, with the reason
-
-
-def test_what_is_far_worse_is_not_even_laid_out(monkeypatch):
-    """By more than a tenth: of a best score of 1 with a rough estimate of 0.9, and not with one of 0.92."""
-    monkeypatch.setattr(Quick, "admits", lambda *_: True)
-    for score, laid_out in ((0.9, False), (0.92, True)):
-        laid, screen = [], screen_of(lambda _: None)
-        screen._estimator.rough = lambda _, score=score: Estimate(score, {})
-        screen._estimator.layout = lambda one, laid=laid: laid.append(one) or LAYOUT
-        found = screen.outcomes([Variant(BEST)], 1.0)
-        assert (laid == [Variant(BEST)]) is laid_out
-        assert (found == {}) is laid_out
 
 
 def test_what_masses_refuse_has_the_outcome_of_its_evaluation():

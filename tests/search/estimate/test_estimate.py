@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.quick import BEST, FIGURES, LIKE, SPACE, quick
 
-from jumpcad.search.estimate.estimate import Estimator, learned_rows
+from jumpcad.search.estimate.estimate import Estimator
 from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, estimated_robot
 from jumpcad.search.estimate.fitted_figures import FittedFigures
 from jumpcad.search.space import Space
@@ -129,12 +129,6 @@ def test_what_is_not_fitted_is_that_of_a_robot_of_the_search_s_own_workshop(monk
     other = Estimator(Space.parse(bound=["body.plate_mm=1.6:2.4"], workshop=shop), model, objective)
     other.learn(trials)
     assert not other.ready
-
-
-def test_rows_are_learned_in_steps():
-    """8 times 1.3, 1.3², 1.3³, …: 10.4, 13.5, …, 84.8, rounded."""
-    steps = {7: 0, 8: 8, 9: 8, 10: 8, 11: 10, 15: 14, 100: 85}
-    assert {known: learned_rows(known) for known in steps} == steps
 
 
 def test_an_estimated_robot_has_the_springs_of_its_robot():

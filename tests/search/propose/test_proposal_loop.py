@@ -188,15 +188,6 @@ def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as
     assert loop.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
 
 
-@pytest.mark.parametrize("refused", [True, False])
-def test_what_has_no_room_may_not_be_proposed(refused):
-    variant = SMALL.to_variant([0.5, 0.5, 0.5])
-    dry_run = DryRun()
-    dry_run.estimator.refuses = lambda one: refused and one == variant
-    assert ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False).may_hold(variant) != refused
-    assert ProposalLoop(SMALL, TRIALS, None, {}, refit=False).may_hold(variant)
-
-
 def variant_of(loop, key):
     return next(one for one in map(SMALL.to_variant, loop.tried) if one.key == key)
 

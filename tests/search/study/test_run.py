@@ -46,21 +46,6 @@ def test_an_hour_counts_from_what_was_read_to_what_is_computed(monkeypatch):
         assert (clock.is_over(), free.is_over(), reading.is_over()) == (over, False, False)
 
 
-def test_time_is_kept_for_what_follows_at_the_pace_so_far_and_a_quarter_at_most(monkeypatch):
-    """Ten evaluations in 1000 s: two that follow take 200 s; twenty would take 2000 s, and get 900 s of an hour."""
-    now = [0.0]
-    monkeypatch.setattr(study, "time", SimpleNamespace(monotonic=lambda: now[0]))
-    clock = study.Clock(1.0)
-    clock.see(False)
-    for number in range(10):
-        now[0] = 100.0 * (number + 1)
-        clock.see(True)
-    assert not clock.is_over(20)
-    for at, of_two, of_twenty in ((2600.0, False, False), (2800.0, False, True), (3100.0, True, True)):
-        now[0] = at
-        assert (clock.is_over(2), clock.is_over(20), clock.is_over()) == (of_two, of_twenty, False)
-
-
 def test_a_robust_pick_ends_with_the_time_and_the_same_request_goes_on(tmp_path, monkeypatch):
     """The time is over after some of its evaluations: what it has is kept, and the rest follows later."""
     request = replace(REQUEST, method="ga", evaluations=60)

@@ -14,7 +14,6 @@ from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
-from jumpcad.search.study.database import connect
 from jumpcad.search.study.store import ENDED, FORMAT, MOST_NOTES, StudyStore
 
 
@@ -234,28 +233,3 @@ def test_of_very_many_notes_the_newest_are_read_in_their_order(tmp_path):
         store.note("first")
         store.note("x" * 5000)
         assert store.notes() == ["first", "x" * 1000]
-
-
-def test_a_study_for_which_there_is_no_space_or_that_cannot_be_opened_leaves_no_file(tmp_path, monkeypatch):
-    def full(target):
-        connection = connect(target)
-        connection.execute("PRAGMA max_page_count = 1")
-        return connection
-
-    monkeypatch.setattr("jumpcad.search.study.store.connect", full)
-    with pytest.raises(JumpcadError, match="disk is full"):
-        StudyStore.write(tmp_path / "s.db", {})
-    assert list(tmp_path.iterdir()) == []
-    (tmp_path / "mine.db").touch()  # which was there before, stays
-    with pytest.raises(JumpcadError, match="disk is full"):
-        StudyStore.write(tmp_path / "mine.db", {})
-    assert (tmp_path / "mine.db").is_file()
-
-    def closed(_):
-        raise sqlite3.OperationalError("unable to open database file")
-
-    monkeypatch.setattr("jumpcad.search.study.store.connect", closed)
-    for name, left in (("s.db", False), ("mine.db", True)):
-        with pytest.raises(JumpcadError, match="unable to open"):
-            StudyStore.write(tmp_path / name, {})
-        assert (tmp_path / name).exists() == left
