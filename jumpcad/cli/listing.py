@@ -1,6 +1,6 @@
 """`jumpcad list`: what ships with jumpcad and can be named on the command line or in a workshop."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any
 
 import typer
@@ -86,30 +86,26 @@ def described(kind: str) -> dict[str, str]:
         return {name: f"{words} ({units[name]})" if units[name] else words for name, words in FIGURES.items()}
     from jumpcad.catalogue import load_catalogue
 
-    parts: Mapping[str, Any] = getattr(load_catalogue(), kind)
-    return {name: part_in_words(kind, part) for name, part in parts.items()}
+    words = IN_WORDS.get(kind, lambda one: str(one.description).rstrip(","))
+    return {name: words(part) for name, part in getattr(load_catalogue(), kind).items()}
 
 
-def part_in_words(kind: str, part: Any) -> str:
-    """Return a bought part's main figures."""
-    if kind == "kits":
-        return f"{', '.join(part.motors)}; {part.battery}; {part.controller}; {part.driver}"
-    if kind == "motors":
-        return (
-            f"{part.ratio:g}:1, {part.voltage_v:g} V, {part.no_load_rpm:g}/min, "
-            f"{1000.0 * part.stall_torque_nm:.0f} mN·m stalled, {part.mass_g:g} g"
-        )
-    if kind == "bearings":
-        sides = f"{part.bore_mm:g} x {part.outer_mm:g} x {part.width_mm:g} mm"
-        return f"{sides}, {part.static_load_n:g} N, {part.mass_g:g} g"
-    if kind == "batteries":
-        return f"{part.description}, {part.mass_g:g} g"
-    if kind == "springs":
-        return (
-            f"wire {part.wire_mm:g} mm, inside {part.inside_diameter_mm:g} mm, {part.turns:g} turns, "
-            f"{part.rate_nmm_per_deg:g} N·mm/°"
-        )
-    return str(part.description).rstrip(",")
+IN_WORDS: dict[str, Callable[[Any], str]] = {
+    "kits": lambda one: f"{', '.join(one.motors)}; {one.battery}; {one.controller}; {one.driver}",
+    "motors": lambda one: (
+        f"{one.ratio:g}:1, {one.voltage_v:g} V, {one.no_load_rpm:g}/min, "
+        f"{1000.0 * one.stall_torque_nm:.0f} mN·m stalled, {one.mass_g:g} g"
+    ),
+    "bearings": lambda one: (
+        f"{one.bore_mm:g} x {one.outer_mm:g} x {one.width_mm:g} mm, {one.static_load_n:g} N, {one.mass_g:g} g"
+    ),
+    "batteries": lambda one: f"{one.description}, {one.mass_g:g} g",
+    "springs": lambda one: (
+        f"wire {one.wire_mm:g} mm, inside {one.inside_diameter_mm:g} mm, {one.turns:g} turns, "
+        f"{one.rate_nmm_per_deg:g} N·mm/°"
+    ),
+}
+"""Main figures of bought parts, of those kinds whose description does not say them."""
 
 
 def _first_sentence(text: str) -> str:

@@ -25,19 +25,6 @@ from jumpcad.settings import Settings, coefficients
 from jumpcad.solids.stl import write_stl
 from jumpcad.transforms import Array
 
-TEMPLATES = {
-    "package.xml": "package.xml",
-    "CMakeLists.txt": "CMakeLists.txt",
-    "README.md": "README.md",
-    "view_robot.launch.py": "launch/view_robot.launch.py",
-    "gazebo.launch.py": "launch/gazebo.launch.py",
-    "controllers.yaml": "config/controllers.yaml",
-    "view.rviz": "rviz/view.rviz",
-    "robot.urdf.xacro": "urdf/@MODEL@.urdf.xacro",
-    "ros2_control.xacro": "urdf/ros2_control.xacro",
-    "gazebo.xacro": "urdf/gazebo.xacro",
-}
-"""Templates with @WORDS@ to be replaced, and their paths in the package."""
 BASE = "base_link"
 MESHES = "meshes"
 MIMIC_POINTS = 65
@@ -72,9 +59,10 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
         "SPRING_REFERENCE": f"{robot.spring.preload_rad:.9g}",
         "SPRING_STIFFNESS": f"{robot.spring.stiffness_nm_per_rad:.9g}",
     }
-    for name, path in TEMPLATES.items():
-        text = (templates_folder() / "ros2" / name).read_text(encoding="utf-8")
-        path, text = (re.sub("@([A-Z_]+)@", lambda found: words[found[1]], one) for one in (path, text))
+    templates = templates_folder() / "ros2"  # with @WORDS@ to be replaced, in their names too
+    for file in sorted(path for path in templates.rglob("*") if path.is_file()):
+        texts = file.relative_to(templates).as_posix(), file.read_text(encoding="utf-8")
+        path, text = (re.sub("@([A-Z_]+)@", lambda found: words[found[1]], one) for one in texts)
         yield f"{folder}/{path}", text
     for mesh, shape in {shape.mesh_name: shape.mesh for shape in visible}.items():
         yield f"{folder}/{MESHES}/{mesh}.stl", write_stl(shape)

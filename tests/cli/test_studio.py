@@ -21,54 +21,19 @@ def test_a_bundle_whose_workshop_is_not_its_own_is_not_opened(monkeypatch: pytes
         _design(str(ROOT / "exports" / "kenan-2.0"), None)
 
 
-class Server:
-    """A server that ends at once."""
-
-    def __init__(self, port: int) -> None:
-        self.port = port
-
-    def get_port(self) -> int:
-        return self.port
-
-    def sleep_forever(self) -> None:
-        """Do nothing."""
-
-
-@pytest.fixture
-def opened(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[tuple[object, ...]]:
-    """What the studio was opened with, by commands that end at once."""
-    found: list[tuple[object, ...]] = []
-
-    class Studio:
-        def __init__(self, *given: object) -> None:
-            found.append(given)
-
-        def start(self) -> None:
-            """Do nothing."""
-
-        def end(self) -> None:
-            """Do nothing."""
-
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setitem(sys.modules, "jumpcad.studio", SimpleNamespace(Studio=Studio))
-    monkeypatch.setitem(sys.modules, "jumpcad.studio.server", SimpleNamespace(own_server=Server))
-    monkeypatch.setattr("jumpcad.cli.studio._point", lambda file, trial, shop: ("design", "its", "points", trial or 7))
-    return found
-
-
-def test_a_studio_is_started_and_ends_however_its_server_does(
-    opened: list[tuple[object, ...]], run: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_studio_is_started_and_ends_however_its_server_does(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     acts: list[str] = []
 
-    def interrupted(_: Server) -> None:
+    def interrupted() -> None:
         acts.append("served")
         raise KeyboardInterrupt
 
-    studio = sys.modules["jumpcad.studio"].Studio
-    monkeypatch.setattr(Server, "sleep_forever", interrupted)
-    monkeypatch.setattr(studio, "start", lambda _: acts.append("started"))
-    monkeypatch.setattr(studio, "end", lambda _: acts.append("ended"))
+    def opened(*_: object) -> SimpleNamespace:
+        return SimpleNamespace(start=lambda: acts.append("started"), end=lambda: acts.append("ended"))
+
+    server = SimpleNamespace(get_port=lambda: 8080, sleep_forever=interrupted)
+    monkeypatch.setitem(sys.modules, "jumpcad.studio", SimpleNamespace(Studio=opened))
+    monkeypatch.setitem(sys.modules, "jumpcad.studio.server", SimpleNamespace(own_server=lambda _: server))
     assert run("studio", "best-bo")[0] == 130
     assert acts == ["started", "served", "ended"]
 
