@@ -12,6 +12,7 @@ from jumpcad.building.bom import Bill, BillLine, mass_facts
 from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
+from jumpcad.coupon.pictures import coupon_pictures
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
 from jumpcad.coupon.readings import JOINT_KEYS, floor_breaks_n
 from jumpcad.exporters.threemf import plate_files
@@ -54,6 +55,8 @@ def _contents(workshop: Workshop, holes: HoleSizes, made: Sequence[Piece]) -> It
         require_part(piece.name, stl)
         yield f"stl/{piece.name}.stl", stl
     yield from plate_files(made, workshop)
+    for name, png in coupon_pictures(made, holes).items():
+        yield f"pictures/{name}.png", png
     values = coupon_values(workshop, holes)
     yield "coupon.md", render("guides/coupon.md.j2", values)
     yield READINGS, fill("guides/readings.toml.j2", values)

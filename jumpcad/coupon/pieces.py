@@ -153,6 +153,16 @@ def gauge_rows(holes: HoleSizes, steps: Series) -> list[GaugeRow]:
     return [*rows, GaugeRow("P", tuple((f"{peg:g}", peg) for peg in PEGS_MM), pegs=True)]
 
 
+def row_middles_mm(rows: Sequence[GaugeRow]) -> list[float]:
+    """Return where the middles of a gauge's rows are along y."""
+    y = -2.0 * MARGIN_MM - TITLE_MM
+    middles = []
+    for row in rows:
+        middles.append(y - row.size_mm / 2.0)
+        y -= row.size_mm + LABEL_GAP_MM + LETTERS_MM + MARGIN_MM
+    return middles
+
+
 def gauge(holes: HoleSizes, steps: Series, title: str) -> Stack:
     """Return the plate with the material's name, the rows of holes and the row of pegs."""
     rows = gauge_rows(holes, steps)
@@ -162,16 +172,16 @@ def gauge(holes: HoleSizes, steps: Series, title: str) -> Stack:
     letters = [name.translate((MARGIN_MM, -MARGIN_MM - TITLE_MM)) for name in named]
     cut: list[Region] = []
     pegs: list[Region] = []
-    y = -2.0 * MARGIN_MM - TITLE_MM
-    for row in rows:
-        middle, line = y - row.size_mm / 2.0, y - row.size_mm - LABEL_GAP_MM - LETTERS_MM
+    line = 0.0
+    for row, middle in zip(rows, row_middles_mm(rows), strict=True):
+        line = middle - row.size_mm / 2.0 - LABEL_GAP_MM - LETTERS_MM
         if row.letter:
             letters.append(text(row.letter, TITLE_MM).translate((MARGIN_MM, middle - TITLE_MM / 2.0)))
         for column, (label, diameter) in enumerate(row.places):
             x = left + across * (column * (2 if row.pegs else 1) + 0.5)  # space for the jaws of callipers
             letters.append(centred(label, LETTERS_MM).translate((x, line)))
             (pegs if row.pegs else cut).append((disc if row.pegs else hole)(diameter, (x, middle)))
-        y = line - MARGIN_MM
+    y = line - MARGIN_MM
     size = left + COLUMNS * across, -y
     plate = rectangle(size, (size[0] / 2.0, y / 2.0), MARGIN_MM)
     solid = Stack.of([(0.0, GAUGE_MM, plate - union(cut)), (0.0, GAUGE_MM + PEG_HEIGHT_MM, union(pegs))])

@@ -8,6 +8,7 @@ import pytest
 from support.fits import with_fits_apart
 
 from jumpcad.coupon.export import coupon_values, export_coupon
+from jumpcad.coupon.pictures import GROUPS
 from jumpcad.coupon.pieces import coupon_holes
 from jumpcad.coupon.readings import Readings, measured_workshop
 from jumpcad.files.rendering import fill
@@ -27,6 +28,17 @@ def coupon(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.thorough
 def test_the_same_workshop_gives_the_same_bytes(coupon: Path, tmp_path: Path) -> None:
     assert contents(export_coupon(load_workshop("fine"), tmp_path / "b").folder) == contents(coupon)
+
+
+def test_every_piece_and_every_reading_of_a_joint_is_in_a_picture(coupon: Path) -> None:
+    """One gauge stands for those of all materials; the instructions show each picture."""
+    pieces = {file.stem for file in (coupon / "stl").iterdir() if not file.stem.startswith("gauge_")}
+    seen = [name for name in pieces for group in GROUPS.values() for key in group if re.fullmatch(key, name)]
+    assert sorted(seen) == sorted(pieces)
+    written = {reading for group in GROUPS.values() for reading in group.values() if reading}
+    assert written == {*re.findall(r"^# (\w+) =", (coupon / "readings.toml").read_text().split("[joints]")[1], re.M)}
+    shown = re.findall(r"\(pictures/(.*)\)", (coupon / "coupon.md").read_text(encoding="utf-8"))
+    assert sorted(shown) == sorted(file.name for file in (coupon / "pictures").iterdir())
 
 
 def test_the_file_for_readings_has_every_fit_of_the_workshop_and_is_read_as_it_stands() -> None:
