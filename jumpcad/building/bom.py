@@ -33,7 +33,7 @@ class BillLine:
     """One line: mass, price and printing time are those of one piece.
 
     `kind` is `printed`, `pad` (printed of a soft material) or `bought`. The robot has `quantity` pieces; what it costs
-    are those that are `ordered`. `price_from` is `workshop`, a shop with its date, or `estimate`.
+    are those that are `ordered`, in packs of `pack`. `price_from` is `workshop`, a shop with its date, or `estimate`.
     """
 
     kind: str
@@ -45,6 +45,7 @@ class BillLine:
     price_eur: float | None = None
     time_s: float | None = None
     price_from: str = ""
+    pack: int = 1
 
     @property
     def total_kg(self) -> float:
@@ -53,8 +54,8 @@ class BillLine:
 
     @property
     def ordered(self) -> int:
-        """How many pieces are ordered: of springs more than the robot has, to choose from."""
-        return self.quantity * (ORDERED if self.name.endswith(CHOOSE) else 1)
+        """How many pieces are ordered: whole packs, and of springs more than the robot has, to choose from."""
+        return -(-self.quantity * (ORDERED if self.name.endswith(CHOOSE) else 1) // self.pack) * self.pack
 
     @property
     def total_eur(self) -> float | None:
@@ -208,19 +209,19 @@ def _priced(items: Sequence[BillLine], workshop: Workshop) -> Bill:
             raise JumpcadError(f"prices_eur.{shown(key)}: no article's name begins so{hint}; bom.csv lists them")
     lines = []
     for item in items:
-        price, source = _price(item, workshop)
-        lines.append(replace(item, price_eur=price, price_from=source))
+        price, source, pack = _price(item, workshop)
+        lines.append(replace(item, price_eur=price, price_from=source, pack=pack))
     return Bill(tuple(lines))
 
 
-def _price(item: BillLine, workshop: Workshop) -> tuple[float | None, str]:
-    """Return the price of one piece, and where it is from."""
+def _price(item: BillLine, workshop: Workshop) -> tuple[float | None, str, int]:
+    """Return the price of one piece, where it is from, and how many are sold together."""
     if item.kind == "printed":
         material = workshop.materials.get(item.material)
         if material is not None and material.price_eur_per_kg is not None:
-            return material.price_eur_per_kg * item.mass_kg, OWN
-        return shipped_prices().filament_eur_per_kg * item.mass_kg, ESTIMATE
+            return material.price_eur_per_kg * item.mass_kg, OWN, 1
+        return shipped_prices().filament_eur_per_kg * item.mass_kg, ESTIMATE, 1
     beginnings = [beginning for beginning in workshop.prices_eur if item.name.startswith(beginning)]
     if beginnings:
-        return workshop.prices_eur[max(beginnings, key=len)], OWN
-    return shipped_prices().eur(item.name) or (None, "")
+        return workshop.prices_eur[max(beginnings, key=len)], OWN, 1
+    return shipped_prices().eur(item.name) or (None, "", 1)

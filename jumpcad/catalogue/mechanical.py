@@ -86,9 +86,9 @@ class StockSpring(Article):
         left, right = self.left_hand, self.right_hand
         number, other = (left, right) if hand == "left" else (right, left)
         if number or not other:
-            return f"torsion spring {number or self.name}, {hand} hand"
+            return f"torsion spring, {hand} hand, {number or self.name}"
         return (
-            f"torsion spring, {hand}-hand twin of {other} ({self.arm_angle_deg:g}°, wire {self.wire_mm:g} mm, outside "
+            f"torsion spring, {hand} hand, twin of {other} ({self.arm_angle_deg:g}°, wire {self.wire_mm:g} mm, outside "
             f"diameter {self.inside_diameter_mm + 2.0 * self.wire_mm:.2f} mm, {self.turns:g} turns)"
         )
 

@@ -12,9 +12,10 @@ Euros = Annotated[float, Field(gt=0, le=1e4)]
 
 
 class Price(TomlTable):
-    """Price of one piece; without a shop it is an estimate."""
+    """Price of a pack, mostly of one piece; without a shop it is an estimate."""
 
     price: Euros
+    pack: Annotated[int, Field(ge=1, le=1000)] = 1
     currency: Literal["EUR", "USD"] = "EUR"
     shop: Text = ""
     date: Text = ""
@@ -27,14 +28,14 @@ class Prices(TomlTable):
     filament_eur_per_kg: Euros
     pieces: dict[Name, Price]
 
-    def eur(self, article: str) -> tuple[float, str] | None:
-        """Return the price of an article (€), and the shop with its date, or `estimate`; None if there is none."""
+    def eur(self, article: str) -> tuple[float, str, int] | None:
+        """Return the price of one piece (€), the shop with its date, or `estimate`, and how many are sold together."""
         beginnings = [beginning for beginning in self.pieces if article.startswith(beginning)]
         if not beginnings:
             return None
         found = self.pieces[max(beginnings, key=len)]
-        price = found.price * (self.eur_per_usd if found.currency == "USD" else 1.0)
-        return price, f"{found.shop}, {found.date}" if found.shop else ESTIMATE
+        price = found.price / found.pack * (self.eur_per_usd if found.currency == "USD" else 1.0)
+        return price, f"{found.shop}, {found.date}" if found.shop else ESTIMATE, found.pack
 
 
 ESTIMATE = "estimate"

@@ -60,10 +60,10 @@ def test_a_bearing_weighs_less_than_a_ring_of_steel_of_its_size() -> None:
 
 def test_each_hand_is_ordered_by_its_number_or_as_the_twin_of_the_other() -> None:
     springs = load_catalogue().springs
-    assert springs["9271K272"].article("right") == "torsion spring McMaster-Carr 9271K271, right hand"
-    assert springs["9271K133"].article("right") == "torsion spring 9271K133, right hand"
+    assert springs["9271K272"].article("right") == "torsion spring, right hand, McMaster-Carr 9271K271"
+    assert springs["9271K133"].article("right") == "torsion spring, right hand, 9271K133"
     twin = springs["9271K589"].article("right")
-    assert twin.startswith("torsion spring, right-hand twin of McMaster-Carr 9271K589 (90°, ")
+    assert twin.startswith("torsion spring, right hand, twin of McMaster-Carr 9271K589 (90°, ")
     assert "wire 2.667 mm, outside diameter 21.54 mm" in twin  # 0.105 and 0.848 in
 
 

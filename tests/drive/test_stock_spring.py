@@ -66,8 +66,8 @@ def test_a_stock_spring_can_be_built_in(robot: Robot) -> None:
     """Nearly six times as stiff as Kenan's, it breaks nothing; in a softer axle it would."""
     assert errors(constraint_findings(robot)) == []
     articles = {item.name: item.article for item in robot.hardware if item.name in ("spring_left", "spring_right")}
-    assert articles["spring_left"].startswith("torsion spring, right-hand twin of McMaster-Carr 9271K589 (90°")
-    assert articles["spring_right"].startswith("torsion spring McMaster-Carr 9271K589, left hand, arms cut to ")
+    assert articles["spring_left"].startswith("torsion spring, right hand, twin of McMaster-Carr 9271K589 (90°")
+    assert articles["spring_right"].startswith("torsion spring, left hand, McMaster-Carr 9271K589, arms cut to ")
 
 
 def test_its_stress_is_that_of_its_torque() -> None:
