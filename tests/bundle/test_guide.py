@@ -184,7 +184,9 @@ def test_what_is_known_of_prices_is_said_for_all_pieces() -> None:
     screws = (one for one in bill.items if one.name.startswith("screw M3 x 8"))
     dear = Bill(tuple(replace(one, price_eur=0.25, price_from="workshop") for one in screws))
     assert "- 4 × screw M3 x 8 ISO 7380-1: 1.00 €\n" in bill_text(dear)
-    assert re.findall(r": ([\d.]+) € \((.*)\)\n", bill_text(bill)) == [("21.55", "Pololu 2371, 2026-10-10")]
+    said = re.findall(r": ([\d.]+) € (?:for \d+ )?\((.*)\)\n", bill_text(bill))
+    assert said == [(f"{one.total_eur:.2f}", one.price_from) for one in bill.items if one.price_from != "estimate"]
+    assert ("21.55", "Pololu 2371, 2026-10-10") in said
 
 
 def require_accepted_springs(name: str) -> None:
