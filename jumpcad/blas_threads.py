@@ -2,9 +2,13 @@
 
 from contextlib import AbstractContextManager
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from threadpoolctl import ThreadpoolController
+if TYPE_CHECKING:
+    from threadpoolctl import ThreadpoolController
+
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+"""Environment of commands and of workers: small matrices gain nothing by threads, which wait for work at full speed."""
 
 
 def one_thread() -> AbstractContextManager[Any]:
@@ -14,8 +18,9 @@ def one_thread() -> AbstractContextManager[Any]:
 
 
 @cache
-def _libraries() -> ThreadpoolController:
+def _libraries() -> "ThreadpoolController":
     """Return the linear algebra underneath, which it takes some milliseconds to look for."""
     import scipy.linalg  # noqa: F401  # has libraries of its own
+    from threadpoolctl import ThreadpoolController
 
     return ThreadpoolController()

@@ -5,8 +5,9 @@ The same robot gives the same bytes.
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+from jumpcad.beside import beside
 from jumpcad.building.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
@@ -17,6 +18,7 @@ from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.bundle.guide.page import write_page
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
+from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
@@ -24,7 +26,7 @@ from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
-from jumpcad.exporters.animation import animated
+from jumpcad.exporters.animation import BodyMotion, animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
@@ -33,6 +35,7 @@ from jumpcad.robot import Robot, require_name
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import default_engine
+from jumpcad.simulation.uncertain import Uncertainty
 
 
 def export(
@@ -80,37 +83,57 @@ def export(
 
 def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
     """Return path and content of every file of a bundle, except its manifest."""
+    moving = beside(_moving, robot) if pictures else _Moving
+    for part in robot.parts:
+        part.drawing.solid  # noqa: B018  # made here, copies of this process have it too
+    drawn = beside(all_pictures, robot) if pictures else dict
     files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
     for exporter in exporters:
         files |= dict(exporter.files(robot))
-    scene = next((path for path in files if path.endswith(".glb")), "")
-    glb = files.get(scene)
-    if pictures and isinstance(glb, bytes) and (motion := jump_motion(robot)) is not None:
-        files[scene] = glb = animated(glb, motion)
     files["bom.csv"] = write_bom(bill_of_materials(robot))
     files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
-    seen = all_pictures(robot) if pictures else {}
+    limits_of(robot)  # for guide and report, while pictures are drawn
+    seen, (motion, sure) = drawn(), moving()
+    scene = next((path for path in files if path.endswith(".glb")), "")
+    glb = files.get(scene)
+    if isinstance(glb, bytes) and motion is not None:
+        files[scene] = glb = animated(glb, motion)
     drawings = {path: text for path, text in drawings_of(robot).items() if text}
     shown = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     guide = write_guide(robot, list(seen))
     page = write_page(guide, robot.name, shown | {path: svg.encode() for path, svg in drawings.items()})
     files |= {**shown, **drawings, **guide, "assembly.html": page}
-    files["report.html"] = _page(robot, seen, glb if pictures and isinstance(glb, bytes) else None, files)
+    files["report.html"] = _page(robot, seen, glb if pictures and isinstance(glb, bytes) else None, files, sure)
     return files.items()
+
+
+class _Moving(NamedTuple):
+    """The motion of the GLB file, and how sure range and rise are."""
+
+    motion: BodyMotion | None = None
+    sure: Uncertainty | None = None
+
+
+def _moving(robot: Robot) -> _Moving:
+    return _Moving(jump_motion(robot), uncertainty_of(robot))
 
 
 def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:
     """Return report.html alone, with links to `files` relative to it; it shows recorded jumps in a row if given."""
-    return _page(robot, renders(robot), write_glb(robot), files, series)
+    return _page(robot, renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
 
 
 def _page(
-    robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str], series: Series | None = None
+    robot: Robot,
+    seen: Mapping[str, bytes],
+    glb: bytes | None,
+    files: Iterable[str],
+    sure: Uncertainty | None,
+    series: Series | None = None,
 ) -> str:
     jump = simulate(robot, Settings(flight="simulated", trajectory=glb is not None), default_engine())
     pictures = {name: seen[name] for name in RENDERS if name in seen}
-    sure = uncertainty_of(robot) if glb is not None and jump.verdict == "jump" else None
-    return write_report(robot, pictures, jump, glb, tuple(files), sure, series)
+    return write_report(robot, pictures, jump, glb, tuple(files), sure if jump.verdict == "jump" else None, series)
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

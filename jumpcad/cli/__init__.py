@@ -6,6 +6,7 @@ import signal
 import sys
 from typing import TYPE_CHECKING, NoReturn
 
+from jumpcad.blas_threads import ONE_THREAD
 from jumpcad.interrupts import deferring, seen
 
 if TYPE_CHECKING:
@@ -52,6 +53,8 @@ def main() -> NoReturn:
     for one in listening:
         signal.signal(one, _interrupt)
     interrupted, code = False, 0
+    for name, threads in ONE_THREAD.items():  # before numpy loads
+        os.environ.setdefault(name, threads)
     try:
         from jumpcad.gc_tuning import collect_seldom
 

@@ -8,16 +8,16 @@ Blind bores of axles are cut through: cut plates need axles with clips or nuts (
 import io
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-
-import ezdxf
-from ezdxf.filemanagement import new
-from ezdxf.layouts.layout import Modelspace
+from typing import TYPE_CHECKING
 
 from jumpcad.parts.engraving import ENGRAVING_MM
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
+
+if TYPE_CHECKING:
+    from ezdxf.layouts.layout import Modelspace
 
 CUT, ENGRAVE = "CUT", "ENGRAVE"
 RED, BLUE = 1, 5
@@ -55,15 +55,17 @@ def sheet(part: Part, thickness_mm: float) -> tuple[Region, Region]:
 def write_dxf(cut: Region, engraved: Region) -> str:
     """Return a DXF document with closed polylines, the same text for the same regions."""
 
-    def draw(space: Modelspace) -> None:
+    def draw(space: "Modelspace") -> None:
         for layer, region in ((CUT, cut), (ENGRAVE, engraved)):
             _outlines(space, layer, region)
 
     return dxf_document({CUT: RED, ENGRAVE: BLUE}, draw)
 
 
-def dxf_document(layers: Mapping[str, int], draw: Callable[[Modelspace], None]) -> str:
+def dxf_document(layers: Mapping[str, int], draw: "Callable[[Modelspace], None]") -> str:
     """Return a DXF document (R2010, mm) with layers, by name and colour, and what is drawn into its space."""
+    from ezdxf.filemanagement import new  # takes 0.2 s
+
     with _fixed_metadata():
         document = new("R2010", units=MILLIMETRES)
         for layer, colour in layers.items():
@@ -77,7 +79,7 @@ def dxf_document(layers: Mapping[str, int], draw: Callable[[Modelspace], None]) 
     return stream.getvalue()
 
 
-def _outlines(space: Modelspace, layer: str, region: Region) -> None:
+def _outlines(space: "Modelspace", layer: str, region: Region) -> None:
     for contour in region.to_polygons():
         space.add_lwpolyline(contour.tolist(), close=True, dxfattribs={"layer": layer})
 
@@ -85,6 +87,8 @@ def _outlines(space: Modelspace, layer: str, region: Region) -> None:
 @contextmanager
 def _fixed_metadata() -> Iterator[None]:
     """Keep ezdxf from writing the time of day and random identifiers."""
+    import ezdxf
+
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True
     try:

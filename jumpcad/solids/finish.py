@@ -1,6 +1,7 @@
 """From a solid to the mesh that is written, and the check that the written file is one printable part."""
 
 import io
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +13,8 @@ if TYPE_CHECKING:
     import trimesh
 
 TOLERANCE_MM = 1e-3
+FILES_KEPT = 32
+"""Files whose faults are remembered: the parts of a robot, which are looked at as they are written and as a limit."""
 
 
 def finished(solid: Manifold) -> Manifold:
@@ -28,6 +31,7 @@ def to_trimesh(solid: Manifold) -> "trimesh.Trimesh":
     return trimesh.Trimesh(np.array(mesh.vert_properties[:, :3]), faces, process=False)
 
 
+@lru_cache(FILES_KEPT)
 def faults(stl: bytes) -> list[str]:
     """Return what keeps the re-read bytes of an STL file from being one printable part; empty if nothing does.
 

@@ -5,14 +5,16 @@ where the robot loads the spring, `TEXT` the requirements of the drawing in SVG 
 """
 
 from collections.abc import Iterator
-
-from ezdxf.layouts.layout import Modelspace
+from typing import TYPE_CHECKING
 
 from jumpcad.bundle.drawings.spring_sheet import FOLDER, arms_of, requirements
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.dxf import dxf_document
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array
+
+if TYPE_CHECKING:
+    from ezdxf.layouts.layout import Modelspace
 
 WIRE, LOADED, TEXT = "WIRE", "LOADED", "TEXT"
 LAYERS = {WIRE: 7, LOADED: 8, TEXT: 5}
@@ -29,7 +31,7 @@ def spring_dxfs(robot: Robot) -> Iterator[tuple[str, str]]:
 
 
 def _drawing(spring: TorsionSpring, hand: str, words: list[str]) -> str:
-    def draw(space: Modelspace) -> None:
+    def draw(space: "Modelspace") -> None:
         for diameter in (spring.inside_diameter_mm, spring.outer_diameter_mm):
             space.add_circle((0.0, 0.0), diameter / 2.0, dxfattribs={"layer": WIRE})
         for arm in arms_of(spring, hand):
@@ -43,7 +45,7 @@ def _drawing(spring: TorsionSpring, hand: str, words: list[str]) -> str:
     return dxf_document(LAYERS, draw)
 
 
-def _line(space: Modelspace, ends_mm: Array, layer: str, width_mm: float) -> None:
+def _line(space: "Modelspace", ends_mm: Array, layer: str, width_mm: float) -> None:
     """Draw an arm's middle line with its width; `ends_mm` (2, 2) has y down."""
     points = (ends_mm * (1.0, -1.0)).tolist()
     space.add_lwpolyline(points, dxfattribs={"layer": layer, "const_width": width_mm})

@@ -17,14 +17,12 @@ from typing import Any
 import cloudpickle
 import loky
 
+from jumpcad.blas_threads import ONE_THREAD
 from jumpcad.errors import JumpcadError
 from jumpcad.gc_tuning import collect_seldom
 from jumpcad.interrupts import deferred_interrupts
 from jumpcad.search.study.objective import Evaluation, Model
 from jumpcad.search.study.variant import Variant
-
-ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
-"""Environment of a worker: as many workers as cores, one thread each."""
 
 
 class LocalWorkers(loky.ProcessPoolExecutor):  # type: ignore[misc]  # loky has no annotations
