@@ -120,7 +120,7 @@ def optimize(
     names = [] if only is None else [name.strip() for name in only.split(",")]
     robot = options.robot_model().requiring(require or ())
     changes = (options.fix or (), options.bound or (), options.choose or ())
-    space = Space.parse(*changes, centre, names, within, robot.workshop)
+    space = Space.parse(*changes, around=centre, only=names, within_percent=within, workshop=robot.workshop)
     source = context.get_parameter_source("seed")
     asked = seeds_of(seeds, methods or (), source is not None and source.name == "COMMANDLINE")
     requests = [

@@ -122,10 +122,7 @@ class Space:
         fix: Iterable[str] = (),
         bound: Iterable[str] = (),
         choose: Iterable[str] = (),
-        around: Design | None = None,
-        only: Iterable[str] = (),
-        within_percent: float | None = None,
-        workshop: Workshop | None = None,
+        **others: Any,
     ) -> Self:
         """Return the default space with changes ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``; the rest as `make`.
 
@@ -136,7 +133,7 @@ class Space:
         """
         fixed = {name: value for name, (value,) in read_changes("fix", fix).items()}
         bounds: dict[str, Any] = read_changes("bound", bound)
-        return cls.make(fixed, bounds, read_changes("choose", choose), around, only, within_percent, workshop)
+        return cls.make(fixed, bounds, read_changes("choose", choose), **others)
 
     @cached_property
     def free(self) -> tuple[SearchParameter, ...]:

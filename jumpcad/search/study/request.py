@@ -138,19 +138,16 @@ class Request:
                 takers = ", ".join(other for other in NAMES if takes(_methods(other)))
                 raise JumpcadError(f"{name} = {shown(value)}: does not apply to {self.method}, only to {takers}")
         if self.screen:
-            self._require_screen()
+            if not isinstance(self.model, PrintedModel):
+                raise JumpcadError("screen: applies to the printed robot; leave it out")
+            if self.space.of_workshop or (self.model.workshop and self.model.workshop.bought.spring):
+                raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
         for stage in plan_stages(self):
             if stage.evaluations < (least := METHODS[stage.method].least):
                 raise JumpcadError(
                     f"evaluations = {self.evaluations} leave {stage.evaluations} for {stage.method}, whose parts take "
                     f"{least} at least: ask for more"
                 )
-
-    def _require_screen(self) -> None:
-        if not isinstance(self.model, PrintedModel):
-            raise JumpcadError("screen: applies to the printed robot; leave it out")
-        if self.space.of_workshop or (self.model.workshop and self.model.workshop.bought.spring):
-            raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
 
     def __repr__(self) -> str:
         evaluations, free = counted(self.evaluations, "evaluation"), counted(self.space.dimension, "parameter free")

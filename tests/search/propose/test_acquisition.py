@@ -10,7 +10,6 @@ from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
-from jumpcad.workshop import load_workshop
 
 STIFFNESS = "stiffness_nmm_per_deg"
 
@@ -60,29 +59,6 @@ def test_what_is_punished_is_not_proposed(side):
     )
     assert plain.unit == pytest.approx(np.full(3, 0.5), abs=0.03)
     assert away.unit[0] == pytest.approx(0.5 + 0.1 * side, abs=0.03)
-
-
-def test_names_near_a_good_design_are_mostly_its_own():
-    """Of 128 points near each, names are drawn again three times in ten, and then half of them are the same of two."""
-    asked = []
-
-    class Flat:
-        def log_improvement(self, points, best):
-            asked.append(points)
-            return np.zeros(len(points))
-
-        def log_feasible(self, points):
-            return np.zeros(len(points))
-
-    choice = "bought.battery=lipo-2s-180,lipo-1s-300"
-    space = Space.parse(fix=FIXED, choose=[choice], workshop=load_workshop())
-    elite = np.array([[0.5, 0.5, 0.5, 0.0], [0.5, 0.5, 0.5, 1.0]])
-    propose(space, Flat(), 1.0, elite, lambda variant: True, np.random.default_rng(0))
-    near = asked[0][-2 * 128 :].reshape(2, 128, 4)
-    for points, own in zip(near, elite, strict=True):
-        assert 0.75 < (points[:, 3] == own[3]).mean() < 0.95
-        off = np.abs(points[:, :3] - own[:3])
-        assert 0.001 < np.median(off) < 0.1
 
 
 class Known:

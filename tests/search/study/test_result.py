@@ -160,16 +160,6 @@ def test_a_front_that_seeks_more_of_both_is_shown_by_the_figures_themselves() ->
     assert not any("-" in name for name in lines)
 
 
-def test_a_notebook_shows_what_was_evaluated_won_and_rejected() -> None:
-    lines = list(found()._lines())
-    assert lines[:3] == [
-        ("designs evaluated", "31, 5 of them by the search"), ("range", "4 m"),
-        ("score that nine of ten neighbours reach", "3.25"),
-    ]  # fmt: skip
-    shown = [(name, f"{value:.5g}") for name, value in found().design.model_dump().items()]
-    assert lines[3:] == [*shown, ("rejected: loop", "2")]
-
-
 def test_the_winners_design_is_written_and_its_workshop_beside_it(tmp_path: Path) -> None:
     """The files make the robot that won, and no other; a user's file is kept, unless it is to be replaced."""
     plain = found()
