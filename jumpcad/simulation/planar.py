@@ -33,10 +33,10 @@ BASIS = {
 
 
 class PlanarWorld:
-    """One robot in the plane; a `World` for `Run`. `pin_forces`: see `planar_model`."""
+    """One robot in the plane; a `World` for `Run`."""
 
-    def __init__(self, mechanism: Mechanism, settings: Settings, pin_forces: bool = False) -> None:
-        self.model = planar_model(mechanism, settings, pin_forces)
+    def __init__(self, mechanism: Mechanism, settings: Settings) -> None:
+        self.model = planar_model(mechanism, settings)
         self.settings = settings
         self.clearance_m = takeoff_clearance_m(mechanism, settings)
         self._aside_m = [mechanism.bodies[name].com_m[1] for name in BODY_NAMES]

@@ -229,47 +229,9 @@ def forces(
 
 
 @compiled
-def pin_torque(
-    model: PlanarModel, links: Links, ground: Stance, speed: PlanarMotion, change: PlanarMotion, contact: Contact
-) -> float:
-    """Return the dry friction of joints and pins, as a torque on the leg joint.
-
-    The pins' forces follow from the motion by Newton's and Euler's laws: the eye's from the torques on front link and
-    foot, the others' link by link. Their own friction, a small part of these torques, is left out of them.
-    """
-    pins, rates, turn, dt = model.pin_friction_m, links.pin1, ground.turn, 2.0 * ground.half_s
-    dry = model.pins_nm + model.joint_friction_nm * (1.0 + abs(rates[1]) + abs(rates[2]))
-    if pins[0] + pins[1] + pins[2] + pins[3] == 0.0:
-        return dry
-    squared, mixed = speed.leg * speed.leg, speed.leg * speed.foot
-    force, torque = [0j, 0j, 0j, 0j], [0.0, 0.0, 0.0, 0.0]
-    for index in range(1, 4):
-        place, place1, place2 = links.place[index], links.place1[index], links.place2[index]
-        own = place2 * squared - 2j * place1 * mixed - place * (speed.foot * speed.foot)
-        own += (place1 * change.leg - 1j * place * change.foot) / dt
-        force[index] = model.mass_kg[index] * (change.ankle / dt + own * turn - model.pull_m_s2)
-        spin = (change.foot + links.turn1[index] * change.leg) / dt + links.turn2[index] * squared
-        torque[index] = model.inertia_kg_m2[index] * spin
-    push = complex(contact.along_ns, contact.first_ns + contact.second_ns) / dt
-    foot_arm, front_arm = model.l4_m * turn, (model.l4_m - links.front_pivot) * turn
-    damping = model.damping_nms_per_rad * speed.leg
-    on_front = torque[2] + damping * rates[1] + _torque((links.place[2] - links.front_pivot) * turn, force[2])
-    on_foot = torque[3] + damping * rates[2] + _torque(links.place[3] * turn, force[3])
-    on_foot -= turning_impulse(model, ground, contact) / dt
-    cross = (front_arm.conjugate() * foot_arm).imag
-    eye = (-on_front * foot_arm - on_foot * front_arm) / cross
-    front, ankle = force[2] - eye, force[3] - push + eye
-    back = force[1] + ankle
-    return (
-        dry + pins[0] * abs(back) + pins[1] * abs(front * rates[1]) + pins[2] * abs(ankle * rates[2])
-        + pins[3] * abs(eye * rates[3])
-    )  # fmt: skip
-
-
-@compiled
-def _torque(arm: complex, force: complex) -> float:
-    """Return the torque about +y of a force at the end of an arm."""
-    return -(arm.conjugate() * force).imag
+def dry_torque(model: PlanarModel, links: Links) -> float:
+    """Return the dry friction of joints and pins, as a torque on the leg joint."""
+    return model.pins_nm + model.joint_friction_nm * (1.0 + abs(links.pin1[1]) + abs(links.pin1[2]))
 
 
 @compiled
@@ -437,26 +399,25 @@ def step(model: PlanarModel, moment: StepState, dt: float) -> StepState:
     ground, links = Stance(ankle, turn, half), links_at(model, leg_rad)
     inertia = inertia_at(model, links, turn)
     gains = gains_of(inertia)
-    last, pins, middle = moment.contact, moment.pins_nm, before
+    last, dry, middle = moment.contact, moment.dry_nm, before
     after, contact, friction_ns, stop_ns = before, last, 0.0, 0.0
     for _ in range(2):
         ankle_n, foot_nm, leg_nm = forces(model, links, inertia, turn, leg_rad, middle)
         free = plus(before, response(inertia, ankle_n, foot_nm, leg_nm), dt)
-        after, contact, friction_ns = settle_with_friction(model, ground, gains, free, last, dt * pins)
+        after, contact, friction_ns = settle_with_friction(model, ground, gains, free, last, dt * dry)
         stop_ns = 0.0
         if after.leg > 0.0 and leg_rad + half * after.leg > model.stop_rad:
             rubbed = plus(free, gains.leg, friction_ns)
             after, contact, stop_ns = settle_at_stop(model, ground, gains, rubbed, last, leg_rad)
-        change = plus(after, before, -1.0)
-        middle = plus(before, change, 0.5)
-        pins = pin_torque(model, links, ground, middle, change, contact)
+        middle = plus(before, plus(after, before, -1.0), 0.5)
+        dry = dry_torque(model, links)
     return StepState(
         ankle + half * after.ankle,
         foot_rad + half * after.foot,
         leg_rad + half * after.leg,
         after,
         contact,
-        pins,
+        dry,
         _more_losses(model, moment.losses, links, ground, middle, contact, friction_ns, stop_ns),
         _belly_gap_m(model, links, ground),
         links.closed,

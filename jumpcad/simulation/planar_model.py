@@ -13,12 +13,10 @@ from jumpcad.strength.loads import pin_torque_nm
 
 SAME_M = 1e-9
 """Contact spheres that differ by less than this in the plane are one: left and right toe."""
-NO_PINS_M = 0.0, 0.0, 0.0, 0.0
-"""Radii of the pins where their forces cause no friction."""
 
 
 class PlanarModel(NamedTuple):
-    """A robot in the plane, SI units; tuples of four follow `BODY_NAMES`, those of the pins leg, front, ankle, eye.
+    """A robot in the plane, SI units; tuples of four follow `BODY_NAMES`.
 
     `com_m` are the centres of mass in the bodies' frames, `pull_m_s2` is gravity as x + iz, with the air's braking;
     `sole_m` and `belly_m` are the centres of the spheres of foot and body that may touch the ground, with their radii.
@@ -42,7 +40,6 @@ class PlanarModel(NamedTuple):
     damping_nms_per_rad: float
     joint_friction_nm: float
     pins_nm: float
-    pin_friction_m: tuple[float, ...]
     stop_rad: float
     stop_nm_per_rad: float
     friction: float
@@ -52,16 +49,14 @@ class PlanarModel(NamedTuple):
     belly_radius_m: tuple[float, ...]
 
 
-def planar_model(mechanism: Mechanism, settings: Settings, pin_forces: bool = False) -> PlanarModel:
+def planar_model(mechanism: Mechanism, settings: Settings) -> PlanarModel:
     """Return a robot's mechanism in the plane, left and right sides coinciding.
 
-    Dry friction of the pins is the constant torque at the leg joint that the other engines have; with `pin_forces` it
-    follows from the pins' forces in every step. Every number is a float or a complex: a tuple with integers would be
-    another type, compiled anew.
+    Dry friction of the pins is the constant torque at the leg joint that the other engines have. Every number is a
+    float or a complex: a tuple with integers would be another type, compiled anew.
     """
     design, spring, stop = mechanism.design, mechanism.spring, mechanism.stop
     rubs = coefficients(mechanism, settings)
-    pin_radius_m = mechanism.friction.pin_radius_m if mechanism.friction and pin_forces else NO_PINS_M
     bodies = [mechanism.bodies[name] for name in BODY_NAMES]
     foot, body = mechanism.bodies[FOOT], mechanism.bodies[BODY]
     sole, sole_radius = _spheres(foot)
@@ -83,8 +78,7 @@ def planar_model(mechanism: Mechanism, settings: Settings, pin_forces: bool = Fa
         one_sided_spring=spring.one_sided,
         damping_nms_per_rad=rubs.joint_damping_nms_per_rad,
         joint_friction_nm=settings.joint_friction_nm,
-        pins_nm=0.0 if pin_forces else pin_torque_nm(mechanism, rubs.pin),
-        pin_friction_m=tuple(float(rubs.pin * radius) for radius in pin_radius_m),
+        pins_nm=pin_torque_nm(mechanism, rubs.pin),
         stop_rad=float(stop.angle_rad) if stop else math.inf,
         stop_nm_per_rad=float(stop.stiffness_nm_per_rad) if stop else 0.0,
         friction=rubs.contact(foot.surface),

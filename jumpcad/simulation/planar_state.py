@@ -91,7 +91,7 @@ class StepState(NamedTuple):
     leg_rad: float
     speed: PlanarMotion
     contact: Contact
-    pins_nm: float
+    dry_nm: float
     losses: Losses
     belly_gap_m: float
     closed: bool

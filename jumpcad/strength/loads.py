@@ -19,8 +19,9 @@ from jumpcad.transforms import Array, turned_about_y
 POSITIONS = 17
 """Leg angles of a push-off; with twice as many, the largest forces of the template designs change by 0.8 % at most."""
 TILTING = 1.1
-"""Friction losses with a tilting foot and links with mass over those from `push_off`; judgement: in the planar engine,
-up to rest, 1.04 to 1.16 on the templates, 0.74 to 1.16 on 45 printed robots, 1 % of the springs' energy at most."""
+"""Friction losses with a tilting foot and links with mass over those from `push_off`; judgement: with the pins' forces
+in the planar engine, up to rest, 1.04 to 1.16 on the templates, 0.74 to 1.16 on 45 printed robots, 1 % of the springs'
+energy at most."""
 
 
 @dataclass(frozen=True)

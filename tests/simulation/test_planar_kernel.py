@@ -5,9 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.machines import PAD_NM_PER_RAD, STOP_RAD, one_sided, rubbing, stopped
+from support.machines import PAD_NM_PER_RAD, PINS_M, STOP_RAD, one_sided, rubbing, stopped
 from support.planar import FINE, NO_CONTACT, model_of, moving, turn_of, with_damping, world_at
 
+from jumpcad.design import load_design
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
@@ -15,8 +17,9 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import Mechanics, State
-from jumpcad.simulation.planar_model import planar_model
+from jumpcad.simulation.planar import PlanarWorld
 from jumpcad.simulation.planar_state import Contact, PlanarMotion, Stance
+from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array
 
 PINS = ((BODY, MAIN_LEG), (BODY, FRONT_LINK), (MAIN_LEG, FOOT), (FRONT_LINK, FOOT))
@@ -103,9 +106,7 @@ def pinned_bodies(
 
 @pytest.mark.parametrize("pushes", [(), (1.9,), (1.9, 0.4)])
 @pytest.mark.parametrize("leg_rad", [-0.6, -0.2, 0.1])
-def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(
-    either: Robot, leg_rad: float, pushes: tuple[float, ...]
-) -> None:
+def test_accelerations_are_those_of_pinned_bodies(either: Robot, leg_rad: float, pushes: tuple[float, ...]) -> None:
     """In the air, and with the ground's forces (N) on one or two spheres of the sole."""
     settings = Settings(joint_damping_nms_per_rad=0.001)
     moment, dt = moving(model_of(either), leg_rad), 1e-4
@@ -114,7 +115,7 @@ def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(
     spheres = [contact for contact in body.contacts if contact.surface == "foot"][:: len(body.contacts) - 1]
     places = [float(state.com_m[place, 0] + state.rotation[place, 0] @ (one.centre_m - body.com_m)) for one in spheres]
     ground_n = ((0.0, complex(along)), *((x, 1j * push) for x, push in zip(places, pushes, strict=False)))
-    accelerations, pin_n = pinned_bodies(either, state, settings, ground_n)
+    accelerations, _ = pinned_bodies(either, state, settings, ground_n)
     model, turn, speed = model_of(either, settings), turn_of(moment), moment.speed
     ground = Stance(moment.ankle_m, turn, dt / 2)
     seen = [(ground.ankle_m + one * turn).real for one in model.sole_m]
@@ -131,14 +132,26 @@ def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(
     assert change.foot == pytest.approx(foot[2], rel=1e-9)
     pitch_rate2 = links.turn2[0] * speed.leg**2
     assert change.foot + links.turn1[0] * change.leg + pitch_rate2 == pytest.approx(body[2], rel=1e-9)
-    for pin in range(4):
-        radii = [0.0] * 4
-        radii[pin] = 0.0015
-        rubbed = planar_model(rubbing(either, pin=0.2, pin_radius_m=tuple(radii)), settings, pin_forces=True)
-        gained = PlanarMotion(*(dt * part for part in change))
-        torque = kernel.pin_torque(rubbed, links, ground, speed, gained, contact)
-        expected = 0.2 * 0.0015 * np.linalg.norm(pin_n[pin]) * abs(links.pin1[pin])
-        assert torque == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
+def test_the_pins_torque_at_the_leg_does_the_work_of_their_forces(name: str) -> None:
+    """Up to take-off, coefficient times radius times force along the turn of each; the engine has one torque."""
+    settings = Settings(joint_damping_nms_per_rad=0.001)
+    robot = rubbing(capsule_robot(load_design(name)), pin=0.25)
+    world, work = PlanarWorld(robot, settings), 0.0
+    for _ in range(world.push_off().steps):
+        world.advance(1)
+        moment, touching = world.moment, world.moment.contact
+        places = [(moment.ankle_m + one * turn_of(moment)).real for one in world.model.sole_m]
+        ground_n = [(0.0, complex(touching.along_ns / settings.dt_s))]
+        for index, push in ((touching.first, touching.first_ns), (touching.second, touching.second_ns)):
+            ground_n.append((places[index], 1j * push / settings.dt_s))
+        _, pin_n = pinned_bodies(robot, world.state(), settings, tuple(ground_n))
+        turned = np.abs(kernel.links_at(world.model, moment.leg_rad).pin1) * moment.speed.leg * settings.dt_s
+        work += 0.25 * float(np.array(PINS_M) * np.linalg.norm(pin_n, axis=1) @ turned)
+    assert pin_torque_nm(robot, 0.25) * robot.spring.wind_rad == pytest.approx(work, rel=0.2)
+    assert 0.01 < work / robot.spring.energy_j < 0.05
 
 
 def test_flight_keeps_momenta_and_energy(lopsided: Robot) -> None:
@@ -194,8 +207,7 @@ def test_what_damping_takes_in_the_air_is_what_is_missing(either: Robot) -> None
 def test_dry_friction_of_a_joint_acts_by_its_rate(either: Robot, leg_rad: float) -> None:
     """Virtual work of 4 mN·m at leg, front link and ankle, whose angles change as those of the linkage's poses do."""
     model = model_of(either, FINE.model_copy(update={"joint_friction_nm": 0.004}))
-    links, speed = kernel.links_at(model, leg_rad), PlanarMotion(0j, 0.0, 1.0)
-    torque = kernel.pin_torque(model, links, Stance(0.5j, 1.0 + 0j, 1e-4), speed, speed, NO_CONTACT)
+    torque = kernel.dry_torque(model, kernel.links_at(model, leg_rad))
     near = Linkage(either.design).pose([leg_rad - 1e-6, leg_rad + 1e-6])
     turned = sum(abs(float(np.ptp(angle))) for angle in (near.leg_rad, near.front_rad, near.ankle_rad)) / 2e-6
     assert torque - model.pins_nm == pytest.approx(0.004 * turned, rel=1e-6)

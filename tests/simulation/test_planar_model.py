@@ -4,13 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.machines import rubbing
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, ContactSphere
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.planar_model import planar_model
-from jumpcad.strength.loads import pin_torque_nm
 
 
 def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
@@ -43,20 +41,6 @@ def test_left_and_right_do_not_count(lopsided: Robot) -> None:
         simulate(robot, engine="planar").ballistic_range_m for robot in (lopsided, replace(lopsided, bodies=bodies))
     ]
     assert ranges[0] == ranges[1]
-
-
-@pytest.mark.parametrize("pin_forces", [False, True])
-def test_pins_rub_with_a_torque_at_the_leg_or_with_their_forces_and_not_with_both(
-    kenan: Robot, pin_forces: bool
-) -> None:
-    radii = (0.0015, 0.002, 0.0025, 0.003)
-    robot, settings = rubbing(kenan, pin=0.2, pin_radius_m=radii), Settings(joint_friction_nm=0.004)
-    model = planar_model(robot, settings, pin_forces)
-    torque = pin_torque_nm(robot, 0.2)
-    assert torque > 1e-4
-    assert model.joint_friction_nm == 0.004
-    assert model.pins_nm == (0.0 if pin_forces else pytest.approx(torque))
-    assert model.pin_friction_m == pytest.approx([0.2 * radius if pin_forces else 0.0 for radius in radii])
 
 
 def test_spheres_of_both_sides_are_one_and_those_of_another_place_or_radius_are_not(kenan: Robot) -> None:

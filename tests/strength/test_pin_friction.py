@@ -9,25 +9,13 @@ from support.machines import PINS_M, rubbing
 
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.simulation import Settings
-from jumpcad.simulation.planar import PlanarWorld
 from jumpcad.strength.loads import TILTING, MovingMass, pin_torque_nm, push_off
-
-
-@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
-def test_its_work_is_that_of_the_pins(name: str) -> None:
-    """The planar engine can take every pin's force at every step; here the foot lies flat, the links have no mass."""
-    robot = rubbing(capsule_robot(load_design(name)), pin=0.25)
-    taken = PlanarWorld(robot, Settings(), pin_forces=True).push_off().moment.losses.friction_j
-    work = pin_torque_nm(robot, 0.25) * robot.spring.wind_rad
-    assert work == pytest.approx(taken, rel=0.2)
-    assert decimals([pin_torque_nm(robot, coefficient) for coefficient in (0.1, 0.2, 0.25)]) == 6  # micronewton metres
-    assert 0.01 < work / robot.spring.energy_j < 0.05
 
 
 def test_it_grows_with_coefficient_and_radius_and_each_pin_adds_its_own() -> None:
     robot = rubbing(capsule_robot(load_design("best-bo")), pin=0.25)
     whole = pin_torque_nm(robot, 0.25)
+    assert decimals([pin_torque_nm(robot, coefficient) for coefficient in (0.1, 0.2, 0.25)]) == 6  # micronewton metres
     for times in (2.0, 4.0):
         assert pin_torque_nm(robot, times * 0.25) == pytest.approx(times * whole, abs=1e-6 * times)
     alone = []
