@@ -79,9 +79,7 @@ CASES = {
     "a file": Case(files(there="x"), (*BUILD, "there")),
     "a file above": Case(files(there="x"), (*BUILD, "there/robot")),
     "a folder of files": Case(files(there__a_0txt="x"), (*BUILD, "there")),
-    "a folder of files for a coupon": Case(files(there__a_0txt="x"), (*COUPON, "there")),
     "the current folder": Case(files(manifest_0json='{"name": "PWA"}', src__thesis_0md="x"), (*BUILD, ".")),
-    "the folder above": Case(nothing, (*BUILD, "..")),
     "the home folder": Case(nothing, (*BUILD, "../home")),
     "an empty folder": Case(lambda s, o: (s.work / "there").mkdir(), (*BUILD, "there"), (0,), ("there",)),
     "a link to a user's folder": Case(link("there", "../outside/folder"), (*BUILD, "there")),
@@ -92,7 +90,6 @@ CASES = {
     "a device": Case(nothing, (*BUILD, "/dev/null")),
     "what is in a user's folder": Case(nothing, (*BUILD, "thesis/robot"), (0,), ("thesis/robot",)),
     "a bundle": Case(bundle(), (*BUILD, "there"), (0,), ("there",)),
-    "a coupon": Case(bundle(kind="coupon"), (*COUPON, "there"), (0,), ("there",)),
     "a bundle with a user's files": Case(
         ADDED, (*BUILD, "there"), (0,), ("there",), ("there/notes.txt", "there/stl/mine.stl", "there/photos")
     ),
@@ -106,7 +103,6 @@ CASES = {
         bundle(kind="coupon", there__readings_0toml="[gauge.PETG]\naxle_press_mm = 0.1\n"), (*COUPON, "there")
     ),
     "another robot's bundle": Case(bundle(), (*OTHER, "there")),
-    "another robot's bundle by force": Case(bundle(), (*OTHER, "there", "--force"), (0,), ("there",)),
     "a coupon for a robot": Case(bundle(kind="coupon"), (*BUILD, "there")),
     "a robot for a coupon": Case(bundle(), (*COUPON, "there")),
     "a bundle whose meshes lie outside": Case(
@@ -136,35 +132,16 @@ CASES = {
         files(w_0toml="x = 1\n", r_0toml="[gauge.PETG]\naxle_press_mm = 0.1\n"),
         ("coupon", "--measured", "r.toml", "-o", "w.toml"),
     ),
-    "a workshop over its readings": Case(
-        files(r_0toml="[gauge.PETG]\naxle_press_mm = 0.1\n"), ("coupon", "--measured", "r.toml", "-o", "r.toml")
-    ),
-    "a study that is a design": Case(nothing, (*SEARCH, "--study", "x.toml")),
-    "a study over a user's design": Case(files(x_0toml="c_coef = 1\n"), (*SEARCH, "--study", "x.toml")),
-    "a study in memory": Case(nothing, (*SEARCH, "--study", ":memory:")),
-    "a study over its winner": Case(nothing, (*SEARCH, "--study", "s.db", "-o", "s.db")),
-    "a study over its winner by another way": Case(nothing, (*SEARCH, "--study", "s.db", "-o", "../work/./s.db")),
     "a study that is a text": Case(nothing, (*SEARCH, "--study", "notes.txt")),
-    "a study that is a folder": Case(nothing, (*SEARCH, "--study", "thesis")),
-    "a study in no folder": Case(nothing, (*SEARCH, "--study", "no/s.db")),
     "a study of another search": Case(study, (*SEARCH, "--seed", "77", "--study", "study.db")),
-    "a winner in no folder": Case(nothing, (*SEARCH, "--study", "s.db", "-o", "no/w.toml")),
-    "a winner that is no design": Case(nothing, (*SEARCH, "--study", "s.db", "-o", "w.pdf")),
     "a winner over a user's design": Case(files(s_0toml="c_coef = 1\n"), (*SEARCH, "--study", "s.db")),
     "a winner over a user's text": Case(nothing, (*SEARCH, "--study", "s.db", "-o", "notes.txt")),
     "a winner over a link": Case(
         link("w.toml", "../outside/precious.txt"), (*SEARCH, "--study", "s.db", "-o", "w.toml")
     ),
-    "a winner over its workshop": Case(
-        files(w_0toml="[process]\ninfill = 0.2\n"),
-        (*SEARCH, "--workshop", "w.toml", "--study", "s.db", "-o", "w.toml"),
-    ),
-    "pictures of a search into a file": Case(nothing, (*SEARCH, "--study", "s.db", "--plots", "notes.txt")),
     "a table over a user's": Case(
         lambda s, o: (study(s, o), s.write("t.csv", "mine\n")), ("study", "study.db", "--export", "t.csv")
     ),
-    "a table over its study": Case(study, ("study", "study.db", "--export", "study.db")),
-    "a table in no folder": Case(study, ("study", "study.db", "--export", "no/t.csv")),
     "a table through a link to nothing": Case(
         lambda s, o: (study(s, o), (s.work / "t.csv").symlink_to("../outside/new.csv")),
         ("study", "study.db", "--export", "t.csv"),
