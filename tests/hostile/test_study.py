@@ -124,6 +124,24 @@ def test_an_accident_in_the_last_page_is_borne_or_refused(sandbox: Sandbox, stud
     ask(sandbox)
 
 
+FOREIGN = {
+    "a trigger": "CREATE TRIGGER t AFTER INSERT ON trials BEGIN DELETE FROM notes; END",
+    "a table": "CREATE TABLE more (x)",
+    "a view": "CREATE VIEW more AS SELECT * FROM notes",
+    "another identity": "UPDATE study SET value = json_set(value, '$.seed', 99) WHERE key = 'identity'",
+    "no identity": "DELETE FROM study",
+    "stages of nothing": "INSERT OR REPLACE INTO study VALUES ('stages', '[]')",
+    "a row of another": "UPDATE trials SET record = '[' WHERE rowid = 1",
+}
+
+
+@each("case", FOREIGN)
+def test_nothing_is_said_of_a_study_that_is_refused(sandbox: Sandbox, study: Path, case: str) -> None:
+    spoil(study, FOREIGN[case])
+    words = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "6", "--workers", "0", "--study", "study.db")
+    assert sandbox.run(*words, exits=(2,), leaves=["study.db", "study.db-wal", "study.db-shm"]).out == ""
+
+
 def test_a_view_without_end_is_refused(sandbox: Sandbox, study: Path) -> None:
     endless = "WITH RECURSIVE n(text) AS (SELECT 'x' UNION ALL SELECT text FROM n) SELECT text FROM n"
     spoil(study, f"DROP TABLE notes; CREATE VIEW notes AS {endless}")
