@@ -157,7 +157,10 @@ def sampled(
                 f"{subject.name}: too little to calibrate on: give at least one [[jumps]] with distance_mm and "
                 "distance_of, or one of [[videos]]"
             )
-    emcee = _emcee()
+    try:
+        import emcee
+    except ImportError:
+        raise JumpcadError('emcee, the sampler, is not installed: pip install "jumpcad[calibrate]"') from None
     dimension = len(model.parameters)
     walkers = 2 * (walkers_each * dimension // 2)
     sampler = emcee.EnsembleSampler(
@@ -197,14 +200,6 @@ def _start(model: CalibrationModel, walkers: int, generator: np.random.Generator
             "height are of, and weigh the robot"
         )
     return np.array(drawn[order] + 1e-3 * generator.standard_normal((walkers, len(model.parameters))))
-
-
-def _emcee() -> Any:
-    try:
-        import emcee
-    except ImportError:
-        raise JumpcadError('emcee, the sampler, is not installed: pip install "jumpcad[calibrate]"') from None
-    return emcee
 
 
 def _verdict(spread: float, shift: float) -> str:

@@ -67,7 +67,6 @@ class Surface:
     """
 
     mechanism: Mechanism
-    settings: Settings
     nodes: Nodes
     values: Array
 
@@ -100,14 +99,14 @@ class Surface:
         energy = np.exp(rng.uniform(np.log(0.6), np.log(2.0), CHECKED_POINTS))
         pins, floor = rng.uniform(0.1, 0.5, CHECKED_POINTS), rng.uniform(0.3, 1.0, CHECKED_POINTS)
         found = self.at(energy, pins, floor).range_m
-        engine = [_jump(self.mechanism, self.settings, *point) for point in zip(energy, pins, floor, strict=True)]
+        engine = [_jump(self.mechanism, *point) for point in zip(energy, pins, floor, strict=True)]
         ranges = np.array([jump.ballistic_range_m or np.nan for jump in engine])
         off = np.abs(found / ranges - 1.0)
         known: Array = off[np.isfinite(off)]
         return known
 
 
-def surface_of(mechanism: Mechanism, settings: Settings | None = None, nodes: Nodes = NODES) -> Surface:
+def surface_of(mechanism: Mechanism, nodes: Nodes = NODES) -> Surface:
     """Return the surface of a printed robot from its jumps at every combination of nodes.
 
     Raises
@@ -115,12 +114,11 @@ def surface_of(mechanism: Mechanism, settings: Settings | None = None, nodes: No
     JumpcadError
         If the robot jumps at no node.
     """
-    settings = (settings or Settings()).model_copy(update={"dt_s": DT_S, "push_off_steps": 0})
     grid = np.full((len(FIGURES), *map(len, nodes)), np.nan)
     for i, energy in enumerate(nodes[0]):
         for j, pins in enumerate(nodes[1]):
             for k, floor in enumerate(nodes[2]):
-                jump = _jump(mechanism, settings, energy, pins, floor)
+                jump = _jump(mechanism, energy, pins, floor)
                 grid[:, i, j, k] = _figures(jump)
                 if jump.energy is not None and abs(jump.energy.slip_j) < NO_SLIP_SHARE * jump.spring_energy_j:
                     grid[:, i, j, k:] = grid[:, i, j, k, None]
@@ -129,12 +127,12 @@ def surface_of(mechanism: Mechanism, settings: Settings | None = None, nodes: No
         raise JumpcadError(
             "the robot jumps with no energy, friction or floor that a calibration tries: run jumpcad simulate on it"
         )
-    return Surface(mechanism, settings, nodes, _refined(grid, nodes))
+    return Surface(mechanism, nodes, _refined(grid, nodes))
 
 
-def _jump(mechanism: Mechanism, settings: Settings, energy: float, pins: float, floor: float) -> Jump:
-    changes = {"pin_friction": float(pins), "ground_friction": float(floor), "spring_efficiency": 1.0}
-    return simulate(with_spring_factor(mechanism, float(energy)), settings.model_copy(update=changes), "planar")
+def _jump(mechanism: Mechanism, energy: float, pins: float, floor: float) -> Jump:
+    settings = Settings(dt_s=DT_S, push_off_steps=0, pin_friction=float(pins), ground_friction=float(floor))
+    return simulate(with_spring_factor(mechanism, float(energy)), settings, "planar")
 
 
 def _figures(jump: Jump) -> tuple[float, ...]:

@@ -16,7 +16,7 @@ KNOWN: dict[object, Any] = {}
 
 def with_coarse_calibration(patch: pytest.MonkeyPatch) -> None:
     """Let a robot's surface stand on few jumps, and chains be short."""
-    patch.setattr(surface.surface_of, "__defaults__", (None, COARSE))
+    patch.setattr(surface.surface_of, "__defaults__", (COARSE,))
     patch.setattr(surface, "FINE", EVEN)
     patch.setattr(subject, "surface_of", once(KNOWN, surface.surface_of, robot_key))
     patch.setattr(posterior.sampled, "__defaults__", (0, 200, 200, 10))
