@@ -71,9 +71,9 @@ def described(kind: str) -> dict[str, str]:
     if kind == "materials":
         return {name.upper(): _material(read_toml(find_template(kind, name))[0]) for name in template_names(kind)}
     if kind == "engines":
-        from jumpcad.simulation.engines import ENGINES
+        from jumpcad.simulation.engines import ENGINES, is_installed
 
-        return {name: "installed" if engine.is_installed else "not installed" for name, engine in ENGINES.items()}
+        return {name: "installed" if is_installed(name) else "not installed" for name in ENGINES}
     if kind == "objectives":
         from jumpcad.search.study.objective import OBJECTIVES
 

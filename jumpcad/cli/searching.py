@@ -12,7 +12,6 @@ import typer
 
 from jumpcad.cli.subjects import SeedOption
 from jumpcad.errors import JumpcadError
-from jumpcad.simulation.engines import ENGINES, in_words
 
 if TYPE_CHECKING:
     from jumpcad.search.models import RobotModel
@@ -61,7 +60,7 @@ class SearchOptions:
         str | None,
         typer.Option(help="Settings of the simulation: a template's name or a file.", show_default="default"),
     ] = None
-    engine: Annotated[str | None, typer.Option(help=f"{in_words(ENGINES, 'or')}; else the first installed.")] = None
+    engine: Annotated[str | None, typer.Option(help="pybullet, mujoco or planar; else the first installed.")] = None
     workers: Annotated[int | None, typer.Option(help="Processes, one for each core unless given; 0 for none.")] = None
     dask: Annotated[
         str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")

@@ -14,7 +14,7 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, stat
 from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, robot_from_file
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.plural import counted
-from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
+from jumpcad.simulation.engines import ENGINE_HELP, GENERAL, default_engine
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
@@ -37,7 +37,7 @@ def simulate(
     capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
     workshop: WorkshopOption = None,
-    engine: Annotated[str | None, typer.Option(help=engine_help())] = None,
+    engine: Annotated[str | None, typer.Option(help=ENGINE_HELP)] = None,
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = DEFAULT_SETTINGS,
     flight: Annotated[bool, typer.Option("--flight", help="Simulate the flight up to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
@@ -111,7 +111,7 @@ def simulate(
     engines = _engines(engine or ("mujoco" if chain else None))
     for option, words in (("--trajectory", "records"), ("--uncertain", "takes")):
         if len(engines) > 1 and (trajectory if option == "--trajectory" else uncertain):
-            raise JumpcadError(f"{option} {words} one engine: choose --engine {in_words(ENGINES, 'or')}")
+            raise JumpcadError(f"{option} {words} one engine: choose --engine pybullet, mujoco or planar")
     of_printed = f"{design}: {{}} for printed robots: give the design, or its bundle"
     if uncertain and written and not Path(design).is_dir():
         raise JumpcadError(of_printed.format("--uncertain is"))

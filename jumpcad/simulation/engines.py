@@ -3,9 +3,8 @@
 import importlib
 import importlib.util
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -16,34 +15,21 @@ from jumpcad.files.complaints import did_you_mean
 if TYPE_CHECKING:
     from jumpcad.simulation.run import Engine
 
-
-@dataclass(frozen=True)
-class EngineEntry:
-    """An entry of the registry: module and class of an engine, the package that it needs, a note for the help.
-
-    A `general` engine is a rigid-body simulator independent of this project: `--engine both` compares those, and the
-    first of them that is installed is the default.
-    """
-
-    module: str
-    maker: str
-    package: str = ""
-    general: bool = True
-    note: str = ""
-
-    @property
-    def is_installed(self) -> bool:
-        """Tell whether the package is there, if one is needed."""
-        return not self.package or importlib.util.find_spec(self.package) is not None
-
-
 ENGINES = {
-    "pybullet": EngineEntry("jumpcad.simulation.bullet", "BulletEngine", package="pybullet"),
-    "mujoco": EngineEntry("jumpcad.simulation.mujoco", "MujocoEngine", package="mujoco"),
-    "planar": EngineEntry("jumpcad.simulation.planar", "PlanarEngine", general=False, note="fast"),
+    "pybullet": ("jumpcad.simulation.bullet", "BulletEngine"),
+    "mujoco": ("jumpcad.simulation.mujoco", "MujocoEngine"),
+    "planar": ("jumpcad.simulation.planar", "PlanarEngine"),
 }
-"""Every engine by its name."""
-GENERAL = tuple(name for name, entry in ENGINES.items() if entry.general)
+"""Module and class of every engine by its name."""
+GENERAL = ("pybullet", "mujoco")
+"""Rigid-body simulators independent of this project, of packages of these names: `--engine both` compares them, and the
+first of them that is installed is the default."""
+ENGINE_HELP = "pybullet, mujoco, both or planar (fast); else the first installed."
+
+
+def is_installed(name: str) -> bool:
+    """Tell whether the package of an engine is there, if it needs one."""
+    return name not in GENERAL or importlib.util.find_spec(name) is not None
 
 
 @cache
@@ -56,7 +42,8 @@ def engine_named(name: str) -> "Engine":
         If there is none of the name, or it is not installed.
     """
     require_engine(name)
-    engine: Engine = getattr(importlib.import_module(ENGINES[name].module), ENGINES[name].maker)()
+    module, maker = ENGINES[name]
+    engine: Engine = getattr(importlib.import_module(module), maker)()
     return engine
 
 
@@ -69,8 +56,8 @@ def require_engine(name: str) -> None:
         With a list of the engines.
     """
     if name not in ENGINES:
-        known = in_words(ENGINES, "and")
-        raise JumpcadError(f"{name!r} is not an engine; there are {known}{did_you_mean(name, list(ENGINES))}")
+        hint = did_you_mean(name, list(ENGINES))
+        raise JumpcadError(f"{name!r} is not an engine; there are pybullet, mujoco and planar{hint}")
 
 
 def default_engine() -> str:
@@ -82,21 +69,9 @@ def default_engine() -> str:
         If there is none.
     """
     for name in GENERAL:
-        if ENGINES[name].is_installed:
+        if is_installed(name):
             return name
     raise JumpcadError("no physics engine is installed: pip install mujoco")
-
-
-def engine_help() -> str:
-    """Return what the command line's help says of the choice: the general engines, `both`, the others."""
-    others = [f"{name} ({entry.note})" for name, entry in ENGINES.items() if not entry.general]
-    return f"{in_words([*GENERAL, 'both', *others], 'or')}; else the first installed."
-
-
-def in_words(names: Iterable[str], word: str) -> str:
-    """Return names as a sentence lists them: `a, b or c`."""
-    *most, last = names
-    return f"{', '.join(most)} {word} {last}" if most else last
 
 
 def import_pybullet(without_it: str = "--engine mujoco works without it") -> ModuleType:

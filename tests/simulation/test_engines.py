@@ -16,7 +16,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, engines, simulate
-from jumpcad.simulation.engines import EngineEntry, default_engine, engine_named, require_engine
+from jumpcad.simulation.engines import default_engine, engine_named, require_engine
 from jumpcad.simulation.mechanics import Mechanics
 
 ENGINES = ["pybullet", "mujoco"]
@@ -113,17 +113,6 @@ def test_froude_similarity(kenan: Robot, engine: str) -> None:
         for robot, dt in ((kenan, 1 / 8000), (large, 2 / 8000))
     )
     assert large_jump.fitness == pytest.approx(small_jump.fitness, rel=2e-3)
-
-
-def test_an_engine_of_the_registry_simulates_and_is_named_to_users(
-    kenan: Robot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    entry = EngineEntry("jumpcad.simulation.planar", "PlanarEngine", general=False, note="a second name")
-    monkeypatch.setitem(engines.ENGINES, "flat", entry)
-    assert replace(simulate(kenan, engine="flat"), engine="planar") == simulate(kenan, engine="planar")
-    assert engines.engine_help().startswith("pybullet, mujoco, both, planar (fast) or flat (a second name); else")
-    with pytest.raises(JumpcadError, match="pybullet, mujoco, planar and flat"):
-        simulate(kenan, engine="plane")
 
 
 def test_a_missing_engine_is_said_with_the_way_out(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
