@@ -5,7 +5,7 @@ template `best-printable` and its picture. Words have to be the same. Numbers ma
 those of the search, which may take another path on another processor or library, 1 %; those of a sampler 5 %; CPU
 times, a factor of 1.5.
 
-Run `python benchmarks/readme.py [--cheap | --only search|masses|speed|calibration|effects|validation ...] [--write]`.
+Run `python benchmarks/readme.py [--cheap | --only search|masses|speed|calibration|effects|parameters ...] [--write]`.
 All but what follows from the templates takes minutes: `--cheap` leaves it out, as the tests do; `--only` takes those
 that it names. `--write` corrects pages, template and picture.
 """
@@ -19,6 +19,7 @@ from pathlib import Path
 
 import calibrated
 import figures
+import parameters
 import validated
 
 from jumpcad.bundle.export import report_page
@@ -55,6 +56,7 @@ COSTLY: dict[str, tuple[Maker, float]] = {
     "speed": (figures.of_speed, SPEED_SLACK),
     "calibration": (calibrated.of_calibration, calibrated.SAMPLER_SLACK),
     "effects": (calibrated.of_effects, 0.0),
+    "parameters": (lambda: {"parameters": parameters.table()}, 0.0),
     "validation": (validated.of_validation, calibrated.SAMPLER_SLACK),
 }
 
