@@ -23,6 +23,7 @@ VARIANTS = {
     'bought.spring = "9271K589"': "kenan-2.0",
     "body.toe_half_width_mm = 60": "best-ga",
     'cage.rod = "glass-1.5"': "best-printable",
+    "safety.lateral_offset_mm = 2": "best-printable",
 }
 """What a workshop says that has other limits than the default one, and a design that can be built in it."""
 

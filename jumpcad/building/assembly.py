@@ -135,6 +135,8 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
         parts.get("capacitor"),
         settled.holes.fits.wall_min_mm,
         settled.holes.fits.sliding_mm,
+        side if (side := workshop.seats.battery) in ("left", "right") else None,
+        "left" if workshop.seats.boards == "left" else "right",
     )
     layout = make_layout(
         settled.linkage,

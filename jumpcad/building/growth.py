@@ -1,5 +1,6 @@
 """The printed robot of a design: assembled, checked, and strengthened where larger sections can pass a failed check."""
 
+import itertools
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -13,7 +14,7 @@ from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import Robot, require_name
 from jumpcad.strength.growth import Growth
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import Workshop, load_workshop, varied
 
 GROWTH_ROUNDS = 10
 
@@ -62,7 +63,28 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
         ever_weak += weak
         robot, growth = found
         findings = constraint_findings(robot)
-    return replace(robot, grown=growth.grown(ever_weak)) if ever_weak else robot, findings
+    robot = replace(robot, grown=growth.grown(ever_weak)) if ever_weak else robot
+    return (
+        _balanced(robot, findings)
+        if "balance" in (workshop.seats.battery, workshop.seats.boards)
+        else (robot, findings)
+    )
+
+
+def _balanced(robot: Robot, findings: list[Finding]) -> tuple[Robot, list[Finding]]:
+    """Return the robot with its electronics where they balance it best, of all places that fit, and its findings."""
+    workshop, seats = robot.workshop, robot.workshop.seats
+    batteries = ("leg", "right", "left") if seats.battery == "balance" else (seats.battery,)
+    plates = ("right", "left") if seats.boards == "balance" else (seats.boards,)
+    found = [(robot, findings)]
+    for battery, boards in list(itertools.product(batteries, plates))[1:]:  # it is built as the first
+        there = varied(workshop, {"seats.battery": battery, "seats.boards": boards})
+        try:
+            moved, judged = built_and_checked(robot.design, there, robot.name)
+        except CannotBuildError:
+            continue
+        found.append((replace(moved, workshop=workshop), judged))
+    return min(found, key=lambda one: (len(errors(one[1])), abs(one[0].lateral_offset_mm)))
 
 
 def _first_with_room(before: Robot, growths: Iterable[Growth]) -> tuple[Robot, Growth] | None:

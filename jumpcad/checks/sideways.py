@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jumpcad.findings import Basis, Finding, at_least
+from jumpcad.findings import Basis, Finding, at_least, at_most
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.feasibility import centre_of_mass_on_foot_mm
 from jumpcad.mechanism.linkage import toe_tip_mm
@@ -30,7 +30,10 @@ BASIS = {
         "2); w from the centre of mass to the line from toe's tip to nose, h its height, play = least of leg's and "
         "front link's Σ(bore - pin)/length of the eye",
         "statics; reserve and twice the play at landing: judgement",
-    )
+    ),
+    "lateral_balance": Basis(
+        "|centre of mass beside the leg| ≤ safety.lateral_offset_mm (mm), where that is not 0", "statics"
+    ),
 }
 
 
@@ -49,7 +52,7 @@ class Roll:
 
 
 def sideways_findings(robot: Robot) -> list[Finding]:
-    """Return `sideways_tipping`: the least margin of standing at rest, with loaded springs, and at landing."""
+    """Return `sideways_tipping`, the least margin at rest, loaded and at landing, and `lateral_balance` if asked."""
     worst = min(rolls(robot), key=lambda roll: roll.margin_deg)
     reserve = robot.workshop.safety.roll_reserve_deg
     wider = "raise body.toe_half_width_mm"
@@ -58,7 +61,7 @@ def sideways_findings(robot: Robot) -> list[Finding]:
         wider = (
             f"body.toe_half_width_mm = {width:.0f}" if width else "no body.toe_half_width_mm is enough: reduce the play"
         )
-    return [
+    found = [
         at_least(
             "sideways_tipping", worst.margin_deg, reserve, "°",
             f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
@@ -66,6 +69,15 @@ def sideways_findings(robot: Robot) -> list[Finding]:
             f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm",
         )
     ]  # fmt: skip
+    if limit := robot.workshop.safety.lateral_offset_mm:
+        offset = robot.lateral_offset_mm
+        side, way = ("left", "raise") if offset > 0.0 else ("right", "lower")
+        found.append(at_most(
+            "lateral_balance", abs(offset), limit, "mm",
+            f"the centre of mass lies {abs(offset):.1f} mm to the {side} of the leg; {limit:g} mm are allowed",
+            f'{way} body.right_mm, or seats.battery = "balance" and seats.boards = "balance"',
+        ))  # fmt: skip
+    return found
 
 
 def _width_mm(robot: Robot, reserve_deg: float) -> float | None:
@@ -92,8 +104,7 @@ def rolls(robot: Robot, layout: Layout | None = None) -> tuple[Roll, ...]:
     linkage, layout = robot.linkage, layout or robot.layout
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
     com = centre_of_mass_on_foot_mm(robot, linkage, linkage.pose(leg))
-    aside = 1000.0 * sum(body.mass_kg * float(body.com_m[1]) for body in robot.bodies.values()) / robot.mass_kg
-    stance = stance_deg(layout, com, aside)
+    stance = stance_deg(layout, com, robot.lateral_offset_mm)
     play = math.degrees(play_rad(layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)))
     return (
         Roll("at rest", float(stance[-1]), play),

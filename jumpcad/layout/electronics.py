@@ -4,6 +4,7 @@ In-plane places are in the body frame's x-z plane.
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from jumpcad.dimensions import (
 )
 from jumpcad.layout.lateral import Interval
 from jumpcad.transforms import Array
+
+Side = Literal["left", "right"]
 
 ABOVE_BATTERY_MM = 3.8
 """Gap above the battery: its strap, 2.5 mm where hook lies on loop, and under the upper tray ties of 1.1 mm, which
@@ -60,8 +63,9 @@ class Electronics:
     """Battery, boards, plug and capacitor that the trays carry.
 
     The battery is strapped to the lower tray. On the upper one the boards lie in a row across it, from the back: the
-    controller with its USB socket at the right plate, the others at the left one. The capacitor lies beside the
-    controller, the plug beside the foremost board and opens to the front.
+    controller with its USB socket at one plate, `usb_side`, the others at the other. The capacitor lies beside the
+    controller, the plug beside the foremost board and opens to the front. The battery lies as near to the leg as strap
+    and plates let it, or to the plate of `battery_side`: near the leg the robot tips less sideways.
 
     `wall_mm` is the thinnest wall that can be printed, `play_mm` that of a tray between the plates on either side.
     """
@@ -74,6 +78,8 @@ class Electronics:
     capacitor: Component | None = None
     wall_mm: float = WALL_MM
     play_mm: float = PLAY_MM
+    battery_side: Side | None = None
+    usb_side: Side = "right"
 
     @property
     def side_mm(self) -> float:
@@ -189,14 +195,15 @@ class Electronics:
         low, high = inside
         battery, board_bottom = self.battery, self.upper_tray_mm + TRAY_MM + TAPE_MM
         size = (battery.length_mm, battery.width_mm, battery.height_mm)
-        # as near to the legs' plane as strap and plates let it: the robot tips less sideways
+        wanted = 0.0 if self.battery_side is None else low if self.battery_side == "right" else high
         strap = battery.width_mm / 2.0 + 1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM
-        y = min(max(0.0, low + strap), high - strap)
+        y = min(max(wanted, low + strap), high - strap)
         seats = {"battery": Seat(self.battery_mm, y, TRAY_MM, size)}
         start = -self.boards_mm / 2.0
         for role, board in self.boards.items():
             x, reach = start + board.width_mm / 2.0, _from_plate_mm(role) + board.length_mm / 2.0
-            y, side = (low + reach, 1.0) if role == "controller" else (high - reach, -1.0)
+            side = self.inwards(role)
+            y = low + reach if side > 0.0 else high - reach
             seats[role] = Seat(x, y, board_bottom, (board.width_mm, board.length_mm, board.height_mm))
             beside = self._neighbour(role)
             if beside:
@@ -207,6 +214,10 @@ class Electronics:
                 seats[beside] = Seat(at, y + side * (end + size[1] / 2.0), board_bottom - TAPE_MM, size)
             start += board.width_mm + self.ties_apart_mm
         return seats
+
+    def inwards(self, role: str) -> float:
+        """Return 1 for a board that lies at the right plate, -1 for one at the left."""
+        return 1.0 if (role == "controller") == (self.usb_side == "right") else -1.0
 
     def tie_slots(self, inside: Interval) -> dict[str, list[tuple[float, float, tuple[float, float]]]]:
         """Return the slots of every tie on the upper tray: middles along and across the robot, and sizes (x, y).

@@ -9,7 +9,7 @@ import numpy as np
 
 from jumpcad.catalogue import Component
 from jumpcad.dimensions import CLEAR_MM, TRAY_MM
-from jumpcad.layout.electronics import TAPE_MM, Electronics
+from jumpcad.layout.electronics import TAPE_MM, Electronics, Side
 from jumpcad.layout.lateral import Interval, Lateral
 from jumpcad.layout.places import best_place, grid_candidates
 from jumpcad.layout.room import Obstacle, box_obstacle, disc
@@ -36,9 +36,7 @@ AROUND_MM = 45.0
 class Fittings:
     """Places (2,) of the plates' openings; None for what a robot does not have.
 
-    `usb_mm` is the middle of the opening for the USB plug in the right plate, `usb_size_mm` its width and height. The
-    switch lies along x at the inside of the right plate. Leads of sensor and motor pass the plates at `left_mm` and
-    `right_mm`.
+    `usb_mm` is the middle of the opening for the USB plug in the plate `usb_side`, `usb_size_mm` its size. The switch lies along x at the inside of the right plate. Leads of sensor and motor pass the plates at `left_mm` and `right_mm`.
     """
 
     switch: Component | None
@@ -47,6 +45,7 @@ class Fittings:
     usb_size_mm: tuple[float, float]
     left_mm: Array
     right_mm: Array
+    usb_side: Side | None
 
 
 def fittings_of(
@@ -68,7 +67,8 @@ def fittings_of(
     middle, (usb, usb_size) = electronics.middle_mm(tray_mm), _usb(electronics, lateral.inside, tray_mm)
     if usb is not None:
         half = (usb_size[0] / 2.0 + USB_EDGE_MM, usb_size[1] / 2.0 + USB_EDGE_MM)
-        free.append(box_obstacle("opening for USB", usb, half, 0.0, (low - 8.0, low + 0.1)))
+        plate = (low - 8.0, low + 0.1) if electronics.usb_side == "right" else (high - 0.1, high + 8.0)
+        free.append(box_obstacle("opening for USB", usb, half, 0.0, plate))
     left = _near(middle, free, HOLE_HALF_MM, (high - 3.0, high + 8.0), "hole for the sensor's wires")
     right = _near(middle, free, HOLE_HALF_MM, (low - 8.0, low + 3.0), "hole for the motor's wires")
     free += [box_obstacle("hole for wires", right, HOLE_HALF_MM, 0.0, (low - 8.0, low + 8.0))]
@@ -77,7 +77,8 @@ def fittings_of(
         half = switch_half_mm(switch)
         depth = (low - 8.0, low + (switch.height_mm or 0.0) + SWITCH_DEPTH_MM)
         place = _near(middle, free, half, depth, "switch")
-    return Fittings(switch if place is not None else None, place, usb, usb_size, left, right)
+    side = None if usb is None else electronics.usb_side
+    return Fittings(switch if place is not None else None, place, usb, usb_size, left, right, side)
 
 
 def switch_half_mm(switch: Component) -> tuple[float, float]:

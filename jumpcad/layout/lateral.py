@@ -70,6 +70,7 @@ def lateral_stack(
     plate_mm: float,
     tray_width_mm: float,
     roller_screw_mm: float,
+    right_mm: float = 0.0,
 ) -> Lateral:
     """Stack everything across the robot.
 
@@ -89,6 +90,8 @@ def lateral_stack(
         Least width that the electronics need between the plates.
     roller_screw_mm
         Length of the roller's screw below its head, which lies on the roller; its end moves past the right plate.
+    right_mm
+        By how much the right plate stands further out than it must.
     """
     half = leg_mm / 2.0
     cam = (half + ROLLER_WASHER_MM, half + ROLLER_WASHER_MM + roller_width_mm)
@@ -105,7 +108,7 @@ def lateral_stack(
     spring_right = (-spring_left[1], -spring_left[0])
     screw = (cam[1] - roller_screw_mm, cam[1])
     beside_leg = min(spring_right[0] - GAP_MM, screw[0] - SCREW_GAP_MM)
-    right = min(body[0] - TERMINALS_MM, beside_leg, left - tray_width_mm)
+    right = min(body[0] - TERMINALS_MM, beside_leg, left - tray_width_mm) - right_mm
     lug = (half + GAP_MM, half + GAP_MM + lug_mm)
     return Lateral(
         leg=(-half, half),

@@ -184,6 +184,7 @@ def make_layout(
         plate_mm,
         electronics.width_mm,
         roller_screw_mm(sections.thickness_mm, roller, workshop.catalogue),
+        workshop.body.right_mm,
     )
     bought, reserve_mm, axle_mm = workshop.bought, workshop.safety.room_reserve_mm, workshop.bought.axle_mm
     ear_mm = cap_ear_mm(workshop.fits.wall_min_mm)

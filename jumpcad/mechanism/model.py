@@ -194,6 +194,11 @@ class Mechanism(ByValue):
         """Total mass (kg)."""
         return math.fsum(body.mass_kg for body in self.bodies.values())
 
+    @property
+    def lateral_offset_mm(self) -> float:
+        """How far the centre of mass lies beside the leg, to the left (mm), the same in every pose."""
+        return 1000.0 * sum(body.mass_kg * float(body.com_m[1]) for body in self.bodies.values()) / self.mass_kg
+
     def joint(self, name: str) -> Joint:
         """Return a joint by its name."""
         return next(joint for joint in self.joints if joint.name == name)

@@ -36,16 +36,14 @@ def fitting_pads(fittings: Fittings, more_mm: float) -> Iterator[Region]:
 
 
 def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left", "right"]) -> Iterator[Region]:
-    """Yield what a plate lacks: holes for leads with the slots of their tie; in the right one switch and USB plug."""
+    """Yield what a plate lacks: holes for leads with the slots of their tie, USB plug; in the right one the switch."""
     yield from _wire_hole(fittings.left_mm if side == "left" else fittings.right_mm)
-    if side == "left":
-        return
-    if fittings.switch_mm is not None:
+    if fittings.switch_mm is not None and side == "right":
         x, z = fittings.switch_mm
         yield rectangle(KNOB_MM, (x, z), 1.0)
         for sign in (-1.0, 1.0):
             yield hole(holes.fits.m2_clearance_mm, (x + sign * SWITCH_SCREWS_MM, z))
-    if fittings.usb_mm is not None:
+    if fittings.usb_mm is not None and side == fittings.usb_side:
         yield rectangle(fittings.usb_size_mm, fittings.usb_mm, 1.0)
 
 

@@ -94,7 +94,7 @@ def _beside(layout: Layout, part: str, start: Array, end: Array) -> list[Array]:
     """Return the points (3,) by which a lead outside passes below standoffs' screws, and beside the opening for USB."""
     fittings, reach = layout.fittings, math.inf
     kept = [(float(x), float(z), BELOW_SCREW_MM, 2.0 * reach) for x, z in layout.standoffs_mm]
-    if plate_of(layout, part) == "right" and fittings.usb_mm is not None:
+    if fittings.usb_mm is not None and plate_of(layout, part) == fittings.usb_side:
         half = fittings.usb_size_mm[1] / 2.0 + OPENING_EDGE_MM
         kept.append((float(fittings.usb_mm[0]), float(fittings.usb_mm[1]), half, half))
     points = []

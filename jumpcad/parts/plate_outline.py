@@ -48,14 +48,14 @@ SLOT_END_MM = 1.0
 def tray_slots(layout: Layout, side: Face) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
     """Return the middles (x, z) of a plate's slots for the tabs of the lower and of the upper tray.
 
-    Where the right plate has the opening for a USB plug, above the upper tray's back end, it has no slot.
+    Where a plate has the opening for a USB plug, above the upper tray's back end, it has no slot.
     """
     middle, reach = layout.tray_mm, layout.electronics.length_mm / 2.0 - TAB_MM / 2.0 - SLOT_END_MM
     levels = (TRAY_MM / 2.0, layout.electronics.upper_tray_mm + TRAY_MM / 2.0)
     lower, upper = (
         [(float(middle[0] + sign * reach), float(middle[1] + level)) for sign in (-1.0, 1.0)] for level in levels
     )
-    return lower, upper[1:] if side == "right" and layout.fittings.usb_mm is not None else upper
+    return lower, upper[1:] if side == layout.fittings.usb_side else upper
 
 
 def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
@@ -65,8 +65,9 @@ def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
     pads += [disc(STANDOFF_PAD_MM + more, place) for place in layout.standoffs_mm]
     pads.append(disc(SPRING_PIN_PAD_MM + more, layout.spring_pin_mm))
     slot = (TAB_MM + 2.0 * SLOT_AROUND_MM + more, TRAY_MM + 2.0 * SLOT_AROUND_MM + more)
+    whole: Face = "right" if layout.fittings.usb_side == "left" else "left"
     pads += [
-        rectangle(slot, place, SLOT_PAD_RADIUS_MM + more_mm) for level in tray_slots(layout, "left") for place in level
+        rectangle(slot, place, SLOT_PAD_RADIUS_MM + more_mm) for level in tray_slots(layout, whole) for place in level
     ]
     pads += fitting_pads(layout.fittings, more_mm)
     pads.append(grown(socket_outline(layout), more_mm))

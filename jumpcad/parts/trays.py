@@ -63,7 +63,7 @@ def trays(layout: Layout, workshop: Workshop) -> list[Drawing]:
         under = _window(width - 2.0 * BOARD_LEDGE_MM, length - 2.0 * BOARD_LEDGE_MM)
         cuts += [window.translate((x, y)) for window in under]
         # at its other end the plate keeps it
-        end, inwards = length / 2.0 + SEAT_PLAY_MM + rim / 2.0, 1.0 if role == "controller" else -1.0
+        end, inwards = length / 2.0 + SEAT_PLAY_MM + rim / 2.0, electronics.inwards(role)
         rims.append(rectangle((RIM_SHARE * width, rim), (x, y + inwards * end)))
     upper = floor - union(cuts)
     low = [(0.0, TRAY_MM, lower), (TRAY_MM, TRAY_MM + STOP_HEIGHT_MM, union(stops) ^ lower)]

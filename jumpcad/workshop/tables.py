@@ -128,13 +128,14 @@ class BodyPlates(TomlTable):
     """The two plates of the body, the stop between them, and how wide the robot stands.
 
     The leg touches `stop_pad` at `stop_deg` past rest. `toe_half_width_mm` is the least distance of the toes' ends from
-    the middle (0: that of the design).
+    the middle (0: that of the design). The right plate stands `right_mm` further out than it must.
     """
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
     stop_deg: Annotated[float, Field(ge=3, le=8)]
     stop_pad: OptionalName
     toe_half_width_mm: Annotated[float, Field(ge=0, le=200)]
+    right_mm: Annotated[float, Field(ge=0, le=40)]
 
 
 class CageTable(TomlTable):
@@ -156,11 +157,13 @@ class CageTable(TomlTable):
 
 
 class Seats(TomlTable):
-    """How exactly the sensor sits over its track, and what holds the electronics.
+    """How exactly the sensor sits over its track, where the electronics lie, and what holds them.
 
     The land's height under the plunger may be off by `sensor_axial_mm`, land and plunger along the track by
     `sensor_along_mm`. From the sensor's contact the cam stands within `sensor_stop_s`; `sensor_reserve_deg` of cam
-    angle are kept besides, before the drop and after it. `strap_n` and `tie_n` are what the battery's strap and a cable
+    angle are kept besides, before the drop and after it. `battery` lies near the leg or at a plate, the controller with
+    its USB socket at the plate `boards`; "balance" is where the robot's centre of mass comes nearest to the leg.
+    `strap_n` and `tie_n` are what the battery's strap and a cable
     tie hold.
     """
 
@@ -168,6 +171,8 @@ class Seats(TomlTable):
     sensor_along_mm: Annotated[float, Field(ge=0, le=3)]
     sensor_stop_s: Annotated[float, Field(ge=0, le=1)]
     sensor_reserve_deg: Annotated[float, Field(ge=0, le=20)]
+    battery: Literal["leg", "left", "right", "balance"]
+    boards: Literal["left", "right", "balance"]
     strap_n: Positive
     tie_n: Positive
 
@@ -212,7 +217,8 @@ class Safety(TomlTable):
     Loads are taken as those of the stiffest springs within `spring_rate_scatter`, and more by `stress_reserve`. Other
     reserves are kept below the motor's torque and the cam's pressure angle, above gaps, and in the room for the rest
     stop and between main leg and front link; `kick_reserve` is added to
-    the torque peak at the gear motor when the released cam strikes.
+    the torque peak at the gear motor when the released cam strikes. The centre of mass lies at most `lateral_offset_mm`
+    beside the leg (0: no limit).
     """
 
     strength_factor: Annotated[float, Field(ge=1, le=20)]
@@ -229,6 +235,7 @@ class Safety(TomlTable):
     room_reserve_mm: Annotated[float, Field(ge=0, le=5)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Length
+    lateral_offset_mm: Annotated[float, Field(ge=0, le=50)]
     roll_reserve_deg: Annotated[float, Field(ge=0, le=45)]
     leg_flex_share: Share
     steel_yield_mpa: Stress

@@ -112,7 +112,7 @@ def _named(layout: Layout, side: str) -> Iterator[tuple[str, list[float]]]:
         if plate_of(layout, part) == side:
             at = outer_way(layout, part)[0]
             yield part, [float(at[0]), 0.0, float(at[2]) - below]
-    if side == "right" and fittings.usb_mm is not None:
+    if fittings.usb_mm is not None and side == fittings.usb_side:
         yield "USB", [float(fittings.usb_mm[0]), 0.0, float(fittings.usb_mm[1]) - 1.0]
 
 

@@ -55,6 +55,7 @@ def operation_values(robot: Robot) -> dict[str, Any]:
         "regulator": chosen.regulator,
         "diode": chosen.diode,
         "charged_by_usb": chosen.charged_by_usb,
+        "usb_side": robot.layout.fittings.usb_side,
         "charge_rate": rate,
         "charge_h": rate and FULL_AFTER / rate,
         "outside_ma": min(battery.capacity_mah, battery.bears_ma),
