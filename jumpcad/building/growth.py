@@ -64,11 +64,9 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
         robot, growth = found
         findings = constraint_findings(robot)
     robot = replace(robot, grown=growth.grown(ever_weak)) if ever_weak else robot
-    return (
-        _balanced(robot, findings)
-        if "balance" in (workshop.seats.battery, workshop.seats.boards)
-        else (robot, findings)
-    )
+    if "balance" in (workshop.seats.battery, workshop.seats.boards):
+        return _balanced(robot, findings)
+    return robot, findings
 
 
 def _balanced(robot: Robot, findings: list[Finding]) -> tuple[Robot, list[Finding]]:

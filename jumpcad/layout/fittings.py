@@ -36,7 +36,9 @@ AROUND_MM = 45.0
 class Fittings:
     """Places (2,) of the plates' openings; None for what a robot does not have.
 
-    `usb_mm` is the middle of the opening for the USB plug in the plate `usb_side`, `usb_size_mm` its size. The switch lies along x at the inside of the right plate. Leads of sensor and motor pass the plates at `left_mm` and `right_mm`.
+    `usb_mm` is the middle of the opening for the USB plug in the plate `usb_side`, `usb_size_mm` its size. The
+    switch lies along x at the inside of the right plate. Leads of sensor and motor pass the plates at `left_mm` and
+    `right_mm`.
     """
 
     switch: Component | None
