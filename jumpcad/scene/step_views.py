@@ -94,18 +94,18 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
         beside = {name: built.get(name, []) for name in BENCH.get(step.key, ())}
         views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot), beside)]
         if step.key == "boards" and robot.layout.fittings.usb_mm is not None:
-            views[step.key][0] = _with_usb(views[step.key][0])
+            views[step.key][0] = _with_usb(views[step.key][0], robot.layout.electronics.inwards("controller"))
         for inset in INSETS:
             if inset.step == step.key and any(re.fullmatch(inset.framed, thing.name) for thing in there):
                 views[step.key].append(_view(inset.name, inset.title, step, before, moved, poses, inset))
     return views
 
 
-def _with_usb(view: StepView) -> StepView:
-    """Return a view with a label at the controller's USB socket: the end of the board towards the right plate."""
+def _with_usb(view: StepView, inwards: float) -> StepView:
+    """Return a view with a label at the controller's USB socket: the end of the board towards its plate."""
     index = next(index for index, thing in enumerate(view.things) if thing.name == "controller")
     corners = _corners(view.things[index], view.poses[index])
-    end = np.round(corners[corners[:, 1] <= corners[:, 1].min() + APART_M].mean(axis=0), DIGITS)
+    end = np.round(corners[inwards * corners[:, 1] <= (inwards * corners[:, 1]).min() + APART_M].mean(axis=0), DIGITS)
     return replace(view, labels=(*view.labels, Label("USB socket", end, end)))
 
 

@@ -33,7 +33,7 @@ def test_the_usb_plug_passes_the_plate_at_which_its_socket_is() -> None:
             plate = next(part for part in robot.parts if part.name == f"body_plate_{side}")
             solid = plate.drawing.solid.transform(plate.placements[0].T_body_part[:3])
             assert ((solid ^ plug).volume() < 1e-6) == free, (boards, side)
-        assert f"USB socket to the {boards}" in write_guide(robot)
+        assert f"USB socket to the {boards}" in "".join(write_guide(robot).values())
 
 
 def test_the_centre_of_mass_moves_as_battery_and_plate_do() -> None:

@@ -169,7 +169,8 @@ def _trays(robot: Robot, leads: list[Lead], top: float) -> dict[str, Any]:
         least = np.array([place[0] - size[0] / 2.0, layout.lateral.inside[0], 0.0])
         boxes.append(_box(view, (least, least + np.array([*size, 0.0])), "switch"))
     seat = layout.electronics.seats(layout.lateral.inside)["controller"]
-    middle, edge, half = x + seat.x_mm, seat.y_mm - seat.size_mm[1] / 2.0, layout.fittings.usb_size_mm[0] / 2.0
+    middle, half = x + seat.x_mm, layout.fittings.usb_size_mm[0] / 2.0
+    edge = seat.y_mm - layout.electronics.inwards("controller") * (seat.size_mm[1] - USB_MM) / 2.0 - USB_MM / 2.0
     if layout.fittings.usb_mm is not None:
         socket = np.array([middle - half, edge, 0.0]), np.array([middle + half, edge + USB_MM, 0.0])
         boxes.append(_box(view, socket, "USB socket", "#c3c9d1"))

@@ -36,16 +36,17 @@ class Lead:
 
 
 def pads_of(robot: Robot) -> dict[Terminal, Array]:
-    """Return the middles (3,) of the controller's pads whose places are known: in rows, USB to the right."""
+    """Return the middles (3,) of the controller's pads whose places are known: in rows, USB at its plate."""
     layout, board = robot.layout, robot.electrical_parts.controller
     seat, (x, z) = layout.electronics.seats(layout.lateral.inside)["controller"], layout.tray_mm
     pads: dict[Terminal, Array] = {}
     if layout.fittings.usb_mm is None:
         return pads
-    # from above with USB ahead the rows are left and right: here USB points to the right, so left is in front
-    for sign, names in ((1.0, board.left), (-1.0, board.right)):
+    # from above with USB ahead the rows are left and right: where USB points to the right, left is in front
+    turned = layout.electronics.inwards("controller")
+    for sign, names in ((turned, board.left), (-turned, board.right)):
         for row, name in enumerate(names):
-            along = seat.y_mm + PAD_PITCH_MM * (row - (len(names) - 1) / 2.0)
+            along = seat.y_mm + turned * PAD_PITCH_MM * (row - (len(names) - 1) / 2.0)
             across = x + seat.x_mm + sign * (seat.size_mm[0] / 2.0 - PAD_EDGE_MM)
             pads[Terminal("controller", name)] = np.array([across, along, z + seat.bottom_mm + seat.size_mm[2]])
     return pads
