@@ -207,11 +207,11 @@ class Arena:
         data.qvel[3:6] += spin_rad_s
         self._mujoco.mj_forward(self.model, data)
 
-    def rest(self, look: Callable[[], None] = lambda: None, within_s: float = REST_WITHIN_S) -> float:
+    def rest(self, look: Callable[[], None] = lambda: None) -> float:
         """Go on until the robot lies still, looking at it meanwhile; return the time that it took (s)."""
         still_s = 0.0
         begun = float(self.data.time)
-        while still_s < STILL_S and self.data.time - begun < within_s:
+        while still_s < STILL_S and self.data.time - begun < REST_WITHIN_S:
             self.step(LOOK_S)
             look()
             slow = np.abs(self.data.qvel[:3]).max() < STILL_M_S and np.abs(self.data.qvel[3:6]).max() < STILL_RAD_S

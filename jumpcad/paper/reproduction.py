@@ -98,23 +98,18 @@ class Reproduction:
         }
 
 
-def reproduce(engine: str = "pybullet") -> list[Reproduction]:
+def reproduce() -> list[Reproduction]:
     """Simulate the study's four robots twice: as the study did, and with the evaluator, up to touchdown.
-
-    Parameters
-    ----------
-    engine
-        Of the evaluator; the published simulation exists in PyBullet alone.
 
     Raises
     ------
     JumpcadError
-        If an engine is missing.
+        If PyBullet is missing.
     """
     settings = Settings(flight="simulated")
     rows = []
     for result in PUBLISHED_RESULTS:
         design = load_design(result.template)
-        jump = simulate(capsule_robot(design), settings, engine)
+        jump = simulate(capsule_robot(design), settings)
         rows.append(Reproduction(result, published.simulate(design), jump))
     return rows
