@@ -51,10 +51,10 @@ def table(name: str = "kenan-2.0") -> str:
         near = max(alone(design, key, (0.9 * value, 1.1 * value), robot.mass_kg), default=(first, value))
         through = alone(design, key, np.linspace(bounds.lower, bounds.upper, VALUES), robot.mass_kg)
         far, at = max((first, value), near, *through)
-        words = f"{value:.3g} | {near[0]:.0f} mm | {at:.3g} | {far:.0f} mm | {far / first:.2f}"
-        rows.append((far, f"| `{key}` | {words} |"))
-    head = f"| parameter | `{name}` | 10 % more or less | best alone | range there | times {first:.0f} mm |"
-    return "\n".join([head, "|---|--:|--:|--:|--:|--:|", *(row for _, row in sorted(rows, reverse=True))])
+        words = f"{near[0]:.0f} mm | {at:.3g} | {far:.0f} mm | {far / first:.2f}"
+        rows.append((far, f"| `{key} = {value:.3g}` | {words} |"))
+    head = f"| parameter of {name} | 10 % more or less | best alone | range there | times {first:.0f} mm |"
+    return "\n".join([head, "|---|--:|--:|--:|--:|", *(row for _, row in sorted(rows, reverse=True))])
 
 
 if __name__ == "__main__":
