@@ -40,7 +40,7 @@ FIGURES = {
     "spring_energy_j": ("spring energy", "mJ", 1000.0, 0),
     "electrical_energy_j": ("energy of a jump", "J", 1.0, 2),
     "winding_time_s": ("winding", "s", 1.0, 1),
-    "metres_per_charge": ("metres per charge, ten jumps in a row", "m", 1.0, 0),
+    "metres_per_charge": ("metres per charge", "m", 1.0, 0),
     "cost_eur": ("cost, as far as known", "€", 1.0, 2),
 }
 """Label, unit, factor from SI and digits of each figure that is compared."""
@@ -73,11 +73,6 @@ class ComparedRobot:
         """The names of its violated limits."""
         return [one.name for one in self.findings if one.severity != "info"]
 
-    @property
-    def tightest(self) -> str:
-        """Its worst limit and how much of it is used, in words."""
-        return f"{self.findings[0].name}, {used(self.findings[0])}"
-
     @cached_property
     def values(self) -> dict[str, Any]:
         """The eight numbers of its design and all values of its workshop, by name."""
@@ -95,6 +90,13 @@ class Comparison:
 
     def _repr_html_(self) -> str:
         return fill("report/comparison_table.html.j2", {"comparison": self})
+
+    @cached_property
+    def tightest(self) -> list[Finding]:
+        """The worst limit of each robot, but for those used alike by all of them, such as what equal boards bear."""
+        alike = set.intersection(*({(limit.name, used(limit)) for limit in one.findings} for one in self.robots))
+        differ = [[limit for limit in one.findings if (limit.name, used(limit)) not in alike] for one in self.robots]
+        return [(limits or one.findings)[0] for limits, one in zip(differ, self.robots, strict=True)]
 
     @cached_property
     def differs(self) -> dict[str, list[Any]]:
@@ -118,7 +120,7 @@ class Comparison:
             figures = [one.figures[name] for one in self.robots]
             shown = ["–" if value is None else f"{factor * value:.{digits}f}" for value in figures]
             yield [f"{label} ({unit})", *shown]
-        yield ["tightest limit", *(one.tightest for one in self.robots)]
+        yield ["tightest limit", *(f"{limit.name}, {used(limit)}" for limit in self.tightest)]
         yield ["violated limits", *(str(len(one.violated)) for one in self.robots)]
         for name, values in self.differs.items():
             yield [name, *("–" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
@@ -128,8 +130,8 @@ class Comparison:
         """Return plain data for JSON."""
         robots = [
             {"name": one.label, "verdict": one.jump.verdict, **one.figures, "violated": one.violated,
-             "tightest": one.findings[0].name}
-            for one in self.robots
+             "tightest": limit.name}
+            for one, limit in zip(self.robots, self.tightest, strict=True)
         ]  # fmt: skip
         return {"robots": robots, "differs": self.differs}
 

@@ -1,49 +1,66 @@
 """Remedies with numbers: values of parameters that cure what fails, found by trying."""
 
+import math
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from jumpcad.checks import CHECKS, Check
+from jumpcad.checks.assembly import assembly_findings
+from jumpcad.checks.interference import interference_findings
+from jumpcad.checks.printability import printability_findings
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
 from jumpcad.findings import Finding
+from jumpcad.simulation.engines import default_engine
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.varied import varied, workshop_value
 
-TRIES = 10
-"""Designs that are built and simulated for the numbers of one robot, a second of work; judgement."""
-SHARES, HALVINGS = (0.125, 0.3, 1.0), 2
-"""Steps towards the end of a parameter's range until one cures, and halvings of the last step."""
+TRIES, CAGED_TRIES = 8, 5
+"""Designs that are built and simulated for the numbers of one robot, a second of work; a cage doubles that of each.
+
+One that cannot be built takes little time, and does not count.
+"""
+STEPS = 4
+"""Values of one parameter that are tried for one limit."""
+FIRST, BEYOND = 0.125, 1.1
+"""The first step as a share of the way to the end of a parameter's range; how much longer than guessed others are."""
+SLOW = (printability_findings, interference_findings, assembly_findings)
+"""Checks that take about a second: no number is sought for their limits."""
 FAILS = "cannot be built"
-DIRECTIONS = {"lower": -1, "smaller": -1, "shorter": -1, "shorten": -1, "less": -1, "raise": 1, "larger": 1,
-              "longer": 1, "lengthen": 1, "more": 1}  # fmt: skip
-WORD = re.compile(rf"\b(?:({'|'.join(DIRECTIONS)})|([a-z]+\.[a-z_]+|{'|'.join(PARAMETERS)}))\b")
+VERBS = {"lower": -1, "shorten": -1, "raise": 1, "lengthen": 1, "bring": 0}
+NEARER = " nearer to 1"
+DIRECTIONS = VERBS | {"a lower": -1, "smaller": -1, "shorter": -1, "less": -1, "larger": 1, "longer": 1, "more": 1}
+WORD = re.compile(rf"\b(?:({'|'.join(reversed(DIRECTIONS))})|([a-z]+\.[a-z_]+|{'|'.join(PARAMETERS)}))\b")
 
 
 class Remedies:
     """Numbers for the remedies of a design's robot in a workshop, by at most `TRIES` evaluations in all."""
 
     def __init__(self, design: Design, workshop: Workshop) -> None:
-        self._design, self._workshop, self._left = design, workshop, TRIES
-        self._tried: dict[tuple[str, float], frozenset[str]] = {}
+        self._design, self._workshop = design, workshop
+        self._left = CAGED_TRIES if workshop.cage.rod else TRIES
+        self._tried: dict[tuple[str, float], tuple[frozenset[str], dict[str, float]]] = {}
         self._costly: tuple[Check, ...] = ()
 
     def of_findings(self, findings: Iterable[Finding]) -> list[Finding]:
         """Return findings; the remedies of violated limits have a number where one is found.
 
-        What the change for an earlier one cures has that as its remedy.
+        What the change for an earlier one cures has that as its remedy. Limits of `SLOW` checks keep theirs.
         """
         findings = list(findings)
-        wrong = frozenset(one.name for one in findings if one.severity != "info")
-        self._costly = tuple(one for one in CHECKS if not one.cheap and wrong & one.basis.keys())
+        slow = {name for check in CHECKS if check.find in SLOW for name in check.basis}
+        wrong = frozenset(one.name for one in findings if one.severity != "info") - slow
+        self._costly = tuple(
+            one for one in CHECKS if not one.cheap and one.find not in SLOW and wrong & one.basis.keys()
+        )
         cured: dict[str, str] = {}
         numbered = []
         for one in findings:
             remedy = cured.get(one.name) or one.remedy
             if one.name in wrong and one.name not in cured:
-                remedy, gone = self._numbered(one.remedy, one.name, wrong)
+                remedy, gone = self._numbered(one.remedy, one.name, one.margin, wrong)
                 cured |= dict.fromkeys(gone - cured.keys(), f"the change for {one.name} is enough")
             numbered.append(replace(one, remedy=remedy))
         return numbered
@@ -51,79 +68,104 @@ class Remedies:
     def of_refusal(self, refusal: CannotBuildError) -> CannotBuildError:
         """Return why a design cannot be built, its remedy with a number where one is found."""
         what, colon, remedy = str(refusal).rpartition(": ")
-        text = what + colon + self._numbered(remedy, FAILS, frozenset([FAILS]))[0]
-        return CannotBuildError(text, refusal.limit, refusal.margin, refusal.unit)
+        numbered, _ = self._numbered(remedy, FAILS, _margin(refusal), frozenset([FAILS]))
+        return CannotBuildError(what + colon + numbered, refusal.limit, refusal.margin, refusal.unit)
 
-    def _numbered(self, remedy: str, name: str, wrong: frozenset[str]) -> tuple[str, frozenset[str]]:
+    def _numbered(self, remedy: str, name: str, margin: float, wrong: frozenset[str]) -> tuple[str, frozenset[str]]:
         """Return a remedy, with a number where one is found, and the limits that it cures."""
-        for key, direction in asked(remedy):
-            value = self._cure(key, direction, name, wrong)
+        for word, key in asked(remedy):
+            value = self._cure(key, DIRECTIONS[word], (name, margin), wrong)
             if value is not None:
-                return remedy.replace(key, f"{key} to {value:g}", 1), wrong - self._tried[key, value]
+                said = f"{key} {'to' if word in VERBS else '='} {value:g}"
+                return re.sub(f"{key}({NEARER})?", said, remedy, count=1), wrong - self._tried[key, value][0]
         return remedy, frozenset()
 
-    def _cure(self, key: str, direction: int, name: str, wrong: frozenset[str]) -> float | None:
-        """Return a value of a parameter with which a limit is kept, and all that were kept before."""
+    def _cure(self, key: str, direction: int, fails: tuple[str, float], wrong: frozenset[str]) -> float | None:
+        """Return a value of a parameter with which a limit is kept, and all that were kept before.
+
+        `fails` is the limit's name and margin. The next value lies a little beyond where a line through the margins at
+        the last two is 0; once one cures, a nearer one is tried.
+        """
         try:
             now = getattr(self._design, key) if key in PARAMETERS else workshop_value(self._workshop, key)
         except JumpcadError:
             return None
         if isinstance(now, str):
             return None
-        end = _end(key, float(now), direction)
-        worse = float(now)
-        for share in SHARES:
-            better = float(f"{now + share * (end - now):.3g}")
-            if self._cures(key, better, name, wrong):
+        end, (name, margin) = _end(key, float(now), direction), fails
+        best, last, share = None, (0.0, margin), FIRST
+        for _ in range(STEPS):
+            value = float(f"{now + share * (end - now):.3g}")
+            if not self._try(key, value):
                 break
-            worse = better
-        else:
-            return None
-        for _ in range(HALVINGS):
-            value = float(f"{(worse + better) / 2.0:.3g}")
-            if self._cures(key, value, name, wrong):
-                better = value
+            violated, margins = self._tried[key, value]
+            here = share, margins.get(name, math.nan)
+            if name not in violated and violated <= wrong:
+                nearer = _beyond_zero(last, here, (last[0] + share) / 2.0)
+                if best is not None or nearer > 0.9 * share:
+                    return value
+                best, share = value, nearer
+            elif best is None and share < 1.0:
+                farther = _beyond_zero(last, here, 3.0 * share) if name in violated else 2.0 * share
+                last, share = here, min(max(farther, 1.5 * share), 1.0)
             else:
-                worse = value
-        return better
+                break
+        return best
 
-    def _cures(self, key: str, value: float, name: str, wrong: frozenset[str]) -> bool:
+    def _try(self, key: str, value: float) -> bool:
+        """Tell whether a value has been tried, now or before; not if too many have been."""
         if (key, value) not in self._tried:
             if self._left == 0:
                 return False
-            self._left -= 1
-            self._tried[key, value] = self._wrong(key, value)
-        found = self._tried[key, value]
-        return name not in found and found <= wrong
+            self._tried[key, value] = self._found(key, value)
+            self._left -= FAILS not in self._tried[key, value][0]
+        return True
 
-    def _wrong(self, key: str, value: float) -> frozenset[str]:
-        """Return the names of the limits that are violated with another value, or `FAILS`."""
+    def _found(self, key: str, value: float) -> tuple[frozenset[str], dict[str, float]]:
+        """Return the names of the limits that are violated with another value, or `FAILS`, and margins of limits."""
         try:
             design, workshop = self._design, self._workshop
             if key in PARAMETERS:
                 design = Design(**design.model_dump() | {key: value})
             else:
                 workshop = varied(workshop, {key: value})
-            result = evaluate(design, workshop)
+            result = evaluate(design, workshop, engine=default_engine())
+        except CannotBuildError as refusal:
+            return frozenset([FAILS]), {FAILS: _margin(refusal)}
         except JumpcadError:
-            return frozenset([FAILS])
+            return frozenset([FAILS]), {}
         found = [*result.findings, *(one for check in self._costly for one in check.find(result.robot))]
-        return frozenset(one.name for one in found if one.severity != "info")
+        return frozenset(one.name for one in found if one.severity != "info"), {one.name: one.margin for one in found}
 
 
-def asked(remedy: str) -> Iterator[tuple[str, int]]:
-    """Yield the parameters that a remedy names, with the direction (-1, 1) in which each is to be changed."""
-    direction = 0
+def asked(remedy: str) -> Iterator[tuple[str, str]]:
+    """Yield the word of `DIRECTIONS` and the name of each parameter that a remedy asks to change."""
+    last = ""
     for word, key in WORD.findall(remedy):
-        direction = DIRECTIONS.get(word, direction)
-        if key and direction:
-            yield key, direction
+        last = word or last
+        if key and last:
+            yield last, key
+
+
+def _margin(refusal: CannotBuildError) -> float:
+    return math.nan if refusal.margin is None else refusal.margin
+
+
+def _beyond_zero(last: tuple[float, float], here: tuple[float, float], otherwise: float) -> float:
+    """Return a share of a way a little beyond that where a line through two (share, margin) is 0.
+
+    `otherwise` if the first margin is kept, if margins do not grow, or if one is not known.
+    """
+    (start, low), (share, high) = last, here
+    return start + BEYOND * (share - start) * low / (low - high) if high > low < 0.0 else otherwise
 
 
 def _end(key: str, now: float, direction: int) -> float:
-    """Return the end of what is tried: that of searches, of the parameter beyond these; twice or half elsewhere."""
+    """Return the end of what is tried: that of searches, of the parameter beyond these; twice, half or 1 elsewhere."""
     if key not in PARAMETERS:
         return now * (2.0 if direction > 0 else 0.5)
+    if direction == 0:
+        return 1.0
     bounds, side = SEARCH_BOUNDS[key], int(direction > 0)
     usual = (bounds.lower, bounds.upper)[side]
     return usual if direction * (usual - now) > 0.0 else limits_of(key)[side]

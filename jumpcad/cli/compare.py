@@ -47,5 +47,6 @@ def compare(
         figures.add_row(*row)
     for column in figures.columns:
         column.overflow = "fold"
+    figures.columns[0].no_wrap = True
     console().print(figures)
     print(f"open {without_controls(str(output))}: they jump side by side to one scale")
