@@ -2,8 +2,7 @@
 
 Names and classes follow MuJoCo Menagerie: class `visual` in group 2, `collision` in group 3, sites in group 5, the
 floor in `scene.xml` alone. The robot collides with everything in a scene, with its own friction and stiffness (priority
-1): spheres where it stands, and the convex hull of each body's parts; without parts, capsules along the links. Its
-bodies do not collide with each other.
+1): spheres where it stands, and the convex hull of each body's parts. Its bodies do not collide with each other.
 
 The motor `cam` holds the loaded leg against a limit and releases it; the equality `latch` does the same as a constraint
 that is switched off. MuJoCo's key frames do not store whether a constraint is active, so `wound` uses the motor.
@@ -14,7 +13,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESH_FOLDER, MESHES_FROM_BESIDE
-from jumpcad.exporters.collision import capsules
 from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, FREE_RAD, IMPEDANCE, SUBSTEPS, Attributes, filled, springs, stiff
 from jumpcad.exporters.xml import Value, allowed, shortened, wxyz
 from jumpcad.files.rendering import fill, render
@@ -113,12 +111,9 @@ def _shapes(
                        "quat": wxyz(pose[:3, :3])}  # fmt: skip
     if has_hull:
         yield collides(body.name, type="mesh", mesh=f"{body.name}{HULL}")
-    links = [] if has_hull else [*capsules(mechanism, body.name)]
-    cage = cage_capsules(mechanism) if body.name == BODY else []
-    for kind, rods in ((body.name, links), ("cage", cage)):
-        for number, rod in enumerate(rods, start=1):
-            yield collides(f"{kind}_{number}", type="capsule", fromto=(*rod.start_m, *rod.end_m), size=rod.radius_m,
-                           **_softness(rod, mechanism.mass_kg))  # fmt: skip
+    for number, rod in enumerate(cage_capsules(mechanism) if body.name == BODY else (), start=1):
+        yield collides(f"cage_{number}", type="capsule", fromto=(*rod.start_m, *rod.end_m), size=rod.radius_m,
+                       **_softness(rod, mechanism.mass_kg))  # fmt: skip
     for one in body.contacts:
         yield collides(f"{body.name}_{one.name}", type="sphere", pos=one.centre_m, size=one.radius_m)
     for one in (contact for contact in body.contacts if contact.surface == FOOT):

@@ -12,7 +12,6 @@ from support import needs
 from support.built import built
 from support.machines import one_sided
 
-from jumpcad.exporters.collision import capsules
 from jumpcad.exporters.mjcf_robot import HOLD, mjcf_files, readme, write_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
@@ -24,6 +23,11 @@ mujoco = needs.package("mujoco")
 JOINTS = ("leg", "front", "ankle")
 
 
+def compiled(robot: Robot) -> Any:
+    """Return the model without what is seen, whose meshes are files."""
+    return mujoco.MjModel.from_xml_string(write_robot(robot, visuals(robot), looks=False))
+
+
 @pytest.fixture(scope="module")
 def robot() -> Robot:
     return built("kenan-2.0")
@@ -31,7 +35,7 @@ def robot() -> Robot:
 
 @pytest.fixture(scope="module")
 def model(robot: Robot) -> Any:
-    return mujoco.MjModel.from_xml_string(write_robot(robot))
+    return compiled(robot)
 
 
 def at_key(model: Any, key: str) -> Any:
@@ -69,7 +73,7 @@ def test_the_last_key_is_the_moment_at_which_the_roller_leaves_the_cam(robot: Ro
     assert speeds == pytest.approx(np.zeros(6), abs=1e-5)  # the foot still stands, while all else turns and moves
     mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, data.body(BODY).id, speeds, 0)
     assert np.hypot(*speeds[[3, 5]]) > 0.01
-    assert mujoco.MjModel.from_xml_string(write_robot(replace(robot, roller_off=None))).nkey == 2
+    assert compiled(replace(robot, roller_off=None)).nkey == 2
 
 
 def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any) -> None:
@@ -84,12 +88,12 @@ def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any
     assert latch.data[:5].tolist() == pytest.approx([-wind, 0.0, 0.0, 0.0, 0.0])
     assert latch.active0[0] == 0
     assert model.equality("loop").active0[0] == 1
-    pushing = mujoco.MjModel.from_xml_string(write_robot(one_sided(robot)))
+    pushing = compiled(one_sided(robot))
     assert pushing.tendon_stiffness[pushing.tendon("springs").id] == pytest.approx(robot.spring.stiffness_nm_per_rad)
 
 
 def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: Any) -> None:
-    """The foot's are those of its pads; capsules along the links, spheres where it stands, a box round the body."""
+    """The foot's are those of its pads; spheres where it stands."""
     rubs = coefficients(robot, Settings())
     count = 0
     for index in range(model.ngeom):
@@ -104,12 +108,7 @@ def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: A
             assert sphere.pos.tolist() == pytest.approx(contact.centre_m.tolist(), abs=1e-9)
             assert sphere.size[0] == pytest.approx(contact.radius_m)
             count += 1
-        for number, link in enumerate(capsules(robot, name), start=1):
-            capsule = model.geom(f"{name}_{number}_collision")
-            assert capsule.pos == pytest.approx((link.start_m + link.end_m) / 2.0, abs=1e-9)
-            assert capsule.size[:2] == pytest.approx([link.radius_m, math.dist(link.start_m, link.end_m) / 2.0])
-            count += 1
-    assert count == model.ngeom
+    assert count + len(BODY_NAMES) == model.ngeom  # and a hull for each
 
 
 def test_bodies_do_not_touch_each_other(model: Any) -> None:
@@ -136,9 +135,8 @@ def test_the_velocity_of_the_centre_of_mass_is_how_its_place_changes(model: Any)
     assert len({round(float(data.joint(joint).qpos[0]), 6) for joint in JOINTS}) == 3
 
 
-def test_bodies_collide_by_the_convex_hull_of_their_parts(robot: Robot) -> None:
+def test_bodies_collide_by_the_convex_hull_of_their_parts(robot: Robot, model: Any) -> None:
     """It reaches as far as they do in any direction; the foot's stays half a millimetre above its sole."""
-    model = mujoco.MjModel.from_xml_string(write_robot(robot, visuals(robot), looks=False))
     directions = np.random.default_rng(0).normal(size=(50, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     for name in BODY_NAMES:
@@ -175,7 +173,8 @@ def test_the_notes_programs_run_and_the_robot_jumps_when_the_motor_lets_go(
     """Held for 0.1 s, it is in the air 0.3 s after; in another scene it has a prefix. From texts instead of files."""
     monkeypatch.chdir(tmp_path)  # where MuJoCo writes its log
     jump, _, attach = re.findall(r"```python\n(.*?)```", readme(robot), re.DOTALL)
-    alone, held = write_robot(robot), at_key(mujoco.MjModel.from_xml_string(write_robot(robot)), "wound")
+    alone = write_robot(robot, visuals(robot), looks=False)
+    held = at_key(compiled(robot), "wound")
     given = {
         "scene": dict(mjcf_files(robot))["mjcf/scene.xml"],
         "files": {f"{robot.name}.xml": alone.encode()},
