@@ -98,11 +98,12 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
     glb = files.get(scene)
     if isinstance(glb, bytes) and motion is not None:
         files[scene] = glb = animated(glb, motion)
-    drawings = {path: text for path, text in drawings_of(robot).items() if text}
+    files |= {path: text for path, text in drawings_of(robot).items() if text}
     shown = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     guide = write_guide(robot, list(seen))
-    page = write_page(guide, robot.name, shown | {path: svg.encode() for path, svg in drawings.items()})
-    files |= {**shown, **drawings, **guide, "assembly.html": page}
+    svgs = {path: str(text).encode() for path, text in files.items() if path.endswith(".svg")}
+    page = write_page(guide, robot.name, {**shown, **svgs})
+    files |= {**shown, **guide, "assembly.html": page}
     files["report.html"] = _page(robot, seen, glb if pictures and isinstance(glb, bytes) else None, files, sure)
     return files.items()
 

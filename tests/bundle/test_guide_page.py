@@ -22,13 +22,13 @@ def page_of(text: str, name: str = "A", **others: str) -> ET.Element:
 def test_the_page_is_well_formed_and_needs_no_other_file() -> None:
     guide = write_guide(built("kenan-2.0"), ["rest", "step-1", "step-13-springs"])
     files = {f"pictures/{name}.png": PNG for name in ("rest", "step-1", "step-13-springs")}
-    files |= {f"{name}.svg": b"<svg/>" for name in ("wiring", "soldering", "leads")}
+    files |= {f"{name}.svg": b"<svg/>" for name in ("wiring", "soldering", "leads", "order/spring-right-hand")}
     page = write_page(guide, "kenan-2.0", files)
     root = ET.fromstring(page.replace("<!DOCTYPE html>", "", 1))
     images = [image.get("src") or "" for image in root.iter("img")]
-    assert len(images) == 6
+    assert len(images) == 7
     kinds = [source.partition(";")[0].removeprefix("data:image/") for source in images]
-    assert sorted(kinds) == ["png", "png", "png", "svg+xml", "svg+xml", "svg+xml"]
+    assert sorted(kinds) == ["png"] * 3 + ["svg+xml"] * 4
     read = {kind: base64.b64decode(source.partition(",")[2]) for kind, source in zip(kinds, images, strict=True)}
     assert read == {"png": PNG, "svg+xml": b"<svg/>"}
     assert not re.search(r"(src|href)=\"(?!data:|#)", page)

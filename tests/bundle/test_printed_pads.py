@@ -67,7 +67,7 @@ def test_the_guide_prints_and_glues_pads_and_does_not_order_them() -> None:
     robot = soled()
     order = write_guide(robot)["order.md"]
     printed, buy = order.split("## Print\n")[1].split("## Print settings\n")[0].split("## Buy\n")
-    assert "| TPU 95A | nose_pad_left, nose_pad_right, toe_left_pad, toe_right_pad |" in printed
+    assert "|TPU 95A|nose_pad_left, nose_pad_right, toe_left_pad, toe_right_pad|" in printed
     assert "TPU" not in buy
     assert "self-adhesive" in buy  # the stop's is cut
     bill = bill_of_materials(robot)

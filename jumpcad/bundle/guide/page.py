@@ -15,7 +15,7 @@ STYLES = ("report/style.css", "guides/page.css")
 TYPES = {"png": "image/png", "svg": "image/svg+xml"}
 BOX, TICK = "☐ ", '<input type="checkbox" />'
 """How a line of the guide begins that is to be ticked, and what it becomes."""
-BESIDE = 2
+BESIDE = 3
 """Pictures beside the words of a step: with more it would not fit one view. The others stay where they are."""
 
 
