@@ -7,6 +7,7 @@ benchmarks of this folder. Those of calibrations are in `calibrated.py`.
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,7 @@ from start import children_cpu_s
 
 from jumpcad import published
 from jumpcad.building import build
+from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import SEARCH_BOUNDS, load_design
@@ -113,6 +115,21 @@ def of_robots() -> dict[str, str]:
     head = ("design", "range", "rise", "mass", "energy in the springs", "winding energy (electrical)",
             "range with the study's masses", "real robot: distance, height")  # fmt: skip
     return {"robots": table(head, rows)}
+
+
+def of_order() -> dict[str, str]:
+    """Return what the first robot costs, by shop and article; estimates by the largest, and the rest together."""
+    lines = bill_of_materials(build(load_design("first-robot"), load_workshop("first-robot"))).items
+    rows, rest = dict[tuple[str, str], float](), 0.0
+    for one in lines:
+        article = re.split(r",| \(", one.name)[0]
+        if one.price_from != "estimate" or (one.total_eur or 0.0) > 2.0:
+            rows[article, one.price_from] = rows.get((article, one.price_from), 0.0) + (one.total_eur or 0.0)
+        else:
+            rest += one.total_eur or 0.0
+    table = [f"| {article} | {shop} | {euros:.1f} € |" for (article, shop), euros in rows.items()]
+    table += [f"| filament, screws, pins, wires and small things | estimate | {rest:.1f} € |"]
+    return {"order": "\n".join(["| article | price from | together |", "|---|---|--:|", *table])}
 
 
 def of_results() -> dict[str, str]:

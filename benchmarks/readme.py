@@ -56,6 +56,7 @@ COSTLY: dict[str, tuple[Maker, float]] = {
     "speed": (figures.of_speed, SPEED_SLACK),
     "calibration": (calibrated.of_calibration, calibrated.SAMPLER_SLACK),
     "effects": (calibrated.of_effects, 0.0),
+    "order": (figures.of_order, 0.0),
     "parameters": (lambda: {"parameters": parameters.table()}, 0.0),
     "validation": (validated.of_validation, calibrated.SAMPLER_SLACK),
 }
