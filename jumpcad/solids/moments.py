@@ -24,7 +24,7 @@ G_PER_CM3 = 1e-6
 
 def areas_moments(regions: Sequence[CrossSection]) -> Array:
     """Return the area moments (n, 6) of regions by the polygon formulas (Green's theorem)."""
-    return np.concatenate([_areas(*sides) for sides in _batches(regions)])
+    return areas_and_borders(regions)[0]
 
 
 def areas_and_borders(regions: Sequence[CrossSection]) -> tuple[Array, Array]:
@@ -32,14 +32,14 @@ def areas_and_borders(regions: Sequence[CrossSection]) -> tuple[Array, Array]:
 
     Borders are integrated by Simpson's rule, which is exact along straight sides.
     """
-    areas, borders = zip(*((_areas(*sides), _borders(*sides)) for sides in _batches(regions)), strict=True)
-    return np.concatenate(areas), np.concatenate(borders)
+    found = np.concatenate([_moments(*sides) for sides in _batches(regions)])
+    return found[:, :6], found[:, 6:]
 
 
 def borders_mm(regions: Sequence[CrossSection]) -> Array:
     """Return the lengths (n,) of the borders of several regions, holes included (mm)."""
     start, end, ends = _sides(regions)
-    return _sums([np.hypot(*(end - start))], ends)[:, 0]
+    return _sums(np.hypot(*(end - start))[None], ends)[:, 0]
 
 
 def _batches(regions: Sequence[CrossSection]) -> Iterator[tuple[Array, Array, npt.NDArray[np.int64]]]:
@@ -54,34 +54,20 @@ def _batches(regions: Sequence[CrossSection]) -> Iterator[tuple[Array, Array, np
     yield _sides(regions[first:])
 
 
-def _areas(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
+def _moments(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
+    """Return the moments (n, 12) of n regions and of their borders, from the sides (2, m) of all."""
     (x0, y0), (x1, y1) = start, end
-    cross = (x0 * y1 - x1 * y0) / 24.0
     x, y = x0 + x1, y0 + y1
-    products = [
-        12.0 * cross,
-        4.0 * x * cross,
-        4.0 * y * cross,
-        2.0 * (x0 * x0 + x1 * x) * cross,
-        2.0 * (y0 * y0 + y1 * y) * cross,
-        (x0 * (y0 + y) + x1 * (y + y1)) * cross,
-    ]
-    return _sums(products, ends)
-
-
-def _borders(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
-    (x0, y0), (x1, y1) = start, end
-    length = np.hypot(x1 - x0, y1 - y0)
-    part = length / 6.0
-    x, y = x0 + x1, y0 + y1
-    products = [
-        length,
-        3.0 * x * part,
-        3.0 * y * part,
-        (x0 * x0 + x1 * x1 + x * x) * part,
-        (y0 * y0 + y1 * y1 + y * y) * part,
-        (x0 * y0 + x1 * y1 + x * y) * part,
-    ]
+    cross, part = (x0 * y1 - x1 * y0) / 24.0, np.hypot(x1 - x0, y1 - y0) / 6.0
+    squares_x, squares_y, mixed = x0 * x0 + x1 * x1, y0 * y0 + y1 * y1, x0 * y0 + x1 * y1
+    xx, yy, xy = squares_x + x * x, squares_y + y * y, mixed + x * y
+    products = np.empty((12, len(x)))
+    for row, weight in ((0, cross), (6, part)):
+        products[row + 1], products[row + 2] = x * weight, y * weight
+        products[row + 3], products[row + 4], products[row + 5] = xx * weight, yy * weight, xy * weight
+    products[0], products[6] = 12.0 * cross, 6.0 * part
+    products[1:3] *= 4.0
+    products[7:9] *= 3.0
     return _sums(products, ends)
 
 
@@ -104,13 +90,13 @@ def _sides(regions: Sequence[CrossSection]) -> tuple[Array, Array, npt.NDArray[n
     return start, end, np.array(ends)
 
 
-def _sums(products: Sequence[Array], ends: npt.NDArray[np.int64]) -> Array:
-    """Return the sums (n, k) of k rows of products over the sides of n regions, which end at `ends` (n,)."""
+def _sums(products: Array, ends: npt.NDArray[np.int64]) -> Array:
+    """Return the sums (n, k) of products (k, m) over the sides of n regions, which end at `ends` (n,)."""
     starts = np.concatenate([[0], ends[:-1]])
     some = starts < ends
     sums = np.zeros((len(ends), len(products)))
     if some.any():
-        sums[some] = np.add.reduceat(np.array(products), starts[some], axis=1).T
+        sums[some] = np.add.reduceat(products, starts[some], axis=1).T
     return sums
 
 
