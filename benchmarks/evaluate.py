@@ -1,19 +1,17 @@
 """CPU time of `evaluate`, which builds the robot, against the published simulation alone, and where the time goes.
 
-Both take turns on every design, so that a busy machine slows them alike. The designs are those of the table of
-reference flights and random ones within the search bounds, as far as they can be built; the caches of gears
-and bought parts are filled, as in a search. The last line is the part of it that is spent within manifold3d's plane
-regions and PyBullet's steps: asked the same, `evaluate` cannot be faster.
-Run `python benchmarks/evaluate.py [--json] [--rounds N] [--random N]`.
+Both take turns on every design, so that a busy machine slows them alike. The designs are neighbours of the best ones
+and random ones within the search bounds, as far as they can be built, and random ones that are refused for their
+masses; the caches of gears and bought parts are filled, as in a search. The last line is the part of it that is spent
+within manifold3d's plane regions and PyBullet's steps: asked the same, `evaluate` cannot be faster.
+Run `python benchmarks/evaluate.py [--json] [--rounds N] [--each N]`.
 """
 
 import argparse
-import csv
 import json
 from collections import defaultdict
 from collections.abc import Callable
 from functools import wraps
-from pathlib import Path
 from time import process_time
 from types import ModuleType
 from typing import Any
@@ -25,14 +23,17 @@ from manifold3d import CrossSection
 from jumpcad import evaluation, published
 from jumpcad.building import assembly, bearing_and_drive, weighing
 from jumpcad.building import growth as building
-from jumpcad.design import SEARCH_BOUNDS, Design
+from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
 from jumpcad.parts import shopping
 from jumpcad.workshop import load_workshop
 
-REFERENCE = Path(__file__).parents[1] / "tests" / "data" / "reference_flights.csv"
-RANDOM = 12
+BEST = ("best-printable", "best-bo")
+BESIDE = 0.04
+"""Standard deviation of neighbours, as a share of the search's range."""
+EACH = 12
+REFUSED = ("no_takeoff", "tips", "too_weak")
 STAGES: dict[str, tuple[ModuleType, str]] = {
     "gate": (building, "geometry_findings"),
     "sections": (bearing_and_drive, "sections"),
@@ -47,28 +48,29 @@ STAGES: dict[str, tuple[ModuleType, str]] = {
 """Stages of `evaluate`: module, and name of the function in it."""
 
 
-def buildable(rows: int) -> list[Design]:
-    """Return the reference designs that can be built, and as many random ones."""
-    workshop = load_workshop("default")
-    with REFERENCE.open() as file:
-        known = [Design(**{key: float(row[key]) for key in SEARCH_BOUNDS}) for row in csv.DictReader(file)]
-    rng = np.random.default_rng(20)
+def designs_of_each(count: int) -> dict[str, list[Design]]:
+    """Return so many designs that can be built, near the best and random, and random ones that are refused."""
+    workshop, rng = load_workshop("default"), np.random.default_rng(20)
     lower, upper = np.transpose([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()])
+    best = [np.array(load_design(name).to_vector()) for name in BEST]
+    found: dict[str, list[Design]] = {"near the best": [], "random": [], "refused": []}
 
-    def built(design: Design) -> bool:
+    def verdict(design: Design) -> str:
         try:
-            evaluate(design, workshop)
+            return evaluate(design, workshop).verdict
         except CannotBuildError:
-            return False
-        return True
+            return ""
 
-    designs = [design for design in known if built(design)]
-    wanted = len(designs) + rows
-    while len(designs) < wanted:
-        design = Design.from_vector(rng.uniform(lower, upper).tolist())
-        if built(design):
-            designs.append(design)
-    return designs
+    while min(map(len, found.values())) < count:
+        middle = best[len(found["near the best"]) % 2]
+        near = np.clip(rng.normal(middle, BESIDE * (upper - lower)), lower, upper)
+        for kind, vector in (("near the best", near), ("random", rng.uniform(lower, upper))):
+            design = Design.from_vector(vector.tolist())
+            said = verdict(design)
+            kinds = [kind] if said == "jump" else ["refused"] * (kind == "random" and said in REFUSED)
+            for one in kinds:
+                found[one] += [design] if len(found[one]) < count else []
+    return found
 
 
 def cpu_ms(call: Callable[[], object]) -> float:
@@ -166,19 +168,24 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--random", type=int, default=RANDOM)
+    parser.add_argument("--each", type=int, default=EACH)
     arguments = parser.parse_args()
-    designs = buildable(arguments.random)
-    speed, stages = speeds(designs, arguments.rounds), shares(designs, arguments.rounds)
-    libraries = in_libraries(designs)
+    designs = designs_of_each(arguments.each)
+    speed = {kind: speeds(found, arguments.rounds) for kind, found in designs.items()}
+    built = designs["near the best"] + designs["random"]
+    stages, libraries = shares(built, arguments.rounds), in_libraries(built)
     if arguments.json:
-        times = {"speed": speed, "stages_ms": stages, "libraries_ms": libraries}
-        print(json.dumps({"designs": len(designs), **times}, indent=2))
+        print(
+            json.dumps(
+                {"designs": arguments.each, "speed": speed, "stages_ms": stages, "libraries_ms": libraries}, indent=2
+            )
+        )
         return
-    print(f"{len(designs)} designs that can be built, {arguments.rounds} rounds, both in turn; medians of CPU time")
-    print(f"published {speed['published_ms']:.1f} ms, evaluate {speed['evaluate_ms']:.1f} ms: "
-          f"{speed['times_faster']:.2f} times faster, at least {speed['times_faster_least']:.2f}, "
-          f"{speed['times_faster_in_total']:.2f} in total")  # fmt: skip
+    print(f"{arguments.each} designs each, {arguments.rounds} rounds, both in turn; medians of CPU time")
+    for kind, times in speed.items():
+        print(f"{kind}: published {times['published_ms']:.1f} ms, evaluate {times['evaluate_ms']:.1f} ms: "
+              f"{times['times_faster']:.2f} times faster, at least {times['times_faster_least']:.2f}, "
+              f"{times['times_faster_in_total']:.2f} in total")  # fmt: skip
     print("ms: " + ", ".join(f"{name} {value:.2f}" for name, value in stages.items()))
     print("of these within libraries: " + ", ".join(f"{name} {value:.2f}" for name, value in libraries.items()))
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.building import build
+from jumpcad.building.refusal import statics_refusal
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import JumpcadError
@@ -18,7 +19,6 @@ from jumpcad.files import template_names
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import BODY
-from jumpcad.search.estimate.refusal import statics_refusal
 from jumpcad.simulation import Settings, simulate
 from jumpcad.workshop import Workshop, load_workshop, varied
 

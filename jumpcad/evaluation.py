@@ -2,19 +2,23 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
 from jumpcad.building.bom import bill_of_materials
+from jumpcad.building.refusal import statics_refusal
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import Design
+from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, errors
+from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import Robot
 from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
-from jumpcad.workshop import Workshop
+from jumpcad.simulation.engines import require_engine
+from jumpcad.workshop import Workshop, load_workshop
 
 JUMP_FIGURES = {
     "ballistic_range_m": "range",
@@ -109,19 +113,65 @@ class EvaluationResult:
         }
 
 
+class _Refused(EvaluationResult):
+    """A design whose springs are surely too weak: what else is asked of it than its verdict is computed then."""
+
+    def __init__(self, gate: tuple[Finding, ...], build: Callable[[], EvaluationResult]) -> None:
+        vars(self).update(_gate=gate, _build=build)
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in ("robot", "jump", "findings", "metrics"):
+            raise AttributeError(name)
+        try:
+            return getattr(self._whole, name)
+        except CannotBuildError:
+            if name == "findings":
+                return self._gate
+            raise
+
+    @cached_property
+    def _whole(self) -> EvaluationResult:
+        whole: EvaluationResult = vars(self)["_build"]()
+        return whole
+
+    @property
+    def verdict(self) -> str:
+        return self._gate[-1].name
+
+    @property
+    def fitness(self) -> float:
+        return 0.0
+
+    @property
+    def body_lengths(self) -> float:
+        return 0.0
+
+
 @check_arguments
 def evaluate(
     design: Design, workshop: Workshop | None = None, settings: Settings | None = None, engine: str = "pybullet"
 ) -> EvaluationResult:
     """Build a design in a workshop, simulate its jump with the mass and inertia of its parts, and check its limits.
 
-    The robot has no name, so none is engraved.
+    The robot has no name, so none is engraved. Where the springs cannot raise a body alone, the verdict is `too_weak`
+    before anything is drawn; the robot, its jump and its metrics are computed when they are asked for.
 
     Raises
     ------
     CannotBuildError
-        If the mechanism cannot work, or there is no room for its parts.
+        If the mechanism cannot work, or there is no room for its parts; of a robot that is too weak when it is asked
+        for.
     """
+    design, workshop = design.revalidated(), (workshop or load_workshop("default")).revalidated()
+    settings = (settings or Settings()).revalidated()
+    require_engine(engine)
+    whole = partial(_evaluated, design, workshop, settings, engine)
+    geometry = geometry_findings(design)
+    refused = () if errors(geometry) else statics_refusal(design, workshop, settings)
+    return _Refused((*geometry, *refused), whole) if refused else whole()
+
+
+def _evaluated(design: Design, workshop: Workshop, settings: Settings, engine: str) -> EvaluationResult:
     robot, findings = built_and_checked(design, workshop, name="")
     jump = simulate(robot, settings, engine)
     return EvaluationResult(robot, jump, (*jump.findings, *findings), _metrics(robot, jump))

@@ -130,11 +130,11 @@ class Remedies:
             else:
                 workshop = varied(workshop, {key: value})
             result = evaluate(design, workshop, engine=default_engine())
+            found = [*result.findings, *(one for check in self._costly for one in check.find(result.robot))]
         except CannotBuildError as refusal:
             return frozenset([FAILS]), {FAILS: _margin(refusal)}
         except JumpcadError:
             return frozenset([FAILS]), {}
-        found = [*result.findings, *(one for check in self._costly for one in check.find(result.robot))]
         return frozenset(one.name for one in found if one.severity != "info"), {one.name: one.margin for one in found}
 
 

@@ -14,12 +14,13 @@ from support.loaded import loaded_range_m
 from support.places import ROOT
 from support.workshops import changed
 
-from jumpcad.building import build
+from jumpcad import evaluation
+from jumpcad.building import build, built_and_checked
 from jumpcad.bundle.export import export
 from jumpcad.checks import constraint_findings
 from jumpcad.checks.interference import pieces_of
 from jumpcad.design import Design, load_design
-from jumpcad.errors import CannotBuildError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.mechanism.poses import body_poses
@@ -133,6 +134,27 @@ def test_what_can_be_built_but_not_jump_has_a_verdict_and_no_fitness() -> None:
         assert found.jump.ballistic_range_m is None
         refused = [finding.name for finding in found.findings if finding.severity == "error" and finding.margin < 0]
         assert verdict in refused
+
+
+def test_springs_that_cannot_raise_a_body_are_refused_before_anything_is_drawn(monkeypatch):
+    """The verdict of the whole robot, if that tips no earlier; the rest is computed when it is asked for."""
+    drawn = []
+
+    def counted(*given, name):
+        drawn.append(name)
+        return built_and_checked(*given, name)
+
+    monkeypatch.setattr(evaluation, "built_and_checked", counted)
+    found = evaluate(FEEBLE)
+    assert (found.verdict, found.fitness, found.body_lengths, drawn) == ("too_weak", 0.0, 0.0, [])
+    assert (found.jump.verdict, found.robot.design, len(drawn)) == ("too_weak", FEEBLE, 1)
+    tight = evaluate(Design.from_vector([105.3, 1.035, 0.57, 1.21, 0.756, 46.9, 0.2, 14.5]))
+    assert [one.name for one in tight.findings] == ["loop", "below_ground", "too_weak"]
+    with pytest.raises(CannotBuildError, match="no motor turns the cam"):
+        _ = tight.metrics
+    for wrong in ({"engine": "bullet"}, {"settings": Settings().model_copy(update={"dt_s": -1.0})}):
+        with pytest.raises(JumpcadError):
+            evaluate(FEEBLE, **wrong)
 
 
 def test_every_cheap_check_is_among_its_findings() -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.arguments import check_arguments, check_fields
+from jumpcad.building.refusal import statics_refusal
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES
@@ -18,7 +19,7 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.search.estimate.estimated_robot import layout_figures, robot_figures
-from jumpcad.search.estimate.refusal import layout_findings, room_findings, statics_refusal
+from jumpcad.search.estimate.refusal import layout_findings, room_findings
 from jumpcad.search.pick.tolerances import PREFIX, Tolerances, perturbed
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective
 from jumpcad.search.study.requirement import Required, Requirement, requirements_of, violations

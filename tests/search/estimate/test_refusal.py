@@ -10,12 +10,13 @@ from support.robots import FOLDED
 
 from jumpcad import evaluation
 from jumpcad.building import build
+from jumpcad.building.refusal import statics_refusal
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.search.estimate.refusal import room_findings, statics_refusal
+from jumpcad.search.estimate.refusal import room_findings
 from jumpcad.search.models import robot_model
 from jumpcad.simulation import Settings, simulate
 from jumpcad.workshop import load_workshop, varied
