@@ -116,6 +116,9 @@ class EvaluationResult:
 class _Refused(EvaluationResult):
     """A design whose springs are surely too weak: what else is asked of it than its verdict is computed then."""
 
+    _gate: tuple[Finding, ...]
+    _build: Callable[[], EvaluationResult]
+
     def __init__(self, gate: tuple[Finding, ...], build: Callable[[], EvaluationResult]) -> None:
         vars(self).update(_gate=gate, _build=build)
 
@@ -131,8 +134,7 @@ class _Refused(EvaluationResult):
 
     @cached_property
     def _whole(self) -> EvaluationResult:
-        whole: EvaluationResult = vars(self)["_build"]()
-        return whole
+        return self._build()
 
     @property
     def verdict(self) -> str:

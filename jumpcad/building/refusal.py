@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+from jumpcad.catalogue import Battery, Board, Component
 from jumpcad.design import Design
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.electronics.chosen import chosen_parts
@@ -28,7 +29,7 @@ def statics_refusal(design: Design, workshop: Workshop, settings: Settings) -> t
     if workshop.mass.weighed_g:
         return ()
     chosen, plain = chosen_parts(workshop), capsule_robot(design)
-    parts = [chosen.battery, *chosen.boards.values(), *chosen.components.values()]
+    parts: list[Battery | Board | Component] = [chosen.battery, *chosen.boards.values(), *chosen.components.values()]
     body_kg = min(plain.bodies[BODY].mass_kg, BARE_BODY_KG + sum(part.mass_g for part in parts) / 1000.0)
     masses = {BODY: body_kg}
     bodies = {name: replace(body, mass_kg=masses.get(name, 0.0)) for name, body in plain.bodies.items()}
