@@ -14,10 +14,15 @@ from support.commands import exit_code_of
 
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
+from jumpcad.bundle.export import export
+from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
+from jumpcad.layout.electronics import Electronics
+from jumpcad.layout.room import EVERYWHERE, disc
+from jumpcad.layout.tray_places import tray_place
 from jumpcad.workshop import load_workshop
 
 Tables = dict[str, dict[str, Any]]
@@ -89,6 +94,16 @@ def boards(length: float, width: float) -> Tables:
     }
 
 
+def like(slot: str, **figures: Any) -> Tables:
+    """Return a workshop with a battery, controller or driver that is a shipped one with other figures."""
+    kind, shipped = {
+        "battery": ("batteries", "lipo-1s-300"),
+        "controller": ("boards", "xiao-esp32c3"),
+        "driver": ("boards", "drv8833"),
+    }[slot]
+    return {"bought": {slot: "own"}, f"{kind}.own": {"like": shipped, "source": "test", **figures}}
+
+
 def bearing(place: str, bore: float, outer: float, width: float) -> Tables:
     """Return a workshop with a bearing of a size in the hub (`leg_bearing`) or for the roller (`roller`)."""
     grams = 0.6 * 7.85e-3 * math.pi / 4.0 * abs(outer**2 - bore**2) * width  # of a ring of steel, six tenths
@@ -155,7 +170,7 @@ REFUSED = {
     "battery of 300 mm": (
         battery(300.0, 20.0, 10.0),
         r"^part body_plate_left of 3\d\d\.\d×\d+\.\d×\d\.\d mm does not fit the bed of "
-        r"250\.0×210\.0×220\.0 mm at any angle",
+        r"250\.0×210\.0×220\.0 mm at any angle.*: choose .* smaller battery or boards",
     ),
     "bearing 625 in the hub": (
         bearing("leg_bearing", 5.0, 16.0, 5.0),
@@ -174,6 +189,31 @@ REFUSED = {
     "wide bearing in the hub": (
         bearing("leg_bearing", 3.0, 8.0, 15.0),
         r"^no M3 screw of \d+\.\d mm; the longest in stock is 30 mm: choose a narrower bought\.leg_bearing or",
+    ),
+    "a board with too few pins": (
+        like("controller", button="") | {"boards.own.pins": {"GND": ["ground"], "D1": ["gpio3", "adc", "pwm"]}},
+        r"^own has no pin left for motor and sleep and ready: 1 of 4 suit: choose a controller with more pins",
+    ),
+    "a driver without outputs": (
+        like("driver") | {"boards.own.pins": {"GND": ["ground"], "AIN1": ["forward"]}},
+        r"^driver own has no pin motor\+ and motor-: choose another bought.driver",
+    ),
+    "two cells where one is borne": (
+        {"bought": {"battery": "lipo-2s-180"}},
+        r"^xiao-esp32c3 at BAT\+ gets 6\.\d\d to 8\.40 V and bears 3\.20 to 4\.20 V: choose a bought\.kit, ",
+    ),
+    "one cell for a motor of 12 V": (
+        {"bought": {"kit": "strong-2s", "battery": "lipo-1s-300"}},
+        r"^n20-298-hpcb12 at winding gets 3\.30 to 4\.20 V and bears 5\.00 to 12\.00 V: choose a bought\.kit, ",
+    ),
+    "a charger that is too strong": (
+        like("battery", capacity_mah=100.0, charge_ma=100.0),
+        r"^xiao-esp32c3 charges own with 370 mA; 100 mA are allowed, by its charge_ma: another bought\.battery",
+    ),
+    "a mount without a base": (
+        {"body": {"plate_mm": 9.5}},
+        r"^no room for the sensor's mount: the base of its switch is -0\.\d\d mm outside the left plate, which is "
+        r"9\.5 mm thick, 0\.35 mm are needed: choose a thinner body\.plate_mm",
     ),
 }  # fmt: skip
 
@@ -196,11 +236,13 @@ def test_what_fits_passes_every_check(robot: str, written: Write) -> None:
 
 
 @pytest.mark.parametrize("case", REFUSED)
-def test_what_does_not_fit_is_refused_by_its_name(case: str, written: Write) -> None:
+def test_what_does_not_fit_is_refused_by_its_name(case: str, written: Write, tmp_path: Path) -> None:
+    """In one line, and nothing is written."""
     tables, words = REFUSED[case]
     with pytest.raises(JumpcadError, match=words) as caught:
-        build(KENAN, load_workshop(written(tables)))
+        export(build(KENAN, load_workshop(written(tables))), tmp_path / "out", pictures=False)
     assert "\n" not in str(caught.value)
+    assert not (tmp_path / "out").exists()
 
 
 def test_the_pinion_of_a_thick_shaft_keeps_a_wall_around_it(written: Write) -> None:
@@ -249,3 +291,16 @@ def test_a_bundle_with_own_parts_builds_again_from_itself(written: Write, tmp_pa
 def test_what_does_not_fit_is_an_answer_and_not_a_wrong_request(written: Write) -> None:
     with pytest.raises(CannotBuildError):
         build(KENAN, load_workshop(written(REFUSED["short shaft"][0])))
+
+
+def test_a_battery_that_hits_the_cam_is_refused_with_its_size() -> None:
+    """Beside a cam that reaches to the plates' end no tray of 200 x 200 mm has room."""
+    catalogue = load_catalogue()
+    battery = catalogue.batteries["lipo-1s-300"].model_copy(update={"length_mm": 200.0, "height_mm": 200.0})
+    electronics = Electronics(battery, catalogue.boards["xiao-esp32c3"], catalogue.boards["drv8833"])
+    words = (
+        r"^no room for the battery and electronics: [\d.]+ mm too little .*: raise .*, or choose a smaller battery or "
+        r"smaller boards: lipo-1s-300, .* take 20[\d.]+ x 2[\d.]+ mm$"
+    )
+    with pytest.raises(JumpcadError, match=words):
+        tray_place([disc("cam", (-20.0, 40.0), 60.0, EVERYWHERE)], electronics, 80.0, (-15.0, 15.0))

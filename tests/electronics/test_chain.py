@@ -4,21 +4,23 @@ import re
 from dataclasses import replace
 
 import pytest
+from support.built import with_kit
 
+from jumpcad.catalogue import load_catalogue
 from jumpcad.electronics.chain import Link, chain, supply_pin
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.supply import supply_of
-from jumpcad.workshop import load_workshop
 
-PEAK_A, TORQUE_NM = 0.5, 0.2
+PEAK_A, TORQUE_NM, MOTOR = 0.5, 0.2, load_catalogue().motors["n20-298"]
 
 
 def links(kit: str) -> tuple[dict[str, Link], Chosen]:
-    shop = load_workshop()
-    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump() | {"kit": kit})
-    chosen = chosen_parts(shop.model_copy(update={"bought": bought}))
-    motor = shop.catalogue.motors["n20-298"]
-    return {one.role: one for one in chain(chosen, motor, supply_of(chosen), PEAK_A, TORQUE_NM)}, chosen
+    chosen = chosen_parts(with_kit(kit))
+    return of(chosen), chosen
+
+
+def of(chosen: Chosen) -> dict[str, Link]:
+    return {one.role: one for one in chain(chosen, MOTOR, supply_of(chosen), PEAK_A, TORQUE_NM)}
 
 
 def test_one_cell_feeds_controller_and_driver() -> None:
@@ -42,10 +44,8 @@ def test_a_part_whose_voltage_nobody_states_is_not_compared() -> None:
     _, chosen = links("light-1s")
     plain = {role: part.model_copy(update={"rated_v": None}) for role, part in chosen.components.items()}
     unrated = replace(chosen, components=plain)
-    motor = load_workshop().catalogue.motors["n20-298"]
-    found = {one.role for one in chain(unrated, motor, supply_of(unrated), PEAK_A, TORQUE_NM)}
     assert plain
-    assert found == {"controller", "driver", "motor"}
+    assert of(unrated).keys() == {"controller", "driver", "motor"}
 
 
 def test_two_cells_pass_a_regulator_and_a_diode_to_the_controller() -> None:
@@ -58,9 +58,7 @@ def test_two_cells_pass_a_regulator_and_a_diode_to_the_controller() -> None:
     logic = chosen.regulator.output_v - (chosen.diode.drop_v if chosen.diode else 0.0)
     assert found["controller"].gets_v == pytest.approx((logic, logic))
     alone = replace(chosen, components={name: one for name, one in chosen.components.items() if name != "diode"})
-    motor = load_workshop().catalogue.motors["n20-298"]
-    (plain,) = (one for one in chain(alone, motor, supply_of(alone), PEAK_A, TORQUE_NM) if one.role == "controller")
-    assert plain.gets_v == pytest.approx((chosen.regulator.output_v,) * 2)
+    assert of(alone)["controller"].gets_v == pytest.approx((chosen.regulator.output_v,) * 2)
 
 
 @pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
@@ -78,16 +76,15 @@ def test_what_gets_another_voltage_than_it_bears_is_to_be_exchanged(kit: str) ->
 def test_the_winding_gets_the_mean_of_the_pwm() -> None:
     """A motor of 6 V on 8.4 V: no more than the highest voltage that it bears, the same share of an empty battery."""
     found, chosen = links("strong-2s")
-    motor = load_workshop().catalogue.motors["n20-298"]
     low, high = found["motor"].gets_v
-    assert high <= motor.range_v[1] + 1e-9
+    assert high <= MOTOR.range_v[1] + 1e-9
     assert low / high == pytest.approx(chosen.battery.range_v[0] / chosen.battery.range_v[1])
-    assert found["motor"].bears_v == motor.range_v
+    assert found["motor"].bears_v == MOTOR.range_v
     assert found["motor"].name == "n20-298"
 
 
 def test_the_input_is_the_first_that_bears_the_range() -> None:
-    board = load_workshop().catalogue.boards["xiao-esp32c3"].model_copy(
+    board = load_catalogue().boards["xiao-esp32c3"].model_copy(
         update={"supply_v": {"A": (3.0, 4.0), "B": (3.0, 6.0), "C": (2.0, 9.0)}}
     )  # fmt: skip
     assert supply_pin(board, (3.0, 4.0)) == "A"

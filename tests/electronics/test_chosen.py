@@ -2,19 +2,14 @@
 
 from dataclasses import replace
 
+from support.built import with_kit
+
 from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.workshop import Workshop, load_workshop
-
-
-def with_parts(**bought: str) -> Workshop:
-    """Return the default workshop with the parts of a two-cell kit but for some."""
-    shop = load_workshop()
-    kit = shop.catalogue.kits["strong-2s"].model_dump() | bought
-    return shop.model_copy(update={"bought": shop.bought.model_copy(update=kit)})
+from jumpcad.workshop import load_workshop
 
 
 def test_what_is_named_is_there_and_what_is_not_named_is_left_out() -> None:
-    shop = with_parts(plug="", switch="")
+    shop = with_kit("strong-2s", plug="", switch="")
     bought, chosen = shop.bought, chosen_parts(shop)
     assert (chosen.battery.name, chosen.controller.name, chosen.driver.name) == (
         bought.battery, bought.controller, bought.driver,
@@ -27,13 +22,14 @@ def test_what_is_named_is_there_and_what_is_not_named_is_left_out() -> None:
 
 def test_a_diode_lies_behind_a_regulator_alone() -> None:
     """A controller that the battery feeds itself has none, whatever the workshop names."""
-    regulated, bare = chosen_parts(with_parts()), chosen_parts(with_parts(regulator=""))
+    shop = with_kit("strong-2s")
+    regulated, bare = chosen_parts(shop), chosen_parts(with_kit("strong-2s", regulator=""))
     assert regulated.boards.keys() == {"controller", "driver", "regulator"}
     assert {role: one.name for role, one in regulated.boards.items()} == {
-        role: getattr(with_parts().bought, role) for role in ("controller", "driver", "regulator")
+        role: getattr(shop.bought, role) for role in ("controller", "driver", "regulator")
     }
     assert regulated.diode is not None
-    assert regulated.diode.name == with_parts().bought.diode
+    assert regulated.diode.name == shop.bought.diode
     assert bare.boards.keys() == {"controller", "driver"}
     assert "diode" in bare.components
     assert bare.diode is None

@@ -1,15 +1,18 @@
 """The motor at a battery's voltage against Kirchhoff's law, and figures that were derived by hand."""
 
 import math
+from dataclasses import replace
 
 import pytest
+from support.built import with_kit
 from support.each import each
+from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
+from jumpcad.drive.motor import allowed_nm
 from jumpcad.electronics.chain import chain
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import Supply, supply_of
-from jumpcad.workshop import load_workshop
 
 MOTORS = load_catalogue().motors
 BARE = Supply(empty_v=3.3, nominal_v=3.7, full_v=4.2, ohm=0.0, boards_w=0.0, usable_j=1.0)
@@ -75,24 +78,14 @@ def test_pwm_keeps_a_winding_at_its_voltage() -> None:
 
 def test_boards_take_their_current_through_the_regulator() -> None:
     """24 mA at 5 V and 90 % efficiency from two cells, 24 mA at 3.7 V from one; and driver and regulator."""
-    catalogue = load_catalogue()
-    workshop = load_workshop()
-    one = supply_of(chosen_parts(workshop))
+    one, two = (supply_of(chosen_parts(with_kit(kit))) for kit in ("light-1s", "strong-2s"))
     assert one.boards_w == pytest.approx(3.7 * (0.024 + 0.0017))
-    kit = workshop.bought.model_copy(update=catalogue.kits["strong-2s"].model_dump())
-    two = supply_of(chosen_parts(workshop.model_copy(update={"bought": kit})))
     assert two.boards_w == pytest.approx(0.024 * 5.0 / 0.9 + 7.4 * (0.0017 + 0.001))
     assert two.usable_j == pytest.approx(0.18 * 3600.0 * 7.4)
 
 
 def test_a_motor_that_an_empty_battery_does_not_turn_gets_no_gears() -> None:
     """0.5 V drive 0.045 A through 11 ohm at most, hardly more than the 0.04 A that the unloaded motor needs."""
-    from dataclasses import replace
-
-    from support.limits import default_limits
-
-    from jumpcad.drive.motor import allowed_nm
-
     motor = MOTORS["n20-298-mp"]
     flat = replace(BARE, empty_v=0.5, ohm=2.0)
     limits = replace(default_limits().train, supply=flat)
@@ -102,9 +95,7 @@ def test_a_motor_that_an_empty_battery_does_not_turn_gets_no_gears() -> None:
 
 def test_under_pwm_a_winding_gets_its_share_of_a_full_and_of_an_empty_battery() -> None:
     """Two cells, 6.6 to 8.4 V, at a motor of 6 V: a share of 6/8.4, so that it gets 4.7 to 6.0 V."""
-    workshop, motor = load_workshop(), MOTORS["n20-30"]
-    kit = workshop.bought.model_copy(update=load_catalogue().kits["strong-2s"].model_dump())
-    chosen = chosen_parts(workshop.model_copy(update={"bought": kit}))
+    motor, chosen = MOTORS["n20-30"], chosen_parts(with_kit("strong-2s"))
     links = {link.role: link for link in chain(chosen, motor, supply_of(chosen), 0.0, UNLIMITED)}
     assert links["motor"].gets_v == pytest.approx((6.6 * 6.0 / 8.4, 6.0))
     assert links["driver"].gets_v == pytest.approx((6.6, 8.4))  # PWM is behind it
@@ -129,9 +120,7 @@ def test_the_share_of_pwm_gives_the_mean_voltage_through_the_drivers_diodes(name
 @pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
 def test_a_supply_is_the_battery_behind_the_drivers_resistance(kit: str) -> None:
     """In series; 3.6 J of every milliampere-hour at the nominal voltage."""
-    shop = load_workshop()
-    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump())
-    chosen = chosen_parts(shop.model_copy(update={"bought": bought}))
+    chosen = chosen_parts(with_kit(kit))
     supply, battery = supply_of(chosen), chosen.battery
     assert (battery.ohm > 0.0, chosen.driver.resistance_ohm > 0.0) == (True, True)
     assert supply.ohm == pytest.approx(battery.ohm + chosen.driver.resistance_ohm)

@@ -4,7 +4,6 @@ import math
 import re
 from collections import Counter
 from dataclasses import replace
-from functools import lru_cache
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,14 +17,26 @@ from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import TOOLS, Move
 from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
 from jumpcad.scene.step_views import step_views
-from jumpcad.scene.visuals import visuals
+from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.transforms import pose_about_y, pose_about_z
 from jumpcad.workshop import load_workshop
+from jumpcad.workshop.varied import varied
 
 
 @pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
 def robot(request: pytest.FixtureRequest) -> Robot:
     return built(request.param)
+
+
+def put_on(robot: Robot) -> list[tuple[str, Move, Visual]]:
+    """Return the keys of the steps, their moves and what is moved, in order."""
+    steps = assembly_steps(robot)
+    return [(step.key, placed.move, thing) for step in steps for placed in step.placed for thing in placed.things]
+
+
+def middle_y(thing: Visual) -> float:
+    """Return where a thing's middle lies on its body, to the left (m)."""
+    return float((thing.T_body_mesh @ np.append(thing.mesh.centroid / 1000.0, 1.0))[1])
 
 
 def test_every_thing_is_put_on_once_and_none_is_left_over(robot: Robot) -> None:
@@ -36,47 +47,28 @@ def test_every_thing_is_put_on_once_and_none_is_left_over(robot: Robot) -> None:
     assert all(step.title != REST for step in steps)
 
 
-RETENTIONS = ({}, {"retention": "clips", "axle": "silver-steel"}, {"retention": "nuts"})
-"""Plates keep the axles, or clips in their grooves, or they are screws with nuts."""
-
-
-@lru_cache
-def _retained(retention: str) -> Robot:
-    """Return Kenan 2.0 with another retention of its axles."""
-    (changed,) = (one for one in RETENTIONS if one.get("retention", "") == retention)
-    shop = load_workshop("default")
-    bought = shop.bought.model_copy(update=changed)
-    return (
-        build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought})) if changed else built("kenan-2.0")
-    )
-
-
 @pytest.mark.parametrize("retention", ["clips", "nuts"])
 def test_axles_of_any_kind_are_put_on_once_with_what_keeps_them_each_from_its_end(retention: str) -> None:
     """Hexagons of 2.5 mm in cylinder heads M3 (ISO 4762); clips are at both ends, a nut or split pin at the right."""
-    robot = _retained(retention)
-    steps = assembly_steps(robot)
-    added = [thing for step in steps for thing in step.added]
-    assert Counter(thing.name for thing in added) == Counter(thing.name for thing in visuals(robot))
-    assert all(step.title != REST for step in steps)
-    y = {thing.name: float((thing.T_body_mesh @ np.append(thing.mesh.centroid / 1000.0, 1.0))[1]) for thing in added}
+    bought = {"bought.retention": retention} | ({"bought.axle": "silver-steel"} if retention == "clips" else {})
+    robot = build(load_design("kenan-2.0"), varied(load_workshop(), bought))
+    test_every_thing_is_put_on_once_and_none_is_left_over(robot)
+    y = {thing.name: middle_y(thing) for thing in visuals(robot)}
     tools = {r"screw M3 .* ISO 4762": "hex key 2.5 mm", "lock nut M3": "nut driver 5.5 mm", "E-clip": "clip applicator",
              "split pin": "needle-nose pliers"}  # fmt: skip
     seen = Counter[str]()
-    for placed in (placed for step in steps for placed in step.placed if not placed.move.brings):
-        for thing in placed.things:
-            if thing.name == "leg_spring_pin_clip_2":  # it goes in with its pin
-                continue
-            for article, tool in tools.items():
-                if re.match(article, getattr(thing.source, "article", "")):
-                    assert placed.move.tool is not None, thing.name
-                    assert placed.move.tool.name.startswith(tool), thing.name
-                    seen[article] += 1
-            end = re.fullmatch(r"(.*(?:axle|pin))_(?:nut|clip_\d|split_pin)", thing.name)
-            if end:
-                ways = [SIDES[way][1] for way in (placed.move.along, placed.move.reach) if way in SIDES]
-                assert all((y[thing.name] - y[end[1]]) * way <= 0.0 for way in ways), thing.name
-                seen["at its end"] += any(ways)
+    for _, move, thing in put_on(robot):
+        if move.brings or thing.name == "leg_spring_pin_clip_2":  # it goes in with its pin
+            continue
+        for article, tool in tools.items():
+            if re.match(article, getattr(thing.source, "article", "")):
+                assert move.tool is not None, thing.name
+                assert move.tool.name.startswith(tool), thing.name
+                seen[article] += 1
+        if end := re.fullmatch(r"(.*(?:axle|pin))_(?:nut|clip_\d|split_pin)", thing.name):
+            ways = [SIDES[way][1] for way in (move.along, move.reach) if way in SIDES]
+            assert all((y[thing.name] - y[end[1]]) * way <= 0.0 for way in ways), thing.name
+            seen["at its end"] += any(ways)
     # leg, front and cam axle and the springs' pin; the pins of ankle, front eye and leg have clips or split pins too,
     # and the roller's screw a nut
     assert seen == (
@@ -98,7 +90,7 @@ def test_what_is_put_on_an_axle_lies_farther_left_than_what_was_there_before(
     robot: Robot, there: tuple[str, ...]
 ) -> None:
     """The robot lies on its right plate meanwhile, and the leg has its roller on the left."""
-    placed = [thing for step in assembly_steps(robot) for one in step.placed for thing in one.things]
+    placed = [thing for *_, thing in put_on(robot)]
     on_it = [thing for thing in placed if thing.name in there]
     if "roller" not in there:  # the last time: links are put on with what was put on them
         on_it = [thing for index, thing in enumerate(on_it) if thing not in on_it[index + 1 :]]
@@ -135,28 +127,23 @@ def test_what_no_step_knows_is_not_forgotten(small_robot: Robot) -> None:
 def test_parts_move_to_their_places_from_where_the_step_says(robot: Robot) -> None:
     """Screws go in with their tips ahead: from the wider end of their mesh to the other. Toes come towards the foot."""
     poses, seen = body_poses(robot, 0.0), set()
-    for step in assembly_steps(robot):
-        for placed in step.placed:
-            for thing in placed.things:
-                pose = poses[thing.body]
-                way = travel(robot, thing, placed.move, pose)
-                assert np.linalg.norm(way) == pytest.approx(1.0)
-                points = thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T @ pose[:3, :3].T
-                along = points @ way
-                if placed.move.along == "head last" and "screw" in thing.name:
-                    ends = [
-                        points[np.abs(along - end) < 1e-4 * max(1.0, np.ptp(along))]
-                        for end in (along.min(), along.max())
-                    ]
-                    behind, ahead = (np.ptp(end - np.outer(end @ way, way), axis=0).max() for end in ends)
-                    assert behind > ahead, thing.name
-                    seen.add("screw")
-                elif placed.move.along == "from outside":
-                    middle = (thing.T_body_mesh[:3, :3] @ thing.mesh.centroid + thing.T_body_mesh[:3, 3])[1]
-                    assert (pose[:3, :3].T @ way)[1] * middle < 0.0, thing.name
-                    seen.add("toe")
-                elif placed.move.along == "from the leg":
-                    seen.add("stop")
+    for _, move, thing in put_on(robot):
+        pose = poses[thing.body]
+        way = travel(robot, thing, move, pose)
+        assert np.linalg.norm(way) == pytest.approx(1.0)
+        points = thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T @ pose[:3, :3].T
+        along = points @ way
+        if move.along == "head last" and "screw" in thing.name:
+            near = 1e-4 * max(1.0, np.ptp(along))
+            ends = [points[np.abs(along - end) < near] for end in (along.min(), along.max())]
+            behind, ahead = (np.ptp(end - np.outer(end @ way, way), axis=0).max() for end in ends)
+            assert behind > ahead, thing.name
+            seen.add("screw")
+        elif move.along == "from outside":
+            assert (pose[:3, :3].T @ way)[1] * middle_y(thing) < 0.0, thing.name
+            seen.add("toe")
+        elif move.along == "from the leg":
+            seen.add("stop")
     assert seen == {"screw", "stop"} | ({"toe"} if robot.layout.toes_apart else set())
 
 
@@ -164,53 +151,43 @@ def test_each_screw_and_nut_is_turned_by_the_tool_of_its_size(robot: Robot) -> N
     """Hexagons of 2 mm in M3 (ISO 7380-1), sockets T6 in M2 (ISO 14580), nuts M3 of 5.5 mm (DIN 985)."""
     sizes = {"screw M3": "hex key 2 mm", "screw M2": "screwdriver T6", "lock nut M3": "nut driver 5.5 mm"}
     turned = set()
-    for step in assembly_steps(robot):
-        for placed in step.placed:
-            if placed.move.trial or placed.move.brings:  # only tried, or screwed together before
-                continue
-            for thing in placed.things:
-                for size, tool in sizes.items():
-                    if getattr(thing.source, "article", "").startswith(size):
-                        assert placed.move.tool is not None, thing.name
-                        assert placed.move.tool.name.startswith(tool), thing.name
-                        turned.add(size)
+    for _, move, thing in put_on(robot):
+        for size, tool in sizes.items():
+            if move.trial or move.brings or not getattr(thing.source, "article", "").startswith(size):
+                continue  # only tried, or screwed together before
+            assert move.tool is not None, thing.name
+            assert move.tool.name.startswith(tool), thing.name
+            turned.add(size)
     assert turned == set(sizes)
 
 
 def test_a_nut_comes_from_the_other_side_than_its_screw(robot: Robot) -> None:
     """It moves towards the head of the screw on which it goes; its spanner comes the same way."""
     poses = body_poses(robot, 0.0)
-    things = {thing.name: thing for step in assembly_steps(robot) for thing in step.added}
-
-    def y(name: str) -> float:
-        thing = things[name]
-        return float((thing.T_body_mesh[:3, :3] @ thing.mesh.centroid / 1000.0 + thing.T_body_mesh[:3, 3])[1])
-
-    moves = [placed for step in assembly_steps(robot) for placed in step.placed if placed.move.parts == "roller_nut"]
+    y = {thing.name: middle_y(thing) for thing in visuals(robot)}
+    moves = [(move, thing) for _, move, thing in put_on(robot) if move.parts == "roller_nut"]
     assert moves
-    for placed in moves:
-        (nut,) = placed.things
-        way = travel(robot, nut, placed.move, poses[nut.body])
-        assert way[1] * (y("roller_screw") - y("roller_nut")) > 0.0
-        assert np.allclose(SIDES[placed.move.reach], way)
+    for move, nut in moves:
+        way = travel(robot, nut, move, poses[nut.body])
+        assert way[1] * (y["roller_screw"] - y["roller_nut"]) > 0.0
+        assert np.allclose(SIDES[move.reach], way)
 
 
 def test_fasteners_have_their_heads_where_they_come_from_and_bearings_their_own_side(robot: Robot) -> None:
     """Of a screw or pin that comes from the left the wider end is on the left; y is to the left."""
     seen = set()
-    for placed in (placed for step in assembly_steps(robot) for placed in step.placed):
-        for thing in placed.things:
-            side = {"from the left": 1.0, "from the right": -1.0}.get(placed.move.along)
-            if side is None or placed.move.brings:
-                continue
-            points = thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T + 1000.0 * thing.T_body_mesh[:3, 3]
-            ends = [points[np.abs(points[:, 1] - y) < 1e-3] for y in (points[:, 1].min(), points[:, 1].max())]
-            low, high = (np.ptp(end, axis=0).max() for end in ends)
-            if re.search("screw|_pin$", thing.name) and abs(high - low) > 0.01:
-                assert (high - low) * side > 0.0, thing.name
-                seen.add(thing.name)
-            if thing.name.startswith("hub_bearing"):
-                assert points[:, 1].mean() * side > 0.0, thing.name
+    for _, move, thing in put_on(robot):
+        side = {"from the left": 1.0, "from the right": -1.0}.get(move.along)
+        if side is None or move.brings:
+            continue
+        points = thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T + 1000.0 * thing.T_body_mesh[:3, 3]
+        ends = [points[np.abs(points[:, 1] - y) < 1e-3] for y in (points[:, 1].min(), points[:, 1].max())]
+        low, high = (np.ptp(end, axis=0).max() for end in ends)
+        if re.search("screw|_pin$", thing.name) and abs(high - low) > 0.01:
+            assert (high - low) * side > 0.0, thing.name
+            seen.add(thing.name)
+        if thing.name.startswith("hub_bearing"):
+            assert points[:, 1].mean() * side > 0.0, thing.name
     assert {"roller_screw", "cap_screw_1", "standoff_1_screw_left", "standoff_1_screw_right", "ankle_pin"} <= seen
 
 
@@ -250,14 +227,14 @@ def test_what_is_glued_together_is_listed_where_it_is_glued() -> None:
 def test_what_stands_out_of_a_plate_is_put_on_from_outside(robot: Robot) -> None:
     """The sensor with its mount and screws on the left one; what is inside the right one from inside, from its left."""
     poses, seen, lateral = body_poses(robot, 0.0), set(), robot.layout.lateral
-    for step in (step for step in assembly_steps(robot) if step.key in ("left", "motor")):
-        for placed in (placed for placed in step.placed if placed.move.way != "laid"):
-            for thing in placed.things:
-                y = (thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T)[:, 1] + 1000.0 * thing.T_body_mesh[1, 3]
-                out, inside = y.max() > lateral.left_plate[1] + 0.5, y.min() > lateral.right_plate[0] - 0.01
-                if out if step.key == "left" else inside:
-                    assert travel(robot, thing, placed.move, poses[thing.body])[1] < -0.99, thing.name
-                    seen.add(thing.name)
+    for key, move, thing in put_on(robot):
+        if key not in ("left", "motor") or move.way == "laid":
+            continue
+        y = (thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T)[:, 1] + 1000.0 * thing.T_body_mesh[1, 3]
+        out, inside = y.max() > lateral.left_plate[1] + 0.5, y.min() > lateral.right_plate[0] - 0.01
+        if out if key == "left" else inside:
+            assert travel(robot, thing, move, poses[thing.body])[1] < -0.99, thing.name
+            seen.add(thing.name)
     assert seen >= {"sensor", "sensor_mount", "sensor_screw_1", "motor", "motor_cap", "cap_screw_1", "standoff_1"}
 
 
@@ -265,8 +242,7 @@ def test_what_stands_out_of_a_plate_is_put_on_from_outside(robot: Robot) -> None
 def test_pads_are_put_on_what_is_there(name: str) -> None:
     """From below; under toes that are parts of their own when these are on the foot."""
     robot, poses = built(name), body_poses(built(name))
-    put = [(thing.name, placed.move, thing) for step in assembly_steps(robot) for placed in step.placed
-           if not placed.move.brings for thing in placed.things]  # fmt: skip
+    put = [(thing.name, move, thing) for _, move, thing in put_on(robot) if not move.brings]
     names = [one for one, *_ in put]
     pads = {f"toe_{side}_pad": f"toe_{side}" if robot.layout.toes_apart else "foot" for side in ("left", "right")}
     pads |= {one: "foot" for one in names if one.startswith("nose_pad")}

@@ -13,7 +13,7 @@ from jumpcad.findings import Finding
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import Workshop, load_workshop
 from jumpcad.workshop.varied import varied
 
 LONG_TOES = "long toes"
@@ -35,7 +35,12 @@ def built(name: str, workshop: str = "default", mass_model: str = "printed", mot
 @lru_cache(maxsize=2)
 def of_kit(kit: str) -> Robot:
     """Return the robot of best-printable with the electrical parts of a kit, built once."""
-    return build(load_design("best-printable"), varied(load_workshop(), {"bought.kit": kit}), "best-printable")
+    return build(load_design("best-printable"), with_kit(kit), "best-printable")
+
+
+def with_kit(kit: str, **bought: str) -> Workshop:
+    """Return the default workshop with the electrical parts of a kit but for some."""
+    return varied(load_workshop(), {"bought.kit": kit} | {f"bought.{slot}": part for slot, part in bought.items()})
 
 
 @lru_cache(maxsize=8)
