@@ -13,7 +13,6 @@ from jumpcad.exporters.threemf import print_plates
 from jumpcad.layout.cage import SOCKET_MM
 from jumpcad.layout.leg_bars import END_PLAY_MM
 from jumpcad.parts.fittings import SWITCH_SCREWS_MM
-from jumpcad.parts.leads import metres_by_colour
 from jumpcad.parts.pads import printed_pads
 from jumpcad.parts.wired import SWITCH_EAR_MM
 from jumpcad.robot import Robot
@@ -68,7 +67,6 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
         "bars": _bars(robot, bill),
         "cage": _cage(robot),
         "bearings": [one for one in workshop.catalogue.bearings.values() if f"ball bearing {one.name}" in billed],
-        "wire_m": dict(sorted(metres_by_colour(layout, robot.wiring).items())),
         "strap_mm": strap_mm(robot),
         "boards": chosen.boards,
         "slide_switch": _switch(robot),
