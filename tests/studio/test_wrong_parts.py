@@ -8,7 +8,7 @@ from jumpcad.scene.visuals import visuals
 LIMITS_OF, _ = read_toml(templates_folder() / "texts" / "parts_of_limits.toml")
 ELSEWHERE = {
     "foot_clearance", "leg_bar_strength", "leg_socket_strength", "leg_bar_bond", "leg_bar_flex", "front_bar_buckling",
-    "toe_bar_strength", "toe_joint_strength", "spring_rate", "idler_axle_strength",
+    "toe_bar_strength", "toe_joint_strength", "spring_rate", "idler_axle_strength", "stop_creep",
 }  # fmt: skip
 """Limits that best-bo has only with other legs, toes, springs, gears."""
 
