@@ -205,7 +205,8 @@ def _priced(items: Sequence[BillLine], workshop: Workshop) -> Bill:
     known = [*(item.name for item in items), *shipped_prices().pieces]
     for key in workshop.prices_eur:
         if not any(name.startswith(key) or key.startswith(name) for name in known):
-            hint = did_you_mean(key, {name[: len(key) + 1].rstrip() for name in known})
+            inside = [f" (did you mean {name!r}?)" for name in known if key in name]
+            hint = inside[0] if inside else did_you_mean(key, {name[: len(key) + 1].rstrip() for name in known})
             raise JumpcadError(f"prices_eur.{shown(key)}: no article's name begins so{hint}; bom.csv lists them")
     lines = []
     for item in items:

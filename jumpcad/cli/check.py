@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, console, print_json, table
+from jumpcad.cli.output import JsonFlag, console, print_json
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
@@ -17,7 +17,6 @@ from jumpcad.cli.subjects import (
 from jumpcad.cli.verdict import jump_in_words, notes
 
 if TYPE_CHECKING:
-    from rich.console import Console
     from rich.text import Text
 
     from jumpcad.errors import JumpcadError
@@ -31,8 +30,6 @@ TIGHT = 0.8
 """Use of a limit from which it is shown also without --all."""
 COUNTED = "", "faults", "mm³"
 """Units of counts and of quantities that must be 0: a margin of 0 is not tight."""
-NARROW = 76
-"""Columns of a terminal in which less than 20 would be left for what was found: it then stands in lines of its own."""
 SMALL = 0.005
 """Margins below this, in the printed unit, are "at the limit" or "just beyond"."""
 
@@ -62,6 +59,7 @@ def check(
     violated.
     """
     from jumpcad.building import build
+    from jumpcad.building.bom import bill_of_materials
     from jumpcad.bundle.limits import counted_limits, limits_of
     from jumpcad.checks import basis_of
     from jumpcad.design import load_design
@@ -81,6 +79,7 @@ def check(
         robot = build(asked, shop, name_of(design))
     except CannotBuildError as refusal:
         raise remedies.of_refusal(refusal) from None
+    bill_of_materials(robot)  # rejects prices of what it does not have
     jump = simulate(robot, engine=default_engine())
     limits = limits_of(robot)
     known = {finding.name for finding in limits}
@@ -100,7 +99,7 @@ def check(
         print(_verdict(jump, findings, count))
         for note in notes(robot, findings):
             print(f"note: {note}")
-        _print_table(findings, every)
+        _print_findings(findings, every)
     if jump.verdict != "jump" or errors(findings):
         raise typer.Exit(1)
 
@@ -173,32 +172,18 @@ def _print_explained(name: str, findings: "list[Finding]") -> None:
         screen.print(f"{name}: not a limit of this robot, or reported only where it fails")
 
 
-def _print_table(findings: "list[Finding]", every: bool) -> None:
+def _print_findings(findings: "list[Finding]", every: bool) -> None:
+    from rich.padding import Padding
+
     limits = [finding for finding in findings if not finding.is_note]
     shown = [finding for finding in limits if every or finding.severity != "info" or is_tight(finding)]
     screen = console()
-    if shown and screen.width >= NARROW:
-        _print_columns(screen, shown)
-    else:
-        _print_lines(screen, shown)
-    if left := sum(finding.counts for finding in limits) - sum(finding.counts for finding in shown):
-        screen.print(f"{left} more are kept with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
-
-
-def _print_columns(screen: "Console", shown: "list[Finding]") -> None:
-    limits = table("", "check", ">used", ">margin", "found", wraps="found")
-    for finding in shown:
-        limits.add_row(*_cells(finding))
-    screen.print(limits)
-
-
-def _print_lines(screen: "Console", shown: "list[Finding]") -> None:
-    from rich.padding import Padding
-
     for finding in shown:
         word, name, use, margin, found = _cells(finding)
-        screen.print(word, name, *filter(None, (use, margin)))
+        screen.print(word, f"{name}:", ", ".join(filter(None, (use, margin))))
         screen.print(Padding(found, (0, 0, 0, 2)))
+    if left := sum(finding.counts for finding in limits) - sum(finding.counts for finding in shown):
+        screen.print(f"{left} more are kept with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
 
 
 def _cells(finding: "Finding") -> "tuple[Text, str, str, str, str]":

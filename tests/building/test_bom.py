@@ -87,7 +87,8 @@ def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
 
 def test_a_price_of_nothing_is_refused_with_the_nearest_name() -> None:
     robot = built("kenan-2.0")
-    for key, words in (("scerw M3", "did you mean screw M3"), ("xyz", "no article's name begins so;")):
+    for key, words in (("scerw M3", "did you mean screw M3"), ("n20-298-mp", "did you mean 'gear motor n20-298-mp"),
+                       ("xyz", "no article's name begins so;")):  # fmt: skip
         shop = robot.workshop.model_copy(update={"prices_eur": {key: 1.0}})
         with pytest.raises(JumpcadError, match=words):
             bill_of_materials(replace(robot, workshop=shop))
