@@ -74,6 +74,7 @@ class _Manifest(BaseModel):
     name: Annotated[str, AfterValidator(_part)]
     versions: dict[str, str]
     masses: list[_MassLine] = []
+    used_up: list[Text] = []
     mass_kg: float = 0.0
     bodies: dict[str, Any] = {}
     files: dict[Annotated[str, AfterValidator(own_path)], Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]]
