@@ -18,6 +18,7 @@ from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.lead_ways import outer_way, plate_of
+from jumpcad.parts.leads import OWN_LEGS
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array
 
@@ -178,7 +179,9 @@ def _trays(robot: Robot, leads: list[Lead], top: float) -> dict[str, Any]:
     ends = {end for lead in leads for end in lead.ends}
     below = " (underneath)" if pads else ""  # what is in no row
     named = {
-        end: end.pin + below * (end.part == "controller") for end in ends if end not in pads and end.part not in OUTSIDE
+        end: str(end) if end.part in OWN_LEGS else end.pin + below * (end.part == "controller")
+        for end in ends
+        if end not in pads and end.part not in OUTSIDE
     }
     return {
         "left": left,

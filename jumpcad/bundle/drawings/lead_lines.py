@@ -8,7 +8,7 @@ import numpy as np
 from jumpcad.electronics.nets import Terminal
 from jumpcad.layout.layout import Layout
 from jumpcad.parts.lead_ways import battery_way, corners, outer_way, plate_of
-from jumpcad.parts.leads import lead_lengths
+from jumpcad.parts.leads import OWN_LEGS, lead_lengths
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array
 
@@ -16,6 +16,8 @@ LANE_MM, GAP_LANE_MM, EDGE_MM = 1.0, 0.35, 1.5
 """Between leads that are drawn side by side at a part, and in the gap between boards; from a part's edge to leads."""
 
 
+APART_MM = 3.0
+"""Between small parts at the controller."""
 PAD_PITCH_MM, PAD_EDGE_MM = 2.54, 1.3
 """Between the pads of a board that plugs into a breadboard, and from its edge to them."""
 
@@ -73,7 +75,7 @@ def leads_of(robot: Robot) -> list[Lead]:
             points = battery_way(layout) + np.array([0.0, LANE_MM * lane[parts.index("battery")], 0.0])
         else:
             start, end = (
-                pads[terminal][None]
+                _from_pad(robot, pads[terminal])
                 if terminal in pads
                 else _outer(layout, terminal.part, one, counts[terminal.part], at_plates[plate])
                 for terminal, one in zip(ends, lane, strict=True)
@@ -84,6 +86,13 @@ def leads_of(robot: Robot) -> list[Lead]:
             points = np.concatenate([start, inside, end[::-1]])
         leads.append(Lead(number, colour, ends, points))
     return leads
+
+
+def _from_pad(robot: Robot, pad: Array) -> Array:
+    """Return the corners (n, 3) from a pad until its lead can run along: from the row behind, between two pads."""
+    layout = robot.layout
+    behind = pad[0] < layout.tray_mm[0] + layout.electronics.seats(layout.lateral.inside)["controller"].x_mm
+    return np.stack([pad, pad + np.array([0.0, PAD_PITCH_MM / 2.0, 0.0])]) if behind else pad[None]
 
 
 def _outer(layout: Layout, part: str, lane: float, count: int, at_plate: int) -> Array:
@@ -99,4 +108,8 @@ def _outer(layout: Layout, part: str, lane: float, count: int, at_plate: int) ->
     seats = layout.electronics.seats(layout.lateral.inside)
     size = np.array(seats.get(part, seats["controller"]).size_mm[:2])
     way[:, :2] += lane * np.minimum(LANE_MM, (size - 2.0 * EDGE_MM) / max(1, count - 1))
+    if part in OWN_LEGS:  # at the controller: apart, and between two pads of a row
+        way[:, 0] += APART_MM * (OWN_LEGS.index(part) - (len(OWN_LEGS) - 1) / 2.0)
+        gap = (way[:, 1] - seats["controller"].y_mm) / PAD_PITCH_MM
+        way[:, 1] = seats["controller"].y_mm + PAD_PITCH_MM * (np.floor(gap) + 0.5)
     return way
