@@ -60,6 +60,12 @@ class Originals:
     def loop(self) -> dict[str, Any]:
         return json.loads((self.whole / "urdf" / "kenan-2.0.loop.json").read_text())
 
+    def lay_urdf(self, sandbox: Sandbox, urdf: bytes, loop: bytes | None = None) -> None:
+        """Lay a URDF file with the good loop beside it, or another one."""
+        sandbox.write("robot.urdf", urdf)
+        good = (self.whole / "urdf" / "kenan-2.0.loop.json").read_bytes()
+        sandbox.write("robot.loop.json", good if loop is None else loop)
+
     @property
     def manifest(self) -> dict[str, Any]:
         return json.loads((self.bundle / "manifest.json").read_text())

@@ -2,15 +2,13 @@
 
 import hashlib
 import json
-import os
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 from support.each import each
-from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
-from support.sandbox import ANY, Sandbox
+from support.mutations import DOCUMENTS, Spoil, accidents, places, spoilt_value
+from support.sandbox import ANY, Sandbox, lay_odd
 
 from hostile.conftest import Originals
 
@@ -33,14 +31,10 @@ def with_file(originals: Originals, path: str, digest: str) -> str:
 
 @each("number", range(40))
 def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, bundle: Path, originals: Originals, number: int) -> None:
-    generator = np.random.default_rng(number)
     manifest = originals.manifest
     found = [place for place in places(manifest) if place[0] != "bodies"]
-    tops = [place for place in found if len(place) == 1]
-    place = tops[number] if number < len(tops) else found[int(generator.integers(len(found)))]
-    value = str(generator.choice(list(JSON_VALUES)))
-    sandbox.case = f"{place} = {value}"
-    (bundle / "manifest.json").write_text(with_value(manifest, place, JSON_VALUES[value]))
+    sandbox.case, text = spoilt_value(manifest, found, number)
+    (bundle / "manifest.json").write_text(text)
     for command in ("verify", "simulate", "slice"):
         ask(sandbox, command, ANY)
 
@@ -165,12 +159,7 @@ def test_what_is_no_file_is_not_read(sandbox: Sandbox, bundle: Path, kind: str) 
     what, _, how = kind.partition("-")
     path = bundle / ("manifest.json" if what == "manifest" else "bom.csv")
     path.unlink()
-    if how == "pipe":
-        os.mkfifo(path)
-    elif how == "folder":
-        path.mkdir()
-    else:
-        path.symlink_to("/dev/zero")
+    lay_odd(path, how)
     ask(sandbox, "verify", (1, 2))
     ask(sandbox, "simulate", ANY)
 

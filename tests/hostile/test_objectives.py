@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.each import each
-from support.sandbox import Sandbox
+from support.sandbox import Sandbox, lay_odd
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.study.objective import Evaluation, find_objective
@@ -207,15 +207,13 @@ def test_a_function_is_the_same_until_something_that_it_uses_changes(sandbox: Sa
     assert not alike
 
 
-PLACES = ["o.py:", ":f", "o.py:f:g", "o.txt:f", "o.py:1", "folder.py:f", "pipe.py:f", "zero.py:f", "loop.py:f",
+PLACES = ["o.py:", ":f", "o.py:f:g", "o.txt:f", "o.py:1", "folder.py:f", "pipe.py:f", "device.py:f", "loop.py:f",
           "no.py:f", "\0.py:f", f"{'x' * 5000}.py:f", "a\n\x1b.py:f", "\ud800.py:f", "o.py:__name__"]  # fmt: skip
 
 
 @each("place", PLACES)
 def test_a_place_without_a_function_is_a_line(sandbox: Sandbox, place: str) -> None:
     sandbox.write("o.py", "def f(m): return 1.0\n")
-    (sandbox.work / "folder.py").mkdir()
-    os.mkfifo(sandbox.work / "pipe.py")
-    (sandbox.work / "zero.py").symlink_to("/dev/zero")
-    (sandbox.work / "loop.py").symlink_to("loop.py")
+    for kind in ("folder", "pipe", "device", "loop"):
+        lay_odd(sandbox.work / f"{kind}.py", kind)
     sandbox.run(*SEARCH, "--objective", place, "--json", exits=(2,))

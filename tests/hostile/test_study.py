@@ -1,16 +1,14 @@
 """Study files from strangers, and those that an accident has spoilt: values, tables, bytes, and what is no file."""
 
 import json
-import os
 import shutil
 import sqlite3
 from contextlib import closing
 from pathlib import Path
 
-import numpy as np
 from support.each import each
-from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
-from support.sandbox import ANY, Sandbox
+from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, spoilt_value, with_value
+from support.sandbox import ANY, Sandbox, lay_odd
 
 COLUMNS = ("phase", "run", "step", "score", "record")
 FIELDS = (
@@ -91,13 +89,8 @@ def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, study: Path, name
 def test_a_strange_description_is_borne_or_refused(sandbox: Sandbox, study: Path, key: str, number: int) -> None:
     with closing(sqlite3.connect(study)) as connection:
         good = json.loads(connection.execute("SELECT value FROM study WHERE key = ?", (key,)).fetchone()[0])
-    generator = np.random.default_rng(number)
-    found = list(places(good))
-    tops = [place for place in found if len(place) == 1]
-    place = tops[number] if number < len(tops) else found[int(generator.integers(len(found)))]
-    value = str(generator.choice(list(JSON_VALUES)))
-    sandbox.case = f"{place} = {value}"
-    text = with_value(good, place, JSON_VALUES[value]).replace("'", "''")
+    sandbox.case, text = spoilt_value(good, list(places(good)), number)
+    text = text.replace("'", "''")
     spoil(study, f"UPDATE study SET value = '{text}' WHERE key = '{key}'")
     ask(sandbox)
 
@@ -152,17 +145,13 @@ def test_a_view_without_end_is_refused(sandbox: Sandbox, study: Path) -> None:
 @each("kind", ["folder", "pipe", "loop", "dangling", "device", "nothing", "empty", "foreign"])
 def test_what_is_no_study_is_refused_and_kept(sandbox: Sandbox, kind: str, command: str) -> None:
     path = sandbox.work / "study.db"
-    if kind == "folder":
-        path.mkdir()
-    elif kind == "pipe":
-        os.mkfifo(path)
-    elif kind == "empty":
+    if kind == "empty":
         path.touch()
     elif kind == "foreign":
         with closing(sqlite3.connect(path)) as connection:
             connection.executescript("CREATE TABLE photos (x); INSERT INTO photos VALUES (1)")
     elif kind != "nothing":
-        path.symlink_to({"loop": "study.db", "dangling": "nowhere", "device": "/dev/zero"}[kind])
+        lay_odd(path, kind)
     search = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0", "--json")
     if command == "study":
         sandbox.run("study", "study.db", "--json", exits=(2,))

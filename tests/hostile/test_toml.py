@@ -1,6 +1,5 @@
 """Designs, workshops, settings and coupon readings: values, keys, names and files that nobody foresaw."""
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,7 +8,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from support.each import each
 from support.mutations import DIGITS, DOCUMENTS, NESTED, Spoil, accidents
-from support.sandbox import ANY, Sandbox
+from support.sandbox import ANY, Sandbox, lay_odd
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.files import to_toml
@@ -126,9 +125,9 @@ BASES: dict[str, Callable[[Path], str]] = {
     "itself": lambda folder: "x.toml",
     "a folder": lambda folder: "thesis",
     "a folder's name": lambda folder: "thesis.toml",
-    "a pipe": lambda folder: os.mkfifo(folder / "pipe.toml") or "pipe.toml",
-    "a device": lambda folder: os.symlink("/dev/zero", folder / "zero.toml") or "zero.toml",
-    "a loop": lambda folder: os.symlink("loop.toml", folder / "loop.toml") or "loop.toml",
+    "a pipe": lambda folder: lay_odd(folder / "odd.toml", "pipe") or "odd.toml",
+    "a device": lambda folder: lay_odd(folder / "odd.toml", "device") or "odd.toml",
+    "a loop": lambda folder: lay_odd(folder / "odd.toml", "loop") or "odd.toml",
     "a missing file": lambda folder: "no/such.toml",
     "another kind": lambda folder: "../../templates/robots/kenan-2.0.toml",
     "a user's file": lambda folder: "../home/.bashrc",
@@ -151,13 +150,7 @@ def test_a_workshop_stands_on_no_strange_ground(sandbox: Sandbox, case: str, key
 @each("kind", ["pipe", "device", "memory", "folder", "loop"])
 @each("argument", ["design", "workshop", "settings", "readings"])
 def test_what_is_no_file_is_refused(sandbox: Sandbox, argument: str, kind: str) -> None:
-    path = sandbox.work / "x.toml"
-    if kind == "pipe":
-        os.mkfifo(path)
-    elif kind == "folder":
-        path.mkdir()
-    else:
-        path.symlink_to({"device": "/dev/zero", "memory": "/proc/self/mem", "loop": "x.toml"}[kind])
+    lay_odd(sandbox.work / "x.toml", kind)
     ask(sandbox, argument, (2,))
 
 

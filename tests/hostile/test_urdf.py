@@ -1,6 +1,5 @@
 """URDF files from strangers: what is no robot is refused in one line, and the engines go on working."""
 
-import os
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,7 +7,7 @@ from xml.etree import ElementTree
 
 from support.each import each
 from support.mutations import DOCUMENTS, NESTED, NO_NUMBERS, NUMBERS, Spoil, accidents
-from support.sandbox import ANY, Sandbox
+from support.sandbox import ANY, Sandbox, lay_odd
 
 from hostile.conftest import ENGINES, Originals
 
@@ -173,9 +172,7 @@ def test_a_strangers_urdf_is_a_robot_or_is_refused(
     sandbox: Sandbox, originals: Originals, still_works: Callable[[str], None], case: str
 ) -> None:
     engine = ENGINES[list(CASES).index(case) % len(ENGINES)]
-    spoilt = CASES[case].change(originals.urdf)
-    sandbox.write("robot.urdf", spoilt)
-    sandbox.write("robot.loop.json", (originals.whole / "urdf" / "kenan-2.0.loop.json").read_bytes())
+    originals.lay_urdf(sandbox, CASES[case].change(originals.urdf))
     try:
         sandbox.run("simulate", "robot.urdf", "--json", "--engine", engine, exits=CASES[case].exits)
     finally:
@@ -186,22 +183,16 @@ def test_an_entity_does_not_read_a_file(sandbox: Sandbox, originals: Originals) 
     secret = sandbox.write(sandbox.home / "secret", "5up3r-s3cr3t")
     text = with_head(f'<!DOCTYPE robot [<!ENTITY x SYSTEM "{secret.as_uri()}">]>')(originals.urdf)
     text = re.sub(rb'(<link name="body">)', rb"\1<verbatim>&x;</verbatim>", text)
-    sandbox.write("robot.urdf", text.replace(b'value="0.', b'value="&x;0.', 1))
-    sandbox.write("robot.loop.json", (originals.whole / "urdf" / "kenan-2.0.loop.json").read_bytes())
+    originals.lay_urdf(sandbox, text.replace(b'value="0.', b'value="&x;0.', 1))
     done = sandbox.run("simulate", "robot.urdf", "--json")
     assert "s3cr3t" not in done.out + done.err
 
 
 @each("kind", ["folder", "pipe", "loop", "dangling", "device", "no-loop-file", "loop-file-pipe"])
 def test_what_is_no_file_is_refused(sandbox: Sandbox, originals: Originals, kind: str) -> None:
-    sandbox.write("robot.urdf", originals.urdf)
-    sandbox.write("robot.loop.json", (originals.whole / "urdf" / "kenan-2.0.loop.json").read_bytes())
-    urdf, loop = sandbox.work / "robot.urdf", sandbox.work / "robot.loop.json"
-    (loop if "loop-file" in kind else urdf).unlink()
-    if kind == "folder":
-        urdf.mkdir()
-    elif kind.endswith("pipe"):
-        os.mkfifo(loop if "loop-file" in kind else urdf)
-    elif kind != "no-loop-file":
-        urdf.symlink_to({"loop": "robot.urdf", "dangling": "nowhere", "device": "/dev/zero"}[kind])
+    originals.lay_urdf(sandbox, originals.urdf)
+    path = sandbox.work / ("robot.loop.json" if "loop-file" in kind else "robot.urdf")
+    path.unlink()
+    if kind != "no-loop-file":
+        lay_odd(path, kind.removeprefix("loop-file-"))
     sandbox.run("simulate", "robot.urdf", "--json", exits=(2,))

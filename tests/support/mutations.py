@@ -104,6 +104,15 @@ def with_value(data: Any, place: Place, text: str) -> str:
     return json.dumps(changed).replace(f'"{MARK}"', text)
 
 
+def spoilt_value(data: Any, found: list[Place], number: int) -> tuple[str, str]:
+    """Return what is done, and a JSON document with a drawn value at one of some places: first at the top ones."""
+    generator = np.random.default_rng(number)
+    tops = [place for place in found if len(place) == 1]
+    place = tops[number] if number < len(tops) else found[int(generator.integers(len(found)))]
+    value = str(generator.choice(list(JSON_VALUES)))
+    return f"{place} = {value}", with_value(data, place, JSON_VALUES[value])
+
+
 def without(data: Any, place: Place) -> str:
     """Return a JSON document without one of its values."""
     changed = copy.deepcopy(data)

@@ -49,6 +49,17 @@ DECOYS = {
 }
 
 
+def lay_odd(path: Path, kind: str) -> None:
+    """Lay a folder, a pipe, or a link to a device, to memory, to nothing or to itself where a file is looked for."""
+    if kind == "folder":
+        path.mkdir()
+    elif kind == "pipe":
+        os.mkfifo(path)
+    else:
+        target = {"device": "/dev/zero", "memory": "/proc/self/mem", "dangling": "nowhere", "loop": path.name}[kind]
+        path.symlink_to(target)
+
+
 class Hang(BaseException):
     """A command ran past the alarm."""
 
