@@ -334,10 +334,10 @@ def test_a_page_has_all_its_sections_in_their_order(studies):
     """A front has no winner, and of its bounds nothing is known; two free parameters have pictures of the process."""
     headings = [text(one) for one in parsed(known_page_of(studies / "bo.db")).iter("h2")]
     assert headings == [
-        "What was asked", "The best designs", "History", "Slices", "Parallel lines", "What the method knew at first",
+        "The best designs", "What was asked", "History", "Slices", "Parallel lines", "What the method knew at first",
         "What the method knew at last", "Importance", "Active bounds", "Why designs were rejected",
     ]  # fmt: skip
     fronts = [text(one) for one in parsed(known_page_of(studies / "nsga2.db")).iter("h2")]
     assert fronts == [
-        "What was asked", "The front", *headings[2:5], "Importance", "Active bounds", "Why designs were rejected"
+        "The front", "What was asked", *headings[2:5], "Importance", "Active bounds", "Why designs were rejected"
     ]  # fmt: skip
