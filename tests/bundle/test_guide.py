@@ -270,7 +270,7 @@ def test_a_board_without_a_button_is_told_by_typing_and_reads_no_current_of_usb(
         text = whole(build(design("kenan-2.0"), load_workshop(tmp_path / "own.toml"), "own"))
         assert "the button" not in text, kit
         assert "Type `wind`." in text, kit
-        assert ("10 A range on its terminals" in text) == ("mA standing" in text) == readable, kit
+        assert ("10 A range to both its terminals" in text) == ("mA standing" in text) == readable, kit
 
 
 @pytest.mark.thorough
