@@ -7,13 +7,15 @@ import signal
 import sys
 import threading
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache, partial
 from multiprocessing.connection import Connection
 from typing import TypeVar
 
 from jumpcad.interrupts import deferred_interrupts
 
+LEAST = 3
+A = TypeVar("A")
 T = TypeVar("T")
 
 
@@ -53,6 +55,21 @@ def beside(function: Callable[..., T], *arguments: object) -> Callable[[], T]:
         return found
 
     return cache(result)
+
+
+def shared(function: Callable[[A], T], arguments: Sequence[A], most: int) -> list[T]:
+    """Return what a function returns for each argument, on all cores, at most some: here and in copies of this process.
+
+    What a copy learns besides is lost. Each does `LEAST` of them or more: to make a copy takes 10 ms.
+    """
+    count = max(1, min(cores(), most, len(arguments) // LEAST))
+    others = [beside(_each, function, arguments[start::count]) for start in range(1, count)]
+    found = [_each(function, arguments[::count]), *(other() for other in others)]
+    return [found[index % count][index // count] for index in range(len(arguments))]
+
+
+def _each(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
+    return [function(one) for one in arguments]
 
 
 def _answer(answer: Connection, function: Callable[[], object]) -> None:

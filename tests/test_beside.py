@@ -9,7 +9,7 @@ import pytest
 from support.robots import make_small_robot
 
 from jumpcad import beside as module
-from jumpcad.beside import beside
+from jumpcad.beside import beside, shared
 from jumpcad.checks import costly_findings
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux alone")
@@ -43,6 +43,14 @@ def test_what_fails_there_fails_here() -> None:
     assert beside(killed)() == 7
     unsent: Callable[[], Callable[[], int]] = lambda: lambda: 8  # noqa: E731  no pickle holds it
     assert beside(unsent)()() == 8
+
+
+def test_work_is_shared_in_order_among_as_many_processes_as_are_asked_for() -> None:
+    for most in (1, 2, 5):
+        found = shared(lambda number: (number, os.getpid()), range(7), most)
+        assert [number for number, _ in found] == [*range(7)], most
+        assert len({process for _, process in found}) == min(most, 2)
+    assert shared(abs, [], 2) == []
 
 
 def test_interrupts_are_this_process_s_affair() -> None:

@@ -6,8 +6,9 @@ the best, a dozen robots tell the score of others within a tenth, later within a
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from jumpcad.building import build
 from jumpcad.design import Design
@@ -26,6 +27,8 @@ from jumpcad.simulation import simulate
 
 LEAST, GROWTH = 8, 1.3
 """Robots from which on figures are fitted; they are fitted anew when there are so many times more."""
+Shared = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]
+"""As `Evaluator.shared`."""
 STATICS = ("tips", "too_weak")
 """Limits that a jump has margins of."""
 
@@ -72,6 +75,17 @@ class Estimator:
         centre = self._space.to_unit((best_trial(known) or known[0]).variant)
         self._figures, self._rows = FittedFigures.of(self._space, known, centre), rows
         self._estimates.clear()
+
+    def look_at(self, variants: Iterable[Variant], shared: Shared) -> None:
+        """Lay out and estimate what was not yet, by a function that shares the work among cores."""
+        new = {one.key: one for one in variants if one.key not in (self._estimates if self.ready else self._layouts)}
+        looked = shared(self._looked, [*new.values()])
+        self._layouts |= {key: laid for key, (laid, _) in zip(new, looked, strict=True)}
+        if self.ready:
+            self._estimates |= {key: estimate for key, (_, estimate) in zip(new, looked, strict=True)}
+
+    def _looked(self, variant: Variant) -> "tuple[Mapping[str, float] | Evaluation, Estimate | None]":
+        return self.layout(variant), self(variant)
 
     def layout(self, variant: Variant) -> Mapping[str, float] | Evaluation:
         """Return figures of a variant's layout, or the outcome of one that has no room."""

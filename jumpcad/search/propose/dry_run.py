@@ -5,7 +5,7 @@ the next proposal is better. All of it follows from the trials and from the poin
 resumed search goes on alike.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Self
 
@@ -70,9 +70,16 @@ class DryRun:
 
     def learn(self, trials: Sequence[Trial]) -> None:
         """Learn the robots that were built; what was tried for any of these trials is laid out once more."""
-        for variant in self._tried(trials, ()):
-            self.estimator.layout(variant)
+        tried = [*self._passed_over, *self._tried(trials, ())]
+        self.look_at(tried)
         self.estimator.learn(trials)
+        if self.estimator.ready:
+            jumped = [trial.variant for trial in trials if trial.score is not None]
+            self.look_at([*map(self._variant, self.ranked[:FIRST]), *tried, *jumped])
+
+    def look_at(self, variants: Iterable[Variant]) -> None:
+        """Lay out and estimate, on all cores, what was not yet."""
+        self.estimator.look_at(variants, self._evaluator.shared)
 
     def known(self, trials: Sequence[Trial], tried: Sequence[Array]) -> set[Key]:
         """Return the keys of what was tried for `trials` and since then."""

@@ -53,5 +53,5 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
         return []
     space = evaluator.space
     points = space.drawn(sobol(space.dimension, SCREENED, generator))
-    scores = np.array([quick(space.to_design(point), evaluator.objective) for point in points])
+    scores = np.array(evaluator.shared(lambda point: quick(space.to_design(point), evaluator.objective), [*points]))
     return [points[index] for index in np.argsort(-scores, kind="stable") if math.isfinite(scores[index])]

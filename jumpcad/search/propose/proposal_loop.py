@@ -120,12 +120,13 @@ class ProposalLoop:
         if not self._estimates or best is None:
             return None
         assert self._dry_run is not None
+        points = neighbours(self._space, best, generator, wider)
+        new = [(point, one) for point in points if admits(one := self._space.to_variant(point))]
+        self._dry_run.look_at(one for _, one in new)
         offers, known = [], self._dry_run.known(self._trials, self.tried)
-        for point in neighbours(self._space, best, generator, wider):
-            variant = self._space.to_variant(point)
-            if admits(variant):
-                self.tried += [] if variant.key in known else [point]
-                offers.append((self._dry_run.score(variant) or 0.0, Proposal(variant, point, 0.0, 0.0)))
+        for point, one in new:
+            self.tried += [] if one.key in known else [point]
+            offers.append((self._dry_run.score(one) or 0.0, Proposal(one, point, 0.0, 0.0)))
         score, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
         if found is None or score < (1.0 - WITHIN) * (self._dry_run.score(best.variant) or math.inf):
             return None
@@ -145,6 +146,8 @@ class ProposalLoop:
         beside = np.clip(centre + AROUND * np.vstack([-numbers, numbers]), 0.0, 1.0)
         apart = np.abs(beside - centre).max(axis=1) > 0.5 * AROUND  # else a bound is too near
         self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
+        assert self._dry_run is not None
+        self._dry_run.look_at(map(self._space.to_variant, self.tried))
 
     def may_hold(self, variant: Variant) -> bool:
         """Whether a variant may be proposed: it has not failed in a dry run of this step, nor has no room."""

@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from jumpcad.arguments import check_arguments
+from jumpcad.beside import A, T, shared
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
@@ -85,6 +86,10 @@ class Evaluator:
     def trials(self) -> list[Trial]:
         """All trials of this search so far, in order."""
         return list(self._seen.values())
+
+    def shared(self, function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
+        """Return what a function returns for each argument, on as many cores as there are workers."""
+        return shared(function, arguments, self._pool.workers)
 
     def admits(self, one: Design | Variant) -> bool:
         """Whether a design or variant is new, also to the prior, and the model admits it without an evaluation."""

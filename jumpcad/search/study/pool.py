@@ -6,7 +6,6 @@ with the reason. The run continues in both cases.
 """
 
 import importlib
-import os
 import pickle
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -17,6 +16,7 @@ from typing import Any
 import cloudpickle
 
 from jumpcad.arguments import check_arguments
+from jumpcad.beside import cores
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
@@ -159,7 +159,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
         If the number of workers or the timeout is out of range.
     """
     if workers is None:
-        workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        workers = cores()
     if workers < 0:
         raise JumpcadError(f"workers = {shown(workers)} must be at least 1 (0 evaluates without worker processes)")
     if workers > MOST_WORKERS:

@@ -10,6 +10,7 @@ from support.proposals import with_less_work
 from support.quick import LIKE, SPACE, Quick, quick
 from support.stages import stage
 
+from jumpcad import beside
 from jumpcad.search.estimate.estimate import Estimate
 from jumpcad.search.estimate.estimated_robot import LAID
 from jumpcad.search.models import robot_model
@@ -73,10 +74,11 @@ def dry_run_of(model=None, space=SPACE, phase="bo", asked=STAGE, prior=()):
 
 
 @pytest.mark.thorough
-def test_a_search_that_ended_early_and_a_worker_give_the_same_rows(trials, tmp_path):
+def test_a_search_that_ended_early_and_more_cores_give_the_same_rows(trials, tmp_path, monkeypatch):
     path = tmp_path / "again.db"
     search(path, replace(STAGE, evaluations=12))
-    assert search(path, workers=1) == trials
+    monkeypatch.setattr(beside, "cores", lambda: 2)  # dry runs are shared too
+    assert search(path, workers=2) == trials
 
 
 @pytest.mark.thorough

@@ -38,6 +38,9 @@ class DryRun:
     def known(self, trials, tried):
         return {SMALL.to_variant(point).key for point in tried}
 
+    def look_at(self, variants):
+        """What is done ahead changes nothing."""
+
     def score(self, variant):
         """The sum of its coordinates."""
         return float(SMALL.to_unit(variant).sum())
