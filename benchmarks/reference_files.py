@@ -22,6 +22,7 @@ from jumpcad.calibration import posterior, surface
 from jumpcad.cli.commands import run
 from jumpcad.cli.slicing import slice_facts
 from jumpcad.exporters.registry import EXPORTERS
+from jumpcad.landing import lightest_cage
 from jumpcad.search.pick.robust import ActiveBound
 from jumpcad.simulation import uncertain
 from jumpcad.validation import table as validation_table
@@ -50,6 +51,7 @@ def files_and_json() -> str:
             "jumpcad reproduce --json": _json("reproduce"),
             f"jumpcad check {EXAMPLE} --json": _json("check", EXAMPLE),
             "jumpcad compare A B --json": _json("compare", EXAMPLE, "kenan-1.0", "-o", f"{folder}/c.html"),
+            "jumpcad cage DESIGN --json": _cage_document(),
             "jumpcad variants DESIGN --json": _json("variants", EXAMPLE, "--count", "1", "-o", f"{folder}/variants"),
             "jumpcad verify BUNDLE --json": _json("verify", f"{folder}/bundle"),
             "jumpcad slice BUNDLE --json": _slice_document(Path(folder) / "bundle"),
@@ -107,6 +109,12 @@ def _uncertain_document() -> Any:
     """Return the document of a jump with few samples of what is uncertain."""
     with patch.object(uncertain.uncertain_jump, "__defaults__", (0, 8)):
         return _json("simulate", EXAMPLE, "--uncertain")
+
+
+def _cage_document() -> Any:
+    """Return the document of a cage that is the first tried, and dropped once."""
+    with patch.object(lightest_cage, "MOST", 1), patch.object(lightest_cage, "TRIES", 1):
+        return _json("cage", "best-printable")
 
 
 def _slice_document(folder: Path) -> Any:

@@ -59,7 +59,7 @@ BASIS = {
 }
 ELSEWHERE = "change cage.front_ahead_mm, cage.rear_behind_mm or the radii, or leave them 0"
 SOFTER = "another cage.rod, or a larger cage.rear_radius_mm or cage.front_radius_mm"
-CROUCH = "raise compression_ratio, so that it crouches lower, or change cage.rear_radius_mm and cage.front_radius_mm"
+CROUCH = "raise compression_ratio, so that it crouches lower, or take the sizes that jumpcad cage DESIGN finds"
 
 
 def cage_findings(robot: Robot) -> Iterator[Finding]:

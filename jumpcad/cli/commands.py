@@ -13,6 +13,7 @@ from typer.exceptions import TyperException
 
 from jumpcad.cli import (
     bundle,
+    cage,
     calibrate,
     check,
     compare,
@@ -57,6 +58,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "slice": slicing.slice_command,
     "coupon": coupon.coupon,
     "simulate": simulate.simulate,
+    "cage": cage.cage,
     "variants": variants.variants,
     "calibrate": calibrate.calibrate,
     "validate": validate.validate,

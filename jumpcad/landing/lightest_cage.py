@@ -1,0 +1,137 @@
+"""The lightest cage that rights a robot: its sizes are searched by stable poses, then it is dropped and lands."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from jumpcad.building import built_and_checked
+from jumpcad.checks.cage import RIGHTED
+from jumpcad.design import Design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.findings import errors
+from jumpcad.landing.landing import land
+from jumpcad.layout.cage import plate_ends_mm
+from jumpcad.robot import Robot
+from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
+from jumpcad.workshop import Workshop, varied
+
+ROD = "glass-1.5"
+"""Where the workshop names none."""
+SHARE = 0.95
+"""Least share of stable poses on the feet; judgement: hoops reach 0.97, and what counts is simulated."""
+STEPS = {"lean_deg": 6.0, "arc_deg": 12.0, "rear_behind_mm": 10.0, "front_ahead_mm": 10.0, "rear_radius_mm": 16.0,
+         "front_radius_mm": 16.0}  # fmt: skip
+"""First steps of the sizes; they are halved `HALVINGS` times."""
+HALVINGS, MOST = 2, 80
+"""And at most so many robots are built, with and without a bow each."""
+TRIES, DROPS, LANDINGS = 50, 0.98, 0.95
+"""Simulated drops and own landings, and the shares of them after which it must stand."""
+
+Cost = tuple[float, float]
+"""What a cage lacks of what is asked, 0 if nothing, and the robot's mass (kg)."""
+
+
+@dataclass(frozen=True)
+class LightestCage:
+    """A robot with its cage, in a workshop that gives all its sizes, and how it rights itself.
+
+    `share` is that of stable poses on the feet, `least` that with the centre of mass elsewhere; `drops` and `landings`
+    are shares of simulated drops in any attitude and of own landings after which it stands.
+    """
+
+    robot: Robot
+    workshop: Workshop
+    share: float
+    least: float
+    drops: float
+    landings: float
+
+
+def lightest_cage(design: Design, workshop: Workshop, tries: int = TRIES) -> LightestCage:
+    """Return the lightest cage of the workshop's rod that rights a robot, of two hoops with or without a bow.
+
+    A pattern search from the sizes that the layout finds. Drops and landings have the last word, in the order of mass.
+
+    Raises
+    ------
+    CannotBuildError
+        If no cage that was tried rights it.
+    JumpcadError
+        If MuJoCo is not installed.
+    """
+    found: list[tuple[Cost, Workshop]] = []
+    for bow in (False, True):
+        start = varied(workshop, {"cage.rod": workshop.cage.rod or ROD, "cage.bow": bow})
+        robot, _ = built_and_checked(design, start, "")
+        found += searched(_sizes(robot), lambda sizes, start=start: _judged(design, start, sizes))  # type: ignore[misc]
+    ordered = sorted(found, key=lambda one: one[0])
+    (lacking, _), best = ordered[0]
+    surest = 0.0
+    for (lacks, _), shop in ordered:
+        if lacks:
+            break
+        robot, _ = built_and_checked(design, shop, "")
+        if (least := least_share_on_feet(robot)) <= surest:
+            continue  # a surer one than this has fallen over
+        landed = land(robot, tries)
+        if landed.drops_righted >= DROPS and landed.share_righted >= LANDINGS:
+            return LightestCage(robot, shop, share_on_feet(robot), least, landed.drops_righted, landed.share_righted)
+        surest = least
+    robot, findings = built_and_checked(design, best, "")
+    failing = [one.name for one in errors(findings) if one.name.startswith("cage")]
+    raise CannotBuildError(
+        f"of {len(found)} cages of {best.cage.rod} none rights it: with the best it lies on its feet in "
+        f"{100.0 * share_on_feet(robot):.0f} % of its stable poses, {100.0 * SHARE:.0f} % are needed"
+        f"{', and it fails ' + ', '.join(failing) if failing else ''}: raise compression_ratio, so that it crouches "
+        "lower, or another cage.rod",
+        "cage_rights", -lacking,
+    )  # fmt: skip
+
+
+def searched(
+    at: dict[str, float], judged: Callable[[dict[str, float]], tuple[Cost, Workshop]]
+) -> list[tuple[Cost, Workshop]]:
+    """Return all that a pattern search judged: it moves one value after the other, either way, then by half steps."""
+    found = {tuple(at.values()): judged(at)}
+    best, scale = found[tuple(at.values())][0], 1.0
+    while scale >= 0.5**HALVINGS:
+        before = best
+        for key, step in STEPS.items():
+            for sign in (-1.0, 1.0):
+                there = at | {key: round(at[key] + sign * scale * step, 1)}
+                if (values := tuple(there.values())) not in found:
+                    if len(found) >= MOST:
+                        return list(found.values())
+                    found[values] = judged(there)
+                if found[values][0] < best:
+                    at, best = there, found[values][0]
+                    break
+        scale = scale if best < before else scale / 2.0
+    return list(found.values())
+
+
+def _judged(design: Design, workshop: Workshop, sizes: dict[str, float]) -> tuple[Cost, Workshop]:
+    """Return what a cage of some sizes lacks, the robot's mass with it, and its workshop."""
+    try:
+        shop = varied(workshop, {f"cage.{key}": value for key, value in sizes.items()})
+        robot, findings = built_and_checked(design, shop, "")
+    except JumpcadError:
+        return (math.inf, math.inf), workshop
+    failing = sum((one.use or 2.0) - 1.0 for one in errors(findings) if one.name.startswith("cage"))
+    poses = max(0.0, SHARE - share_on_feet(robot)) + max(0.0, RIGHTED / 100.0 - least_share_on_feet(robot))
+    return (round(failing + poses, 4), robot.mass_kg), shop
+
+
+def _sizes(robot: Robot) -> dict[str, float]:
+    """Return the sizes of a robot's cage by the workshop's keys."""
+    cage = robot.layout.cage
+    assert cage is not None
+    (rear, front), ends = cage.bars, plate_ends_mm(robot.layout)
+    return {
+        "lean_deg": round(math.degrees(math.atan2(front.up[0], front.up[1])), 1),
+        "arc_deg": round(math.degrees(cage.arcs[0].angle_rad), 1),
+        "rear_behind_mm": round(ends[0] - float(rear.place_mm[0]), 1),
+        "front_ahead_mm": round(float(front.place_mm[0]) - ends[1], 1),
+        "rear_radius_mm": cage.arcs[0].radius_mm,
+        "front_radius_mm": cage.arcs[1].radius_mm,
+    }
