@@ -16,9 +16,8 @@ from jumpcad.files.outputs import is_sealed, require_free, sealed, write_atomica
 from jumpcad.robot import Robot
 from jumpcad.search.study.result import workshop_file
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
-from jumpcad.studio.inputs import slider_ends, slider_step, when_changed
 from jumpcad.studio.playback import Playback, playback
-from jumpcad.studio.player import Player
+from jumpcad.studio.player import Player, slider_ends, slider_step, when_changed
 from jumpcad.studio.points import STUDYS, Points
 from jumpcad.studio.stage import StudioStage
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop

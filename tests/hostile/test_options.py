@@ -14,9 +14,7 @@ EXPLORE = ("explore", "--model", "capsule", "--workers", "0", "--settings", "scr
 REFUSED = {
     "no time": ("optimize", "--model", "capsule", "--limit", "1e-9", "--workers", "1", "--study", "s.db"),
     "no such figure": ("optimize", "ga", "--model", "published", "--objective", "rise", "--study", "s.db"),
-    "no such prior": (*SEARCH, "--from-study", "no.db"),
     "no such parameter": (*EXPLORE, "feasibility", "--over", "foo,bar"),
-    "no such engine": (*SEARCH, "--engine", "unity"),
     "centre outside": (*EXPLORE, "sweep", "--fix", "c_coef=7"),
     "half an evaluation": (*SEARCH, "--evaluations", "1.5"),
     "digits": (*SEARCH, "--evaluations", "9" * 5000),
