@@ -53,8 +53,8 @@ class EnergyBudget:
             "slip": self.slip_j,
             "contact": self.contact_j,
         }
-        gained = min(account["contact"], 0.0)
-        account["contact"] -= gained
+        gained = sum(min(value, 0.0) for value in account.values())
+        account = {name: max(value, 0.0) for name, value in account.items()}
         account[max(account, key=lambda name: account[name])] += gained
         return account
 
