@@ -15,6 +15,8 @@ from jumpcad.transforms import Array
 
 OUTLINE_TOLERANCE_MM = 0.01
 """Corners nearer than this to a straight line are left out where shells and infill are concerned, for speed."""
+MANY_HOLES, FEW_CORNERS = 10, 100
+"""Least contours of an outline that may be twice as coarse, and most corners of each: plates, but not gears."""
 
 
 def section_moments(sections: CrossSections) -> tuple[Array, Array]:
@@ -102,7 +104,9 @@ class Cores:
 
 def _moved(region: Region, distance_mm: float) -> Region:
     """Return a region whose border is moved outwards by a distance."""
-    return region.simplify(OUTLINE_TOLERANCE_MM).offset(distance_mm, JoinType.Miter)
+    contours = region.num_contour()
+    coarse = contours >= MANY_HOLES and region.num_vert() <= FEW_CORNERS * contours
+    return region.simplify((2.0 if coarse else 1.0) * OUTLINE_TOLERANCE_MM).offset(distance_mm, JoinType.Miter)
 
 
 def _same_area(whole: Region, part: Region) -> bool:
