@@ -15,7 +15,7 @@ from jumpcad.mechanism.planar import points
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.scene.hulls import CAGE
-from jumpcad.transforms import Array, in_metres
+from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
 CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
@@ -47,14 +47,15 @@ def outlines_m(parts: Iterable[Part], hardware: Iterable[BoughtPart]) -> dict[st
 
     hardware = list(hardware)
     rods = {item.name: item.wire for item in hardware if item.wire is not None and item.name.startswith(CAGE)}
-    corners: dict[str, list[Array]] = defaultdict(list)
     placed = [(one.drawing.shape.bounds_mm, place.body, place.T_body_part) for one in parts for place in one.placements]
-    boxed = [item for item in hardware if item.name not in rods]
-    for bounds, body, pose in (*placed, *((item.shape.bounds_mm, item.body, item.T_body_part) for item in boxed)):
-        box = np.asarray(bounds)[CORNERS, [0, 1, 2]]
-        corners[body].append((box @ pose[:3, :3].T + pose[:3, 3])[:, [0, 2]] / 1000.0)
-    corners[BODY] += [rod.points_mm[:, [0, 2]] / 1000.0 for rod in rods.values()]
-    joined = {body: np.concatenate(found) for body, found in corners.items()}
+    boxed = [(item.shape.bounds_mm, item.body, item.T_body_part) for item in hardware if item.name not in rods]
+    bounds, of_body, poses = (np.array(column) for column in zip(*placed, *boxed, strict=True))
+    boxes = bounds[:, CORNERS, [0, 1, 2]] @ poses[:, :3, :3].transpose(0, 2, 1) + poses[:, None, :3, 3]
+    joined = {
+        body: boxes[of_body == body][..., [0, 2]].reshape(-1, 2) / 1000.0 for body in dict.fromkeys(of_body.tolist())
+    }
+    lines = [rod.points_mm[:, [0, 2]] / 1000.0 for rod in rods.values()]
+    joined[BODY] = np.concatenate([joined[BODY], *lines])
     return {body: points(found[ConvexHull(found).vertices]) for body, found in joined.items()}
 
 

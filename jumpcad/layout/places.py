@@ -17,9 +17,9 @@ from jumpcad.transforms import Array
 
 TURN_STEPS = 72
 """Candidates on a ring, one every 5°; judgement."""
-BATCH, LARGER = 24, 2
+BATCH, LARGER = 48, 2
 """Candidates measured at once, the cheapest first, and how many times more after every failure."""
-THINNED = 8
+THINNED = 16
 """One in so many of the discs in the way is looked at first."""
 ROUND_OFF_MM = 1e-6
 """Accepted shortfall: a synthesised drive may have a clearance of exactly 0."""

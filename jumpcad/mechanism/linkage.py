@@ -7,6 +7,7 @@ axis: angle a points along (cos a, -sin a), so that a grows with a positive turn
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -90,6 +91,9 @@ class Linkage:
             If the loop does not close at one of the angles.
         """
         leg = np.atleast_1d(np.asarray(leg_rad, dtype=float))
+        return _solved(self.design, leg.tobytes(), leg.shape, other_branch)
+
+    def _pose(self, leg: Array, other_branch: bool) -> Pose:
         ankle, foot = self._ankle(leg), self._foot(leg, other_branch)
         # Measured from the assembled pose, no link comes near the ±180° at which angles jump.
         front = _below((ankle + foot - self.l1) * np.exp(1j * self.rest_rad))
@@ -160,6 +164,12 @@ class Linkage:
             )
         side = 1j if other_branch else -1j
         return np.asarray(diagonal / distance * (along + side * np.sqrt(square)))
+
+
+@lru_cache(maxsize=64)
+def _solved(design: Design, leg: bytes, shape: tuple[int, ...], other_branch: bool) -> Pose:
+    """Return the pose of a design: loads, masses and room ask for it at the same angles."""
+    return Linkage(design)._pose(np.frombuffer(leg).reshape(shape), other_branch)
 
 
 def toe_tip_mm(design: Design) -> Array:

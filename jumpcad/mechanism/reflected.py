@@ -85,9 +85,10 @@ def reflected_mass(bodies: Mapping[str, Body], linkage: Linkage) -> ReflectedMas
     def by_wind(values: Array) -> Array:
         return -np.gradient(values, leg, axis=0, edge_order=2)
 
-    inertia = (mass * (by_wind(place.real) ** 2 + by_wind(place.imag) ** 2) + about_y * by_wind(turn) ** 2).sum(axis=1)
-    height = (mass * place.imag).sum(axis=1)
-    columns = (-leg, inertia, by_wind(inertia), GRAVITY_M_S2 * by_wind(height))
+    x, z, turned = np.moveaxis(by_wind(np.stack([place.real, place.imag, turn], axis=1)), 1, 0)
+    inertia = (mass * (x**2 + z**2) + about_y * turned**2).sum(axis=1)
+    slopes = by_wind(np.column_stack([inertia, (mass * place.imag).sum(axis=1)]))
+    columns = (-leg, inertia, slopes[:, 0], GRAVITY_M_S2 * slopes[:, 1])
     return ReflectedMass(*(column[::-1].copy() for column in columns))
 
 
