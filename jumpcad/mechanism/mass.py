@@ -54,12 +54,13 @@ def combined(items: Iterable[MassProperties]) -> MassProperties:
     """Return the mass properties of several bodies that share a frame (parallel-axis theorem)."""
     items = list(items)
     mass = math.fsum(item.mass_kg for item in items)
-    com = sum((item.mass_kg * item.com_m for item in items), np.zeros(3)) / mass
-    inertia = np.zeros((3, 3))
-    for item in items:
-        offset = item.com_m - com
-        inertia += item.inertia_kg_m2 + item.mass_kg * ((offset * offset).sum() * np.eye(3) - np.outer(offset, offset))
-    return MassProperties(mass, com, inertia)
+    masses = np.array([item.mass_kg for item in items])
+    places = np.array([item.com_m for item in items])
+    com = (masses[:, None] * places).sum(axis=0) / mass
+    offset = places - com
+    square = (offset * offset).sum(axis=1)[:, None, None] * np.eye(3)
+    away = masses[:, None, None] * (square - offset[:, :, None] * offset[:, None, :])
+    return MassProperties(mass, com, (np.array([item.inertia_kg_m2 for item in items]) + away).sum(axis=0))
 
 
 def principal_axes(inertia_kg_m2: Array) -> tuple[Array, Array]:
