@@ -1,12 +1,11 @@
 """`jumpcad build`, `jumpcad render`, `jumpcad verify`: bundles and their pictures."""
 
-import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of, wrapped
 from jumpcad.cli.subjects import (
     DesignArgument,
     MaterialOption,
@@ -248,10 +247,4 @@ def _print_facts(facts: dict[str, Any], parts: bool) -> None:
         pictured=any(path.startswith(f"{PICTURES}/") for path in facts["files"]),
     )
     for line in text.splitlines():
-        print(_wrapped(line, screen.width))
-
-
-def _wrapped(line: str, width: int) -> str:
-    """Return a line as wide as a terminal, 80 characters elsewhere: what is left stands below the text."""
-    indent, width = " " * LABEL, max(width, 2 * LABEL)
-    return textwrap.fill(line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+        print(wrapped(line, LABEL))

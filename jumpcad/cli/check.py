@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, console, print_json
+from jumpcad.cli.output import JsonFlag, console, print_json, wrapped
 from jumpcad.cli.subjects import (
     MaterialOption,
     PrinterOption,
@@ -96,9 +96,9 @@ def check(
     elif explain:
         _print_explained(explain, findings)
     else:
-        print(_verdict(jump, findings, count))
+        print(wrapped(_verdict(jump, findings, count), 2))
         for note in notes(robot, findings):
-            print(f"note: {note}")
+            print(wrapped(f"note: {note}", 6))
         _print_findings(findings, every)
     if jump.verdict != "jump" or errors(findings):
         raise typer.Exit(1)
@@ -173,15 +173,13 @@ def _print_explained(name: str, findings: "list[Finding]") -> None:
 
 
 def _print_findings(findings: "list[Finding]", every: bool) -> None:
-    from rich.padding import Padding
-
     limits = [finding for finding in findings if not finding.is_note]
     shown = [finding for finding in limits if every or finding.severity != "info" or is_tight(finding)]
     screen = console()
     for finding in shown:
         word, name, use, margin, found = _cells(finding)
         screen.print(word, f"{name}:", ", ".join(filter(None, (use, margin))))
-        screen.print(Padding(found, (0, 0, 0, 2)))
+        print(wrapped(f"  {found}", 2))
     if left := sum(finding.counts for finding in limits) - sum(finding.counts for finding in shown):
         screen.print(f"{left} more are kept with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
 

@@ -10,6 +10,7 @@ import math
 import os
 import shlex
 import sys
+import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from threading import Event, Thread
 from typing import TYPE_CHECKING, Annotated, Any, TextIO
@@ -134,6 +135,12 @@ def console(**options: Any) -> "Console":
     if isinstance(sys.stdout, Output) and "stderr" not in options:
         options["file"] = sys.stdout.coloured()
     return Console(markup=False, emoji=False, **options)
+
+
+def wrapped(line: str, indent: int) -> str:
+    """Return a line as wide as a terminal, 80 characters elsewhere: what is left stands below, indented."""
+    width = max(console().width, 2 * indent)
+    return textwrap.fill(line, width, subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False)
 
 
 def table(*headings: str, wraps: str = "", **options: Any) -> "Table":
