@@ -161,9 +161,9 @@ def _beyond_zero(last: tuple[float, float], here: tuple[float, float], otherwise
 
 
 def _end(key: str, now: float, direction: int) -> float:
-    """Return the end of what is tried: that of searches, of the parameter beyond these; twice, half or 1 elsewhere."""
+    """Return the end of what is tried: that of searches, of the parameter beyond; else twice, half or 1, 20 from 0."""
     if key not in PARAMETERS:
-        return now * (2.0 if direction > 0 else 0.5)
+        return now * (2.0 if direction > 0 else 0.5) or 20.0 * (direction > 0)
     if direction == 0:
         return 1.0
     bounds, side = SEARCH_BOUNDS[key], int(direction > 0)

@@ -44,7 +44,7 @@ BASIS = {
     ),
     "tool_access": Basis(
         f"{SHARED}, of the room of every fastener's tool; length: the shorter of tool and obstacle along it",
-        "solids; tools: jumpcad/scene/assembly_order; tolerance: facets of circles",
+        "solids; tools: jumpcad/scene/assembly_order.py; tolerance: facets of circles",
     ),
 }
 

@@ -26,20 +26,22 @@ def cage(
     from jumpcad.design import load_design
     from jumpcad.files import to_toml
     from jumpcad.landing.lightest_cage import TRIES, lightest_cage
+    from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
     from jumpcad.workshop import load_workshop, own_workshop
 
     note_template(design)
     base = workshop or own_workshop(design)
     with status(f"trying cages for {design} …"):
-        found = lightest_cage(load_design(design), load_workshop(base), TRIES)
-    sizes, grams = found.workshop.cage.model_dump(), 1000.0 * found.robot.mass_kg
-    figures = {"share": found.share, "least_share": found.least, "drops": found.drops, "landings": found.landings}
+        robot, landed = lightest_cage(load_design(design), load_workshop(base), TRIES)
+    sizes, share, least = robot.workshop.cage.model_dump(), share_on_feet(robot), least_share_on_feet(robot)
+    drops, landings = landed.drops_righted, landed.share_righted
     if as_json:
-        print_json({"design": design, "workshop": base, "mass_kg": found.robot.mass_kg, **figures, "cage": sizes})
+        figures = {"share": share, "least_share": least, "drops": drops, "landings": landings}
+        print_json({"design": design, "workshop": base, "mass_kg": robot.mass_kg, **figures, "cage": sizes})
         return
     print(
-        f"# {design} with it: {grams:.1f} g; on its feet in {100.0 * found.share:.0f} % of stable poses, "
-        f"{100.0 * found.least:.0f} % with its centre of mass elsewhere;\n# stands after {found.drops * TRIES:.0f} of "
-        f"{TRIES} drops and {found.landings * TRIES:.0f} of {TRIES} own landings"
+        f"# {design} with it: {1000.0 * robot.mass_kg:.1f} g; on its feet in {100.0 * share:.0f} % of stable poses, "
+        f"{100.0 * least:.0f} % with its centre of mass elsewhere;\n"
+        f"# stands after {drops * TRIES:.0f} of {TRIES} drops and {landings * TRIES:.0f} of {TRIES} own landings"
     )
     print(to_toml({"base": base, "cage": sizes}), end="")
