@@ -41,7 +41,6 @@ def limit_values(findings: Sequence[Finding]) -> dict[str, Any]:
         "uncounted": sum(not finding.counts and not finding.is_note for finding in findings),
         "used": used,
         "width": lambda finding: 100.0 * min(finding.use, WIDEST) / WIDEST,
-        "why_no_share": _why_no_share,
     }
 
 
@@ -77,11 +76,3 @@ def used(finding: Finding) -> str:
         unit, factor = SHOWN_AS.get(finding.unit, (finding.unit, 1.0))
         return f"margin {factor * finding.margin:.3g} {unit}".strip()
     return JUST if abs(finding.use - 1.0) < AT_LIMIT else f"{100.0 * finding.use:.0f} % used"
-
-
-def _why_no_share(finding: Finding) -> str:
-    if finding.margin == 0.0 and not finding.unit:
-        return "a condition, kept or not"
-    if finding.value is None or finding.limit is None:
-        return "given as a margin"
-    return "the limit is 0" if finding.limit == 0.0 else "of a figure below 0"

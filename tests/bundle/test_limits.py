@@ -15,7 +15,7 @@ def page(*findings: Finding) -> str:
 
 def used(finding: Finding) -> str:
     """Return the words of a limit's use."""
-    found = re.search(r"<td>one</td><td>(?:<span class=\"bar\">.*</span></span> )?(.*?)(?:<br />|</td>)", page(finding))
+    found = re.search(r"<td>one</td><td>(?:<span class=\"bar\">.*</span></span> )?(.*?)</td>", page(finding))
     assert found is not None
     return found[1]
 
