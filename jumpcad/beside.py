@@ -24,16 +24,20 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def may_copy() -> bool:
+    """Whether copies of this process are safe: on Linux, from its first thread, if it may have children at all."""
+    first = threading.current_thread() is threading.main_thread()
+    return sys.platform == "linux" and first and not multiprocessing.current_process().daemon
+
+
 def beside(function: Callable[..., T], *arguments: object) -> Callable[[], T]:
     """Start a function in a copy of this process; return a function that waits for its result, which is pickled.
 
-    It is called here, when its result is asked for, where there is no other core, where copies of a process are not
-    safe (everywhere but on Linux, or from another thread than the first), and where the copy fails, so that an error is
-    raised as if there were none.
+    It is called here, when its result is asked for, where there is no other core, where copies are not safe, and where
+    the copy fails, so that an error is raised as if there were none.
     """
     here = cache(partial(function, *arguments))
-    safe = sys.platform == "linux" and threading.current_thread() is threading.main_thread()
-    if cores() < 2 or not safe or multiprocessing.current_process().daemon:
+    if cores() < 2 or not may_copy():
         return here
     ours, theirs = multiprocessing.Pipe(duplex=False)
     copy = multiprocessing.get_context("fork").Process(target=_answer, args=(theirs, here), daemon=True)

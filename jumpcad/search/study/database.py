@@ -63,8 +63,20 @@ def require_study(study: Path | None) -> None:
         require_writable(study.parent)
 
 
-def lock(path: Path) -> int:
-    """Lock a study file for this process until the returned descriptor is closed, or the process ends.
+def _let_go() -> None:
+    for descriptor in _locks:
+        os.close(descriptor)
+
+
+_locks: set[int] = set()
+"""Descriptors of locks; copies of this process let go of them, else a study whose search was killed stays locked."""
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_let_go)
+
+
+@contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Lock a study file for this process.
 
     SQLite's own locks, for readers and a writer, are independent of this one.
 
@@ -85,7 +97,12 @@ def lock(path: Path) -> int:
     except OSError:
         os.close(descriptor)
         raise JumpcadError(f"{path}: is being written by another run; wait for it, or name another file") from None
-    return descriptor
+    _locks.add(descriptor)
+    try:
+        yield
+    finally:
+        _locks.remove(descriptor)
+        os.close(descriptor)
 
 
 def is_written(path: Path) -> bool:

@@ -16,7 +16,7 @@ from typing import Any
 import cloudpickle
 
 from jumpcad.arguments import check_arguments
-from jumpcad.beside import cores
+from jumpcad.beside import cores, may_copy
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
@@ -170,7 +170,8 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     if workers == 0:
         return Pool(InProcess, InProcess.shutdown, 1)
 
-    return Pool(lambda: LocalWorkers(workers), LocalWorkers.end, workers, limit_s)
+    copies = iter([may_copy()])  # not again, where workers were lost: then this process has threads that watched them
+    return Pool(lambda: LocalWorkers(workers, next(copies, False)), LocalWorkers.end, workers, limit_s)
 
 
 @check_arguments

@@ -21,7 +21,7 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_path
 from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.phases import SEARCH_PHASES
-from jumpcad.search.study.database import connect, lock, open_to_read, plain_errors
+from jumpcad.search.study.database import connect, locked, open_to_read, plain_errors
 from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
 from jumpcad.search.study.trial import Trial, in_order
 
@@ -71,7 +71,7 @@ class StudyStore:
         made = path is not None and not os.path.lexists(path)
         store = cls(path, made)
         if path is not None:
-            store._closing.callback(os.close, lock(path))
+            store._closing.enter_context(locked(path))
         with ExitStack() as on_error:
             on_error.push(store)
             with plain_errors(path):

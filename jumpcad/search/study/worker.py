@@ -11,13 +11,13 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from functools import lru_cache
-from multiprocessing import resource_tracker
+from multiprocessing import get_context, resource_tracker
 from typing import Any
 
 import cloudpickle
 import loky
 
-from jumpcad.blas_threads import ONE_THREAD
+from jumpcad.blas_threads import ONE_THREAD, one_thread
 from jumpcad.errors import JumpcadError
 from jumpcad.gc_tuning import collect_seldom
 from jumpcad.interrupts import deferred_interrupts
@@ -26,12 +26,16 @@ from jumpcad.search.study.variant import Variant
 
 
 class LocalWorkers(loky.ProcessPoolExecutor):  # type: ignore[misc]  # loky has no annotations
-    """An executor whose processes start while interrupts are held back, and end with this process."""
+    """An executor whose processes start while interrupts are held back, and end with this process.
 
-    def __init__(self, workers: int) -> None:
+    Copies of this process have loaded what it has: others need a second for that.
+    """
+
+    def __init__(self, workers: int, copies: bool = False) -> None:
         resource_tracker.ensure_running()  # of Python 3.11, it unblocks interrupts when it starts
+        how: dict[str, Any] = {"context": get_context("fork")} if copies else {"env": ONE_THREAD}
         with deferred_interrupts():
-            super().__init__(workers, initializer=start_worker, initargs=(os.getpid(),), env=ONE_THREAD)
+            super().__init__(workers, initializer=start_worker, initargs=(os.getpid(),), **how)
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Send a task; the first one starts the processes, and the thread that starts others in place of lost ones."""
@@ -48,6 +52,9 @@ def start_worker(parent: int) -> None:
     """Prepare a worker of the process `parent`, which may have been killed while the worker started."""
     # Ctrl-C is sent to the whole process group; only the parent answers it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    os.environ.update(ONE_THREAD)
+    one_thread()
     # Engines print a banner; the parent may be printing one JSON document.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     threading.Thread(target=_end_with_parent, args=(parent,), daemon=True).start()

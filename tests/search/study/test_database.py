@@ -10,8 +10,9 @@ import textwrap
 import pytest
 from support.studies import IDENTITY, trials
 
+from jumpcad import beside
 from jumpcad.errors import JumpcadError
-from jumpcad.search.study.database import is_written, lock, require_study
+from jumpcad.search.study.database import is_written, locked, require_study
 from jumpcad.search.study.store import StudyStore
 
 
@@ -41,17 +42,22 @@ def test_locked_by_another_program(tmp_path, monkeypatch):
     other.close()
 
 
-def test_a_study_is_written_while_its_lock_is_held(tmp_path):
+def test_a_study_is_written_while_its_lock_is_held(tmp_path, monkeypatch):
     assert not is_written(tmp_path / "none.db")
+    monkeypatch.setattr(beside, "cores", lambda: 2)
+    (started, start), (ending, end) = os.pipe(), os.pipe()
     others = os.umask(0o022)
-    descriptor = lock(tmp_path / "s.db")
-    os.umask(others)
-    assert (tmp_path / "s.db").stat().st_mode & 0o777 == 0o644  # others may read what is searched
-    assert is_written(tmp_path / "s.db")
-    with pytest.raises(JumpcadError, match="is being written by another run"):
-        lock(tmp_path / "s.db")
-    os.close(descriptor)
+    with locked(tmp_path / "s.db"):
+        os.umask(others)
+        assert (tmp_path / "s.db").stat().st_mode & 0o777 == 0o644  # others may read what is searched
+        assert is_written(tmp_path / "s.db")
+        with pytest.raises(JumpcadError, match="is being written by another run"), locked(tmp_path / "s.db"):
+            pass
+        copy = beside.beside(lambda: (os.write(start, b"1"), os.read(ending, 1)))  # lives on
+        os.read(started, 1)
     assert not is_written(tmp_path / "s.db")
+    os.write(end, b"2")
+    assert copy() == (1, b"2")
 
 
 def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):
