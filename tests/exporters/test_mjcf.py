@@ -17,17 +17,13 @@ from jumpcad.mechanism.model import FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot import Robot
+from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
 
 
-def without_meshes(document: str) -> str:
-    """Return a model without what is seen, whose meshes are files."""
-    root = ET.fromstring(document)
-    for parent in list(root.iter()):
-        for child in list(parent):
-            if child.tag == "mesh" or (child.tag == "geom" and child.get("mesh")):
-                parent.remove(child)
-    return ET.tostring(root, encoding="unicode")
+def whole(robot: Robot) -> str:
+    """Return the model for simulations by others without what is seen, whose meshes are files."""
+    return write_robot(robot, visuals(robot), looks=False)
 
 
 @pytest.mark.parametrize("dt_s", [0.0005, 0.002])
@@ -94,12 +90,12 @@ def test_spheres_lie_where_the_robot_touches_the_ground_and_touch_it_alone() -> 
     assert not np.any(model.geom_contype[:, None] & model.geom_conaffinity)
 
 
-@pytest.mark.parametrize("write", [write_mjcf, write_robot])
+@pytest.mark.parametrize("write", [write_mjcf, whole])
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0"])
 def test_as_it_is_loaded_the_robot_stands_on_the_ground_at_rest(write: Callable[[Robot], str], name: str) -> None:
     """Without a key frame, every body is where its pose at rest has it; Kenan 1.0 stands with its body leaning."""
     mujoco, robot = needs.package("mujoco"), built(name)
-    model = mujoco.MjModel.from_xml_string(without_meshes(write(robot)))
+    model = mujoco.MjModel.from_xml_string(write(robot))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     for name, pose in body_poses(robot).items():
