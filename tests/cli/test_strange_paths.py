@@ -22,8 +22,8 @@ from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
 STRANGE = f"mein Käfer & Söhne (neu?) 机器人 'x' #1 50%25/{'ü' * 60}/{'long name ' * 9}end"
-WITHOUT_FILES = {"list", "reproduce", "studio"}
-"""Commands that read and write no path, and one that waits for a browser."""
+WITHOUT_FILES = {"cage", "list", "reproduce", "studio"}
+"""Commands that read and write no path, one that takes minutes, and one that waits for a browser."""
 MEASURED = """
 design = "mein Käfer.toml"
 workshop = "werkstatt ä.toml"
