@@ -390,3 +390,13 @@ def test_a_first_robot_has_springs_from_stock_and_no_switch() -> None:
     assert "it is the switch" in text
     assert re.findall(r"[^.]*\bswitch (?:on|off)\b[^.]*", text, re.IGNORECASE) == []
     assert text.count("McMaster-Carr 9271K589") >= 2
+
+
+def test_trouble_names_every_message_that_asks_for_help() -> None:
+    """Faults, refusals and springs that may be loaded, as the firmware's sources say them."""
+    sources = (templates_folder() / "firmware" / name for name in ("winder.py", "main.py"))
+    texts = [text for path in sources for text in re.findall(r'"([a-z][^"]*)"', path.read_text(encoding="utf-8"))]
+    said = [re.split("[:;,]", text)[0] for text in texts if re.search("loaded|charge it|motor off|not known", text)]
+    assert len(set(said)) == 7
+    trouble = write_guide(built("kenan-2.0"))["trouble.md"]
+    assert [words for words in said if words not in trouble] == []

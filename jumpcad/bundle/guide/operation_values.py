@@ -64,6 +64,7 @@ def operation_values(robot: Robot) -> dict[str, Any]:
         "left_on_h": battery.capacity_mah / 1000.0 * battery.voltage_v / supply.boards_w,
         "full_v": supply.full_v,
         "nominal_v": supply.nominal_v,
+        "sensor_pin": wiring.pins.get("ready", "its pin of the sensor"),
         "divider_pin": wiring.pins.get("battery", ""),
         "divider_share": (low, high),
         "state_off_v": state_off_v(wiring, supply.nominal_v),
