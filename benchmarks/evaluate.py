@@ -26,6 +26,7 @@ from jumpcad.building import growth as building
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
+from jumpcad.gc_tuning import collect_seldom
 from jumpcad.parts import shopping
 from jumpcad.workshop import load_workshop
 
@@ -170,6 +171,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--each", type=int, default=EACH)
     arguments = parser.parse_args()
+    collect_seldom()  # as workers of a search do
     designs = designs_of_each(arguments.each)
     speed = {kind: speeds(found, arguments.rounds) for kind, found in designs.items()}
     built = designs["near the best"] + designs["random"]
