@@ -40,18 +40,21 @@ def once(name: str) -> dict[str, float]:
     def passed(stage: str) -> None:
         clock.append((stage, process_time()))
 
-    from jumpcad import simulation
+    from jumpcad import beside, simulation
     from jumpcad.building import growth as building
     from jumpcad.bundle import export as bundle
     from jumpcad.design import load_design
     from jumpcad.mechanism.capsule import capsule_robot
 
+    beside.cores = lambda: 1  # one thing after the other, in this process
     passed("imports")
     robot = building.build(load_design(name), name=name)
     passed("robot")
 
     def timed(stage: str, make: Callable[..., Any]) -> Callable[..., Any]:
         def call(*arguments: Any) -> Any:
+            if stage == "pictures":
+                passed("documents")
             made = dict(make(*arguments))
             passed(stage)
             return made.items() if stage in STAGES.values() else made

@@ -341,7 +341,7 @@ def of_speed() -> dict[str, str]:
     evaluate = _json(str(HERE / "evaluate.py"), "--rounds", "1")
     near = evaluate["speed"]["near the best"]
     building = _json(str(HERE / "build.py"), "kenan-2.0")["kenan-2.0"]
-    start = _json(str(HERE / "start.py"))
+    start = _json(str(HERE / "start.py"), "--only", "help_s", "simulate_s", "build_s")
     studio = _json(str(HERE / "studio.py"), "--steps", "1")
     scale = PUBLISHED_MS / evaluator["published"]["cpu_ms"]
     scale_there = PUBLISHED_MS / near["published_ms"]
