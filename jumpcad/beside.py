@@ -10,13 +10,15 @@ import warnings
 from collections.abc import Callable, Sequence
 from functools import cache, partial
 from multiprocessing.connection import Connection
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from jumpcad.interrupts import deferred_interrupts
 
 LEAST = 3
 A = TypeVar("A")
 T = TypeVar("T")
+Shared = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]
+"""Gives what a function returns for each argument: `one_by_one`, or on several cores."""
 
 
 def cores() -> int:
@@ -67,12 +69,13 @@ def shared(function: Callable[[A], T], arguments: Sequence[A], most: int) -> lis
     What a copy learns besides is lost. Each does `LEAST` of them or more: to make a copy takes 10 ms.
     """
     count = max(1, min(cores(), most, len(arguments) // LEAST))
-    others = [beside(_each, function, arguments[start::count]) for start in range(1, count)]
-    found = [_each(function, arguments[::count]), *(other() for other in others)]
+    others = [beside(one_by_one, function, arguments[start::count]) for start in range(1, count)]
+    found = [one_by_one(function, arguments[::count]), *(other() for other in others)]
     return [found[index % count][index // count] for index in range(len(arguments))]
 
 
-def _each(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
+def one_by_one(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
+    """Return what a function returns for each argument."""
     return [function(one) for one in arguments]
 
 

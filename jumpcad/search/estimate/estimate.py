@@ -6,10 +6,10 @@ the best, a dozen robots tell the score of others within a tenth, later within a
 """
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
+from jumpcad.beside import Shared
 from jumpcad.building import build
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
@@ -27,8 +27,6 @@ from jumpcad.simulation import simulate
 
 LEAST, GROWTH = 8, 1.3
 """Robots from which on figures are fitted; they are fitted anew when there are so many times more."""
-Shared = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]
-"""As `Evaluator.shared`."""
 STATICS = ("tips", "too_weak")
 """Limits that a jump has margins of."""
 
