@@ -8,7 +8,7 @@ import numpy as np
 from jumpcad.catalogue import Battery, Board, Catalogue, Component
 from jumpcad.electronics.chosen import chosen_of
 from jumpcad.electronics.nets import wiring_of
-from jumpcad.layout.electronics import BALANCE_MM, TAPE_MM
+from jumpcad.layout.electronics import BALANCE_MM, TAPE_MM, Electronics
 from jumpcad.layout.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
@@ -57,11 +57,16 @@ def electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> It
             yield placed_box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
     yield from _switch(layout, catalogue)
     placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
-    small = layout.electronics.small_seats(inside)
+    found = list(_soldered(layout, catalogue, chosen, placed))
+    small = [name for name, *_ in found if name.startswith(SMALL)]
+    # along the row of pads beside them, so that their legs do not cross
+    inwards, row = electronics.inwards("controller"), _along_the_row(electronics, catalogue, chosen)
+    seats = sorted(electronics.small_seats(inside)[: len(small)], key=lambda seat: inwards * seat.y_mm)
+    at_seat = dict(zip(sorted(small, key=lambda name: row.get(name, 0)), seats, strict=False))
     soldered = []
-    for name, article, mass_g in _soldered(layout, catalogue, chosen, placed):
-        if name.startswith(SMALL) and small:
-            seat = small.pop(0)
+    for name, article, mass_g in found:
+        if name in at_seat:
+            seat = at_seat[name]
             yield placed_box(
                 f"wiring_{name}", article, x + seat.x_mm, seat.y_mm, z + seat.bottom_mm, *seat.size_mm, mass_g
             )
@@ -81,6 +86,19 @@ def electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> It
         slabs = [(0.0, TIE_MM[1], box_outline(RELIEF_APART_MM, TIE_MM[0]))]
         at_mm = (place[0], y, place[1] - HOLE_HALF_MM[1] + HOLE_MM + RELIEF_UP_MM)
         yield bought(f"tie_{role}_leads", TIE, BODY, TIE_G, slabs, at_mm)
+
+
+def _along_the_row(electronics: Electronics, catalogue: Catalogue, chosen: BoughtParts) -> dict[str, int]:
+    """Return the place of each small part's pad in the controller's row that faces them, USB first."""
+    parts = chosen_of(catalogue, chosen)
+    row = parts.controller.left if electronics.inwards("controller") > 0.0 else parts.controller.right
+    return {
+        "_".join(reversed(part.part.replace("-", "_").split())): row.index(pad.pin)
+        for net in wiring_of(parts, chosen.pins).nets
+        for part in net.terminals
+        for pad in net.terminals
+        if part.part.endswith(SMALL) and pad.part == "controller" and pad.pin in row
+    }
 
 
 def _soldered(

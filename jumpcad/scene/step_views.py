@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_order import LEFT, LOWER, UPPER
+from jumpcad.scene.assembly_order import LEFT, LOWER, UPPER, Move
 from jumpcad.scene.assembly_steps import Step, assembly_steps, travel
 from jumpcad.scene.camera import View
 from jumpcad.scene.step_insets import BEHIND, INSETS, Inset
@@ -61,6 +61,8 @@ TURNS = {"power": ("motor_shaft", 0), "trial": ("cam_gear", 1)}
 NEAR_ARM, FAR_ARM = 0.6, 0.05
 """Where on the arm of the nearer and of the farther spring a label points to, from the arm's end to the coil: what the
 pin does not hide, as seen from the side of the nearer; judgement."""
+TRAY_LABEL = {"electronics_tray_lower": (0.46, 0.05, 0.0), "electronics_tray_upper": (-0.4, 0.35, 0.0)}
+"""Where on a tray a label points to, where nothing hides it: from its middle, in shares of its size; judgement."""
 TURN_M = 0.008
 """Least radius of an arrow that shows a sense of rotation."""
 NAMELESS = ("motor_shaft", "wiring_wire", "wiring_heat")
@@ -93,20 +95,25 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
         moved = _apart(robot, step, poses, before)
         beside = {name: built.get(name, []) for name in BENCH.get(step.key, ())}
         views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot), beside)]
-        if step.key == "boards" and robot.layout.fittings.usb_mm is not None:
-            views[step.key][0] = _with_usb(views[step.key][0], robot.layout.electronics.inwards("controller"))
+        if step.key == "boards":
+            views[step.key][0] = _with_usb(views[step.key][0], robot, "USB socket")
         for inset in INSETS:
             if inset.step == step.key and any(re.fullmatch(inset.framed, thing.name) for thing in there):
-                views[step.key].append(_view(inset.name, inset.title, step, before, moved, poses, inset))
+                stay = {name: by for name, by in moved.items() if not re.fullmatch(inset.placed, name)}
+                view = _view(inset.name, inset.title, step, before, stay, poses, inset)
+                views[step.key].append(_with_usb(view, robot, inset.usb) if inset.usb else view)
     return views
 
 
-def _with_usb(view: StepView, inwards: float) -> StepView:
-    """Return a view with a label at the controller's USB socket: the end of the board towards its plate."""
+def _with_usb(view: StepView, robot: Robot, words: str) -> StepView:
+    """Return a view with a label at the controller's USB socket, if it has a place: the end towards its plate."""
+    if robot.layout.fittings.usb_mm is None:
+        return view
+    inwards = robot.layout.electronics.inwards("controller")
     index = next(index for index, thing in enumerate(view.things) if thing.name == "controller")
     corners = _corners(view.things[index], view.poses[index])
     end = np.round(corners[inwards * corners[:, 1] <= (inwards * corners[:, 1]).min() + APART_M].mean(axis=0), DIGITS)
-    return replace(view, labels=(*view.labels, Label("USB socket", end, end)))
+    return replace(view, labels=(*view.labels, Label(words, end, end)))
 
 
 def label_of(thing: Visual) -> str:
@@ -221,7 +228,7 @@ def _apart(robot: Robot, step: Step, poses: dict[str, Array], before: list[Visua
     for placed in step.placed:
         first = placed.things[0]
         way = travel(robot, first, placed.move, poses[first.body])
-        if placed.move.way == "laid":
+        if placed.move.way == "laid" and placed.move.along == Move.along:
             continue
         corners = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in placed.things])
         along = np.einsum("ni,i->n", corners, way)
@@ -283,7 +290,9 @@ def _seen_at(thing: Visual, pose: Array, along_arm: float) -> Array:
     """Return where a label points to (3,) in the world (m): a part's middle, of bent wire a point of its first arm."""
     shape = thing.shape
     if not isinstance(shape, DrawnWire):
-        return np.asarray(_corners(thing, pose).mean(axis=0))
+        corners = _corners(thing, pose)
+        beside = np.array(TRAY_LABEL.get(thing.name, (0.0, 0.0, 0.0)))
+        return np.asarray(corners.mean(axis=0) + beside * np.ptp(corners, axis=0))
     end, bend = shape.points_mm[:2] / 1000.0
     on_body = end + along_arm * (bend - end) - thing.T_body_mesh[:3, 3]
     point = np.einsum("ji,j->i", thing.T_body_mesh[:3, :3], on_body)

@@ -96,7 +96,8 @@ def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float
         "heads": [view.on([x, 0.0, z])[0] for x, z in layout.standoffs_mm],
         "head": scale * HEAD_MM,
         "boxes": [_box(view, box, words if "tray" in words else "") for words, box in _inside(layout)],
-        "leads": [_lines(view, lead, 1, outside, named) for lead in mine],
+        # from above downwards, so that words stand above the upper and below the lower end of two
+        "leads": sorted((_lines(view, lead, 1, outside, named) for lead in mine), key=_named_y),
         "badges": _badges(view, mine, None),
         "names": [(words, view.on(at)[0]) for words, at in _named(layout, side)],
         "front": (left, "← front", "start") if side == "left" else (left + width, "front →", "end"),
@@ -148,7 +149,7 @@ def _trays(robot: Robot, leads: list[Lead], top: float) -> dict[str, Any]:
     for side, hole in zip(("left", "right"), holes, strict=True):
         y = layout.lateral.left_plate if side == "left" else layout.lateral.right_plate
         spans = {(back, front): "#d5d8dc", (hole - 2.5, hole + 2.5): "#ffffff"}
-        aside, outside = (y[1] + 3.0, "sensor") if side == "left" else (y[0] - 4.0, "motor")
+        aside, outside = (y[1] + 0.8, "sensor") if side == "left" else (y[0] - 1.8, "motor")
         names = {
             f"{side} plate": (back + 0.6, sum(y) / 2.0 - 0.4),
             f"wire hole of the {side} plate": (hole + 3.5, aside),
@@ -221,6 +222,11 @@ def _lines(view: Projection, lead: Lead, axis: int, open_mm: Interval, named: Ma
     words = [named.get(end, "") for end in lead.ends]
     ends = list(zip((points[0], points[-1]), words, strict=True))
     return {"stroke": STROKES[lead.colour], "pieces": pieces, "ends": ends}
+
+
+def _named_y(drawn: Mapping[str, Any]) -> float:
+    """Return how far down the end of a line is that has words."""
+    return min((float(at[1]) for at, words in drawn["ends"] if words), default=0.0)
 
 
 def _badges(view: Projection, leads: list[Lead], frame: Array | None) -> list[dict[str, Any]]:

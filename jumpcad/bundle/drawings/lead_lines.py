@@ -12,8 +12,9 @@ from jumpcad.parts.leads import OWN_LEGS, lead_lengths
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array
 
-LANE_MM, GAP_LANE_MM, EDGE_MM = 1.0, 0.35, 1.5
-"""Between leads that are drawn side by side at a part, and in the gap between boards; from a part's edge to leads."""
+LANE_MM, PLATE_LANE_MM, GAP_LANE_MM, EDGE_MM = 1.0, 2.5, 0.35, 1.5
+"""Between leads that are drawn side by side at a part, outside a plate, and in the gap between boards; from
+a part's edge to leads."""
 
 
 APART_MM = 3.0
@@ -102,8 +103,8 @@ def _outer(layout: Layout, part: str, lane: float, count: int, at_plate: int) ->
     """
     way = np.stack(outer_way(layout, part))
     if plate := plate_of(layout, part):
-        way += LANE_MM * lane
-        way[-1, 1] += LANE_MM * (at_plate * (-1.0 if plate == "left" else 1.0) - lane)
+        way += PLATE_LANE_MM * lane
+        way[-1, 1] += LANE_MM * at_plate * (-1.0 if plate == "left" else 1.0) - PLATE_LANE_MM * lane
         return way
     seats = layout.electronics.seats(layout.lateral.inside)
     size = np.array(seats.get(part, seats["controller"]).size_mm[:2])

@@ -1,5 +1,6 @@
 """soldering.svg: the controller from above with the small parts that are soldered to its pins by their own legs."""
 
+import math
 from typing import Any
 
 from jumpcad.electronics.nets import AT, Terminal, Wiring
@@ -7,10 +8,10 @@ from jumpcad.files.rendering import fill
 from jumpcad.parts.leads import OWN_LEGS
 from jumpcad.robot import Robot, carried
 
-PITCH_MM, WIDE_MM, AROUND_MM, TOP_MM = 7.0, 46.0, 48.0, 18.0
-ROW_MM, TRACK_MM, BODY_MM = 9.0, 3.0, (22.0, 4.0)
-"""Of the drawing, which is not to scale: between pins, the board, room beside and above it, between bodies and legs."""
-MIDDLE_MM = AROUND_MM + WIDE_MM / 2.0
+PITCH_MM, WIDE_MM, TOP_MM, BESIDE_MM, FREE_MM = 7.0, 46.0, 18.0, 80.0, 20.0
+ROW_MM, TRACK_MM, GAP_MM, BODY_MM = 9.0, 3.0, 15.0, (22.0, 4.0)
+"""Of the drawing, which is not to scale: between pins, the board, room above it, beside it where bodies lie and where
+none do; between bodies and legs, from the board to bodies."""
 CONTROLLER = "controller"
 Point = tuple[float, float]
 
@@ -24,22 +25,29 @@ def soldering_svg(robot: Robot) -> str:
         return ""
     used = {end.pin for pair in legs.values() for _, end in pair if end.part == CONTROLLER}
     below = tuple(sorted(used - {*board.left, *board.right}))
-    pins = _pins(board.left, board.right, below)
+    side = -robot.layout.electronics.inwards(CONTROLLER)  # of the row that faces the next board; USB is above
+    beside = next((role for role in robot.layout.electronics.boards if role != CONTROLLER), "front")
+    x = BESIDE_MM if side < 0.0 else FREE_MM
+    pins = _pins(x, board.left, board.right, below)
     height = PITCH_MM * (max(len(board.left), len(board.right) + len(below)) + 1)
+    bottom, parts = TOP_MM + height, []
+    y = TOP_MM
+    for count, name in zip(range(len(legs), 0, -1), legs, strict=True):
+        ends = sorted(legs[name], key=lambda leg: side * _x(leg[1], pins, side), reverse=True)
+        y = max(y + ROW_MM, pins[ends[0][1].pin][1])
+        parts.append(_part(name, ends, wiring, pins, side, count, (x + WIDE_MM / 2.0, y, bottom)))
     values = {
         "board": board.name,
-        "x": AROUND_MM,
+        "x": x,
         "y": TOP_MM,
         "wide": WIDE_MM,
         "high": height,
-        "width": WIDE_MM + 2.0 * AROUND_MM,
-        "height": TOP_MM + height + ROW_MM * (len(legs) + 1),
-        "middle": MIDDLE_MM,
+        "width": WIDE_MM + BESIDE_MM + FREE_MM,
+        "height": bottom + TRACK_MM * (len(legs) + 2),
+        "middle": x + WIDE_MM / 2.0,
+        "towards": f"← to the {beside}" if side < 0.0 else f"to the {beside} →",
         "body": BODY_MM,
-        "parts": [
-            _part(name, legs[name], wiring, pins, row, TOP_MM + height + ROW_MM * (row + 1))
-            for row, name in enumerate(legs)
-        ],
+        "parts": parts,
         "pins": [
             {"at": at, "used": pin in used, "words": f"{pin} (underneath)" if pin in below else pin}
             for pin, at in pins.items()
@@ -59,38 +67,44 @@ def _legs(wiring: Wiring, part: str) -> list[tuple[str, Terminal]]:
     return sorted(found)
 
 
-def _pins(left: tuple[str, ...], right: tuple[str, ...], below: tuple[str, ...]) -> dict[str, Point]:
+def _pins(x: float, left: tuple[str, ...], right: tuple[str, ...], below: tuple[str, ...]) -> dict[str, Point]:
     """Return where the pins are drawn; those underneath after the right ones."""
-    sides = ((AROUND_MM, left), (AROUND_MM + WIDE_MM, (*right, *below)))
-    return {pin: (x, TOP_MM + PITCH_MM * (row + 1)) for x, names in sides for row, pin in enumerate(names)}
+    sides = ((x, left), (x + WIDE_MM, (*right, *below)))
+    return {pin: (at, TOP_MM + PITCH_MM * (row + 1)) for at, names in sides for row, pin in enumerate(names)}
+
+
+def _x(end: Terminal, pins: dict[str, Point], side: float) -> float:
+    """Return where a leg's end is across the board; a wire's is on the side away from the bodies."""
+    return pins[end.pin][0] if end.part == CONTROLLER else -side * math.inf
 
 
 def _part(
-    name: str, legs: list[tuple[str, Terminal]], wiring: Wiring, pins: dict[str, Point], row: int, y: float
-) -> dict[str, Any]:
-    """Return a part's name and the height of its body below the board, and its legs with what is written at them."""
+    name: str, legs: list[tuple[str, Terminal]], wiring: Wiring, pins: dict[str, Point], side: float, track: int,
+    at: tuple[float, float, float],
+) -> dict[str, Any]:  # fmt: skip
+    """Return a part's name, the middle of its body beside the board, and its legs, that to its nearer end first.
+
+    `at` are the board's middle, the body's height, and the board's lower edge.
+    """
+    (middle, y, bottom), apart = at, TRACK_MM * track
+    x = middle + side * (WIDE_MM / 2.0 + GAP_MM + BODY_MM[0] / 2.0)
     drawn = []
-    for side, (own, end) in zip((-1.0, 1.0), _left_first(legs, pins), strict=False):
-        body = (MIDDLE_MM + side * BODY_MM[0] / 2.0, y)
-        if end.part == CONTROLLER:
-            pin = pins[end.pin]
-            outwards = -1.0 if pin[0] < MIDDLE_MM else 1.0
-            beside = 0.0 if outwards == side else TRACK_MM / 2.0  # apart from the other leg, which is on this side too
-            out = pin[0] + outwards * (TRACK_MM * (row + 1.5) + beside)
-            turns = [(out, y)] if outwards == side else [(out, y + 3.4), (body[0] + 3.0 * side, y + 3.4),
-                                                         (body[0] + 3.0 * side, y)]  # fmt: skip
-            points = [pin, (out, pin[1]), *turns, body]
-        else:
-            points = [body, (body[0] + side * 4.0, y)]
-        wire = "" if end.part == CONTROLLER else f"wire to {end}"
-        drawn.append({"x": body[0], "side": side, "points": points, "wire": wire, "own": own})
+    for way, (own, end) in zip((-side, side), legs, strict=False):
+        body = (x + way * BODY_MM[0] / 2.0, y)
+        pin = pins[end.pin] if end.part == CONTROLLER else None
+        if pin is None:
+            points = [body, (body[0] + way * 4.0, y)]
+        elif way != side:  # to the near end
+            out = middle + side * (WIDE_MM / 2.0 + apart)
+            points = [pin, (out, pin[1]), (out, y), body]
+        elif (pin[0] - middle) * side > 0.0:  # from the same row around the body
+            out, turn = pin[0] + side * (apart - TRACK_MM / 2.0), body[0] + 3.0 * side
+            points = [pin, (out, pin[1]), (out, y + 3.4), (turn, y + 3.4), (turn, y), body]
+        else:  # below the board
+            out, turn = pin[0] - side * apart, body[0] + side * apart
+            points = [pin, (out, pin[1]), (out, bottom + apart), (turn, bottom + apart), (turn, y), body]
+        wire = "" if pin else f"wire to {end}"
+        drawn.append({"x": body[0], "side": way, "points": points, "wire": wire, "own": own})
     ohm = wiring.resistors.get(name)
     words = name.removesuffix(" resistor") + (f" {ohm / 1000:g} kΩ" if ohm else "")
-    return {"y": y, "words": words, "legs": drawn}
-
-
-def _left_first(legs: list[tuple[str, Terminal]], pins: dict[str, Point]) -> list[tuple[str, Terminal]]:
-    """Return a part's legs, that to the leftmost pin first; a wire goes to the side that the other leg leaves free."""
-    at = [pins[end.pin][0] if end.part == CONTROLLER else None for _, end in legs]
-    x = [2.0 * MIDDLE_MM - (other or 0.0) if own is None else own for own, other in zip(at, at[::-1], strict=True)]
-    return [legs[index] for index in sorted(range(len(legs)), key=lambda index: x[index])]
+    return {"x": x, "y": y, "words": words, "legs": drawn}
