@@ -17,7 +17,7 @@ def used_up(robot: Robot) -> tuple[str, ...]:
     layout, parts = robot.layout, robot.electrical_parts.components
     found = list(ALWAYS)
     if "plug" in parts:
-        found.append("second socket like the robot's, leads insulated")
+        found.append("second battery and socket like the robot's, leads insulated")
     if printed_pads(robot.hardware, robot.workshop):
         found.append("super glue (CA) that stays flexible")
     if layout.cage is not None or layout.leg_bar is not None:
