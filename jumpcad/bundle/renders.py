@@ -7,12 +7,13 @@ import numpy as np
 from PIL import Image
 
 from jumpcad.bundle.motion import recorded_poses
-from jumpcad.bundle.step_pictures import step_pictures
+from jumpcad.bundle.step_pictures import compass, step_pictures
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.floor import STRIPE_M, with_floor
+from jumpcad.scene.labels import labelled
 from jumpcad.scene.renderer import Renderer, png_of
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
@@ -47,7 +48,7 @@ def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE, scene: Renderer |
     rest, loaded = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
     scenes = ((rest, View()), (loaded, View()), (exploded(things, rest), EXPLODED_VIEW))
     return {
-        name: png_of(scene.picture(poses, size, view, corners_of(things, poses)))
+        name: png_of(labelled(scene.picture(poses, size, view, corners_of(things, poses)), [], compass=compass(view)))
         for name, (poses, view) in zip(RENDERS, scenes, strict=True)
     }
 

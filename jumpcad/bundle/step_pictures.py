@@ -7,7 +7,7 @@ from PIL import Image
 
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.scene.camera import aimed
+from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled
 from jumpcad.scene.renderer import Renderer, png_of
 from jumpcad.scene.step_views import StepView, step_views
@@ -19,7 +19,7 @@ MARGIN = 190
 """Pixels on either side, for names."""
 INSET_SIZE = (420, 360)
 COMPASS = MappingProxyType({"front": 0, "left": 1})
-"""What every picture of a step marks: axes of the standing robot."""
+"""What every picture of a bundle marks: axes of the standing robot."""
 ROOM = 1.12
 """Size of the picture's frame over that of the view's."""
 COMPRESSION = 6
@@ -61,9 +61,13 @@ def _picture(view: StepView, number: dict[str, int], scene: Renderer, size: tupl
     seen = np.round(camera.seen(points, size)[0], 2)
     names = [label.text for label in view.labels]
     turns = [np.round(camera.seen(curve, size)[0], 2) for curve in view.turns_m]
-    compass = {name: np.round(camera.axes[:2, axis] * (1.0, -1.0), 6) for name, axis in COMPASS.items()}
-    sheet = labelled(picture, names, seen[:, 0], seen[:, 1], MARGIN, turns, compass)
+    sheet = labelled(picture, names, seen[:, 0], seen[:, 1], MARGIN, turns, compass(view.view))
     return png_of(paletted(sheet), compress_level=COMPRESSION)
+
+
+def compass(view: View) -> dict[str, Array]:
+    """Return where a picture has front and left: unit vectors (2,) or shorter, y downwards."""
+    return {name: np.round(view.axes[:2, axis] * (1.0, -1.0), 6) for name, axis in COMPASS.items()}
 
 
 def paletted(picture: Image.Image) -> Image.Image:

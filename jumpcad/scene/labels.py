@@ -19,6 +19,8 @@ FINE = 3
 CAPITAL_PX, ROW_PX, EDGE_PX = 11.0, 24.0, 8.0
 COMPASS_PX, COMPASS_ROOM_PX = 45.0, 100
 """Of the arrows in the lower left corner: length of one across the view, and the height that is kept free for them."""
+LEAST_PX = 90.0
+"""From the left edge to the compass, where there is no margin."""
 INK, LINE, ARROW = (25, 28, 33), (120, 125, 132), (200, 40, 30)
 HEAD_PX = 9.0
 
@@ -26,9 +28,9 @@ HEAD_PX = 9.0
 def labelled(
     picture: Image.Image,
     names: Sequence[str],
-    at_px: Array,
-    place_px: Array,
-    margin_px: int,
+    at_px: Array | Sequence[Array] = (),
+    place_px: Array | Sequence[Array] = (),
+    margin_px: int = 0,
     turns_px: Sequence[Array] = (),
     compass: Mapping[str, Array] = MappingProxyType({}),
 ) -> Image.Image:
@@ -65,7 +67,7 @@ def labelled(
         curve = np.asarray(line) + beside
         draw.line([tuple(FINE * point) for point in curve[:-1]], fill=ARROW, width=2 * FINE)
         _arrow(draw, curve[-3], curve[-1])
-    middle = np.array([margin_px / 2.0, size[1] - COMPASS_ROOM_PX / 2.0])
+    middle = np.array([max(margin_px / 2.0, LEAST_PX), size[1] - COMPASS_ROOM_PX / 2.0])
     for name, direction in compass.items():
         tip = middle + COMPASS_PX * direction
         _arrow(draw, middle, tip, INK)
