@@ -97,7 +97,10 @@ def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float
         "head": scale * HEAD_MM,
         "boxes": [_box(view, box, words if "tray" in words else "") for words, box in _inside(layout)],
         # from above downwards, so that words stand above the upper and below the lower end of two
-        "leads": sorted((_lines(view, lead, 1, outside, named) for lead in mine), key=_named_y),
+        "leads": sorted(
+            (_lines(view, lead, 1, outside, named) for lead in mine),
+            key=lambda drawn: min((at[1] for at, words in drawn["ends"] if words), default=0.0),
+        ),
         "badges": _badges(view, mine, None),
         "names": [(words, view.on(at)[0]) for words, at in _named(layout, side)],
         "front": (left, "← front", "start") if side == "left" else (left + width, "front →", "end"),
@@ -222,11 +225,6 @@ def _lines(view: Projection, lead: Lead, axis: int, open_mm: Interval, named: Ma
     words = [named.get(end, "") for end in lead.ends]
     ends = list(zip((points[0], points[-1]), words, strict=True))
     return {"stroke": STROKES[lead.colour], "pieces": pieces, "ends": ends}
-
-
-def _named_y(drawn: Mapping[str, Any]) -> float:
-    """Return how far down the end of a line is that has words."""
-    return min((float(at[1]) for at, words in drawn["ends"] if words), default=0.0)
 
 
 def _badges(view: Projection, leads: list[Lead], frame: Array | None) -> list[dict[str, Any]]:

@@ -33,7 +33,9 @@ def soldering_svg(robot: Robot) -> str:
     bottom, parts = TOP_MM + height, []
     y = TOP_MM
     for count, name in zip(range(len(legs), 0, -1), legs, strict=True):
-        ends = sorted(legs[name], key=lambda leg: side * _x(leg[1], pins, side), reverse=True)
+        # a wire leaves on the side away from the board
+        across = [side * pins[end.pin][0] if end.part == CONTROLLER else -math.inf for _, end in legs[name]]
+        ends = legs[name] if across[0] >= across[-1] else legs[name][::-1]
         y = max(y + ROW_MM, pins[ends[0][1].pin][1])
         parts.append(_part(name, ends, wiring, pins, side, count, (x + WIDE_MM / 2.0, y, bottom)))
     values = {
@@ -73,11 +75,6 @@ def _pins(x: float, left: tuple[str, ...], right: tuple[str, ...], below: tuple[
     return {pin: (at, TOP_MM + PITCH_MM * (row + 1)) for at, names in sides for row, pin in enumerate(names)}
 
 
-def _x(end: Terminal, pins: dict[str, Point], side: float) -> float:
-    """Return where a leg's end is across the board; a wire's is on the side away from the bodies."""
-    return pins[end.pin][0] if end.part == CONTROLLER else -side * math.inf
-
-
 def _part(
     name: str, legs: list[tuple[str, Terminal]], wiring: Wiring, pins: dict[str, Point], side: float, track: int,
     at: tuple[float, float, float],
@@ -94,15 +91,17 @@ def _part(
         pin = pins[end.pin] if end.part == CONTROLLER else None
         if pin is None:
             points = [body, (body[0] + way * 4.0, y)]
-        elif way != side:  # to the near end
-            out = middle + side * (WIDE_MM / 2.0 + apart)
-            points = [pin, (out, pin[1]), (out, y), body]
-        elif (pin[0] - middle) * side > 0.0:  # from the same row around the body
+        elif (pin[0] - middle) * side < 0.0:  # from the other row, below the board
+            out, turn = (
+                pin[0] - side * apart,
+                (body[0] if way == side else middle + side * WIDE_MM / 2.0) + side * apart,
+            )
+            points = [pin, (out, pin[1]), (out, bottom + apart), (turn, bottom + apart), (turn, y), body]
+        elif way != side:
+            points = [pin, (pin[0] + side * apart, pin[1]), (pin[0] + side * apart, y), body]
+        else:  # around the body
             out, turn = pin[0] + side * (apart - TRACK_MM / 2.0), body[0] + 3.0 * side
             points = [pin, (out, pin[1]), (out, y + 3.4), (turn, y + 3.4), (turn, y), body]
-        else:  # below the board
-            out, turn = pin[0] - side * apart, body[0] + side * apart
-            points = [pin, (out, pin[1]), (out, bottom + apart), (turn, bottom + apart), (turn, y), body]
         wire = "" if pin else f"wire to {end}"
         drawn.append({"x": body[0], "side": way, "points": points, "wire": wire, "own": own})
     ohm = wiring.resistors.get(name)
