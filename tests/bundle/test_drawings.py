@@ -222,3 +222,14 @@ def test_numbers_of_leads_cover_each_other_in_no_view(drawings: dict[str, ET.Ele
         middles = [np.mean(corners, axis=0) for corners in badges]
         assert len(middles) > 1
         assert min(math.dist(*two) for two in itertools.combinations(middles, 2)) > 2.0 * 1.7
+
+
+def test_the_sensors_terminals_are_named_at_the_wires_of_their_colours(drawings: dict[str, ET.Element]) -> None:
+    """COM at the black one, NC at the yellow one: each word is nearest to the end of its own."""
+    page = drawings["leads.svg"]
+    ends = [one for one in page.iter(f"{SPACE}circle") if one.get("r") == "0.7"]
+    for word, colour in (("COM", "#222222"), ("NC", "#c9a400")):
+        (text,) = [one for one in page.iter(f"{SPACE}text") if one.text == word]
+        x, y = float(text.get("x", "")), float(text.get("y", "")) - 0.8  # the middle of its letters
+        near = min(ends, key=lambda end: math.dist((x, y), (float(end.get("cx", "")), float(end.get("cy", "")))))
+        assert near.get("fill") == colour, word
