@@ -17,10 +17,8 @@ from jumpcad.transforms import Array
 FINE = 3
 """Letters and lines are drawn this many times larger and scaled down."""
 CAPITAL_PX, ROW_PX, EDGE_PX = 11.0, 24.0, 8.0
-COMPASS_PX, COMPASS_ROOM_PX = 45.0, 100
-"""Of the arrows in the lower left corner: length of one across the view, and the height that is kept free for them."""
-LEAST_PX = 90.0
-"""From the left edge to the compass, where there is no margin."""
+COMPASS_PX, COMPASS_ROOM_PX, COMPASS_EDGE_PX = 45.0, 100, 90.0
+"""Of the arrows in the lower left corner: length across the view, height kept free, least distance from the edge."""
 INK, LINE, ARROW = (25, 28, 33), (120, 125, 132), (200, 40, 30)
 HEAD_PX = 9.0
 
@@ -67,7 +65,7 @@ def labelled(
         curve = np.asarray(line) + beside
         draw.line([tuple(FINE * point) for point in curve[:-1]], fill=ARROW, width=2 * FINE)
         _arrow(draw, curve[-3], curve[-1])
-    middle = np.array([max(margin_px / 2.0, LEAST_PX), size[1] - COMPASS_ROOM_PX / 2.0])
+    middle = np.array([max(margin_px / 2.0, COMPASS_EDGE_PX), size[1] - COMPASS_ROOM_PX / 2.0])
     for name, direction in compass.items():
         tip = middle + COMPASS_PX * direction
         _arrow(draw, middle, tip, INK)

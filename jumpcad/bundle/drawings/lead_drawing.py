@@ -96,8 +96,7 @@ def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float
         "heads": [view.on([x, 0.0, z])[0] for x, z in layout.standoffs_mm],
         "head": scale * HEAD_MM,
         "boxes": [_box(view, box, words if "tray" in words else "") for words, box in _inside(layout)],
-        # from above downwards, so that words stand above the upper and below the lower end of two
-        "leads": sorted(
+        "leads": sorted(  # words stand above the upper end of two and below the lower one
             (_lines(view, lead, 1, outside, named) for lead in mine),
             key=lambda drawn: min((at[1] for at, words in drawn["ends"] if words), default=0.0),
         ),

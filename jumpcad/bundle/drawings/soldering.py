@@ -30,10 +30,8 @@ def soldering_svg(robot: Robot) -> str:
     x = BESIDE_MM if side < 0.0 else FREE_MM
     pins = _pins(x, board.left, board.right, below)
     height = PITCH_MM * (max(len(board.left), len(board.right) + len(below)) + 1)
-    bottom, parts = TOP_MM + height, []
-    y = TOP_MM
+    bottom, y, parts = TOP_MM + height, TOP_MM, []
     for count, name in zip(range(len(legs), 0, -1), legs, strict=True):
-        # a wire leaves on the side away from the board
         across = [side * pins[end.pin][0] if end.part == CONTROLLER else -math.inf for _, end in legs[name]]
         ends = legs[name] if across[0] >= across[-1] else legs[name][::-1]
         y = max(y + ROW_MM, pins[ends[0][1].pin][1])
