@@ -209,7 +209,8 @@ class _BuildKey:
 
 @lru_cache(maxsize=1)
 def _designed(order: _BuildKey) -> tuple[Robot, tuple[Finding, ...]]:
-    robot, findings = built_and_checked(order.design, order.workshop, name="")
+    workshop = (order.workshop or load_workshop("default")).revalidated()
+    robot, findings = built_and_checked(order.design.revalidated(), workshop, name="")
     return robot, tuple(findings)
 
 

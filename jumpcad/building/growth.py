@@ -33,15 +33,15 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
     """
-    return built_and_checked(design, workshop, name)[0]
+    workshop = (workshop or load_workshop("default")).revalidated()
+    return built_and_checked(design.revalidated(), workshop, name)[0]
 
 
-def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> tuple[Robot, list[Finding]]:
-    """Return the robot as `build` does, and its `constraint_findings`."""
+def built_and_checked(design: Design, workshop: Workshop, name: str) -> tuple[Robot, list[Finding]]:
+    """Return the robot of valid design and workshop as `build` does, and its `constraint_findings`."""
     name = composed(name)
     if name:
         require_name(name)
-    design, workshop = design.revalidated(), (workshop or load_workshop("default")).revalidated()
     refused = errors(geometry_findings(design))
     if refused:
         first = refused[0]

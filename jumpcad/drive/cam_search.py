@@ -23,6 +23,9 @@ from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits, axis_range, me
 from jumpcad.errors import CannotBuildError
 from jumpcad.transforms import Array
 
+FTOL = 1e-6
+"""Where the search for a shape ends: size (mm), a ten thousandth of the grid's step."""
+
 
 @lru_cache(maxsize=8)
 def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
@@ -197,7 +200,7 @@ def _constrained_minimum(
     with one_thread():
         found = optimize.minimize(
             objective, start, jac=True, bounds=bounds, constraints=constraints, method="SLSQP",
-            options={"maxiter": 60, "ftol": 1e-9},
+            options={"maxiter": 60, "ftol": FTOL},
         )  # fmt: skip
     return np.asarray(found.x)
 

@@ -84,12 +84,19 @@ def bought(
 
     Copies drawn about their own origin are equal: one shape for all of them, measured once.
     """
-    shape, top, uniform = _drawn(tuple(Slab(*slab) for slab in slabs))
-    x, y, z = at_mm
-    pose = lying_on_left(top + y, x, z) @ pose_about_z(turn_rad)
-    return BoughtPart(
-        name, article, body, shape, pose, uniform.scaled_to(mass_g / 1000.0).placed(in_metres(pose)), units
-    )
+    shape, top, turn, mass = _turned(tuple(Slab(*slab) for slab in slabs), turn_rad, mass_g)
+    pose, (x, y, z) = turn.copy(), at_mm
+    pose[:3, 3] = x, top + y, z
+    moved = MassProperties(mass.mass_kg, mass.com_m + pose[:3, 3] / 1000.0, mass.inertia_kg_m2)
+    return BoughtPart(name, article, body, shape, pose, moved, units)
+
+
+@lru_cache(maxsize=256)
+def _turned(slabs: tuple[Slab, ...], turn_rad: float, mass_g: float) -> tuple[Stack, float, Array, MassProperties]:
+    """Return slabs as `_drawn` does, their turn (4, 4) to the body's axes, and their mass seen along these."""
+    shape, top, uniform = _drawn(slabs)
+    turn = lying_on_left(0.0) @ pose_about_z(turn_rad)
+    return shape, top, turn, uniform.scaled_to(mass_g / 1000.0).placed(turn)
 
 
 @lru_cache(maxsize=256)
