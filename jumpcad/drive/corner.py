@@ -76,15 +76,14 @@ def clear_window_rad(geometry: CamGeometry) -> tuple[float, float]:
 
 
 def _window(geometry: CamGeometry, outline_mm: Array) -> tuple[float, float]:
-    start, lift = geometry.lever_start_rad, geometry.law.lift_rad
-    ends = geometry.roller_mm([-geometry.overshoot_rad, geometry.law.compression_rad])
-    span = geometry.law.compression_rad + geometry.overshoot_rad
+    lift = geometry.law.lift_rad
+    low, high = geometry.roller_mm([-geometry.overshoot_rad, geometry.law.compression_rad])
     turns = np.linspace(0.0, 2.0 * math.pi - lift, WINDOW_POSITIONS)
     outline = geometry.in_body(outline_mm[None], lift + turns[:, None])
     x, z = outline[..., 0], outline[..., 1]
-    beside = np.mod(np.arctan2(z, x) - start + geometry.overshoot_rad, 2.0 * math.pi) <= span
-    off_arc = np.abs(np.hypot(x, z) - geometry.lever_mm)
-    off_ends = np.minimum(*(np.hypot(x - end[0], z - end[1]) for end in ends))
+    beside = (low[0] * z >= low[1] * x) & (x * high[1] >= z * high[0])  # the arc is less than half a turn
+    off_arc = np.abs(np.sqrt(x * x + z * z) - geometry.lever_mm)  # products and roots are quicker than `hypot`
+    off_ends = np.sqrt(np.minimum(*((x - end[0]) ** 2 + (z - end[1]) ** 2 for end in (low, high))))
     gap = np.where(beside, off_arc, off_ends).min(axis=1) - geometry.roller_radius_mm
     free = np.flatnonzero(gap >= 0.0)
     if not free.size:

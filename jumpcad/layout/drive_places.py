@@ -98,7 +98,7 @@ def spring_boss_mm(obstacles: list[Obstacle], pin: Array, axle_mm: float, latera
     low, radius = lateral.inside[0], axle_mm / 2.0 + SPRING_BOSS_WALL_MM
     top = min(low + SPRING_BOSS_MM, lateral.spring_right[0] - GAP_MM)
     for one in obstacles:
-        if one.name not in ("spring arm", "spring pin", "motor"):
+        if one.y_mm[0] < top and one.name not in ("spring arm", "spring pin", "motor"):
             near = clearance([one], pin[None], (0.0, 0.0), 0.0, (low, low + SPRING_BOSS_MM), radius)[0] < radius
             top = min(top, one.y_mm[0]) if near else top
     return round(top - low, 6) if top - low >= SPRING_BOSS_MIN_MM else 0.0

@@ -81,7 +81,7 @@ def clearance(
         Interval of y that the boxes occupy.
     """
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
-    cloud = Cloud.of(obstacles, y_mm)
+    cloud = Cloud.of(obstacles, y_mm).near(centres_mm, half_mm, within_mm)
     free = np.empty(len(centres_mm))
     for first in range(0, len(centres_mm), GROUP):
         group = slice(first, first + GROUP)

@@ -6,6 +6,7 @@ Nothing else may touch before: the links' room extends as far past rest as stop 
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -77,7 +78,7 @@ class StopPlace:
     @property
     def behind(self) -> Array:
         """Unit vector (2,) of the impact, from the pad's face into the bar."""
-        return np.round(direction(self.direction_rad + math.pi / 2.0), 9)
+        return _unit(self.direction_rad + math.pi / 2.0)
 
     @property
     def seat_mm(self) -> Array:
@@ -87,7 +88,7 @@ class StopPlace:
     @property
     def along(self) -> Array:
         """Unit vector (2,) along the pad's face, away from the hub."""
-        return np.round(direction(self.direction_rad), 9)
+        return _unit(self.direction_rad)
 
     @property
     def middle_mm(self) -> Array:
@@ -107,6 +108,12 @@ class StopPlace:
     def pad_n_per_mm(self, width_mm: float) -> float:
         """Return the stiffness of the pad, pressed flat by a leg of some thickness."""
         return self.pad.rate_n_per_mm(width_mm, STOP_PAD_MM)
+
+
+@lru_cache(maxsize=64)
+def _unit(angle_rad: float) -> Array:
+    """Return a rounded unit vector (2,); a stop's are asked for often."""
+    return np.round(direction(angle_rad), 9)
 
 
 def tab_offset_mm(along: Array, behind: Array) -> Array:
@@ -175,7 +182,7 @@ def stop_place(
         )
     below = linkage.rest_rad + angle_rad
     heel = max(sections.leg_root_mm / 2.0, sections.eye_radius_mm) + HEEL_MM
-    along, behind = np.round(direction(below), 9), np.round(direction(below + math.pi / 2.0), 9)
+    along, behind = _unit(below), _unit(below + math.pi / 2.0)
     radii = np.arange(NEAREST_MM, FARTHEST_MM + STEP_MM, STEP_MM)
     radii = radii[np.argsort(np.abs(radii - WANTED_MM), kind="stable")]
     faces = linkage.back_pivot_mm + radii[:, None] * along + heel * behind

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.catalogue import Battery, Board, Catalogue, Component
-from jumpcad.electronics.chosen import chosen_of
-from jumpcad.electronics.nets import wiring_of
+from jumpcad.electronics.chosen import Chosen, chosen_of
+from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.layout.electronics import BALANCE_MM, TAPE_MM, Electronics
 from jumpcad.layout.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM
 from jumpcad.layout.layout import Layout
@@ -56,11 +56,13 @@ def electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> It
         else:
             yield placed_box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
     yield from _switch(layout, catalogue)
+    parts = chosen_of(catalogue, chosen)
+    wiring = wiring_of(parts, chosen.pins)
     placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
-    found = list(_soldered(layout, catalogue, chosen, placed))
+    found = list(_soldered(layout, parts, wiring, placed))
     small = [name for name, *_ in found if name.startswith(SMALL)]
     # along the row of pads beside them, so that their legs do not cross
-    inwards, row = electronics.inwards("controller"), _along_the_row(electronics, catalogue, chosen)
+    inwards, row = electronics.inwards("controller"), _along_the_row(electronics, parts, wiring)
     seats = sorted(electronics.small_seats(inside)[: len(small)], key=lambda seat: inwards * seat.y_mm)
     at_seat = dict(zip(sorted(small, key=lambda name: row.get(name, 0)), seats, strict=False))
     soldered = []
@@ -88,25 +90,20 @@ def electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> It
         yield bought(f"tie_{role}_leads", TIE, BODY, TIE_G, slabs, at_mm)
 
 
-def _along_the_row(electronics: Electronics, catalogue: Catalogue, chosen: BoughtParts) -> dict[str, int]:
+def _along_the_row(electronics: Electronics, parts: Chosen, wiring: Wiring) -> dict[str, int]:
     """Return the place of each small part's pad in the controller's row that faces them, USB first."""
-    parts = chosen_of(catalogue, chosen)
     row = parts.controller.left if electronics.inwards("controller") > 0.0 else parts.controller.right
     return {
         "_".join(reversed(part.part.replace("-", "_").split())): row.index(pad.pin)
-        for net in wiring_of(parts, chosen.pins).nets
+        for net in wiring.nets
         for part in net.terminals
         for pad in net.terminals
         if part.part.endswith(SMALL) and pad.part == "controller" and pad.pin in row
     }
 
 
-def _soldered(
-    layout: Layout, catalogue: Catalogue, chosen: BoughtParts, placed: set[str]
-) -> Iterator[tuple[str, str, float]]:
+def _soldered(layout: Layout, parts: Chosen, wiring: Wiring, placed: set[str]) -> Iterator[tuple[str, str, float]]:
     """Yield name, article and mass (g) of what has no seat: wire by its colour, and what is soldered into it."""
-    parts = chosen_of(catalogue, chosen)
-    wiring = wiring_of(parts, chosen.pins)
     for role, part in parts.components.items():
         if role == "wire":
             per_m = 1000.0 * part.mass_g / (part.length_mm or WIRE_LENGTH_MM)

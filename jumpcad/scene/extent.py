@@ -28,15 +28,18 @@ def extent_m(robot: Robot) -> Array:
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
 
     def reach(numbers: Iterable[int]) -> None:
-        for number in dict.fromkeys(numbers):
-            shape, body, pose = pieces[number]
-            corners = _corners_m(shape, chained(poses[body], in_metres(pose)))
-            np.minimum(low, corners[0], out=low)
-            np.maximum(high, corners[1], out=high)
+        for number in numbers:
+            if (boxes[number, 0] < low).any() or (boxes[number, 1] > high).any():
+                shape, body, pose = pieces[number]
+                corners = _corners_m(shape, chained(poses[body], in_metres(pose)))
+                np.minimum(low, corners[0], out=low)
+                np.maximum(high, corners[1], out=high)
 
-    reach([*boxes[:, 0].argmin(axis=0).tolist(), *boxes[:, 1].argmax(axis=0).tolist()])
+    first = dict.fromkeys([*boxes[:, 0].argmin(axis=0).tolist(), *boxes[:, 1].argmax(axis=0).tolist()])
+    reach(first)
     # few boxes reach beyond these
-    reach(np.flatnonzero((boxes[:, 0] < low).any(axis=1) | (boxes[:, 1] > high).any(axis=1)).tolist())
+    beyond = np.flatnonzero((boxes[:, 0] < low).any(axis=1) | (boxes[:, 1] > high).any(axis=1)).tolist()
+    reach(number for number in beyond if number not in first)
     return np.asarray(high - low)
 
 

@@ -75,12 +75,16 @@ class Beam:
     def _core(self) -> tuple[float | Array, float | Array]:
         walls, layers = 2.0 * self.shell.walls_mm, 2.0 * self.shell.layers_mm
         across, along = (walls, layers) if self.upright else (layers, walls)
-        return np.maximum(self.width_mm - across, 0.0), np.maximum(self.height_mm - along, 0.0)
+        return _positive(self.width_mm - across), _positive(self.height_mm - along)
 
     def stress_mpa(self, moment_nmm: float | Array, axial_n: float | Array = 0.0) -> float | Array:
         """Return the largest stress under bending and a force along the bar, M·h/(2·I) + F/A."""
         bending = moment_nmm * self.height_mm / (2.0 * self.second_moment_mm4)
-        return bending + np.abs(axial_n) / self.area_mm2
+        return bending + abs(axial_n) / self.area_mm2
+
+
+def _positive(value: float | Array) -> float | Array:
+    return np.maximum(value, 0.0) if isinstance(value, np.ndarray) else max(value, 0.0)
 
 
 def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, shell: Shell, upright: bool = False) -> float:
