@@ -23,8 +23,11 @@ from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits, axis_range, me
 from jumpcad.errors import CannotBuildError
 from jumpcad.transforms import Array
 
-FTOL = 1e-6
-"""Where the search for a shape ends: size (mm), a ten thousandth of the grid's step."""
+FTOL = 1e-5
+"""Where the search for a shape ends: size (mm), a thousandth of the grid's step."""
+COARSE = 5
+"""Points of the coarse grid along each of the three numbers. Of 1,180 cams, 7 and an end at 1e-9 mm change one, which
+becomes larger."""
 
 
 @lru_cache(maxsize=8)
@@ -141,12 +144,12 @@ class _Shapes:
 
     def _coarse(self) -> list[Array]:
         """Return the best points of a coarse grid, one per lever."""
-        grid = np.array(list(itertools.product(*np.linspace(self.lower, self.upper, 7).T)))
+        grid = np.array(list(itertools.product(*np.linspace(self.lower, self.upper, COARSE).T)))
         size, margins = self._size_and_margins(grid, samples=12)
         missing = np.log1p(np.maximum(-margins, 0.0)).sum(axis=0)
-        rank = np.where(missing > 0, 1e6 + missing, size).reshape(7, -1)
+        rank = np.where(missing > 0, 1e6 + missing, size).reshape(COARSE, -1)
         order = np.argsort(rank.min(axis=1))[:3]
-        return list(grid.reshape(7, -1, 3)[order, rank.argmin(axis=1)[order]])
+        return list(grid.reshape(COARSE, -1, 3)[order, rank.argmin(axis=1)[order]])
 
     def _smallest(self, start: Array) -> Array:
         """Return the point where the size is smallest and every margin positive."""
