@@ -80,7 +80,7 @@ class Beam:
     def stress_mpa(self, moment_nmm: float | Array, axial_n: float | Array = 0.0) -> float | Array:
         """Return the largest stress under bending and a force along the bar, M·h/(2·I) + F/A."""
         bending = moment_nmm * self.height_mm / (2.0 * self.second_moment_mm4)
-        return bending + abs(axial_n) / self.area_mm2
+        return bending + np.abs(axial_n) / self.area_mm2
 
 
 def _positive(value: float | Array) -> float | Array:
