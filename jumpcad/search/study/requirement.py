@@ -67,6 +67,10 @@ class Requirement:
             raise JumpcadError(f"{name}>={least:g}: it is a share, at most 1: require 0.9 for 90 %")
         return cls(name, least, most)
 
+    def at(self, margin: float) -> float:
+        """Return the figure that has a margin to the only limit."""
+        return (self.most or 0.0) - margin if self.least is None else self.least + margin
+
     def findings(self, value: float) -> Iterator[Finding]:
         """Yield a finding of a value for each limit, named after it."""
         remedy = "change what the figure depends on, or require less"

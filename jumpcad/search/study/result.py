@@ -14,6 +14,7 @@ from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.study.request import Request
+from jumpcad.search.study.requirement import Requirement
 from jumpcad.search.study.trial import Trial, count_rejections, is_flat
 from jumpcad.workshop import Workshop
 
@@ -76,7 +77,9 @@ class Result:
         reasons = ", ".join(f"{name} {count}" for name, count in list(self.rejected.items())[:5])
         if self.best is None:
             designs = counted(len(self.trials), "design")
-            return f"none of {designs} jumps ({reasons}): widen the bounds, or evaluate more designs"
+            return (
+                self.why_required or f"none of {designs} jumps ({reasons}): widen the bounds, or evaluate more designs"
+            )
         if is_flat(self.trials) and not self.request.is_front:
             others = f"; rejected: {reasons}" if reasons else ""
             return (
@@ -84,6 +87,27 @@ class Result:
                 f"choose another objective{others}"
             )
         return ""
+
+    @property
+    def why_required(self) -> str:
+        """What to relax where no design has a score, but some would without what is required; else empty."""
+        found = [one.evaluation for one in self.trials if one.evaluation.verdict == "jump"]
+        near = [one for one in found if all("=" in reason for reason in one.reasons)]
+        if self.best is not None or not near:
+            return ""
+        nearest = max(near, key=lambda one: sum(one.margins[name] for name in one.reasons))
+        missed = {name: Requirement.parse(name) for name in nearest.reasons}
+        reached = ", ".join(f"{one.name} = {one.at(nearest.margins[name]):.4g}" for name, one in missed.items())
+        return (
+            f"no design keeps what is required, but {len(near)} of {counted(len(self.trials), 'design')} would jump "
+            f"and keep all other limits; the nearest has {reached}: relax {', '.join(missed)}, or evaluate more designs"
+        )
+
+    @property
+    def overlap(self) -> str:
+        """What is said of counts of reasons where a design has several; else empty."""
+        rejected = sum(one.score is None for one in self.trials)
+        return f" (several for some of the {rejected})" if sum(self.rejected.values()) > rejected else ""
 
     @property
     def design(self) -> Design:

@@ -110,3 +110,15 @@ def test_the_winner_of_a_search_keeps_what_was_required() -> None:
     assert kept
     assert all(trial.evaluation.metrics["com_rise_m"] <= 0.1 for trial in kept)
     assert any("com_rise_m<=0.1" in trial.evaluation.reasons for trial in found.trials)
+
+
+def test_where_only_what_is_required_rejects_it_is_named_with_the_nearest_value() -> None:
+    """A robot of 10 g is out of reach; the designs themselves say which of those that jump is the lightest."""
+    found = jumpcad.optimize(
+        "ga", evaluations=12, model="capsule", seed=1, workers=0, fixed={"stiffness_nmm_per_deg": 20},
+        require={"mass_kg": (None, 0.01)},
+    )  # fmt: skip
+    jumping = [one.evaluation for one in found.trials if one.evaluation.reasons == ("mass_kg<=0.01",)]
+    lightest = min(one.metrics["mass_kg"] for one in jumping)
+    assert f"{len(jumping)} of 12 designs would jump" in found.why_none
+    assert f"mass_kg = {lightest:.4g}: relax mass_kg<=0.01," in found.why_none
