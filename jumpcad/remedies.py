@@ -15,6 +15,7 @@ from jumpcad.evaluation import evaluate
 from jumpcad.findings import Finding
 from jumpcad.simulation.engines import default_engine
 from jumpcad.workshop import Workshop
+from jumpcad.workshop.tables import PRELOAD_MAX_DEG
 from jumpcad.workshop.varied import varied, workshop_value
 
 TRIES, CAGED_TRIES = 8, 5
@@ -23,7 +24,9 @@ TRIES, CAGED_TRIES = 8, 5
 One that cannot be built takes little time, and does not count.
 """
 STEPS = 4
-"""Values of one parameter that are tried for one limit."""
+"""Values of one parameter that are tried for one limit; once one cures, as many nearer ones."""
+NEAR = 0.9
+"""Share of the change that cures from which on a smaller one is not sought."""
 FIRST, BEYOND = 0.125, 1.1
 """The first step as a share of the way to the end of a parameter's range; how much longer than guessed others are."""
 SLOW = (printability_findings, interference_findings, assembly_findings)
@@ -73,18 +76,25 @@ class Remedies:
 
     def _numbered(self, remedy: str, name: str, margin: float, wrong: frozenset[str]) -> tuple[str, frozenset[str]]:
         """Return a remedy, with a number where one is found, and the limits that it cures."""
-        for word, key in asked(remedy):
+        for word, key in sorted(asked(remedy), key=lambda one: not self._is_far(*one)):
             value = self._cure(key, DIRECTIONS[word], (name, margin), wrong)
             if value is not None:
                 said = f"{key} {'to' if word in VERBS else '='} {value:g}"
                 return re.sub(f"{key}({NEARER})?", said, remedy, count=1), wrong - self._tried[key, value][0]
         return remedy, frozenset()
 
+    def _is_far(self, word: str, key: str) -> bool:
+        """Whether a parameter lies at the end of its usual range, or beyond, from which it is to move: it is first."""
+        if key not in PARAMETERS or not (direction := DIRECTIONS[word]):
+            return False
+        bounds, now = SEARCH_BOUNDS[key], getattr(self._design, key)
+        return bool(now <= bounds.lower if direction > 0 else now >= bounds.upper)
+
     def _cure(self, key: str, direction: int, fails: tuple[str, float], wrong: frozenset[str]) -> float | None:
         """Return a value of a parameter with which a limit is kept, and all that were kept before.
 
         `fails` is the limit's name and margin. The next value lies a little beyond where a line through the margins at
-        the last two is 0; once one cures, a nearer one is tried.
+        the last two is 0; once one cures, nearer ones are tried.
         """
         try:
             now = getattr(self._design, key) if key in PARAMETERS else workshop_value(self._workshop, key)
@@ -93,22 +103,24 @@ class Remedies:
         if isinstance(now, str):
             return None
         end, (name, margin) = _end(key, float(now), direction), fails
-        best, last, share = None, (0.0, margin), FIRST
-        for _ in range(STEPS):
+        best, at, last, share = None, math.inf, (0.0, margin), FIRST
+        for step in range(2 * STEPS):
             value = float(f"{now + share * (end - now):.3g}")
-            if not self._try(key, value):
+            if (best is None and step == STEPS) or not self._try(key, value):
                 break
             violated, margins = self._tried[key, value]
             here = share, margins.get(name, math.nan)
             if name not in violated and violated <= wrong:
-                nearer = _beyond_zero(last, here, (last[0] + share) / 2.0)
-                if best is not None or nearer > 0.9 * share:
-                    return value
-                best, share = value, nearer
-            elif best is None and share < 1.0:
+                best, at = value, share
+                share = _beyond_zero(last, here, (last[0] + share) / 2.0)
+            elif best is not None:
+                last, share = here, (share + at) / 2.0
+            elif share < 1.0:
                 farther = _beyond_zero(last, here, 3.0 * share) if name in violated else 2.0 * share
                 last, share = here, min(max(farther, 1.5 * share), 1.0)
             else:
+                break
+            if share > NEAR * at:
                 break
         return best
 
@@ -163,6 +175,8 @@ def _beyond_zero(last: tuple[float, float], here: tuple[float, float], otherwise
 def _end(key: str, now: float, direction: int) -> float:
     """Return the end of what is tried: that of searches, of the parameter beyond; else twice, half or 1, 20 from 0."""
     if key not in PARAMETERS:
+        if key == "spring.preload_deg" and direction > 0:
+            return PRELOAD_MAX_DEG
         return now * (2.0 if direction > 0 else 0.5) or 20.0 * (direction > 0)
     if direction == 0:
         return 1.0

@@ -12,6 +12,7 @@ from jumpcad.evaluation import EvaluationResult, evaluate
 from jumpcad.findings import limit
 from jumpcad.remedies import TRIES, Remedies
 from jumpcad.workshop import load_workshop
+from jumpcad.workshop.varied import varied
 
 KENAN, SHOP = jumpcad.load_design("kenan-2.0"), load_workshop()
 
@@ -37,7 +38,10 @@ def wrong(design: Design) -> list[str]:
 def test_the_value_that_is_named_cures_and_was_found_by_few_tries(tried: list[Design]) -> None:
     """Of limits, and of a design that cannot be built; the change is at most twice the least that cures."""
     for key, value, named in (("c_coef", 0.7, "larger (e_coef) = "), ("compression_ratio", 0.133, "raise (s.*?g) to "),
-                              ("compression_ratio", 0.886, "lower (compression_ratio) to ")):  # fmt: skip
+                              ("compression_ratio", 0.886, "lower (compression_ratio) to "),
+                              ("stiffness_nmm_per_deg", 200.0, "lower (stiffness_nmm_per_deg) to "),
+                              ("carrying_link_mm", 300.0, "shorter (carrying_link_mm) = "),
+                              ("rest_angle_deg", 20.0, "raise (rest_angle_deg) to ")):  # fmt: skip
         bad = KENAN.model_copy(update={key: value})
         tried.clear()
         asks = Remedies(bad, SHOP)
@@ -60,3 +64,13 @@ def test_no_number_is_sought_where_a_check_takes_a_second(tried: list[Design]) -
     overlap = limit("interference", -1.0, "mm³", "", "lower compression_ratio")
     assert Remedies(KENAN, SHOP).of_findings([overlap]) == [overlap]
     assert tried == []
+
+
+def test_springs_from_stock_fit_with_the_preload_that_is_named() -> None:
+    stock = varied(SHOP, {"bought.spring": "9271K619"})
+    with pytest.raises(CannotBuildError) as refused:
+        evaluate(KENAN, stock)
+    match = re.search(r"raise spring.preload_deg to ([\d.]+),", str(Remedies(KENAN, stock).of_refusal(refused.value)))
+    assert match
+    found = evaluate(KENAN, varied(stock, {"spring.preload_deg": float(match[1])})).findings
+    assert [one.name for one in found if one.severity != "info"] == []

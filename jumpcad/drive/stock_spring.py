@@ -70,7 +70,7 @@ def fitted_spring(
         if shortest <= arm_turn <= longest:
             found.append((Arms(mean, d, limits.pin_mm, beside * math.tan(arm_turn)), plate_pin))
     if not found:
-        raise CannotBuildError(_no_pins(stock, on_leg, leg_pin_rad, limits))
+        raise _no_pins(stock, on_leg, leg_pin_rad, limits)
     arms, plate_pin = min(found, key=lambda pair: pair[0].lever_mm)
     tensile = wire.tensile_mpa(d)
     spring = torsion_spring(arms, turns, on_leg, tensile, wire, limits, (plate_pin, leg_pin_rad), stock.name)
@@ -92,12 +92,12 @@ def _arm_turns_rad(stock: StockSpring, limits: SpringLimits) -> tuple[float, flo
     return math.acos(beside / least), math.atan2(lever, beside)
 
 
-def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: SpringLimits) -> str:
-    """Return a message: directions of the plate's pin that a stock spring needs, and those that are free."""
+def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: SpringLimits) -> CannotBuildError:
+    """Return what is wrong: directions of the plate's pin that a stock spring needs, and those that are free."""
     shortest, longest = _arm_turns_rad(stock, limits)
     if longest < shortest:
         needed = math.tan(shortest) * beside_mm(stock.inside_diameter_mm + stock.wire_mm, stock.wire_mm, limits.pin_mm)
-        return (
+        return CannotBuildError(
             f"bought.spring = {stock.name!r}: its arms of {stock.arm_length_mm:g} mm do not reach the pins; "
             f"{needed + ARM_BEYOND_MM:.1f} mm are needed: choose one with longer arms"
         )
@@ -109,11 +109,11 @@ def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: Spr
     # a larger angle between the arms turns the plate's pin by as much
     less, more = (ends[0] - math.degrees(last)) % 360.0, (math.degrees(first) - ends[1]) % 360.0
     fits = (stock.arm_angle_deg + (more + 1.0 if more < less else -less - 1.0)) % 360.0
-    preload = math.ceil(math.degrees(on_leg.preload_rad) + less)
-    load = f"set spring.preload_deg = {preload}, " if preload <= PRELOAD_MAX_DEG else ""
-    return (
+    load = "raise spring.preload_deg, " if math.degrees(on_leg.preload_rad) + less <= PRELOAD_MAX_DEG else ""
+    return CannotBuildError(
         f"bought.spring = {stock.name!r}: with arms {stock.arm_angle_deg:g}° apart, the plate's pin must be between "
         f"{ends[0]:.0f}° and {ends[1]:.0f}° from forward; there is room from {math.degrees(first):.0f}° to "
         f"{math.degrees(last):.0f}°, {min(less, more):.0f}° away: {load}choose a spring with arms about "
-        f"{fits:.0f}° apart, or change rest_angle_deg"
-    )
+        f"{fits:.0f}° apart, or change rest_angle_deg",
+        "spring_pins", -min(less, more), "°",
+    )  # fmt: skip

@@ -94,7 +94,7 @@ def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -
         "too_weak", mechanism.spring.energy_j, needed, "J",
         f"the springs hold {1000.0 * mechanism.spring.energy_j:.1f} mJ; standing up against gravity takes "
         f"{1000.0 * work:.1f} mJ, and a jump needs {TAKEOFF_ENERGY_FACTOR} times that, {1000.0 * needed:.1f} mJ",
-        "raise stiffness_nmm_per_deg or compression_ratio, or lower carrying_link_mm",
+        "raise stiffness_nmm_per_deg or compression_ratio, or raise rest_angle_deg, or lower carrying_link_mm",
     )  # fmt: skip
     return [tips, weak]
 

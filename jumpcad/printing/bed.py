@@ -66,7 +66,7 @@ def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_m
     if found.margin_mm < -ROUND_OFF_MM:
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
         raise CannotBuildError(
-            f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle: "
+            f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle, by {-found.margin_mm:.1f} mm: "
             f"choose a larger printer in the workshop, or {_smaller(name)}",
             "bed", found.margin_mm,
         )  # fmt: skip
