@@ -137,6 +137,8 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
                 raise JumpcadError(f"{name} = {value!r}: must be one of {', '.join(map(repr, known))}")
         if len(steps_mm) != 2 or not 0.0 <= steps_mm[0] <= steps_mm[1] <= 1000.0 * STEP_M[2]:
             raise JumpcadError(f"steps_mm = {steps_mm}: must be the least and the largest height, 0 to 500 mm")
+        if made < 0:
+            raise JumpcadError(f"made = {made}: must be 0 or more robots as they may be made")
         if not 0.0 < step_s <= episode_s:
             raise JumpcadError(f"step_s = {step_s:g}: must be above 0, and at most episode_s = {episode_s:g}")
         self.robot = _robot(robot, workshop)
@@ -150,7 +152,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         self.observation_space: Any = gymnasium.spaces.Box(low, high)
         self.action_space: Any = gymnasium.spaces.Discrete(3) if control == "switch" else torque
         self._arena = self._arena_of(0)
-        self._step_at, self._flies, self._begun_s = (0.0, 0.0), False, 0.0
+        self._step_at, self._flies, self._begun_s = (0.0, 0.0), False, math.nan
 
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
@@ -178,7 +180,16 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         return self._observed(), self._figures()
 
     def step(self, action: Any) -> tuple[Array, float, bool, bool, dict[str, Any]]:
-        """Act for a step's time; return observation, way forward (m), False, whether the time is over, and figures."""
+        """Act for a step's time; return observation, way forward (m), False, whether the time is over, and figures.
+
+        Raises
+        ------
+        gymnasium.error.ResetNeeded
+            If no episode has begun.
+        JumpcadError
+            If the action is none.
+        """
+        self._require_begun()
         arena, before = self._arena, self._arena.centre_of_mass_m[0]
         action = self._asked(action)
         if self._control == "torque":
@@ -196,6 +207,10 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         over = arena.data.time - self._begun_s >= self._episode_s - 0.5 * self._step_s
         return self._observed(), way, False, bool(over), self._figures()
 
+    def _require_begun(self) -> None:
+        if math.isnan(self._begun_s):
+            raise gymnasium.error.ResetNeeded("JumpEnv: no episode has begun: call reset() first")
+
     def _asked(self, action: Any) -> float:
         """Return an action as a number."""
         try:
@@ -212,6 +227,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         """Return a picture (height, width, 3) of the robot from its right; None without a render mode."""
         if self.render_mode is None:
             return None
+        self._require_begun()
         things = visuals(self.robot)
         poses = [chained(self._arena.pose(thing.body), thing.T_body_mesh) for thing in things]
         corners = corners_of(things, poses)

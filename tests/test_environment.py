@@ -130,3 +130,12 @@ def test_without_gymnasium_the_way_to_install_it_is_said() -> None:
     code = "import sys; sys.modules['gymnasium'] = None; import jumpcad; jumpcad.JumpEnv()"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert 'JumpEnv needs Gymnasium: pip install "jumpcad[gym]"' in done.stderr
+
+
+def test_nothing_is_rewarded_or_shown_before_an_episode_begins() -> None:
+    env = jumpcad.JumpEnv(built("kenan-2.0"), render_mode="rgb_array")
+    for ask in (lambda: env.step(WAIT), env.render):
+        with pytest.raises(gymnasium.error.ResetNeeded, match=r"call reset\(\) first"):
+            ask()
+    with pytest.raises(JumpcadError, match=r"^made = -1: must be 0 or more"):
+        jumpcad.JumpEnv(built("kenan-2.0"), made=-1)
