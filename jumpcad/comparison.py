@@ -40,7 +40,7 @@ FIGURES = {
     "spring_energy_j": ("spring energy", "mJ", 1000.0, 0),
     "electrical_energy_j": ("energy of a jump", "J", 1.0, 2),
     "winding_time_s": ("winding", "s", 1.0, 1),
-    "metres_per_charge": ("metres per charge", "m", 1.0, 0),
+    "metres_per_charge": ("metres per charge", "m", 1.0, 1),
     "cost_eur": ("cost, as far as known", "€", 1.0, 2),
 }
 """Label, unit, factor from SI and digits of each figure that is compared."""

@@ -177,10 +177,14 @@ def status(doing: str) -> Iterator[Callable[[str], None]]:
 
 
 def _log(texts: Sequence[str], done: Event) -> None:
-    """Print the text every `LINE_EVERY_S` until all is done."""
+    """Print the text every `LINE_EVERY_S` until all is done, if it is another one."""
+    said = ""
     while not done.wait(LINE_EVERY_S):
+        if said == texts[0]:
+            continue
+        said = texts[0]
         with contextlib.suppress(OSError, ValueError):  # standard error is closed
-            print(f"jumpcad: {without_controls(texts[0])}", file=sys.stderr, flush=True)
+            print(f"jumpcad: {without_controls(said)}", file=sys.stderr, flush=True)
 
 
 def text_of(name: str, /, **values: Any) -> str:

@@ -72,7 +72,8 @@ def simulate(
     from jumpcad.simulation import simulate as simulate_jump
     from jumpcad.simulation.chain import Chain
 
-    alone = "a landing is simulated alone, of a printed robot, in MuJoCo: leave it out"
+    landings = "--landing" if landing else f"--jumps {row}"
+    alone = f"{{}} and {landings} exclude each other: {landings} is of a printed robot in MuJoCo; leave one out"
     landed, plain = landing or row is not None, capsule or published
     for wrong, why in (
         (capsule and published, "--capsule and --published exclude each other: choose one model"),
@@ -86,13 +87,13 @@ def simulate(
         (seed and not (uncertain or landed),
          f"--seed {seed}: is that of --uncertain, --landing or --jumps; leave it out, or add one"),
         (tries != TRIES and not landing, f"--tries {tries}: is that of --landing; leave it out, or add --landing"),
-        (landing and row, f"--landing and --jumps: {alone}"),
-        (landed and capsule, f"--capsule: {alone}"),
-        (landed and published, f"--published: {alone}"),
-        (landed and engine not in (None, "mujoco"), f"--engine {engine}: {alone}"),
-        (landed and flight, f"--flight: {alone}"),
-        (landing and trajectory, f"--trajectory: {alone}"),
-        (landed and uncertain, f"--uncertain: {alone}"),
+        (landing and row, f"--jumps {row} and --landing exclude each other: leave one out"),
+        (landed and capsule, alone.format("--capsule")),
+        (landed and published, alone.format("--published")),
+        (landed and engine not in (None, "mujoco"), alone.format(f"--engine {engine}")),
+        (landed and flight, alone.format("--flight")),
+        (landing and trajectory, alone.format("--trajectory")),
+        (landed and uncertain, alone.format("--uncertain")),
     ):  # fmt: skip
         if wrong:
             raise JumpcadError(why)
@@ -125,6 +126,10 @@ def simulate(
     if landed:
         if not isinstance(robot, Robot):
             raise JumpcadError(of_printed.format("--landing and --jumps are"))
+        alone_jump = simulate_jump(robot, asked, "mujoco")
+        if alone_jump.verdict != "jump":
+            _report(heading, [alone_jump], as_json, None)
+            raise typer.Exit(1)
         if row is None:
             _land(robot, heading, asked, tries, seed, as_json)
         else:

@@ -150,7 +150,7 @@ def landing_strength(robot: Robot, forces: Sequence[PartForce]) -> Finding | Non
     """Return the finding of the part that needs the softest floor, None where no part that is hit has a check.
 
     The floor must absorb what the part does not when the check of the part is at its limit: with the force F that it
-    bears there, and Fh on a hard floor, over E/F·(1 - (F/Fh)²).
+    bears there, and Fh on a hard floor, it gives E/F·(1 - (F/Fh)ⁿ): n is 2 for what springs back, 3 for a dent.
     """
     case, hardest = LoadCase(robot), {one.part: one for one in forces}
     needed: list[tuple[float, PartForce, str, float]] = []
@@ -158,14 +158,15 @@ def landing_strength(robot: Robot, forces: Sequence[PartForce]) -> Finding | Non
         hit = hardest.get(BEARS.get(found.name, ""))
         if hit is not None and found.value and found.limit:
             borne = (case.toe_blow_n if hit.part == TOE else case.landing_n) * found.limit / found.value
-            floor = 1.0 - min(borne / hit.hard_n, 1.0) ** 2
-            needed.append((1000.0 * hit.energy_j / borne * floor, hit, found.name, borne))
+            taken = min(borne / hit.hard_n, 1.0) ** (2 if hit.part in (NOSE, TOE) else 3)
+            needed.append((1000.0 * hit.energy_j * (1.0 - taken) / borne, hit, found.name, borne))
     if not needed:
         return None
     stop, hit, name, borne = max(needed)
     return at_most(
         "landing_strength", stop, robot.workshop.safety.landing_stop_mm, "mm",
-        f"a blow of {hit.energy_j:.2f} J on the {hit.part}, of which {name} bears {borne:.0f} N, needs a floor that "
-        f"gives {stop:.0f} mm; on one that gives nothing up to {hit.hard_n:.0f} N act",
+        f"of a blow of {1000.0 * hit.energy_j:.0f} mJ on the {hit.part} the floor must take {stop * borne:.0f} mJ, the "
+        f"{hit.part} the rest: over {stop:.1f} mm at the {borne:.1f} N that {name} allows; on a floor that "
+        f"gives nothing {hit.hard_n:.1f} N act at most",
         "let it land on a mat that gives as much, or lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip

@@ -26,6 +26,8 @@ HOLD_S = 1.0
 DROP_M, DROP_M_S, DROP_RAD_S = (0.05, 0.35), (0.3, 1.8), 5.0
 """Heights, speeds along the floor and spins of robots that are dropped in any attitude."""
 
+GROUNDED = "the robot does not leave the floor, so that it does not land: jumpcad simulate says why"
+
 
 @dataclass(frozen=True)
 class Landing:
@@ -154,7 +156,7 @@ def _fly_and_rest(arena: Arena, rng: np.random.Generator, watch: Blows | None = 
     start = arena.centre_of_mass_m
     arena.release()
     if not arena.fall():
-        raise JumpcadError("the robot does not leave the floor, so that it does not land: jumpcad check says why")
+        raise JumpcadError(GROUNDED)
     disturb(arena, rng)
     touched: list[float] = []
 

@@ -10,7 +10,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.errors import JumpcadError
 from jumpcad.landing.arena import QUIET_STEP_S, Arena
-from jumpcad.landing.landing import disturb, scattered_floor
+from jumpcad.landing.landing import GROUNDED, disturb, scattered_floor
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
@@ -43,6 +43,8 @@ class Hop:
 class Series:
     """Jumps in a row, with the energy of a jump, how many a full battery gives, and the motion if it was recorded.
 
+    `stands_again` says whether it stands once it is wound after the last one. Figures of a jump are those of jumps
+    from its feet.
     `phases` (n,) are those of the trajectory's moments, such as `flight 2` of the second jump: see `Recorder`.
     """
 
@@ -51,6 +53,7 @@ class Series:
     weight_n: float
     electrical_j: float
     jumps_per_charge: int
+    stands_again: bool
     trajectory: Trajectory | None = None
     phases: tuple[str, ...] = ()
 
@@ -65,19 +68,28 @@ class Series:
         return sum(hop.way_m for hop in self.hops)
 
     @property
+    def unaided(self) -> int | None:
+        """After how many jumps it first lies, so that somebody has to put it on its feet; None if it always stands."""
+        stands = [*(hop.stood for hop in self.hops), self.stands_again]
+        return None if all(stands) else stands.index(False)
+
+    @property
     def metres_per_charge(self) -> float:
-        """The mean way of a jump times the jumps of a full battery (m)."""
-        return self.way_m / len(self.hops) * self.jumps_per_charge
+        """The mean way of a jump times the jumps of a full battery (m); of one that comes to lie, its way till then."""
+        if self.unaided is None:
+            return self.way_m / len(self.hops) * self.jumps_per_charge
+        return sum(hop.way_m for hop in self.hops[: self.unaided])
 
     @property
     def cost_of_transport(self) -> float:
-        """Electrical energy over weight and way."""
-        return self.electrical_j * len(self.hops) / (self.weight_n * self.way_m) if self.way_m > 0.0 else math.inf
+        """Electrical energy over weight and way, of the jumps from its feet."""
+        ways = [hop.way_m for hop in self.hops if hop.stood]
+        return self.electrical_j * len(ways) / (self.weight_n * sum(ways)) if sum(ways) > 0.0 else math.inf
 
     @property
     def heading_drift_deg(self) -> float:
-        """Root mean square turn of the heading in a jump."""
-        return float(np.sqrt(np.mean([hop.heading_deg**2 for hop in self.hops])))
+        """Root mean square turn of the heading in a jump from its feet; 0 if there is none."""
+        return math.sqrt(sum(hop.heading_deg**2 for hop in self.hops if hop.stood) / max(1, self.stood))
 
     @property
     def seconds_per_jump(self) -> float:
@@ -89,7 +101,8 @@ class Series:
         names = ("stood", "way_m", "metres_per_charge", "cost_of_transport", "heading_drift_deg", "seconds_per_jump")
         figures = {name: getattr(self, name) for name in names}
         return {**figures, "distance_m": self.distance_m, "electrical_j": self.electrical_j,
-                "jumps_per_charge": self.jumps_per_charge, "jumps": [asdict(hop) for hop in self.hops]}  # fmt: skip
+                "stands_again": self.stands_again, "unaided": self.unaided, "jumps_per_charge": self.jumps_per_charge,
+                "jumps": [asdict(hop) for hop in self.hops]}  # fmt: skip
 
 
 @dataclass
@@ -168,7 +181,7 @@ def jumps(
     Raises
     ------
     JumpcadError
-        If MuJoCo is not installed.
+        If the robot does not leave the floor, or MuJoCo is not installed.
     """
     if count < 1:
         raise JumpcadError(f"count = {count}: at least one jump is needed")
@@ -180,9 +193,11 @@ def jumps(
     recorder = Recorder(arena, record)
     hops = tuple(_hop(arena, train.winding_s, rng, recorder) for _ in range(count))
     way = float(np.linalg.norm((arena.centre_of_mass_m - first)[:2]))
+    arena.wind(train.winding_s)
+    arena.step(REST_S, quiet=True)
     weight = robot.mass_kg * arena.gravity_m_s2
     moved = (recorder.trajectory, tuple(recorder.phases)) if record else (None, ())
-    return Series(hops, way, weight, train.electrical_j, jumps_per_charge(robot), *moved)
+    return Series(hops, way, weight, train.electrical_j, jumps_per_charge(robot), arena.stands, *moved)
 
 
 def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Recorder) -> Hop:
@@ -202,6 +217,8 @@ def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Record
     arena.release()
     if arena.fall(look):
         disturb(arena, rng)
+    elif recorder.number == 1:
+        raise JumpcadError(GROUNDED)
     rested_s = arena.rest(look)
     arena.step(max(LANDING_S + REST_S - rested_s, QUIET_STEP_S), quiet=True)
     way = float(np.linalg.norm((arena.centre_of_mass_m - start)[:2]))

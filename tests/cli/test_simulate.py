@@ -56,6 +56,16 @@ def test_refused_design_says_why_and_what_to_change(command: Run, tmp_path: Path
     assert json.loads(out)["ballistic_range_m"] is None
 
 
+def test_landings_and_jumps_of_a_robot_that_stays_on_the_floor_say_its_verdict(command: Run, tmp_path: Path) -> None:
+    needs.package("mujoco")
+    path = tmp_path / "still.toml"
+    path.write_text(load_design("kenan-2.0").model_copy(update={"compression_ratio": 0.05}).to_toml(), encoding="utf-8")
+    said = command(path, "--engine", "mujoco")
+    assert (said[0], said[2]) == (1, "")
+    for option in (["--landing"], ["--jumps", "2"]):
+        assert command(path, *option) == said, option
+
+
 @pytest.mark.parametrize("suffix", ["csv", "json"])
 def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"path.{suffix}"
@@ -84,6 +94,8 @@ def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
         (["kenan-2.0", "--published", "--trajectory", "a.csv"], "cannot apply to --published"),
         (["kenan-2.0", "--published", "--settings", "fine"], "--settings fine: --published has the study's own"),
         (["kenan-2.0", "--published", "--settings", "nowhere.toml"], "--published has the study's own"),
+        (["kenan-2.0", "--landing", "--jumps", "2"], "--jumps 2 and --landing exclude each other"),
+        (["kenan-2.0", "--jumps", "2", "--flight"], "--flight and --jumps 2 exclude each other"),
         (["kenan-2.0", "--seed", "3"], "--seed 3: is that of --uncertain, --landing or --jumps"),
         (["kenan-2.0", "--capsule", "--workshop", "fine"], "--workshop fine: cannot apply"),
         (["kenan-2.0", "--capsule", "--settings", "quick"], "'quick' is neither a TOML file nor"),

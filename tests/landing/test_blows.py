@@ -1,11 +1,15 @@
 """Blows of a landing: energies against the fall's, forces against the work that they do."""
 
+import re
+
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 from support.built import built
 
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.checks.strength import strength_findings
+from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import NOSE, TOE, Blow, Blows, hard_n, landing_strength, part_forces
 from jumpcad.robot import Robot
@@ -56,5 +60,18 @@ def test_a_hard_blow_on_the_nose_needs_a_floor_that_does_its_work(robot: Robot) 
         assert found is not None
         assert found.value == pytest.approx(1000.0 * blow.energy_j / borne if impulse > 0.1 else 0.0, rel=0.03)
         margins.append(found.margin)
+    case = LoadCase(robot)
+    for part in (NOSE, TOE, "body"):  # the part itself takes the energy whose hard blow has the force at its limit
+        (at_limit,) = re.findall(r"at the ([\d.]+) N", _strength(robot, part, 2400.0).message)
+        own = float(brentq(lambda energy, part=part: hard_n(case, part, energy) - float(at_limit), 1e-6, 1e4))
+        energy = max(3.0 * own, 1.1)
+        found = _strength(robot, part, energy)
+        assert found.value == pytest.approx((energy - own) / float(at_limit), rel=0.02), part
     assert margins[1] > 0.0 > margins[2]
     assert landing_strength(robot, part_forces(robot, [Blow("main_leg", 1.0, 0.0, 0.1)])) is None
+
+
+def _strength(robot: Robot, part: str, energy_nmm: float) -> Finding:
+    found = landing_strength(robot, part_forces(robot, [Blow(part, 2.0, 0.0, energy_nmm / 1000.0)]))
+    assert found is not None
+    return found

@@ -1,6 +1,7 @@
 """Landings, righting and jumps in a row, against mechanics and against the jump that engines simulate."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from jumpcad.bundle.motion import series_motion
 from jumpcad.errors import JumpcadError
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.landing import land, share_righted
-from jumpcad.landing.series import jumps
+from jumpcad.landing.series import Hop, Series, jumps
 from jumpcad.robot import Robot
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.settings import Settings
@@ -97,16 +98,33 @@ def test_landings_are_those_of_their_seed(robot: Robot) -> None:
 
 
 def test_jumps_in_a_row_begin_where_the_last_one_ended(robot: Robot) -> None:
-    series = jumps(robot, 2, seed=3)
+    series, once = jumps(robot, 2, seed=3), jumps(robot, 1, seed=3)
     assert series.hops[0].stood
+    assert once.hops == series.hops[:1]
+    assert once.stands_again == series.hops[1].stood  # looked at after the last jump too
     assert series.distance_m <= series.way_m + 0.05  # winding shifts it too
     train = robot.layout.drive.train
     assert series.seconds_per_jump > train.winding_s + 2.0 + 3.5
-    assert series.metres_per_charge == pytest.approx(series.way_m / 2.0 * series.jumps_per_charge)
-    energy = 2.0 * train.electrical_j / (robot.mass_kg * 9.81 * series.way_m)
-    assert series.cost_of_transport == pytest.approx(energy)
+    energy = train.electrical_j / (robot.mass_kg * 9.81 * once.way_m)
+    assert once.cost_of_transport == pytest.approx(energy)
     with pytest.raises(JumpcadError, match="count = 0: "):
         jumps(robot, 0)
+
+
+def test_a_charge_takes_a_robot_until_it_lies(robot: Robot) -> None:
+    """One that always stands uses the battery up; what one that lies does is no way, however often it is asked."""
+    hop = jumps(robot, 1, seed=3).hops[0]
+    lies = replace(hop, stood=False, way_m=0.01, heading_deg=0.0)
+
+    def series(*hops: Hop, again: bool) -> Series:
+        return Series(hops, 0.0, 1.0, 2.0, 100, again)
+
+    assert series(hop, again=True).metres_per_charge == pytest.approx(100.0 * hop.way_m)
+    assert series(hop, hop, again=True).metres_per_charge == pytest.approx(100.0 * hop.way_m)
+    for one in (series(hop, again=False), series(hop, lies, again=False), series(hop, lies, hop, again=True)):
+        assert (one.unaided, one.metres_per_charge) == (1, pytest.approx(hop.way_m))
+        assert one.cost_of_transport == pytest.approx(2.0 / hop.way_m)
+        assert one.heading_drift_deg == pytest.approx(abs(hop.heading_deg))
 
 
 def test_on_the_moon_it_rises_about_six_times_as_high(robot: Robot) -> None:

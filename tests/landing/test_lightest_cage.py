@@ -31,7 +31,7 @@ def test_the_search_finds_the_least_mass_that_lacks_nothing() -> None:
     assert len(asked) == len(set(asked)) <= module.MOST
 
 
-def test_a_robot_that_no_cage_rights_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_robot_that_no_cage_rights_is_one_line_and_no_file(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Kenan 2.0 crouches too high (docs/decisions/cage.md)."""
     monkeypatch.setattr(module, "MOST", 2)
     words = r"none rights it: .* in \d\d % of its stable poses, 95 % .*: raise compression_ratio"
@@ -39,19 +39,20 @@ def test_a_robot_that_no_cage_rights_is_one_line(monkeypatch: pytest.MonkeyPatch
         lightest_cage(load_design("kenan-2.0"), load_workshop())
     assert "\n" not in str(refusal.value)
     assert refusal.value.margin < -0.5
+    assert exit_code_of("cage", "kenan-2.0", "-o", str(tmp_path / "caged.toml")) == 1
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.thorough
 def test_the_cage_found_for_best_jumper_is_no_heavier_than_the_templates(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    """What the command prints is a workshop, in which the robot keeps all limits of the cage."""
+    """What the command writes is a workshop, in which the robot keeps all limits of the cage."""
     pytest.importorskip("mujoco")
-    assert exit_code_of("cage", "best-jumper") == 0
-    printed = capsys.readouterr().out
-    assert printed.startswith("# best-jumper")
     path = tmp_path / "caged.toml"
-    path.write_text(printed, encoding="utf-8")
+    assert exit_code_of("cage", "best-jumper", "-o", str(path)) == 0
+    assert capsys.readouterr().out.startswith(text := path.read_text(encoding="utf-8").split("base = ")[0])
+    assert text.startswith("# best-jumper")
     design = load_design("best-jumper")
     found, usual = build(design, load_workshop(str(path)), ""), build(design, load_workshop("best-jumper"), "")
     assert found.mass_kg <= usual.mass_kg
