@@ -105,7 +105,7 @@ WORDS = {
     "violation": "how many, and whether to build the robot; empty where none is",
     # jumps
     "robots[].name": "the robot as it was named",
-    "metres_per_charge": "way of a jump, from rest to rest, times the jumps of a full battery; of a robot that falls, till then",
+    "metres_per_charge": "way of a jump, from rest to rest, times a full battery's jumps; until it lies, if it does",
     "electrical_energy_j": "electrical energy of a jump",
     "winding_time_s": "time to wind",
     "cost_eur": "price of what has one (€)",
