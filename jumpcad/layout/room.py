@@ -115,8 +115,9 @@ class Cloud:
         """Return the discs that can be within a distance of boxes of half sizes (2,), however turned, at (k, 2)."""
         reach = np.hypot(*np.asarray(half_mm, dtype=float)) + within_mm + self.radii_mm
         (low_x, low_z), (high_x, high_z) = centres_mm.min(axis=0), centres_mm.max(axis=0)
-        x, z = self.points_mm[:, 0], self.points_mm[:, 1]
-        kept = (x > low_x - reach) & (x < high_x + reach) & (z > low_z - reach) & (z < high_z + reach)
+        kept = np.flatnonzero(self.points_mm[:, 1] > low_z - reach)  # not what lies below, as most of the foot does
+        x, z, reach = self.points_mm[kept, 0], self.points_mm[kept, 1], reach[kept]
+        kept = kept[(x > low_x - reach) & (x < high_x + reach) & (z < high_z + reach)]
         return Cloud(self.points_mm[kept], self.radii_mm[kept])
 
     def thinned(self, step: int) -> "Cloud":

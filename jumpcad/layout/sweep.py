@@ -74,8 +74,11 @@ def legs_apart_mm(linkage: Linkage, sections: Sections, reach_rad: float = 0.0) 
     leg_half[-1] = max(leg_half[-1], sections.eye_radius_mm)
     front_half = np.full(ALONG, sections.front_mm / 2.0)
     front_half[[0, -1]] = sections.eye_radius_mm
-    x, z = (leg[..., axis, None] - front[:, None, :, axis] for axis in (0, 1))  # quicker than the norm of points
-    return float((np.sqrt(x * x + z * z) - leg_half[:, None] - front_half).min())
+    x, z = (leg[..., axis, None] - front[:, None, :, axis] for axis in (0, 1))
+    gap = np.sqrt(np.add(np.multiply(x, x, out=x), np.multiply(z, z, out=z), out=x), out=x)  # in place: half the time
+    gap -= leg_half[:, None]
+    gap -= front_half
+    return float(gap.min())
 
 
 def _foot(linkage: Linkage, sections: Sections, ankle_mm: Array, foot_rad: Array, gap_mm: float) -> Obstacle:
