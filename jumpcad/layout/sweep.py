@@ -74,8 +74,11 @@ def legs_apart_mm(linkage: Linkage, sections: Sections, reach_rad: float = 0.0) 
     leg_half[-1] = max(leg_half[-1], sections.eye_radius_mm)
     front_half = np.full(ALONG, sections.front_mm / 2.0)
     front_half[[0, -1]] = sections.eye_radius_mm
-    x, z = (leg[..., axis, None] - front[:, None, :, axis] for axis in (0, 1))
-    gap = np.sqrt(np.add(np.multiply(x, x, out=x), np.multiply(z, z, out=z), out=x), out=x)  # in place: half the time
+    x, z = (leg[..., axis, None] - front[:, None, :, axis] for axis in (0, 1))  # in place: half the time
+    x *= x
+    z *= z
+    x += z
+    gap = np.sqrt(x, out=x)
     gap -= leg_half[:, None]
     gap -= front_half
     return float(gap.min())
