@@ -38,7 +38,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
     """Return the robot of a design with its sections grown by factors.
 
     `before` is the robot of the same design, workshop and name with other factors: where only its lever differs, as in
-    most robots that grow, all but the main leg is taken from it.
+    most robots that grow, all but the main leg is taken from it; else the masses of parts of one shape.
     """
     layout = layout_of(design, workshop, growth)
     kept: tuple[Part, ...] = ()
@@ -56,7 +56,8 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
         require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
-    parts = (*(weighed_part(drawing, workshop) for drawing in drawn), *kept)
+    known = {part.name: part for part in before.parts} if before is not None else {}
+    parts = (*(_weighed(drawing, workshop, known.get(drawing.name)) for drawing in drawn), *kept)
     bodies = bodies_of(layout, parts, hardware)
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
     release = release_of(layout, workshop, parts, hardware, bodies, spring)
@@ -89,6 +90,13 @@ def _same_but_for_lever(one: Layout, other: Layout) -> bool:
     """Tell whether two layouts are the same but for the height of the lever, which only the main leg has."""
     sections = replace(one.sections, lever_root_mm=other.sections.lever_root_mm)
     return pickle.dumps(replace(one, sections=sections)) == pickle.dumps(other)
+
+
+def _weighed(drawing: Drawing, workshop: Workshop, known: Part | None) -> Part:
+    """Return a drawing as a part, with the mass of the known one if that has its shape."""
+    if known is not None and known.drawing.shape == drawing.shape:
+        return replace(known, drawing=drawing)
+    return weighed_part(drawing, workshop)
 
 
 def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> Layout:
