@@ -44,13 +44,13 @@ class Stack:
     def pocketed(self, pockets: Iterable[tuple[float, float, Region]]) -> "Stack":
         """Return this stack without pockets (z0, z1, region) on top of each other, with a wall around each.
 
-        This is `minus`, but outlines and chamfers are left as they are: a part's layers that differ only in a pocket
-        inside it are made and weighed for little more than one.
+        This is `minus`, but the outlines are left as they are: a part's layers that differ only in a pocket inside it
+        are made and weighed for little more than one.
         """
         cuts = [(rounded_z(z0), rounded_z(z1), region) for z0, z1, region in pockets]
         levels = {z for z0, z1, _ in cuts for z in (z0, z1)}
         slabs = []
-        for slab in self.slabs:
+        for slab in _arranged(self.slabs, ()).slabs:
             inside = {z for z in levels if slab.z0_mm < z < slab.z1_mm}
             for z0, z1 in itertools.pairwise(sorted({slab.z0_mm, *inside, slab.z1_mm})):
                 cut = next((index for index, (low, high, _) in enumerate(cuts) if low <= z0 and z1 <= high), None)
