@@ -37,27 +37,25 @@ def plates(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm
     blank, bores = blank_of(layout, holes.fits.wall_min_mm), _bores(layout, holes)
-    closed = outline(layout, blank, "left") - _openings(layout, holes, "left")
-    common = closed - bores
+    whole, through = outline(layout, blank, "left"), _openings(layout, holes, "left")
     y0, y1 = lateral.left_plate
     shaft = hole(holes.loose(motor.shaft_mm), layout.motor_mm)
     covered = union([])
     if layout.sensor is not None:
         shaft, covered = shaft + plate_opening(layout.sensor, holes), plate_pad(layout.sensor)
-    slabs = [(y0, y1 - floor, common - shaft), (y1 - floor, y1, closed - shaft)]
+    slabs = [(y0, y1 - floor, whole - union([through, shaft, bores])), (y1 - floor, y1, whole - (through + shaft))]
     slabs.append(_boss(layout, holes, y0 - layout.boss_mm, y0))
     words = name and f"{label} L".strip()
     left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
-    closed = outline(layout, blank, "right") - _openings(layout, holes, "right")
-    common = closed - bores
+    whole, through = outline(layout, blank, "right"), _openings(layout, holes, "right")
     play = 2.0 * holes.fits.sliding_mm
     cavity = motor_box(layout, motor.width_mm + play, motor.height_mm + play)
     window = motor_box(layout, *window_mm(motor))
     taps = union(hole(holes.fits.m2_tap_mm, place) for place in ear_places(layout))
     around = socket_outline(layout) - taps
     seat, rim = lateral.motor[0], lateral.motor[1] - MOTOR_CLAMP_MM
-    slabs = [(y0 + floor, y1, common - window), (y0, y0 + floor, closed - window)]
+    slabs = [(y0 + floor, y1, whole - union([through, window, bores])), (y0, y0 + floor, whole - (through + window))]
     bosses = [_boss(layout, holes, y1, y1 + layout.boss_mm), _spring_boss(layout, holes, y1, cavity + taps)]
     levels = sorted({y1, seat, rim, *(top for _, top, _ in bosses)})
     for low, high in itertools.pairwise(levels):

@@ -133,7 +133,7 @@ def outline(layout: Layout, blank: Blank, side: Face) -> Region:
     around_pin = [pin_hole(layout, layout.pin_hole.pad_mm)] if side == "left" else []
     slot = rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)
     stop = hull([disc(axle, layout.hub_mm), base, slot, *around_pin])
-    whole = blank.hull - (blank.pockets - stop) + stop
+    whole = blank.hull + stop - (blank.pockets - stop)
     return whole + horns(layout) if layout.cage else whole
 
 
