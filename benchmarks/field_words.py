@@ -110,6 +110,7 @@ WORDS = {
     "winding_time_s": "time to wind",
     "cost_eur": "price of what has one (€)",
     "robots[].violated": "names of violated limits",
+    "compare.refused": "why others cannot be built, by their names",
     "tightest": "name of the limit that is used most",
     "differs": "values of each robot that are not the same, by name",
     "page": "the page that was written",

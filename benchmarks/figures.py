@@ -276,7 +276,7 @@ def _seat_mpa(case: LoadCase) -> float:
 
 
 def of_landings() -> dict[str, str]:
-    """Return the table of flights and landings of all templates."""
+    """Return flights and landings of the templates of the default workshop, and what a charge is to best-jumper."""
     rows = []
     for name in ROBOTS:
         robot, jump, _ = built(name)
@@ -290,7 +290,9 @@ def of_landings() -> dict[str, str]:
         )  # fmt: skip
     head = ("design", "turn", "pitch at touchdown", "bar", "step", "rests after", "mostly on",
             "stands when wound again", "stable poses on the feet")  # fmt: skip
-    return {"landings": table(head, rows)}
+    series = jumps(build(load_design(JUMPER), load_workshop(own_workshop(JUMPER))), 10)
+    charge = f"{series.jumps_per_charge} jumps, {series.metres_per_charge:.0f} m"
+    return {"landings": table(head, rows), "charge": charge}
 
 
 def of_assumptions() -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -81,9 +81,10 @@ class ComparedRobot:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Robots side by side."""
+    """Robots side by side; `refused` says by label why others cannot be built."""
 
     robots: tuple[ComparedRobot, ...]
+    refused: dict[str, str] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<Comparison: {', '.join(one.label for one in self.robots)}>"
@@ -133,7 +134,7 @@ class Comparison:
              "tightest": limit.name}
             for one, limit in zip(self.robots, self.tightest, strict=True)
         ]  # fmt: skip
-        return {"robots": robots, "differs": self.differs}
+        return {"robots": robots, "refused": self.refused, "differs": self.differs}
 
     def to_html(self) -> str:
         """Return the page: one file, without network, with the tables and the jumps side by side to one scale."""
@@ -157,21 +158,27 @@ def compare(robots: Sequence[Robot | Design | str | Path], workshop: Workshop | 
     Raises
     ------
     JumpcadError
-        If there are less than two, or one cannot be read or built; the message names it.
+        If there are less than two, or one cannot be read; the message names it.
+    CannotBuildError
+        If none of them can be built.
     """
     if len(robots) < 2:
         raise JumpcadError(f"compare takes two robots or more, not {len(robots)}")
     found: dict[str, ComparedRobot] = {}
+    refused: dict[str, str] = {}
     for number, one in enumerate(robots, start=1):
         label = str(one) if isinstance(one, str | Path) else one.name if isinstance(one, Robot) else "robot"
-        label = f"{label} ({number})" if label in found else label
+        label = f"{label} ({number})" if label in found | refused else label
         try:
             robot = _robot(one, workshop)
         except CannotBuildError as refusal:
-            raise CannotBuildError(f"{label}: {refusal}", refusal.limit, refusal.margin, refusal.unit) from None
+            refused[label] = str(refusal)
+            continue
         jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
         found[label] = ComparedRobot(label, robot, jump)
-    return Comparison(tuple(found.values()))
+    if not found:
+        raise CannotBuildError("; ".join(f"{label}: {why}" for label, why in refused.items()))
+    return Comparison(tuple(found.values()), refused)
 
 
 def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot:

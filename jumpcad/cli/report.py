@@ -15,6 +15,7 @@ from jumpcad.cli.subjects import (
     printed_robot,
     reject_workshop,
 )
+from jumpcad.cli.verdict import warn_of_no_jump
 from jumpcad.errors import JumpcadError, without_controls
 
 PAGE = "report.html"
@@ -86,4 +87,5 @@ def _robot_page(subject: str, output: Path | None, workshop: str | None, row: in
         change_files(bundle, {PAGE: text}, {}, force)
     else:
         write_files(page.parent, {page.name: text})
+    warn_of_no_jump(robot)
     return page

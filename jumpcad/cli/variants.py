@@ -7,6 +7,7 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, status
 from jumpcad.cli.subjects import DesignArgument, SeedOption, WorkshopOption, note_template, printed_robot
+from jumpcad.cli.verdict import warn_of_no_jump
 from jumpcad.errors import JumpcadError, without_controls
 
 
@@ -41,6 +42,7 @@ def variants(
         made = made_of(robot, count, seed)
     with status(f"writing {count} variants of {robot.name} …"):
         bundle = export_variants(robot, made, output or Path(f"{robot.name}-variants"), kind, force)
+    warn_of_no_jump(robot)
     folder = str(bundle.folder)
     if as_json:
         print_json({"folder": folder, "format": kind, "seed": seed, "variants": [one.name for one in made]})

@@ -1,5 +1,6 @@
 """What is said first of a robot: how far it jumps or why not, its limits, and what became of it by itself."""
 
+import sys
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,16 @@ def jump_in_words(jump: dict[str, Any]) -> str:
         f": {finding['message']}; {finding['remedy']}" for finding in jump["findings"] if finding["severity"] == "error"
     ]
     return f"does not jump ({jump['verdict']}){''.join(why[:1])}"
+
+
+def warn_of_no_jump(robot: "Robot") -> None:
+    """Print on standard error why a robot does not jump, if so."""
+    from jumpcad.simulation import simulate
+    from jumpcad.simulation.engines import default_engine
+
+    jump = simulate(robot, engine=default_engine())
+    if jump.verdict != "jump":
+        print(f"jumpcad: {robot.name} {jump_in_words(jump.to_dict())}", file=sys.stderr)
 
 
 def notes(robot: "Robot", findings: "Sequence[Finding]") -> Iterator[str]:

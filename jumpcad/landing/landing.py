@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.arguments import check_arguments
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import Blow, Blows, PartForce, landing_strength, part_forces
@@ -105,8 +105,10 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
 
     Raises
     ------
+    CannotBuildError
+        If the robot does not leave the floor.
     JumpcadError
-        If the robot does not leave the floor, or MuJoCo is not installed.
+        If MuJoCo is not installed.
     """
     if tries < 1:
         raise JumpcadError(f"tries = {tries}: a landing must be tried at least once")
@@ -122,8 +124,10 @@ def distances_m(robot: Robot, tries: int, rng: np.random.Generator) -> list[tupl
 
     Raises
     ------
+    CannotBuildError
+        If the robot does not leave the floor.
     JumpcadError
-        If the robot does not leave the floor, or MuJoCo is not installed.
+        If MuJoCo is not installed.
     """
     arena = Arena(robot)
     return [_fly_and_rest(arena, rng) for _ in range(tries)]
@@ -156,7 +160,7 @@ def _fly_and_rest(arena: Arena, rng: np.random.Generator, watch: Blows | None = 
     start = arena.centre_of_mass_m
     arena.release()
     if not arena.fall():
-        raise JumpcadError(GROUNDED)
+        raise CannotBuildError(GROUNDED)
     disturb(arena, rng)
     touched: list[float] = []
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.arguments import check_arguments
 from jumpcad.checks.electronics import jumps_per_charge
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.landing.arena import QUIET_STEP_S, Arena
 from jumpcad.landing.landing import GROUNDED, disturb, scattered_floor
 from jumpcad.mechanism.model import BODY_NAMES
@@ -180,8 +180,10 @@ def jumps(
 
     Raises
     ------
+    CannotBuildError
+        If the robot does not leave the floor.
     JumpcadError
-        If the robot does not leave the floor, or MuJoCo is not installed.
+        If MuJoCo is not installed.
     """
     if count < 1:
         raise JumpcadError(f"count = {count}: at least one jump is needed")
@@ -218,7 +220,7 @@ def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Record
     if arena.fall(look):
         disturb(arena, rng)
     elif recorder.number == 1:
-        raise JumpcadError(GROUNDED)
+        raise CannotBuildError(GROUNDED)
     rested_s = arena.rest(look)
     arena.step(max(LANDING_S + REST_S - rested_s, QUIET_STEP_S), quiet=True)
     way = float(np.linalg.norm((arena.centre_of_mass_m - start)[:2]))

@@ -10,6 +10,9 @@ from support.commands import Run
 import jumpcad
 from jumpcad import checks, comparison
 
+LOOP = [100.0, 1.1596, 0.6455, 0.6, 0.8, 70.0, 30.0, 10.0]
+"""Numbers whose links cannot close when loaded."""
+
 
 def test_figures_are_those_of_the_robots_and_what_differs_is_named(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -30,3 +33,21 @@ def test_figures_are_those_of_the_robots_and_what_differs_is_named(
     assert first["ballistic_range_m"] == pytest.approx(jump.ballistic_range_m)
     assert first["metres_per_charge"] == pytest.approx(way.metres_per_charge)
     assert "<h2>kenan-2.0</h2>" in (tmp_path / "c.html").read_text(encoding="utf-8")
+
+
+def test_one_that_cannot_be_built_leaves_the_others_their_table(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
+    monkeypatch.setattr(comparison, "HOPS", 1)
+    bad = tmp_path / "bad.toml"
+    bad.write_text(jumpcad.Design.from_vector(LOOP).to_toml(), encoding="utf-8")
+    refused = run("build", bad, "-o", tmp_path / "b")[2].removeprefix("jumpcad: ").strip()
+    code, out, err = run("compare", bad, "kenan-2.0", "-o", tmp_path / "c.html", "--json")
+    assert (code, err) == (1, "")
+    found = json.loads(out)
+    assert [one["name"] for one in found["robots"]] == ["kenan-2.0"]
+    assert found["refused"] == {str(bad): refused}
+    assert "cannot be built: " in (tmp_path / "c.html").read_text(encoding="utf-8")
+    assert run("compare", bad, bad, "-o", tmp_path / "d.html")[:2] == (1, "")
+    assert not (tmp_path / "d.html").exists()

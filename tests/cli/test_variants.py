@@ -33,6 +33,18 @@ def test_mujoco_reads_every_robot_with_the_figures_of_the_table(run: Run, tmp_pa
         assert model.geom_friction[foot, 0] == pytest.approx(float(row["foot_friction"]), rel=1e-5)
 
 
+def test_variants_and_page_of_a_robot_that_does_not_jump_say_so(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "still.toml"
+    path.write_text(built("kenan-2.0").design.model_copy(update={"compression_ratio": 0.05}).to_toml(), "utf-8")
+    for command, more in (
+        ("variants", ["--count", "1", "-o", tmp_path / "v"]),
+        ("report", ["-o", tmp_path / "r.html"]),
+    ):
+        code, _, err = run(command, path, *more)
+        assert code == 0
+        assert err.startswith("jumpcad: still does not jump ("), command
+
+
 def test_a_urdf_jumps_as_its_robot_does(run: Run, tmp_path: Path) -> None:
     assert run("variants", "kenan-2.0", "--count", "2", "--format", "urdf", "-o", tmp_path / "v")[0] == 0
     first = jumpcad.variants(built("kenan-2.0"), 1)[0]
