@@ -1,5 +1,6 @@
 """Robots side by side: figures, what differs in design and workshop, and a page on which they jump to one scale."""
 
+import math
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -12,7 +13,7 @@ from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.inputs import kept_design, kept_workshop
 from jumpcad.bundle.lanes import lane, lanes_values
-from jumpcad.bundle.limits import limits_of, ordered, used
+from jumpcad.bundle.limits import limits_of, tightest, used
 from jumpcad.bundle.manifest import open_bundle
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -38,10 +39,11 @@ FIGURES = {
     "turn_deg": ("turn forwards", "°", 1.0, 0),
     "mass_kg": ("mass", "g", 1000.0, 1),
     "spring_energy_j": ("spring energy", "mJ", 1000.0, 0),
+    "spring_stiffness_nm_per_rad": ("springs' stiffness", "N·mm/°", 1000.0 * math.pi / 180.0, 2),
     "electrical_energy_j": ("energy of a jump", "J", 1.0, 2),
     "winding_time_s": ("winding", "s", 1.0, 1),
     "metres_per_charge": ("metres per charge", "m", 1.0, 1),
-    "cost_eur": ("cost, as far as known", "€", 1.0, 2),
+    "cost_eur": ("cost with estimates", "€", 1.0, 2),
 }
 """Label, unit, factor from SI and digits of each figure that is compared."""
 
@@ -57,14 +59,15 @@ class ComparedRobot:
     @cached_property
     def findings(self) -> list[Finding]:
         """Its limits that count, the violated ones first, then the tightest."""
-        return [one for one in ordered(limits_of(self.robot)) if one.counts and not one.is_note]
+        return tightest(limits_of(self.robot))
 
     @cached_property
     def figures(self) -> dict[str, float | None]:
         """Return `FIGURES` of the robot; None where it has none, as the way of one that stays on the ground."""
         train, jump = self.robot.layout.drive.train, self.jump
         way = jumps(self.robot, HOPS).metres_per_charge if jump.verdict == "jump" else None
-        found = {"electrical_energy_j": train.electrical_j, "winding_time_s": train.winding_s,
+        found = {"spring_stiffness_nm_per_rad": self.robot.spring.stiffness_nm_per_rad,
+                 "electrical_energy_j": train.electrical_j, "winding_time_s": train.winding_s,
                  "metres_per_charge": way, "cost_eur": bill_of_materials(self.robot).cost_eur}  # fmt: skip
         return {name: found[name] if name in found else getattr(jump, name) for name in FIGURES}
 
@@ -75,8 +78,9 @@ class ComparedRobot:
 
     @cached_property
     def values(self) -> dict[str, Any]:
-        """The eight numbers of its design and all values of its workshop, by name."""
-        return self.robot.design.model_dump() | leaves(self.robot.workshop.model_dump())
+        """The numbers of its design, without a stiffness that springs from stock do not have, and its workshop's."""
+        bought = {"stiffness_nmm_per_deg"} if self.robot.workshop.stock_spring else set()
+        return self.robot.design.model_dump(exclude=bought) | leaves(self.robot.workshop.model_dump())
 
 
 @dataclass(frozen=True)
@@ -121,7 +125,7 @@ class Comparison:
             figures = [one.figures[name] for one in self.robots]
             shown = ["–" if value is None else f"{factor * value:.{digits}f}" for value in figures]
             yield [f"{label} ({unit})", *shown]
-        yield ["tightest limit", *(f"{limit.name}, {used(limit)}" for limit in self.tightest)]
+        yield ["tightest that differs", *(f"{limit.name}, {used(limit)}" for limit in self.tightest)]
         yield ["violated limits", *(str(len(one.violated)) for one in self.robots)]
         for name, values in self.differs.items():
             yield [name, *("–" if value is None else f"{value:g}" if isinstance(value, float) else str(value)

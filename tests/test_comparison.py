@@ -72,3 +72,13 @@ def test_a_robot_of_a_study_is_that_of_its_trial(tmp_path: Path) -> None:
         first = store.trials()[0]
     found = jumpcad.compare([f"{study}#1", "kenan-2.0"], load_workshop())
     assert found.robots[0].robot.design == first.design
+
+
+@pytest.mark.usefixtures("checked_once")
+def test_springs_from_stock_are_compared_by_the_stiffness_that_they_have() -> None:
+    found = jumpcad.compare([built("kenan-2.0"), built("first-robot", "first-robot")])
+    bought = load_workshop("first-robot").stock_spring
+    assert bought is not None
+    (row,) = [row for row in found.rows() if row[0] == "springs' stiffness (N·mm/°)"]
+    assert row[1:] == ["9.20", f"{2.0 * bought.rate_nmm_per_deg:.2f}"]
+    assert found.differs["stiffness_nmm_per_deg"] == [9.2, None]

@@ -8,6 +8,7 @@ from jumpcad.findings import SHOWN_AS, Finding, errors
 from jumpcad.robot import Robot, carried
 
 JUST = "at the limit"
+SEVERITIES = ("error", "warning", "info")
 WIDEST = 1.25
 """Use at which a bar has its full length; longer bars are cut off."""
 AT_LIMIT = 5e-4
@@ -32,6 +33,7 @@ def limit_values(findings: Sequence[Finding]) -> dict[str, Any]:
     just_kept = [finding for finding in without if used(finding) == JUST]
     return {
         "violated": violated,
+        "tightest": tightest(findings),
         "violation": violation(findings),
         "violated_class": "error" if errors(violated) else "warning",
         "kept": [finding for finding in kept if finding.use is not None],
@@ -60,10 +62,19 @@ def counted_limits(findings: Iterable[Finding]) -> int:
 
 
 def ordered(findings: Iterable[Finding]) -> list[Finding]:
-    """Return the violated limits, then the others; each from the highest use on, then what has no use."""
+    """Return errors, then warnings, then the others; each from the highest use on.
+
+    What has no use comes last; but with a margin of almost 0, it counts as wholly used.
+    """
     return sorted(
-        findings, key=lambda one: (one.severity == "info", one.use is None, -(one.use or 0.0), used(one) != JUST)
+        findings,
+        key=lambda one: (SEVERITIES.index(one.severity), -(one.use if one.use is not None else used(one) == JUST)),
     )
+
+
+def tightest(findings: Iterable[Finding]) -> list[Finding]:
+    """Return the limits that count as `ordered`: what check, compare, report and studio name first."""
+    return [one for one in ordered(findings) if one.counts and not one.is_note]
 
 
 def used(finding: Finding) -> str:

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from jumpcad.findings import Finding
     from jumpcad.simulation import Jump
 
-SEVERITIES = ("error", "warning", "info")
 STYLES = {"error": "bold red", "warning": "yellow", "info": "green"}
 WORDS = {"error": "error", "warning": "warning", "info": "holds"}
 TIGHT = 0.8
@@ -60,7 +59,7 @@ def check(
     """
     from jumpcad.building import build
     from jumpcad.building.bom import bill_of_materials
-    from jumpcad.bundle.limits import counted_limits, limits_of
+    from jumpcad.bundle.limits import counted_limits, limits_of, ordered
     from jumpcad.checks import basis_of
     from jumpcad.design import load_design
     from jumpcad.errors import CannotBuildError
@@ -84,7 +83,7 @@ def check(
     limits = limits_of(robot)
     known = {finding.name for finding in limits}
     found = [*limits, *(finding for finding in errors(jump.findings) if finding.name not in known)]
-    findings = remedies.of_findings(sorted(found, key=_order))
+    findings = remedies.of_findings(ordered(found))
     count = counted_limits(findings)
     if explain:
         findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]
@@ -132,19 +131,15 @@ def margin_in_words(finding: "Finding") -> str:
     return f"{margin:+.3g} {unit}".rstrip()
 
 
-def _order(finding: "Finding") -> tuple[int, float]:
-    """Return the key by which findings are sorted: severity, then use, largest first."""
-    use = finding.use
-    return SEVERITIES.index(finding.severity), -(float(is_tight(finding)) if use is None else use)
-
-
 def _unknown(name: str) -> "JumpcadError":
     from jumpcad.checks import CHECKS
     from jumpcad.errors import JumpcadError
     from jumpcad.files import did_you_mean
 
     known = [name for one in CHECKS for name in one.basis]
-    return JumpcadError(f"no check makes a finding {name!r}{did_you_mean(name, known)}: jumpcad check --all lists them")
+    return JumpcadError(
+        f"no check makes a finding {name!r}{did_you_mean(name, known)}: jumpcad check DESIGN --all lists them"
+    )
 
 
 def _print_explained(name: str, findings: "list[Finding]") -> None:

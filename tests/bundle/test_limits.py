@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from jumpcad.bundle.limits import limit_values, ordered, violation
+from jumpcad.bundle.limits import limit_values, ordered, tightest, violation
 from jumpcad.files.rendering import fill
 from jumpcad.findings import Finding, at_least, at_most, bare, limit
 
@@ -54,15 +54,17 @@ def test_what_has_no_share_is_folded_unless_it_is_just_kept() -> None:
 
 
 def test_the_worst_limit_stands_first() -> None:
-    """Violated ones by their use, then kept ones; without a share last, of these what is just kept first."""
+    """Errors by their use, then warnings, then kept ones; without a share last, but for what is just kept."""
     in_order = [
-        at_most("twice", 2.0, 1.0, "mm", "", ""), at_most("more", 1.1, 1.0, "mm", "", "", violated="warning"),
-        limit("violated", -1.0, "mm", "", ""), at_most("tight", 0.9, 1.0, "mm", "", ""),
-        at_most("loose", 0.1, 1.0, "mm", "", ""), limit("just", 1e-4, "mm", "", ""), limit("far", 3.0, "mm", "", ""),
+        at_most("twice", 2.0, 1.0, "mm", "", ""), limit("violated", -1.0, "mm", "", ""),
+        at_most("more", 2.1, 1.0, "mm", "", "", violated="warning"), limit("just", 1e-4, "mm", "", ""),
+        at_most("tight", 0.9, 1.0, "mm", "", ""), at_most("loose", 0.01, 1.0, "mm", "", ""),
+        limit("far", 3.0, "mm", "", ""),
     ]  # fmt: skip
+    assert [one.name for one in tightest(in_order[::-1])] == ["twice", "violated", "more", "just", "tight", "far"]
     assert ordered(in_order[::-1]) == in_order
-    assert violation(in_order) == "3 of its 7 limits are violated: do not build it as it is"
-    warned = [in_order[1], *in_order[3:]]
-    assert violation(warned) == "1 of its 5 limits is violated: it can be built, but read the warnings first"
+    assert violation(in_order) == "3 of its 6 limits are violated: do not build it as it is"
+    warned = [in_order[2], *in_order[3:]]
+    assert violation(warned) == "1 of its 4 limits is violated: it can be built, but read the warnings first"
     assert violation(in_order[3:]) == ""
     assert violation([bare("one", "error", 0.0, "")]) == "1 of its 1 limits is violated: do not build it as it is"
