@@ -290,7 +290,7 @@ def of_landings() -> dict[str, str]:
         )  # fmt: skip
     head = ("design", "turn", "pitch at touchdown", "bar", "step", "rests after", "mostly on",
             "stands when wound again", "stable poses on the feet")  # fmt: skip
-    series = jumps(build(load_design(JUMPER), load_workshop(own_workshop(JUMPER))), 10)
+    series = jumps(build(load_design(JUMPER), load_workshop(own_workshop(JUMPER)), JUMPER), 10)  # its name is engraved
     charge = f"{series.jumps_per_charge} jumps, {series.metres_per_charge:.0f} m"
     return {"landings": table(head, rows), "charge": charge}
 

@@ -156,7 +156,8 @@ def table(*headings: str, wraps: str = "", **options: Any) -> "Table":
 
 @contextlib.contextmanager
 def status(doing: str) -> Iterator[Callable[[str], None]]:
-    """Show on standard error what is being done: always on a terminal, else one line per minute.
+    """Show on standard error what is being done: always on a terminal, else a line a minute
+    where it has changed.
 
     Yields a function that changes the text.
     """

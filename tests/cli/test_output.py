@@ -4,10 +4,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from support.commands import Run
 
+from jumpcad.cli.output import _log
 from jumpcad.design import load_design
 from jumpcad.errors import without_controls
 
@@ -18,6 +20,12 @@ SURROUNDINGS = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYT
 """Buffered, as for most people: errors come when the buffer is written."""
 
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
+
+
+def test_what_is_being_done_is_logged_once(capsys: pytest.CaptureFixture[str]) -> None:
+    texts, minutes = ["a"], iter((False, False, True))
+    _log(texts, SimpleNamespace(wait=lambda _: next(minutes)))  # type: ignore[arg-type]
+    assert capsys.readouterr().err == "jumpcad: a\n"
 
 
 def called(*arguments: str, shell: str = "", folder: Path, **environment: str) -> tuple[int, str, str]:
