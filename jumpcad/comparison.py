@@ -197,6 +197,8 @@ def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot
         points = Points(Path(file))
         trial = points.trial(int(number))
         return build(trial.design, points.workshop_of(trial), f"{Path(file).stem}-{number}")
+    if str(one).endswith(".db"):
+        raise JumpcadError(f"{one}: is a study; a trial of it is named by its number, as in {one}#28")
     if os.path.isdir(one) and str(one) not in template_names("robots"):
         bundle = open_bundle(one)
         return build(kept_design(bundle), kept_workshop(bundle), bundle.name)

@@ -52,6 +52,7 @@ def test_a_trial_is_named_by_its_number(tmp_path: Path) -> None:
     for wrong, words in (
         ((f"{study}#9", "kenan-2.0"), "has no trial 9: its trials are 1 to 4"),
         ((f"{study}#first", "kenan-2.0"), "a trial is named by its number"),
+        ((str(study), "kenan-2.0"), f"a trial of it is named by its number, as in {study}#28"),
         (("kenan-2.0",), "two robots or more, not 1"),
         (("kenan-2.0", "kenan-3.0"), "kenan-3.0"),
     ):

@@ -66,7 +66,7 @@ def _new_design(file: Path, template: str, as_json: bool) -> None:
 def _new_workshop(file: Path, base: str | None, printer: str | None, material: str | None, as_json: bool) -> None:
     from jumpcad.cli.commented import commented_workshop
     from jumpcad.files.outputs import write_atomically
-    from jumpcad.workshop import DEFAULT, load_workshop
+    from jumpcad.workshop import DEFAULT, load_workshop, own_workshop
 
     base = DEFAULT if base is None else base
     workshop, name = load_workshop(base, printer, material), without_controls(str(file))
@@ -74,5 +74,6 @@ def _new_workshop(file: Path, base: str | None, printer: str | None, material: s
     if as_json:
         print_json({"file": str(file), "workshop": workshop.model_dump(exclude_none=True)})
     else:
-        use = f"jumpcad check {TEMPLATE} --workshop {shell_quoted(str(file))}"
+        design = base if own_workshop(base) == base != DEFAULT else TEMPLATE
+        use = f"jumpcad check {design} --workshop {shell_quoted(str(file))}"
         print(f"{name}: a copy of {without_controls(base)}; try: {use}")

@@ -128,7 +128,8 @@ def explore(
         print_json({"view": view, "model": options.model, "objective": objective.name} | data)
     else:
         reasons = Counter(reason for line in data.get("verdicts", ()) for reason in line)
-        print_text("explore", view=view, **data, total=total, counts=reasons.most_common(), counted=counted)
+        words = {"model": options.model, "base": AROUND if around is None else around, "objective": objective.name}
+        print_text("explore", view=view, **data, **words, total=total, counts=reasons.most_common(), counted=counted)
 
 
 Found = tuple[dict[str, Any], dict[str, Callable[[], Any]]]

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, shell_quoted, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, complain, print_json, print_text, shell_quoted, status
 from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_search_options
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
 from jumpcad.errors import without_controls
 from jumpcad.plural import counted
-from jumpcad.search.phases import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
+from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
@@ -54,7 +54,7 @@ UntilOption = Annotated[
         metavar="PERCENT",
     ),
 ]
-HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
+HoursOption = Annotated[float, typer.Option(help="End the search after this time, 0: never; the same command goes on.")]
 AgainstOption = Annotated[
     str | None,
     typer.Option(
@@ -75,6 +75,9 @@ RequireOption = Annotated[
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
+
+
+NO_PICK = f"none of fewer than {4 * LEAST_PICK}"
 
 
 @with_search_options
@@ -153,7 +156,12 @@ def optimize(
         for request, path in zip(requests, paths, strict=True):
             with watching(evaluations, as_json) as watch:
                 headed = watch if as_json else _headed(_heading(request, path), watch)
-                results.append(run_study(request, path, pool, headed))
+                try:
+                    results.append(run_study(request, path, pool, headed))
+                except KeyboardInterrupt:
+                    if path.exists():
+                        complain(f"{path} keeps all evaluations that ended; the same command goes on", 1)
+                    raise
     chosen = most_robust(results)
     result, path, facts = results[chosen], paths[chosen], seeds_facts(results, paths) if asked else None
     if result.winner is not None:
@@ -198,7 +206,7 @@ def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
 def _heading(request: "Request", path: Path) -> str:
     """Return what is printed before a search."""
     name = request.model.describe()["name"]
-    free, pick = request.space.dimension, f", {request.pick} for the robust pick" if request.pick else ""
+    free, pick = request.space.dimension, f", {request.pick or NO_PICK} for the robust pick"
     study = f"study {without_controls(str(path))}: {request.method} on the {name} robot, free parameters: {free}"
     return f"{study}\nevaluations: {request.searched} for the search{pick}"
 

@@ -269,10 +269,11 @@ def moving_obstacles(layout: Layout) -> list[Obstacle]:
 
 
 def _require_legs_apart(linkage: Linkage, sections: Sections, gap_mm: float) -> None:
-    room = legs_apart_mm(linkage, sections) - gap_mm
-    if room < 0:
+    apart_mm = legs_apart_mm(linkage, sections)
+    if (room := apart_mm - gap_mm) < 0:
+        lie = "overlap by" if apart_mm < 0 else "come as near as"
         raise CannotBuildError(
-            f"main leg and front link come {shortfall(room)} nearer than the {gap_mm:g} mm that they need between them"
-            ": lower compression_ratio, or raise d_coef or rest_angle_deg",
+            f"main leg and front link {lie} {abs(apart_mm):.2g} mm; {gap_mm:g} mm between them are needed, "
+            f"{shortfall(room)} more than there is: lower compression_ratio, or raise d_coef or rest_angle_deg",
             "legs_apart", room,
         )  # fmt: skip

@@ -103,7 +103,7 @@ CASES: dict[str, tuple[Design, Workshop, str]] = {
     ),
     "legs meet": (
         Design.from_vector([105.3, 1.035, 0.57, 1.21, 0.756, 46.9, 5.2, 14.5]), changed(),
-        r"main leg and front link come \d\.\d mm nearer than the 0\.8 mm .*: lower compression_ratio, or raise d_coef",
+        r"main leg and front link overlap by [\d.]+ mm; 0\.8 mm .*: lower compression_ratio, or raise d_coef",
     ),
     "no spring": (
         KENAN.model_copy(update={"stiffness_nmm_per_deg": 120.0}), changed(),

@@ -20,7 +20,8 @@ def test_views_of_the_space(folder):
     for view, options in views.items():
         found = data("explore", view, *QUICK, *options, "--plots", "pics")
         assert all(Path(picture).is_file() for picture in found["pictures"])
-    head, *rows = run("explore", "sweep", *QUICK, "--points", 3).splitlines()
+    base, head, *rows = run("explore", "sweep", *QUICK, "--points", 3).splitlines()
+    assert base.endswith("the others are those of best-bo")
     assert re.match(r"parameter +unit +values +score in body lengths +best at +feasible$", head)
     assert re.search(r"^rest_angle_deg +° +20 … 70 +\d+\.\d+ … +\d+\.\d+  (20|45|70) +\d of 3$", "\n".join(rows), re.M)
     assert "they say nothing about the robot" in run("explore", "pca", *QUICK, "--samples", 80)
