@@ -117,7 +117,7 @@ def test_the_settings_and_the_engine_are_passed_on() -> None:
         (KENAN.model_copy(update={"c_coef": 1.5, "d_coef": 0.3}), "loop: "),
         (KENAN.model_copy(update={"c_coef": 1.03, "d_coef": 0.5, "compression_ratio": 0.8}), "below_ground: "),
         (KENAN.model_copy(update={"stiffness_nmm_per_deg": 120.0}), "no wire of "),
-        (Design.from_vector([105.3, 1.035, 0.57, 1.21, 0.756, 46.9, 5.2, 14.5]), "main leg and front link come "),
+        (Design.from_vector([105.3, 1.035, 0.57, 1.21, 0.756, 46.9, 5.2, 14.5]), "main leg and front link overlap by "),
     ],
 )
 def test_what_cannot_be_built_is_refused_by_name(design: Design, reason: str) -> None:
