@@ -20,7 +20,6 @@ import viser
 from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.studio.answers import capsule_answer, printed_answer
 from jumpcad.studio.stage import StudioStage
-from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import load_workshop
 
 TEMPLATES = ("kenan-2.0", "best-printable")
@@ -70,7 +69,7 @@ def _step(design: Design, stage: StudioStage, workshop: Any) -> dict[str, Any]:
     sent = None
     if found.robot is not None:
         with stage.server.atomic():
-            sent = stage.show(found.robot, wrong_parts(found.findings))
+            sent = stage.show(found.robot, found.wrong_parts)
         stage.server.flush()
     times.append(_clocks())
     assert words
