@@ -39,7 +39,7 @@ FIGURES = {
     "turn_deg": ("turn forwards", "°", 1.0, 0),
     "mass_kg": ("mass", "g", 1000.0, 1),
     "spring_energy_j": ("spring energy", "mJ", 1000.0, 0),
-    "spring_stiffness_nm_per_rad": ("springs' stiffness", "N·mm/°", 1000.0 * math.pi / 180.0, 2),
+    "spring_stiffness_nm_per_rad": ("stiffness", "N·mm/°", 1000.0 * math.pi / 180.0, 2),
     "electrical_energy_j": ("energy of a jump", "J", 1.0, 2),
     "winding_time_s": ("winding", "s", 1.0, 1),
     "metres_per_charge": ("metres per charge", "m", 1.0, 1),
@@ -125,10 +125,11 @@ class Comparison:
             figures = [one.figures[name] for one in self.robots]
             shown = ["–" if value is None else f"{factor * value:.{digits}f}" for value in figures]
             yield [f"{label} ({unit})", *shown]
-        yield ["tightest that differs", *(f"{limit.name}, {used(limit)}" for limit in self.tightest)]
+        yield ["tightest that differs", *(limit.name for limit in self.tightest)]
+        yield ["how tight", *map(used, self.tightest)]
         yield ["violated limits", *(str(len(one.violated)) for one in self.robots)]
         for name, values in self.differs.items():
-            yield [name, *("–" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+            yield [name, *("–" if value in (None, "") else f"{value:g}" if isinstance(value, float) else str(value)
                            for value in values)]  # fmt: skip
 
     def to_dict(self) -> dict[str, Any]:

@@ -80,6 +80,6 @@ def test_springs_from_stock_are_compared_by_the_stiffness_that_they_have() -> No
     found = jumpcad.compare([built("kenan-2.0"), built("first-robot", "first-robot")])
     bought = load_workshop("first-robot").stock_spring
     assert bought is not None
-    (row,) = [row for row in found.rows() if row[0] == "springs' stiffness (N·mm/°)"]
+    (row,) = [row for row in found.rows() if row[0] == "stiffness (N·mm/°)"]
     assert row[1:] == ["9.20", f"{2.0 * bought.rate_nmm_per_deg:.2f}"]
     assert found.differs["stiffness_nmm_per_deg"] == [9.2, None]

@@ -51,7 +51,7 @@ def compare(
 
 
 def _print(found: "Comparison", output: Path) -> None:
-    figures = table("", *(f">{without_controls(one.label)}" for one in found.robots))
+    figures = table("", *(f">{without_controls(one.label)}" for one in found.robots), collapse_padding=True)
     for row in found.rows():
         figures.add_row(*row)
     for column in figures.columns:
