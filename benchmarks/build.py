@@ -17,6 +17,7 @@ from itertools import pairwise
 from pathlib import Path
 from time import process_time
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
@@ -43,7 +44,9 @@ def once(name: str) -> dict[str, float]:
     from jumpcad import beside, simulation
     from jumpcad.building import growth as building
     from jumpcad.bundle import export as bundle
+    from jumpcad.bundle.renders import all_pictures
     from jumpcad.design import load_design
+    from jumpcad.exporters.registry import chosen
     from jumpcad.mechanism.capsule import capsule_robot
 
     beside.cores = lambda: 1  # one thing after the other, in this process
@@ -61,10 +64,12 @@ def once(name: str) -> dict[str, float]:
 
         return call
 
-    chosen = bundle.chosen
-    bundle.chosen = lambda names: [replace(one, files=timed(STAGES[one.name], one.files)) for one in chosen(names)]
-    bundle.all_pictures = timed("pictures", bundle.all_pictures)
-    with tempfile.TemporaryDirectory() as folder:
+    exporters = [replace(one, files=timed(STAGES[one.name], one.files)) for one in chosen()]
+    with (
+        patch.object(bundle, chosen.__name__, lambda _names: exporters),
+        patch.object(bundle, all_pictures.__name__, timed("pictures", all_pictures)),
+        tempfile.TemporaryDirectory() as folder,
+    ):
         bundle.export(robot, Path(folder) / name)
     passed("documents")
     for one in (robot, capsule_robot(robot.design)):

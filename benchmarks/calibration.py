@@ -23,7 +23,7 @@ from jumpcad.calibration.prediction import Prediction
 from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, modelled_mass
 from jumpcad.calibration.subject import Subject
 from jumpcad.calibration.surface import ENERGY
-from jumpcad.calibration.video import seen_takeoff
+from jumpcad.calibration.video import TakeoffSeen, seen_takeoff
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump, simulate
@@ -50,7 +50,7 @@ def hidden(subject: Subject, rng: np.random.Generator) -> tuple[dict[str, float]
         "floor": FLOOR,
     }
     while True:
-        true = {name: float(prior.at(rng.standard_normal())) for name, prior in priors.items()}
+        true = {name: float(prior.at(np.array(rng.standard_normal()))) for name, prior in priors.items()}
         energy = true["spring_efficiency"] * true["rate"] / true["mass"]
         settings = Settings(pin_friction=true["pin_friction"], ground_friction=true["floor"])
         jump = simulate(with_spring_factor(subject.robot, energy), settings, "planar")
@@ -75,7 +75,7 @@ def measured(subject: Subject, true: dict[str, float], jump: Jump, plan: int, rn
         "design": subject.measured.design, "source": "synthetic", "release": "dog",
         "jumps": ({"distance_mm": tuple(np.exp(logs).tolist()), "distance_of": "centre-of-mass"},),
     }  # fmt: skip
-    seen = ()
+    seen: tuple[TakeoffSeen, ...] = ()
     if plan >= 1:
         scale = 1.0 + SCALE_SHARE * rng.standard_normal()
         data["mass"] = {"robot_g": 1000.0 * subject.robot.mass_kg * true["mass"] * scale}

@@ -59,7 +59,7 @@ def drag_loss(jump: Jump) -> float:
     assert jump.takeoff_speed_m_s is not None
     assert jump.takeoff_angle_deg is not None
     angle = math.radians(jump.takeoff_angle_deg)
-    ranges = []
+    ranges: list[float] = []
     for area in (0.0, DRAG_AREA_M2):
         velocity = jump.takeoff_speed_m_s * np.array([math.cos(angle), math.sin(angle)])
         place = np.zeros(2)
@@ -68,7 +68,7 @@ def drag_loss(jump: Jump) -> float:
             change = STEP_S * (np.array([0.0, -GRAVITY_M_S2]) - drag)
             place = place + STEP_S * (velocity + 0.5 * change)
             velocity = velocity + change
-        ranges.append(place[0])
+        ranges.append(float(place[0]))
     return 100.0 * (1.0 - ranges[1] / ranges[0])
 
 
@@ -126,12 +126,14 @@ def computed(folder: Path | None = None) -> dict[str, Any]:
     }
     jumps = {name: simulate(robot, Settings(), "planar") for name, robot in robots.items()}
     accounts = {name: jump.energy_account_j or {} for name, jump in jumps.items()}
-    floors = {}
+    floors: dict[str, tuple[Array, Array]] = {}
     for name in SWEPT:
         found = [simulate(robots[name], Settings(ground_friction=float(at)), "planar") for at in FRICTIONS]
-        floors[name] = tuple(
-            np.array([getattr(jump, key) or np.nan for jump in found]) for key in ("ballistic_range_m", "com_rise_m")
+        ranges, rises = (
+            [jump.ballistic_range_m or np.nan for jump in found],
+            [jump.com_rise_m or np.nan for jump in found],
         )
+        floors[name] = np.array(ranges), np.array(rises)
     if folder:
         save_figure(energy_accounts(accounts), folder, "energy-account")
         save_figure(floor_figure(FRICTIONS.tolist(), floors), folder, "floor-friction")

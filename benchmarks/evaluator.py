@@ -7,6 +7,7 @@ are timed: a rejected one costs the checks alone. Run `python benchmarks/evaluat
 import argparse
 import json
 from collections.abc import Callable
+from functools import partial
 from time import process_time
 
 import numpy as np
@@ -17,7 +18,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.simulation import load_settings, simulate
+from jumpcad.simulation import Jump, Settings, load_settings, simulate
 from jumpcad.simulation.bullet import BulletEngine
 from jumpcad.simulation.run import Run
 
@@ -49,10 +50,12 @@ def cpu_ms(call: Callable[[], object]) -> float:
 
 def speeds(designs: list[Design], rounds: int) -> dict[str, dict[str, float]]:
     """Return the CPU time of every model, each the median over designs of the median over rounds."""
+
+    def simulated(settings: Settings, design: Design) -> Jump:
+        return simulate(capsule_robot(design), settings)
+
     models: dict[str, Callable[[Design], object]] = {"published": published.simulate}
-    for preset in PRESETS:
-        settings = load_settings(preset)
-        models[preset] = lambda design, settings=settings: simulate(capsule_robot(design), settings)
+    models |= {preset: partial(simulated, load_settings(preset)) for preset in PRESETS}
     times = np.array(
         [
             [[cpu_ms(lambda: model(design)) for model in models.values()] for design in designs]  # noqa: B023
@@ -115,25 +118,21 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     arguments = parser.parse_args()
     designs = jumping_designs(DESIGNS)
-    result = {
-        "designs": len(designs),
-        "speed": speeds(designs, arguments.rounds),
-        "range_error_percent": range_errors(designs),
-        "default_ms": shares(designs, arguments.rounds),
-    }
+    speed, off, spent = speeds(designs, arguments.rounds), range_errors(designs), shares(designs, arguments.rounds)
     if arguments.json:
+        result = {"designs": len(designs), "speed": speed, "range_error_percent": off, "default_ms": spent}
         print(json.dumps(result, indent=2))
         return
     print(f"{len(designs)} designs that jump, {arguments.rounds} rounds, models in turn; medians of CPU time")
     print(f"{'model':<12}{'ms':>8}{'faster':>9}{'in total':>10}   error of range against fine, median / p90 / max")
-    for name, speed in result["speed"].items():
-        error = result["range_error_percent"].get(name)
+    for name, one in speed.items():
+        error = off.get(name)
         shown = " / ".join(f"{value:.2f}" for value in error.values()) + " %" if error else "does not converge"
         print(
-            f"{name:<12}{speed['cpu_ms']:>8.2f}{speed['times_faster']:>8.1f}x{speed['times_faster_in_total']:>9.1f}x"
+            f"{name:<12}{one['cpu_ms']:>8.2f}{one['times_faster']:>8.1f}x{one['times_faster_in_total']:>9.1f}x"
             f"   {shown}"
         )
-    print("default, ms: " + ", ".join(f"{name} {value:.2f}" for name, value in result["default_ms"].items()))
+    print("default, ms: " + ", ".join(f"{name} {value:.2f}" for name, value in spent.items()))
 
 
 if __name__ == "__main__":

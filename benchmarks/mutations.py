@@ -38,6 +38,8 @@ def mutants(source: bytes) -> Iterator[tuple[int, bytes]]:
         starts.append(starts[-1] + len(line))
 
     def span(node: ast.expr) -> tuple[int, int]:
+        assert node.end_lineno is not None
+        assert node.end_col_offset is not None
         return starts[node.lineno - 1] + node.col_offset, starts[node.end_lineno - 1] + node.end_col_offset
 
     def replaced(start: int, end: int, text: str) -> tuple[int, bytes]:

@@ -24,7 +24,6 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import statics_findings
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.robot import Robot
 from jumpcad.simulation import load_settings, simulate
 from jumpcad.simulation.planar import PlanarWorld
 
@@ -38,7 +37,7 @@ SLIDING_OF = 5
 """Robots that are tried for every one that slides and jumps."""
 
 
-def of_table() -> Iterator[tuple[Robot, str, float | None]]:
+def of_table() -> Iterator[tuple[Mechanism, str, float | None]]:
     """Yield the robots of the table of reference flights, with verdict and range."""
     with (TESTS / "data" / "reference_flights.csv").open(encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -46,12 +45,12 @@ def of_table() -> Iterator[tuple[Robot, str, float | None]]:
             yield robot, row["verdict"], float(row["ballistic_range_m"]) if row["ballistic_range_m"] else None
 
 
-def robots_of(make: Callable[[Design], Robot], count: int) -> list[Robot]:
+def robots_of(make: Callable[[Design], Mechanism], count: int) -> list[Mechanism]:
     """Return the templates and random designs as robots that pass the gate."""
     rng = np.random.default_rng(12)
     lower, upper = np.transpose([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()])
     designs = [load_design(name) for name in template_names("robots")][:count]
-    robots: list[Robot] = []
+    robots: list[Mechanism] = []
     while len(robots) < count:
         design = designs.pop(0) if designs else Design.from_vector(rng.uniform(lower, upper).tolist())
         try:
@@ -131,7 +130,7 @@ def speeds(rounds: int) -> dict[str, dict[str, float]]:
     """Return CPU times on the table's jumps, medians over designs and rounds, and how much faster than the study's."""
     robots = [robot for robot, known, _ in of_table() if known == "jump"]
     fine, default = ({robot.design: PlanarWorld(robot, settings) for robot in robots} for settings in (FINE, DEFAULT))
-    calls: dict[str, Callable[[Robot], object]] = {
+    calls: dict[str, Callable[[Mechanism], object]] = {
         "published": lambda robot: published.simulate(robot.design),
         "pybullet": lambda robot: simulate(robot, DEFAULT),
         "planar": lambda robot: simulate(robot, DEFAULT, "planar"),

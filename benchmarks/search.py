@@ -18,6 +18,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from itertools import accumulate
 
 import numpy as np
 import numpy.typing as npt
@@ -45,9 +46,11 @@ def random_search(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     evaluator.evaluate([SPACE.to_design(point) for point in points], "sample", 0)
 
 
-def stage(evaluator: Evaluator, method: str, seed: int, evaluations: int, initial: int = 0, **options: str) -> Stage:
+def stage(
+    evaluator: Evaluator, method: str, seed: int, evaluations: int, initial: int = 0, preset: str = "recommended"
+) -> Stage:
     """Return what a method is asked for."""
-    asked = Request(SPACE, evaluator.model, evaluator.objective.name, method, evaluations, seed, **options)
+    asked = Request(SPACE, evaluator.model, evaluator.objective.name, method, evaluations, seed, preset)
     return Stage(asked, method, evaluations, initial)
 
 
@@ -126,7 +129,7 @@ def climb(method: Callable[..., None], seed: int, evaluations: int, model: Robot
     with StudyStore.write(None, {}) as store, local_pool(0) as pool:
         evaluator = Evaluator(Request(SPACE, model, model.default_objective), store, pool)
         method(evaluator, seed, evaluations)
-        return np.maximum.accumulate([trial.score or 0.0 for trial in evaluator.trials][:evaluations]).tolist()
+        return [*accumulate((trial.score or 0.0 for trial in evaluator.trials[:evaluations]), max)]
 
 
 def main() -> None:

@@ -5,7 +5,7 @@ the latter runs does it answer an interrupt in one line.
 """
 
 from jumpcad.lazy_exports import lazy_exports
-from jumpcad.version import __version__
+from jumpcad.version import __version__ as __version__
 
 TYPE_CHECKING = False  # type checkers take it for true; to import typing takes longer than all else here
 if TYPE_CHECKING:
@@ -38,6 +38,5 @@ if TYPE_CHECKING:
     from jumpcad.variation import variants as variants
     from jumpcad.workshop import Workshop as Workshop
     from jumpcad.workshop import load_workshop as load_workshop
-
-__getattr__, __dir__, _names = lazy_exports(__name__)
-__all__ = ["__version__", *_names]
+else:
+    __getattr__, __dir__, __all__ = lazy_exports(__name__)

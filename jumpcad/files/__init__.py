@@ -20,5 +20,5 @@ if TYPE_CHECKING:
     from jumpcad.files.templates import find_template as find_template
     from jumpcad.files.templates import template_names as template_names
     from jumpcad.files.templates import templates_folder as templates_folder
-
-__getattr__, __dir__, __all__ = lazy_exports(__name__)
+else:
+    __getattr__, __dir__, __all__ = lazy_exports(__name__)

@@ -48,5 +48,5 @@ if TYPE_CHECKING:
     from jumpcad.search.study.store import StudyStore as StudyStore
     from jumpcad.search.study.table import write_table as write_table
     from jumpcad.search.study.trial import Trial as Trial
-
-__getattr__, __dir__, __all__ = lazy_exports(__name__)
+else:
+    __getattr__, __dir__, __all__ = lazy_exports(__name__)

@@ -16,5 +16,5 @@ if TYPE_CHECKING:
     from jumpcad.simulation.simulator import simulate as simulate
     from jumpcad.simulation.uncertain import Uncertainty as Uncertainty
     from jumpcad.simulation.uncertain import uncertain_jump as uncertain_jump
-
-__getattr__, __dir__, __all__ = lazy_exports(__name__)
+else:
+    __getattr__, __dir__, __all__ = lazy_exports(__name__)
