@@ -220,7 +220,7 @@ def of_best_printable() -> dict[str, str]:
     """Return the figures of the template `best-printable` that need no search."""
     design, workshop = load_design("best-printable"), load_workshop("default")
     generator = np.random.default_rng(0)
-    model, score = PrintedModel(workshop), find_objective("fitness").score
+    model, score = PrintedModel(workshop=workshop), find_objective("fitness").score
     one, making = Variant(design), model.making
     neighbours = [*making.varied(one, generator), *making.neighbours(one, generator)]
     refused = sum(score(model(neighbour.design, neighbour.workshop)) is None for neighbour in neighbours)

@@ -205,8 +205,8 @@ def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
 
 def _heading(request: "Request", path: Path) -> str:
     """Return what is printed before a search."""
-    name = request.model.describe()["name"]
-    free, pick = request.space.dimension, f", {request.pick or NO_PICK} for the robust pick"
+    name, free = request.model.name, request.space.dimension
+    pick = f", {request.pick or NO_PICK} for the robust pick"
     study = f"study {without_controls(str(path))}: {request.method} on the {name} robot, free parameters: {free}"
     return f"{study}\nevaluations: {request.searched} for the search{pick}"
 

@@ -229,7 +229,7 @@ def _start(evaluator: Evaluator, around: Design) -> Variant:
     """Return a design in the model's workshop, with the values that the space varies or fixes."""
     held: dict[str, Value] = {}
     for parameter in evaluator.space.of_workshop:
-        workshop = getattr(evaluator.model, "workshop", None) or load_workshop()
+        workshop = evaluator.model.workshop or load_workshop()
         held[parameter.name] = workshop_value(workshop, parameter.name)
         if not parameter.free:
             held[parameter.name] = parameter.value(parameter.lower)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from jumpcad.arguments import check_arguments, check_fields
 from jumpcad.building.refusal import statics_refusal
@@ -44,16 +44,32 @@ LENGTH_MM = 0.2
 """Error of a link's length of a robot that is made in no workshop; judgement."""
 
 
+@dataclass(frozen=True, repr=False, kw_only=True)
 class RobotModel:
-    """A picklable function from design to evaluation: geometric checks, then what the class of a robot does."""
+    """A picklable, pure function from design to evaluation: geometric checks, then what the class of a robot does.
 
-    name: str
-    default_objective = "fitness"
+    Parameters
+    ----------
+    workshop, settings, engine
+        Where a printed robot is built, and how robots are simulated; the default ones if None.
+    requirements
+        What figures and limits must keep; those of the jump hold on slippery and on rough floors.
+    """
+
+    name: ClassVar[str]
+    figure_names: ClassVar[Sequence[str]] = PUBLISHED_FIGURES
+    """Names of the figures of a jump, as `jumpcad list figures` has them."""
+    default_objective: ClassVar[str] = "fitness"
     """What is searched for unless the user says something else: only a printed robot has a size."""
+    packages: ClassVar[Sequence[str]] = ()
+    """Packages whose versions decide an evaluation, besides numpy and the engine."""
     workshop: Workshop | None = None
     settings: Settings | None = None
     engine: str = "pybullet"
     requirements: tuple[Requirement, ...] = ()
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     def __repr__(self) -> str:
         return f"<RobotModel {self.name}, {self.engine}>"
@@ -79,11 +95,6 @@ class RobotModel:
         return Tolerances(LENGTH_MM)
 
     @property
-    def figure_names(self) -> Sequence[str]:
-        """Names of the figures of a jump, as `jumpcad list figures` has them."""
-        return PUBLISHED_FIGURES
-
-    @property
     def limit_names(self) -> Sequence[str]:
         """Names of the limits of which a search may require margins; `*` stands for the end of several."""
         return ()
@@ -99,7 +110,7 @@ class RobotModel:
         found = requirements_of(asked, [*self.figure_names, *self.limit_names])
         if not found:
             return self
-        if not isinstance(self, CapsuleModel | PrintedModel):
+        if isinstance(self, PublishedModel):
             raise JumpcadError(f"require: does not apply to the {self.name} robot; leave it out")
         return replace(self, requirements=found)
 
@@ -149,7 +160,7 @@ class RobotModel:
 
     def versions(self) -> dict[str, str]:
         """Return the versions of the packages that decide an evaluation, and the hash of this one's code."""
-        return {"jumpcad": __version__, "code": code_digest()} | versions("numpy", self.engine)
+        return {"jumpcad": __version__, "code": code_digest()} | versions("numpy", self.engine, *self.packages)
 
 
 @dataclass(frozen=True, repr=False)
@@ -172,24 +183,14 @@ class PublishedModel(RobotModel):
 class CapsuleModel(RobotModel):
     """The published masses as uniform capsules, simulated with some settings (the default ones if None)."""
 
-    settings: Settings | None = None
-    engine: str = "pybullet"
-    requirements: tuple[Requirement, ...] = ()
     name = "capsule"
-
-    def __post_init__(self) -> None:
-        check_fields(self)
+    figure_names = (*JUMP_FIGURES, FULL_FLIGHT)
 
     def admits(self, design: Design) -> bool:
         """Whether the robot stands and its springs are strong enough, too."""
         from jumpcad.mechanism.capsule import capsule_robot
 
         return super().admits(design) and not errors(statics_findings(capsule_robot(design)))
-
-    @property
-    def figure_names(self) -> Sequence[str]:
-        """Names of the figures of a jump."""
-        return [*JUMP_FIGURES, FULL_FLIGHT]
 
     def _evaluated(self, design: Design) -> Evaluation:
         from jumpcad.mechanism.capsule import capsule_robot
@@ -205,27 +206,18 @@ class PrintedModel(RobotModel):
 
     Parameters
     ----------
-    workshop, settings, engine
-        Where it is built, and how it is simulated; the default ones if None.
-    requirements
-        What figures and limits must keep; those of the jump hold on slippery and on rough floors.
     stand_in
         Whether the evaluation has the figures from which other robots are estimated.
     perturbation
         What is made otherwise than designed, by the keys of `tolerances`.
     """
 
-    workshop: Workshop | None = None
-    settings: Settings | None = None
-    engine: str = "pybullet"
-    requirements: tuple[Requirement, ...] = ()
     stand_in: bool = False
     perturbation: Mapping[str, Value] = field(default_factory=dict)
     name = "printed"
+    figure_names = (*FIGURES, FULL_FLIGHT)
     default_objective = "body_lengths"
-
-    def __post_init__(self) -> None:
-        check_fields(self)
+    packages = ("manifold3d", "trimesh")
 
     def __call__(self, design: Design, workshop: Mapping[str, Value] = NOTHING) -> Evaluation:
         """Evaluate a design, in the workshop with these values; values that do not go together are a verdict."""
@@ -281,11 +273,6 @@ class PrintedModel(RobotModel):
         return Tolerances(length, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
 
     @property
-    def figure_names(self) -> Sequence[str]:
-        """Names of the figures of an evaluation."""
-        return [*FIGURES, FULL_FLIGHT]
-
-    @property
     def limit_names(self) -> Sequence[str]:
         """Names of the limits that every evaluation checks."""
         from jumpcad.checks import CHECKS
@@ -312,7 +299,7 @@ class PrintedModel(RobotModel):
 
         Where it has no such figure, its fitness ranks the designs: it has no size but that of its links.
         """
-        quick = CapsuleModel(load_settings("screening"), self.estimate_engine)
+        quick = CapsuleModel(settings=load_settings("screening"), engine=self.estimate_engine)
         if not quick.admits(design):
             return -math.inf
         found = quick(design)
@@ -340,10 +327,6 @@ class PrintedModel(RobotModel):
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""
         return super().describe() | ({"stand_in": True} if self.stand_in else {})
-
-    def versions(self) -> dict[str, str]:
-        """Return the versions of the packages that decide an evaluation, those of solids too."""
-        return super().versions() | versions("manifold3d", "trimesh")
 
 
 @check_arguments
@@ -389,9 +372,9 @@ def robot_model(
         else load_settings("default" if settings is None else settings)
     )
     if name == "capsule":
-        return CapsuleModel(how, engine or default_engine())
+        return CapsuleModel(settings=how, engine=engine or default_engine())
     shop = workshop if isinstance(workshop, Workshop) else load_workshop(DEFAULT if workshop is None else workshop)
-    return PrintedModel(shop, how, engine or default_engine())
+    return PrintedModel(workshop=shop, settings=how, engine=engine or default_engine())
 
 
 def _figures(jump: Any) -> dict[str, float]:

@@ -105,7 +105,7 @@ class Points:
         """Return the workshop in which a trial's robot was made; raises as `workshop`."""
         if not trial.workshop:
             return self.workshop
-        return PrintedModel(self.workshop).varied(trial.workshop).workshop or self.workshop
+        return PrintedModel(workshop=self.workshop).varied(trial.workshop).workshop or self.workshop
 
     def require_built(self, number: int) -> None:
         """Reject a trial whose robot cannot be built.

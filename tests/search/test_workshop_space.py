@@ -128,7 +128,7 @@ def test_sweeps_start_from_the_model_s_workshop(evaluator):
 
 def test_values_that_do_not_go_together_are_a_verdict():
     design = load_design("best-printable")
-    found = PrintedModel(WORKSHOP)(design, {"process.layer_height_mm": 0.3, "printer.nozzle_mm": 0.25})
+    found = PrintedModel(workshop=WORKSHOP)(design, {"process.layer_height_mm": 0.3, "printer.nozzle_mm": 0.25})
     assert (found.verdict, found.feasible) == ("workshop", False)
     assert "nozzle" in found.detail
 

@@ -1,6 +1,8 @@
 """A model whose best design is known, and studies of it for pictures."""
 
 from jumpcad.design import Design
+from jumpcad.evaluation import FIGURES
+from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request
@@ -18,10 +20,12 @@ REST = [
 """All parameters are fixed but compression ratio and rest angle."""
 
 
-class Bump:
+class Bump(RobotModel):
     """A bump at a compression ratio of 0.5 and a rest angle of 50°, rejected beyond 0.7."""
 
-    digest = "bump"
+    name, digest = "bump", "bump"
+    figure_names = tuple(FIGURES)
+    quick_score = None
 
     def __call__(self, design: Design) -> Evaluation:
         if design.compression_ratio > 0.7:

@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
+from jumpcad.evaluation import FIGURES
 from jumpcad.findings import Finding
+from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import Evaluation
 
 TOP = {"rest_angle_deg": 55.0, "compression_ratio": 0.6, "stiffness_nmm_per_deg": 20.0}
@@ -26,7 +28,7 @@ def __getattr__(name: str) -> Any:
 
 
 @dataclass(frozen=True)
-class Hill:
+class Hill(RobotModel):
     """One smooth hill of height 10 at `TOP`, rejected (`loop`) where the compression ratio is above 0.7.
 
     Every evaluation is one line in `log`, if given.
@@ -35,6 +37,8 @@ class Hill:
     log: Path | None = None
     pause_s: float = 0.0
     name: str = "hill"
+    figure_names = tuple(FIGURES)
+    quick_score = None
 
     def __call__(self, design: Design) -> Evaluation:
         if self.log is not None:

@@ -34,4 +34,4 @@ class Quick(PrintedModel):
 def quick() -> Quick:
     """Return the model of these robots."""
     plain = robot_model(settings="default")
-    return Quick(plain.workshop, plain.settings, "pybullet", stand_in=True)
+    return Quick(workshop=plain.workshop, settings=plain.settings, stand_in=True)

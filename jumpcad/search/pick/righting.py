@@ -8,8 +8,7 @@ from jumpcad.building import build
 from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.landing.landing import land
-from jumpcad.search.models import RIGHTS_ITSELF, PrintedModel
-from jumpcad.search.study.objective import Model
+from jumpcad.search.models import RIGHTS_ITSELF, PrintedModel, RobotModel
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Count, Phase, Trial
 
@@ -33,7 +32,7 @@ class _Righting(TomlTable):
 _KIND = TypeAdapter(_Righting)
 
 
-def simulated_righting(model: Model, store: StudyStore, winner: Trial | None) -> dict[str, float]:
+def simulated_righting(model: RobotModel, store: StudyStore, winner: Trial | None) -> dict[str, float]:
     """Return the shares of drops and of own landings after which the winner stands, and keep them in the study.
 
     Empty where nobody asked, or there is no winner or no MuJoCo.

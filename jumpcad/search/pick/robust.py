@@ -116,7 +116,6 @@ def rank_candidates(
     evaluator: Evaluator,
     trials: Sequence[Trial],
     seed: int,
-    making: Tolerances,
     evaluations: int,
     run: int = 0,
 ) -> list[Candidate]:
@@ -130,8 +129,6 @@ def rank_candidates(
         The candidates are the best of the trials.
     seed
         Random seed of the neighbours.
-    making
-        Tolerances of making.
     evaluations
         At most so many designs are evaluated.
     run
@@ -143,7 +140,7 @@ def rank_candidates(
     for turn, (count, new) in enumerate(rounds if field else ()):  # nothing jumps
         ranked = _ranked(field, left)
         field, left = ranked[:count], ranked[count:]
-        _examine(evaluator, field, new, (run, turn), seed, making)
+        _examine(evaluator, field, new, (run, turn), seed)
     return [one.candidate() for one in _ranked(field, left) if one.examined]
 
 
@@ -202,14 +199,13 @@ class _Examined:
         return tenth(scores) if scores else self.trial.score or 0.0
 
 
-def _examine(
-    evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tuple[int, int], seed: int, making: Tolerances
-) -> None:
+def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tuple[int, int], seed: int) -> None:
     """Evaluate `new` more neighbours of each, in a run and step of the pick.
 
     A rejected one scores 0, or where some score is negative as far below the worst as the best is above it.
     """
     run, step = at
+    making = evaluator.model.making
     asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, making)]
     limit = 0 if evaluator.expired() else None
     found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step, limit, run=run)

@@ -95,10 +95,6 @@ class Tolerances:
         return [_made(one, design) if self.printed else replace(one, design=design) for design in designs]
 
 
-LENGTHS_ALONE = Tolerances(0.2)
-"""Of robots that are made in no workshop; judgement."""
-
-
 def varied_parameters(design: Design, generator: np.random.Generator) -> list[Design]:
     """Return designs with every parameter varied evenly within ±1 %, and within a design's limits."""
     factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)

@@ -8,8 +8,9 @@ from jumpcad.arguments import check_arguments
 from jumpcad.beside import A, T, shared
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
+from jumpcad.search.models import RobotModel
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import QUARANTINED, Evaluation, Model, Objective
+from jumpcad.search.study.objective import QUARANTINED, Evaluation, Objective
 from jumpcad.search.study.pool import Pool
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
@@ -78,7 +79,7 @@ class Evaluator:
         return self.request.aim
 
     @property
-    def model(self) -> Model:
+    def model(self) -> RobotModel:
         """What evaluates designs."""
         return self.request.model
 

@@ -4,12 +4,11 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import AfterValidator, ConfigDict, Field, PlainSerializer
 
 from jumpcad.arguments import check_arguments
-from jumpcad.design import Design
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, Severity, bare, errors
@@ -101,30 +100,6 @@ class Evaluation:
     def __repr__(self) -> str:
         outcome = "feasible" if self.feasible else f"rejected by {' '.join(self.reasons)[:80]}"
         return f"<Evaluation {self.verdict}: {outcome}, fitness {self.metrics.get('fitness', 0.0):.4g}>"
-
-
-@runtime_checkable
-class Model(Protocol):
-    """What evaluates designs: a picklable, pure function of the design.
-
-    One that is built in a workshop takes, as a second argument, values in which this differs; see `Variant`.
-    """
-
-    def __call__(self, design: Design, /) -> Evaluation:
-        """Evaluate a design. Raises `JumpcadError` only if no design would work."""
-
-    def admits(self, design: Design, /) -> bool:
-        """Whether a design is worth an evaluation, as far as that is known within microseconds."""
-
-    def describe(self) -> dict[str, Any]:
-        """Return all that decides an evaluation, as plain data."""
-
-    def versions(self) -> dict[str, str]:
-        """Return the versions of the packages that decide an evaluation."""
-
-    @property
-    def digest(self) -> str:
-        """A hash of description and versions."""
 
 
 @dataclass(frozen=True)

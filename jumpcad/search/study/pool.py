@@ -21,7 +21,8 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.interrupts import raise_if_seen
-from jumpcad.search.study.objective import QUARANTINED, Evaluation, Model
+from jumpcad.search.models import RobotModel
+from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.variant import Variant
 from jumpcad.search.study.worker import LocalWorkers, evaluate_one
 
@@ -87,7 +88,7 @@ class Pool:
             self._end(self._executor)
             self._executor = None
 
-    def evaluate(self, model: Model, designs: Sequence[Design | Variant]) -> Iterator[Outcome]:
+    def evaluate(self, model: RobotModel, designs: Sequence[Design | Variant]) -> Iterator[Outcome]:
         """Evaluate designs; outcomes come in the order in which they finish.
 
         Raises

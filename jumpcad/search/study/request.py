@@ -28,9 +28,8 @@ from jumpcad.search.phases import (
     UNTIL_PERCENT,
     Method,
 )
-from jumpcad.search.pick.tolerances import LENGTHS_ALONE, Tolerances
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import Model, Objective, find_objective
+from jumpcad.search.study.objective import Objective, find_objective
 from jumpcad.search.study.trial import Trial
 from jumpcad.search.study.versions import versions
 
@@ -50,8 +49,6 @@ class Request:
     ----------
     space, model, objective
         The space that is searched, the robot's model, and the name of the objective.
-    making
-        Tolerances of making, for the robust pick.
     own
         An own objective, which has the name `objective`; none if None.
     method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against
@@ -59,7 +56,7 @@ class Request:
     """
 
     space: Space
-    model: Model
+    model: RobotModel
     objective: str = "fitness"
     method: str = DEFAULT
     evaluations: int = EVALUATIONS
@@ -67,7 +64,6 @@ class Request:
     preset: str = "recommended"
     batch: int = 1
     prior: Path | None = None
-    making: Tolerances = LENGTHS_ALONE
     own: Objective | None = None
     until_percent: float = UNTIL_PERCENT
     hours: float = 0.0
@@ -100,11 +96,10 @@ class Request:
         own = aim if aim.code else None
         if isinstance(model, PrintedModel) and (others.get("screen") or method not in ("ga", "nsga2")):
             model = replace(model, stand_in=True)
-        return cls(space, model, aim.name, method or DEFAULT, making=model.making, own=own, against=against, **others)
+        return cls(space, model, aim.name, method or DEFAULT, own=own, against=against, **others)
 
     def __post_init__(self) -> None:
         check_fields(self)
-        _ = self.aim
         for name, kind, known in ((self.preset, "presets", PRESETS), (self.method, "methods", NAMES)):
             if name not in known:
                 hint = did_you_mean(name, known)
@@ -120,10 +115,9 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
-        if isinstance(self.model, RobotModel):
-            self.aim.require(self.model.figure_names)
-            if self.is_front and self.cost.of_design is None:
-                self.cost.figure.require(self.model.figure_names, "against")
+        self.aim.require(self.model.figure_names)
+        if self.is_front and self.cost.of_design is None:
+            self.cost.figure.require(self.model.figure_names, "against")
         if self.is_front and self.against == self.objective and not self.own:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
         if (
@@ -157,7 +151,7 @@ class Request:
     def title(self) -> str:
         """Method, robot and objective in words."""
         against = f" against {self.against}" if self.is_front else ""
-        return f"{self.method} on the {self.model.describe()['name']} robot, {self.objective}{against}"
+        return f"{self.method} on the {self.model.name} robot, {self.objective}{against}"
 
     @property
     def pick(self) -> int:
@@ -206,7 +200,7 @@ class Request:
             "preset": self.preset,
             "batch": self.batch,
             **({"screen": self.model.estimate_engine} if self.screen and isinstance(self.model, PrintedModel) else {}),
-            "making": asdict(self.making),
+            "making": asdict(self.model.making),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
         }

@@ -139,7 +139,7 @@ def _picked(request: Request, evaluator: Evaluator) -> tuple[list[Candidate], li
     if not request.is_front:
         share -= min(request.space.dimension, request.pick // 4)
     run = pick_run(store, len(trials), request.pick)
-    candidates = rank_candidates(evaluator, among, request.seed, request.making, share, run)
+    candidates = rank_candidates(evaluator, among, request.seed, share, run)
     if candidates and not request.is_front:
         left = request.pick - (len(evaluator.trials) - len(trials))
         bounds = active_bounds(evaluator, candidates[0].trial, left, run)

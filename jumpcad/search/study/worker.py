@@ -21,7 +21,8 @@ from jumpcad.blas_threads import ONE_THREAD, one_thread
 from jumpcad.errors import JumpcadError
 from jumpcad.gc_tuning import collect_seldom
 from jumpcad.interrupts import deferred_interrupts
-from jumpcad.search.study.objective import Evaluation, Model
+from jumpcad.search.models import RobotModel
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.variant import Variant
 
 
@@ -90,7 +91,7 @@ def evaluate_one(sent: bytes, one: Variant, limit_s: float) -> bytes:
 
 
 @lru_cache(maxsize=1)
-def _unpacked(sent: bytes) -> Model:
+def _unpacked(sent: bytes) -> RobotModel:
     """Return a pickled model; the same object for all tasks of a search.
 
     Raises
@@ -98,7 +99,7 @@ def _unpacked(sent: bytes) -> Model:
     JumpcadError
         If this machine has other versions than the one that asks.
     """
-    model: Model
+    model: RobotModel
     model, asked = cloudpickle.loads(sent)
     for name, version in model.versions().items():
         if version != asked[name]:

@@ -19,7 +19,7 @@ from jumpcad.search.pick.robust import (
     plan_rounds,
     rank_candidates,
 )
-from jumpcad.search.pick.tolerances import LENGTHS_ALONE, perturbed, varied_parameters
+from jumpcad.search.pick.tolerances import Tolerances, perturbed, varied_parameters
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
@@ -57,7 +57,7 @@ def test_a_plateau_beats_a_needle(evaluator):
     one = evaluator(model=Spiked())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": angle}) for angle in (60.0, 40.0, 30.0)], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)
+    ranked = rank_candidates(one, one.trials, seed=0, evaluations=200)
     assert [candidate.trial.score for candidate in ranked] == [5.0, 4.9, 9.0]
     assert ranked[-1].parameters_score < 5.0
     assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
@@ -68,7 +68,7 @@ def test_neighbours_follow_from_the_seed(evaluator):
     for seed in (0, 0, 1):
         one = evaluator()
         one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
-        rank_candidates(one, one.trials, seed=seed, making=LENGTHS_ALONE, evaluations=20)
+        rank_candidates(one, one.trials, seed=seed, evaluations=20)
         runs.append([trial.key for trial in one.trials if trial.phase == "robust"])
     assert len(runs[0]) >= 16
     assert runs[0] == runs[1]
@@ -81,7 +81,7 @@ def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
     needles = [centre.model_copy(update={"stiffness_nmm_per_deg": 6.0 + number}) for number in range(12)]
     plateau = centre.model_copy(update={"rest_angle_deg": 30.0})
     one.evaluate([*needles, plateau], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)
+    ranked = rank_candidates(one, one.trials, seed=0, evaluations=200)
     assert sum(candidate.trial.phase == "bo" for candidate in ranked) == 13
     assert ranked[0].trial.design == plateau
 
@@ -90,7 +90,7 @@ def test_refused_neighbours_count_nothing_and_are_named(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
     one.evaluate([edge], "bo", 0)
-    candidate = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)[-1]
+    candidate = rank_candidates(one, one.trials, seed=0, evaluations=200)[-1]
     assert candidate.trial.design == edge
     assert candidate.parameters_score == 0.0
     assert candidate.print_score > 0.0
@@ -103,7 +103,7 @@ def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluat
     one = evaluator(model=Spiked())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": 30.0 + number}) for number in range(20)], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=evaluations)
+    ranked = rank_candidates(one, one.trials, seed=0, evaluations=evaluations)
     assert 0.5 * evaluations < len(one.trials) - 20 <= evaluations
     assert ranked[0].neighbours == max(candidate.neighbours for candidate in ranked)
     rounds = plan_rounds(evaluations)
@@ -133,12 +133,12 @@ def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below
     fine, edge = (SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"rest_angle_deg": a}) for a in (30.0, 60.0))
     edge = edge.model_copy(update={"stiffness_nmm_per_deg": 20.0})
     examined = _Examined(0, Trial("bo", 0, 0, edge, Evaluation("jump"), 9.0, "m", 0.0))
-    first = [variant.design for _, variant in examined.neighbours(2, 0, LENGTHS_ALONE)]
+    first = [variant.design for _, variant in examined.neighbours(2, 0, Tolerances(0.2))]
     one = evaluator(model=Late(kept=max(abs(design.stiffness_nmm_per_deg / 20.0 - 1.0) for design in first)))
     aim = replace(one.objective, figure=lambda metrics: metrics["fitness"] - below)
     one.request = replace(one.request, own=aim)
     one.evaluate([edge, fine], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
+    ranked = rank_candidates(one, one.trials, seed=0, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [fine, edge]
     assert ranked[1].neighbours > ranked[0].neighbours == 2
 
@@ -174,7 +174,7 @@ def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     aim = replace(one.objective, figure=lambda metrics: metrics["fitness"] - 100.0)
     one.request = replace(one.request, own=aim)
     one.evaluate([edge, inside], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
+    ranked = rank_candidates(one, one.trials, seed=0, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [inside, edge]
 
 

@@ -11,7 +11,6 @@ from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.search.pick.tolerances import (
     FLOOR,
-    LENGTHS_ALONE,
     PARTS,
     PREFIX,
     SPRINGS,
@@ -33,7 +32,7 @@ def as_printed(one: Variant) -> Design:
 
 def test_links_vary_evenly_within_their_tolerance() -> None:
     generator = np.random.default_rng(1)
-    made = LENGTHS_ALONE.neighbours(Variant.of(DESIGN), generator)
+    made = Tolerances(0.2).neighbours(Variant.of(DESIGN), generator)
     printed = PRINTED.neighbours(Variant.of(DESIGN), generator)
     for designs in ([one.design for one in made], [as_printed(one) for one in printed]):
         lengths = np.array([[one.l2_mm, one.l3_mm, one.l4_mm, one.l5_mm] for one in designs])
@@ -86,7 +85,7 @@ def test_what_is_made_changes_springs_links_and_floor() -> None:
 
 
 def test_parameters_vary_by_one_per_cent() -> None:
-    varied = LENGTHS_ALONE.varied(Variant.of(DESIGN), np.random.default_rng(3))
+    varied = Tolerances(0.2).varied(Variant.of(DESIGN), np.random.default_rng(3))
     shares = np.array([one.design.to_vector() for one in varied]) / DESIGN.to_vector() - 1.0
     assert shares.shape[1] == len(PARAMETERS)
     assert np.abs(shares).max() <= 0.01 + 1e-12
@@ -95,7 +94,7 @@ def test_parameters_vary_by_one_per_cent() -> None:
 
 def test_tolerances_are_twice_the_deviations_in_words() -> None:
     assert PRINTED.words == "lengths ±0.2 mm, springs ±10 %, mass ±6 %, friction ±30 %"
-    assert LENGTHS_ALONE.words == "lengths ±0.2 mm"
+    assert Tolerances(0.2).words == "lengths ±0.2 mm"
 
 
 def test_nine_of_ten_reach_the_tenth_score() -> None:

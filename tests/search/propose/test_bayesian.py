@@ -63,7 +63,7 @@ def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
         begun.store.append(whole.trials[:cut])
         begun.store.close()
         log = tmp_path / f"{cut}.log"
-        resumed = evaluator(path, Hill(log))
+        resumed = evaluator(path, Hill(log=log))
         run_bayesian(resumed, stage(18, 3, initial=6, batch=2))
         assert [(trial.key, trial.score, trial.proposal) for trial in resumed.trials] == [
             (trial.key, trial.score, trial.proposal) for trial in whole.trials

@@ -16,13 +16,13 @@ def designs(count, seed=0):
 
 def test_finished_designs_are_read_from_the_study_file(evaluator, tmp_path):
     log = tmp_path / "log"
-    first = evaluator(tmp_path / "s.db", Hill(log))
+    first = evaluator(tmp_path / "s.db", Hill(log=log))
     batch = designs(10)
     trials = first.evaluate([*batch, batch[0], batch[3]], "ga", 0)
     assert len(log.read_text().splitlines()) == 10
     assert trials[10] is trials[0]
     first.store.close()
-    again = evaluator(tmp_path / "s.db", Hill(log))
+    again = evaluator(tmp_path / "s.db", Hill(log=log))
     assert [trial.evaluation for trial in again.evaluate(batch, "ga", 0)] == [trial.evaluation for trial in trials[:10]]
     assert len(log.read_text().splitlines()) == 10
     assert [trial.place for trial in again.trials] == list(range(10))
@@ -51,7 +51,7 @@ def test_an_interrupt_keeps_what_is_finished(evaluator, tmp_path):
                 raise KeyboardInterrupt
             return super().__call__(design)
 
-    stopped = evaluator(tmp_path / "s.db", Interrupting(tmp_path / "log"))
+    stopped = evaluator(tmp_path / "s.db", Interrupting(log=tmp_path / "log"))
     with pytest.raises(KeyboardInterrupt):
         stopped.evaluate(designs(16), "ga", 0)
     stopped.store.close()
@@ -106,7 +106,7 @@ def test_a_single_bad_design_is_a_row(evaluator):
 def test_what_is_left_out_is_a_row_with_its_outcome_and_is_not_evaluated(evaluator, tmp_path):
     """It counts among the designs, in the place in which it was proposed, and has no score."""
     log = tmp_path / "log"
-    one, (first, second, third) = evaluator(model=Hill(log)), designs(3)
+    one, (first, second, third) = evaluator(model=Hill(log=log)), designs(3)
     out = {Variant.of(second).key: Evaluation("screened", {"guessed": 0.5})}
     notes = [{"log_feasible": float(number)} for number in range(3)]
     seen = []

@@ -170,7 +170,7 @@ def test_a_command_that_was_interrupted_evaluates_no_more(tmp_path, monkeypatch)
     for number, (designs, most) in enumerate(((GOOD[:8], 4), ([bad, *GOOD[:2]], 3))):
         log = tmp_path / str(number)
         with local_pool(0) as pool, pytest.raises(KeyboardInterrupt):
-            list(pool.evaluate(Interrupted(log), designs))
+            list(pool.evaluate(Interrupted(log=log), designs))
         assert 3 <= len(log.read_text().splitlines()) <= most
         interrupts.seen.clear()
 

@@ -10,7 +10,6 @@ from support.studies import trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.models import robot_model
-from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.space import Space
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request, plan_stages
@@ -92,7 +91,7 @@ def test_all_that_decides_the_trials_of_a_study_makes_another_one_and_another_na
     """But their number, unless each of several parts has a share of it."""
     changes = (
         {"space": Space.default()}, {"objective": "range"}, {"method": "ga+bo"}, {"seed": 4}, {"batch": 3},
-        {"making": Tolerances(0.3)}, {"prior": Path("p.db")}, {"model": Hill(name="other")},
+        {"prior": Path("p.db")}, {"model": Hill(name="other")},
     )  # fmt: skip
     others = [replace(PLAIN, **change) for change in changes]
     assert len({PLAIN.default_name(), *(one.default_name() for one in others)}) == 1 + len(others)
@@ -121,7 +120,6 @@ def test_what_is_not_asked_for_follows_from_method_and_robot():
     stand_ins = {key for key, one in made.items() if one.model.describe().get("stand_in")}
     assert stand_ins == {("printed", None), ("printed", "ga+bo"), ("printed", "pareto")}
     assert Request.make(SMALL, printed, "ga", screen=True).model.stand_in
-    assert (made["printed", None].making, made["capsule", None].making) == (printed.making, capsule.making)
     own = Request.make(SMALL, capsule, "ga", lambda figures: 1.0)
     assert own.own is own.aim
     assert own.identity([])["objective_code"] == own.aim.code != ""

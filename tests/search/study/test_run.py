@@ -133,7 +133,7 @@ def test_killed_at_random_moments_it_ends_with_the_rows_of_an_uninterrupted_run(
 
 def test_a_finished_study_is_not_computed_again(tmp_path):
     log = tmp_path / "log"
-    request = replace(REQUEST, model=Hill(log), method="ga")
+    request = replace(REQUEST, model=Hill(log=log), method="ga")
     first = run(request, tmp_path / "s.db")
     count = len(log.read_text().splitlines())
     again = run(request, tmp_path / "s.db")

@@ -58,7 +58,7 @@ from jumpcad.design import load_design
 from jumpcad.search.study import run as study
 from jumpcad.search.models import CapsuleModel, PrintedModel
 from jumpcad.workshop import load_workshop
-for model in (PrintedModel(load_workshop("default")), CapsuleModel()):
+for model in (PrintedModel(workshop=load_workshop("default")), CapsuleModel()):
     model(load_design("kenan-2.0"))
 print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part] for part in {PRESENTATION}]])
 """
