@@ -150,7 +150,7 @@ def main() -> None:
         if isinstance(model, PrintedModel):  # as a search by `bo` asks for
             model = replace(model, stand_in=True)
         if "spread" in name:
-            model = Spread(model.workshop, model.settings, model.engine)
+            model = Spread(workshop=model.workshop, settings=model.settings, engine=model.engine)
         climbs = [climb(method, seed, evaluations, model) for seed in range(arguments.seeds)]
         marks = [mark for mark in MARKS if mark <= evaluations]
         table[name] = {mark: [one[min(mark, len(one)) - 1] for one in climbs] for mark in marks}
