@@ -21,8 +21,6 @@ from jumpcad.workshop import Workshop, varied, workshop_value
 from jumpcad.workshop.varied import Value
 
 Kind = Literal["fix", "bound", "choose"]
-ACTIVE = 1e-3
-"""Largest distance from a bound that is active, over its range; judgement."""
 INSIDE = 0.01
 """Share of a range at which its workshop is tried, besides at its ends."""
 DECIMALS = 10
@@ -48,10 +46,11 @@ class SearchParameter:
     names: tuple[str, ...] = ()
 
     @classmethod
-    def of_names(cls, name: str, names: Sequence[str]) -> "SearchParameter":
-        """Return a parameter whose values are names."""
-        last = len(names) - 1
-        return cls(name, 0.0, float(last), tuple(map(float, range(last + 1))) if last else (), tuple(names))
+    def among(cls, name: str, values: Sequence[Value]) -> "SearchParameter":
+        """Return a parameter that is fixed at one value, or free among several: all names, or all numbers."""
+        names = tuple(dict.fromkeys(value for value in values if isinstance(value, str)))
+        choices = tuple(map(float, range(len(names)) if names else sorted({float(value) for value in values})))
+        return cls(name, choices[0], choices[-1], choices if len(choices) > 1 else (), names)
 
     @property
     def free(self) -> bool:
@@ -90,9 +89,7 @@ class SearchParameter:
 
     def held(self, number: float) -> "SearchParameter":
         """Return the parameter fixed at one of its values."""
-        if self.names:
-            return self.of_names(self.name, [self.names[round(number)]])
-        return replace(self, lower=number, upper=number, choices=())
+        return self.among(self.name, [self.value(number)])
 
     def narrowed(self, centre: float, percent: float, limits: tuple[float, float]) -> "SearchParameter":
         """Return the parameter within a share (%) of its width on either side of a centre, and within limits."""
@@ -110,12 +107,9 @@ class SearchParameter:
     @classmethod
     def from_record(cls, name: str, record: Mapping[str, Any]) -> "SearchParameter":
         """Return the parameter of a record that `describe` returned."""
-        values = record.get("choices", [record["fixed"]] if "fixed" in record else [])
-        if any(isinstance(value, str) for value in values):
-            return cls.of_names(name, list(map(str, values)))
         if "lower" in record:
             return cls(name, record["lower"], record["upper"])
-        return cls(name, min(values), max(values), tuple(values) if len(values) > 1 else ())
+        return cls.among(name, record["choices"] if "choices" in record else [record["fixed"]])
 
 
 def physical_limits(name: str) -> tuple[float, float]:
@@ -126,24 +120,6 @@ def physical_limits(name: str) -> tuple[float, float]:
     if name not in PARAMETERS:
         return -math.inf, math.inf
     return limits_of(name)
-
-
-def active_sides(parameter: SearchParameter, number: float, share: float) -> list[tuple[str, float, float]]:
-    """Return on which sides a number lies on a bound: side, bound, and the value a `share` of the range beyond it.
-
-    Nothing lies beyond what a design or workshop can be: a bound that is such a limit is left out.
-    """
-    lowest, highest = physical_limits(parameter.name)
-    reach = share * parameter.width
-    sides = (
-        ("lower", parameter.lower, max(lowest, parameter.lower - reach)),
-        ("upper", parameter.upper, min(highest, parameter.upper + reach)),
-    )
-    return [
-        (side, bound, beyond)
-        for side, bound, beyond in sides
-        if abs(number - bound) <= ACTIVE * parameter.width and beyond != bound
-    ]
 
 
 def read_changes(kind: Kind, texts: Iterable[str]) -> dict[str, tuple[Any, ...]]:
@@ -184,8 +160,10 @@ def _number(text: str, whole: str, name: str) -> float:
         raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
 
 
-def changed_parameter(kind: Kind, name: str, values: Sequence[Any], workshop: Workshop | None) -> SearchParameter:
+def changed_parameter(kind: Kind, name: str, asked: Sequence[Any], workshop: Workshop | None) -> SearchParameter:
     """Return a parameter with a user's value, two bounds, or choices; values of the workshop are checked by it.
+
+    If the workshop's own value is a whole number, the choices are the whole numbers of a range.
 
     Raises
     ------
@@ -193,39 +171,16 @@ def changed_parameter(kind: Kind, name: str, values: Sequence[Any], workshop: Wo
         If the name is unknown, or a value is impossible.
     """
     if name in PARAMETERS:
-        return _parameter(kind, name, [_possible(name, value) for value in values])
+        return _parameter(kind, name, [_possible(name, value) for value in asked])
     if "." not in str(name):
         known_name(name, WORKSHOP)
     if workshop is None:
         raise JumpcadError(f"{shown(name)}: this robot is made in no workshop; search it on the printed robot")
-    return _of_workshop(kind, name, values, workshop)
-
-
-def _of_workshop(kind: Kind, name: str, asked: Sequence[Any], workshop: Workshop) -> SearchParameter:
-    """Return a parameter that is a value of the workshop, which checks every value.
-
-    If the workshop's own value is a whole number, the parameter's choices are the whole numbers of its range.
-    """
-    held = workshop_value(workshop, name)
-    values = [_tried(workshop, name, value) for value in asked]
-    texts = [value for value in values if isinstance(value, str)]
-    if not texts:
-        broken = [value for value in values if isinstance(held, int) and float(value) % 1.0]
-        if broken and kind != "bound":
-            raise JumpcadError(f"{name} = {broken[0]:g} is not a whole number, and it takes nothing else")
-        parameter = _parameter(kind, name, [float(value) for value in values])
-        if kind == "bound":  # 0 may mean "found", and small values be refused
-            _tried(workshop, name, parameter.lower + INSIDE * parameter.width)
-        if isinstance(held, int) and parameter.free and not parameter.choices:
-            whole = [float(number) for number in range(math.ceil(parameter.lower), math.floor(parameter.upper) + 1)]
-            if not whole:
-                ends = f"{parameter.lower:g}:{parameter.upper:g}"
-                raise JumpcadError(f"{name} = {ends} holds no whole number, and it takes nothing else: widen the range")
-            return _parameter("choose", name, whole)
-        return parameter
-    if kind == "bound" or len(texts) < len(values):
-        raise JumpcadError(f"{name}: names and numbers do not mix: choose among names, or give a range of numbers")
-    return SearchParameter.of_names(name, list(dict.fromkeys(texts)))
+    is_whole = isinstance(workshop_value(workshop, name), int)
+    parameter = _parameter(kind, name, [_tried(workshop, name, value) for value in asked], is_whole)
+    if kind == "bound":  # 0 may mean "found", and small values be refused
+        _tried(workshop, name, parameter.lower + INSIDE * parameter.width)
+    return parameter
 
 
 def _tried(workshop: Workshop, name: str, value: Any) -> Value:
@@ -248,20 +203,28 @@ def _tried(workshop: Workshop, name: str, value: Any) -> Value:
     raise complaint
 
 
-def _parameter(kind: Kind, name: str, values: Sequence[float]) -> SearchParameter:
-    if kind == "bound":
-        if len(values) != 2:
-            raise JumpcadError(f"{name} has {len(values)} bounds; give the lower and the upper one")
-        lower, upper = values
-        if lower >= upper:
-            raise JumpcadError(
-                f"{name} = {lower:g}:{upper:g} is an empty range: the first must be less than the second"
-            )
+def _parameter(kind: Kind, name: str, values: Sequence[Value], is_whole: bool = False) -> SearchParameter:
+    numbers = [float(value) for value in values if not isinstance(value, str)]
+    if (numbers and len(numbers) < len(values)) or (kind == "bound" and len(numbers) < len(values)):
+        raise JumpcadError(f"{name}: names and numbers do not mix: choose among names, or give a range of numbers")
+    if kind != "bound":
+        if not values:
+            raise JumpcadError(f"{name} has no values to choose from; give at least one")
+        if broken := [number for number in numbers if is_whole and number % 1.0]:
+            raise JumpcadError(f"{name} = {broken[0]:g} is not a whole number, and it takes nothing else")
+        return SearchParameter.among(name, values)
+    if len(numbers) != 2:
+        raise JumpcadError(f"{name} has {len(numbers)} bounds; give the lower and the upper one")
+    lower, upper = numbers
+    if lower >= upper:
+        raise JumpcadError(f"{name} = {lower:g}:{upper:g} is an empty range: the first must be less than the second")
+    if not is_whole:
         return SearchParameter(name, lower, upper)
-    choices = tuple(sorted(set(values)))
-    if not choices:
-        raise JumpcadError(f"{name} has no values to choose from; give at least one")
-    return SearchParameter(name, choices[0], choices[-1], choices if len(choices) > 1 else ())
+    whole = [float(number) for number in range(math.ceil(lower), math.floor(upper) + 1)]
+    if not whole:
+        ends = f"{lower:g}:{upper:g}"
+        raise JumpcadError(f"{name} = {ends} holds no whole number, and it takes nothing else: widen the range")
+    return SearchParameter.among(name, whole)
 
 
 def several(name: str, values: Any) -> tuple[Any, ...]:

@@ -9,7 +9,6 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import (
     Kind,
     SearchParameter,
-    active_sides,
     changed_parameter,
     physical_limits,
     read_changes,
@@ -112,7 +111,7 @@ def test_a_name_that_no_parameter_has_is_not_passed_over(kind, workshop):
 
 
 def test_names_are_numbered_and_unknown_ones_are_no_number() -> None:
-    named = SearchParameter.of_names("bought.battery", ["one", "two", "three"])
+    named = SearchParameter.among("bought.battery", ["one", "two", "three"])
     assert [named.number(value) for value in ("one", "three")] == [0.0, 2.0]
     assert [named.value(number) for number in (0.0, 1.2, 1.9)] == ["one", "two", "three"]
     assert math.isnan(named.number("four"))
@@ -127,19 +126,6 @@ def test_names_are_chosen_and_have_no_bounds() -> None:
         changed_parameter("bound", "bought.battery", names, load_workshop())
     named = changed_parameter("choose", "bought.battery", names, load_workshop())
     assert [named.value(number) for number in (0.0, 1.0)] == list(names)
-
-
-def test_a_bound_is_active_within_a_thousandth_of_the_range_and_no_design_lies_beyond_its_limits() -> None:
-    ratio = SearchParameter("c_coef", 0.8, 1.2)
-    assert active_sides(ratio, 0.8003, 0.25) == [("lower", 0.8, pytest.approx(0.7))]
-    assert active_sides(ratio, 1.1997, 0.25) == [("upper", 1.2, pytest.approx(1.3))]
-    assert active_sides(ratio, 0.8005, 0.25) == active_sides(ratio, 1.0, 0.25) == []
-    angle = SearchParameter("rest_angle_deg", 5.0, 90.0)  # a design has 5° at least and 90° at most
-    assert active_sides(angle, 90.0, 0.25) == active_sides(angle, 5.0, 0.25) == []
-    assert active_sides(SearchParameter("rest_angle_deg", 6.0, 70.0), 6.0, 0.25) == [("lower", 6.0, 5.0)]
-    assert active_sides(SearchParameter("rest_angle_deg", 20.0, 85.0), 85.0, 0.25) == [("upper", 85.0, 90.0)]
-    plate = SearchParameter("body.plate_mm", 1.6, 2.4)
-    assert active_sides(plate, 2.4, 0.5) == [("upper", 2.4, pytest.approx(2.8))]
 
 
 @pytest.mark.parametrize(

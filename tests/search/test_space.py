@@ -78,7 +78,7 @@ def test_spread_points_of_choices_are_their_levels():
 @pytest.mark.parametrize("order", ["a,b,c", "c,a,b"])
 def test_every_name_is_spread_as_often_in_whatever_order_it_is_given(order):
     """And every number of unequally spaced ones."""
-    names = SearchParameter.of_names("bought.battery", order.split(","))
+    names = SearchParameter.among("bought.battery", order.split(","))
     numbers = SearchParameter("c_coef", 0.8, 1.2, (0.8, 0.85, 1.2))
     space = Space((names, numbers))
     points = space.spread(96, np.random.default_rng(0))

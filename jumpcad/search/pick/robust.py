@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from jumpcad.design import PARAMETERS
-from jumpcad.search.parameter import active_sides
+from jumpcad.search.parameter import physical_limits
 from jumpcad.search.pick.tolerances import SAMPLES, Tolerances, tenth
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
@@ -25,6 +25,8 @@ MOST_CANDIDATES = 16
 """Designs that the first round examines, at most."""
 APART = 0.02
 """Least difference between two candidates in some parameter, over its range; judgement."""
+ACTIVE = 1e-3
+"""Largest distance from a bound that is active, over its range; judgement."""
 WIDENING = 0.05
 """How far beyond an active bound a design is evaluated, over the bound's range; judgement."""
 NOT_EXAMINED = "not examined: the robust pick has no evaluations or time left"
@@ -237,8 +239,14 @@ def named_bounds(space: Space, trial: Trial) -> list[ActiveBound]:
         if parameter.names or (parameter.choices and parameter in space.of_workshop):
             continue  # choices of a workshop end where it ends
         value = parameter.number(trial.variant.value(parameter.name))
-        for side, bound, beyond in active_sides(parameter, value, WIDENING):
-            found.append(ActiveBound(parameter.name, side, bound, beyond, None, NOT_EXAMINED))
+        lowest, highest = physical_limits(parameter.name)
+        reach = WIDENING * parameter.width
+        for side, bound, beyond in (
+            ("lower", parameter.lower, max(lowest, parameter.lower - reach)),
+            ("upper", parameter.upper, min(highest, parameter.upper + reach)),
+        ):
+            if abs(value - bound) <= ACTIVE * parameter.width and beyond != bound:
+                found.append(ActiveBound(parameter.name, side, bound, beyond, None, NOT_EXAMINED))
     return found
 
 

@@ -16,6 +16,7 @@ from jumpcad.search.pick.robust import (
     _ranked,
     active_bounds,
     best_apart,
+    named_bounds,
     plan_rounds,
     rank_candidates,
 )
@@ -212,6 +213,22 @@ def test_active_bounds_and_their_worth(evaluator):
     assert found["compression_ratio"].reason == "loop"
     few = active_bounds(one, trial, run=2, evaluations=0)
     assert {bound.reason for bound in few} == {NOT_EXAMINED} or few == list(found.values())
+
+
+def test_a_bound_is_active_within_a_thousandth_of_the_range_and_no_design_lies_beyond_its_limits():
+    """A rest angle is 5° at least and 90° at most; beyond a bound is a twentieth of its range, or such a limit."""
+    for name, low, high, value, found in (
+        ("c_coef", 0.8, 1.2, 0.8003, ("lower", 0.78)), ("c_coef", 0.8, 1.2, 1.1997, ("upper", 1.22)),
+        ("c_coef", 0.8, 1.2, 0.8005, None), ("c_coef", 0.8, 1.2, 1.0, None),
+        ("rest_angle_deg", 5.0, 90.0, 5.0, None), ("rest_angle_deg", 5.0, 90.0, 90.0, None),
+        ("rest_angle_deg", 6.0, 70.0, 6.0, ("lower", 5.0)), ("rest_angle_deg", 20.0, 88.0, 88.0, ("upper", 90.0)),
+    ):  # fmt: skip
+        space = Space.make(bounds={name: (low, high)})
+        design = space.to_design(np.full(8, 0.5)).model_copy(update={name: value})
+        (*bounds,) = named_bounds(space, Trial("bo", 0, 0, design, Evaluation("jump"), 1.0, "m", 0.0))
+        assert [(one.name, one.side, one.beyond) for one in bounds] == (
+            [(name, found[0], pytest.approx(found[1]))] if found else []
+        ), (name, value)
 
 
 def test_springs_as_made_change_the_jump_and_not_the_robot():
