@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from modulefinder import ModuleFinder
 from pathlib import Path
-from types import CodeType, FunctionType, ModuleType
+from types import CellType, CodeType, FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -36,8 +36,13 @@ def function_hash(function: FunctionType) -> str:
         if id(one) in seen:
             continue
         seen.add(id(one))
-        used = [*_used(one), *_contents(one), one.__defaults__, one.__kwdefaults__]
-        parts += [_code(one.__code__), *map(_value, used)]
+        codes = list(_codes(one.__code__))
+        names = sorted({name for code in codes for name in code.co_names} & one.__globals__.keys())
+        cells = [cell for cell in one.__closure__ or () if cell != CellType()]  # an empty one has no value yet
+        used = [*(one.__globals__[name] for name in names), *(cell.cell_contents for cell in cells)]
+        used += [one.__defaults__, one.__kwdefaults__]
+        parts += [f"{code.co_code.hex()} {code.co_names} {code.co_varnames} {code.co_freevars}" for code in codes]
+        parts += [_value(value) for value in (*used, *(constant for code in codes for constant in code.co_consts))]
         waiting += [value for value in used if isinstance(value, FunctionType) and _is_own(value.__code__.co_filename)]
     return _sha256(parts)
 
@@ -49,45 +54,24 @@ def _sha256(parts: Iterable[str]) -> str:
     return found.hexdigest()
 
 
-def _code(code: CodeType) -> str:
-    """Return what a code object does, with those within it."""
-    constants = [_code(one) if isinstance(one, CodeType) else _value(one) for one in code.co_consts]
-    return f"{code.co_code.hex()} {code.co_names} {code.co_varnames} {code.co_freevars} {constants}"
-
-
-def _used(function: FunctionType) -> Iterator[Any]:
-    """Yield the values of the global names that a function uses, with those of functions within it."""
-    names: set[str] = set()
-    waiting = [function.__code__]
-    while waiting:
-        code = waiting.pop()
-        names.update(code.co_names)
-        waiting += [constant for constant in code.co_consts if isinstance(constant, CodeType)]
-    yield from (function.__globals__[name] for name in sorted(names) if name in function.__globals__)
-
-
-def _contents(function: FunctionType) -> Iterator[Any]:
-    """Yield the values of a function's closure that are set."""
-    for cell in function.__closure__ or ():
-        try:
-            yield cell.cell_contents
-        except ValueError:  # a name that has no value yet
-            yield None
+def _codes(code: CodeType) -> Iterator[CodeType]:
+    """Yield a code object and those within it."""
+    yield code
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from _codes(constant)
 
 
 def _value(value: Any, depth: int = 0) -> str:
     """Return a plain value, or a list or table of such, as text that is equal in every run; others by their type."""
     kind = type(value).__qualname__
-    if type(value) is int:
-        return f"{kind} {hex(value)}"  # of any length
     if type(value) in PLAIN:
-        return f"{kind} {value!r}"
-    if depth < 20 and type(value) in (list, tuple):
-        return f"{kind} {[_value(one, depth + 1) for one in value]}"
-    if depth < 20 and type(value) in (set, frozenset):
-        return f"{kind} {sorted(_value(one, depth + 1) for one in value)}"
+        return f"{kind} {hex(value) if type(value) is int else repr(value)}"  # a whole number of any length
     if depth < 20 and type(value) is dict:
-        return f"{kind} {[(_value(key, depth + 1), _value(one, depth + 1)) for key, one in value.items()]}"
+        return f"{kind} {_value(list(value.items()), depth + 1)}"
+    if depth < 20 and type(value) in (list, tuple, set, frozenset):
+        parts = [_value(one, depth + 1) for one in value]
+        return f"{kind} {parts if isinstance(value, list | tuple) else sorted(parts)}"
     if type(value) is np.ndarray and value.dtype != object:
         return f"{kind} {value.dtype} {value.shape} {value.tobytes().hex()}"
     if type(value) is ModuleType:

@@ -12,16 +12,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, Severity, bare, errors
-from jumpcad.search.study.code_hash import function_hash
-from jumpcad.search.study.own_objective import (
-    LARGEST,
-    SUFFIX,
-    TriedFigures,
-    checked,
-    load_function,
-    name_of,
-    require_function,
-)
+from jumpcad.search.study.own_objective import LARGEST, SUFFIX, TriedFigures, own_function
 
 Word = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,79}$")]
 """A name of a verdict, finding or figure."""
@@ -212,12 +203,8 @@ def find_objective(objective: str | Callable[..., Any]) -> Objective:
                 f"{objective!r} is not one of the objectives {', '.join(OBJECTIVES)}"
                 f"{did_you_mean(objective, OBJECTIVES) or f'; an own one is FILE{SUFFIX}:FUNCTION'}"
             )
-        objective, code = load_function(objective)
-    else:
-        code = ""
-    function = require_function(objective)
-    code = code or function_hash(function)
-    return Objective(name_of(function), "own objective", "own units", checked(function), code)
+    name, figure, code = own_function(objective)
+    return Objective(name, "own objective", "own units", figure, code)
 
 
 def described_objective(identity: Mapping[str, Any]) -> Objective:

@@ -21,7 +21,7 @@ from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
 from jumpcad.files.names import NAME
 from jumpcad.files.outputs import require_path
-from jumpcad.search.study.code_hash import file_hash
+from jumpcad.search.study.code_hash import file_hash, function_hash
 
 SUFFIX = ".py"
 LARGEST = 1e12
@@ -41,61 +41,25 @@ class TriedFigures(dict[str, float]):
         return 1.0
 
 
-def load_function(place: str) -> tuple[Callable[..., Any], str]:
-    """Return the function that `FILE.py:FUNCTION` names, and the hash of its source.
+def own_function(asked: Any) -> tuple[str, Callable[[Mapping[str, float]], float], str]:
+    """Return the name of an own objective, its function with errors of one line, and the hash of its code.
 
-    The file is run, and finds the modules beside it.
+    It is a function made by `def` or `lambda`, or `FILE.py:FUNCTION`. The returned function raises `JumpcadError` if
+    the user's raises anything or returns no finite number.
 
     Raises
     ------
     JumpcadError
         If there is no such file or function, or the file does not run.
     """
-    file, _, name = place.rpartition(":")
-    if Path(file).suffix != SUFFIX or not name.isidentifier():
-        raise JumpcadError(f"{shown(place)}: give an own objective as FILE{SUFFIX}:FUNCTION")
-    require_path(Path(file))
-    if not os.path.isfile(file):
-        raise JumpcadError(f"{shown(file)}: no such file, so there is no objective {name}")
-    beside = os.path.dirname(os.path.realpath(file))
-    if beside not in sys.path:
-        sys.path.append(beside)
-    try:
-        with _undisturbed():
-            defined = runpy.run_path(file, run_name="objective")
-    except (Exception, SystemExit) as error:
-        raise JumpcadError(f"{shown(file)}: does not run: {_told(error)}") from None
-    if name not in defined:
-        raise JumpcadError(f"{shown(file)}: defines no {name}{did_you_mean(name, defined)}")
-    return defined[name], file_hash(Path(file), name)
-
-
-def require_function(function: Any) -> FunctionType:
-    """Return a function made by `def` or `lambda`.
-
-    Raises
-    ------
-    JumpcadError
-        If it is anything else.
-    """
+    function: Any = _loaded(asked) if isinstance(asked, str) else asked
     if not isinstance(function, FunctionType):
         raise JumpcadError(f"an own objective takes a function made by `def` or `lambda`, not {described(function)}")
-    return function
-
-
-def name_of(function: FunctionType) -> str:
-    """Return a name for the study file."""
-    return function.__name__ if NAME.fullmatch(function.__name__) else "own"
-
-
-def checked(function: FunctionType) -> Callable[[Mapping[str, float]], float]:
-    """Return the function with its errors as one line.
-
-    The returned function raises `JumpcadError` if the user's raises anything or returns no finite number.
-    """
+    title = function.__name__ if NAME.fullmatch(function.__name__) else "own"
+    file, _, name = asked.rpartition(":") if isinstance(asked, str) else ("", "", "")
 
     def refused(reason: str) -> JumpcadError:
-        return JumpcadError(f"the objective {name_of(function)} {reason}; {REMEDY}")
+        return JumpcadError(f"the objective {title} {reason}; {REMEDY}")
 
     def figure(metrics: Mapping[str, float]) -> float:
         try:
@@ -112,7 +76,28 @@ def checked(function: FunctionType) -> Callable[[Mapping[str, float]], float]:
             raise refused(f"returns {shown(value)}, not a number within ±{LARGEST:g}")
         return float(value)
 
-    return figure
+    return title, figure, file_hash(Path(file), name) if file else function_hash(function)
+
+
+def _loaded(place: str) -> Any:
+    """Return what `FILE.py:NAME` names; the file is run, and finds the modules beside it."""
+    file, _, name = place.rpartition(":")
+    if Path(file).suffix != SUFFIX or not name.isidentifier():
+        raise JumpcadError(f"{shown(place)}: give an own objective as FILE{SUFFIX}:FUNCTION")
+    require_path(Path(file))
+    if not os.path.isfile(file):
+        raise JumpcadError(f"{shown(file)}: no such file, so there is no objective {name}")
+    beside = os.path.dirname(os.path.realpath(file))
+    if beside not in sys.path:
+        sys.path.append(beside)
+    try:
+        with _undisturbed():
+            defined = runpy.run_path(file, run_name="objective")
+    except (Exception, SystemExit) as error:
+        raise JumpcadError(f"{shown(file)}: does not run: {_told(error)}") from None
+    if name not in defined:
+        raise JumpcadError(f"{shown(file)}: defines no {name}{did_you_mean(name, defined)}")
+    return defined[name]
 
 
 @contextmanager
