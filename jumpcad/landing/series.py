@@ -118,6 +118,14 @@ class Recorder:
     phases: list[str] = field(default_factory=list)
     _rows: list[Array] = field(default_factory=list)
     _looks: int = 0
+    _touched: bool = False
+
+    def __post_init__(self) -> None:
+        self.arena.watch = self._watch if self.on else None
+
+    def _watch(self) -> None:
+        """Notice a touch of the falling robot, which may end before the next look."""
+        self._touched |= self.arena.data.ncon > 0 and bool(self.arena.velocity_m_s[2] < 0.0)
 
     def begin(self) -> None:
         """Begin another jump, with its winding."""
@@ -138,7 +146,8 @@ class Recorder:
         """Keep a moment after a release: pushing off, in flight, and some of those from touchdown on."""
         if not self.on:
             return
-        touches, before = self.arena.data.ncon > 0, self.phases[-1].split()[0]
+        before = self.phases[-1].split()[0]
+        touches, self._touched = self.arena.data.ncon > 0 or (before == "flight" and self._touched), False
         phase = {"winding": "push-off", "flight": "landing"}.get(before, before) if touches else "flight"
         if before == "landing":
             self._looks += 1
