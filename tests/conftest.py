@@ -125,6 +125,18 @@ def small_robot() -> Robot:
 
 
 @pytest.fixture(scope="session")
+def kenan() -> Robot:
+    """Kenan 2.0 from the default workshop, with nothing wrong."""
+    return built("kenan-2.0")
+
+
+@pytest.fixture(scope="session")
+def strongest() -> Robot:
+    """The best design of the Bayesian optimisation: the highest loads of the templates."""
+    return built("best-bo")
+
+
+@pytest.fixture(scope="session")
 def bundle_of(tmp_path_factory: pytest.TempPathFactory, of_all_workers: Path) -> Callable[..., Path]:
     """Return a function that gives a template's bundle, made once for all workers; not to be changed.
 

@@ -12,7 +12,7 @@ import pytest
 from support import needs
 from support.loaded import loaded_range_m
 from support.places import ROOT
-from support.workshops import changed
+from support.workshops import workshop_with
 
 from jumpcad import evaluation
 from jumpcad.building import build, built_and_checked
@@ -95,7 +95,7 @@ def test_winding_needs_more_energy_than_the_springs_hold() -> None:
 
 
 def test_the_workshop_decides_what_it_weighs_and_how_far_it_jumps() -> None:
-    solid = evaluate(KENAN, changed(mass={"model": "solid"}))
+    solid = evaluate(KENAN, workshop_with(mass={"model": "solid"}))
     printed = evaluate(KENAN)
     assert solid.metrics["mass_kg"] > printed.metrics["mass_kg"]
     assert solid.fitness < printed.fitness

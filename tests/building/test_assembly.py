@@ -12,7 +12,7 @@ import pytest
 from support.built import LONG_TOES, body_in_plane, built, design, geared
 from support.elsewhere import environment
 from support.places import ROOT
-from support.workshops import changed
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.building.assembly import layout_of
@@ -94,31 +94,31 @@ def test_the_same_inputs_give_the_same_files_on_another_machine() -> None:
 KENAN = design("kenan-2.0")
 CASES: dict[str, tuple[Design, Workshop, str]] = {
     "loop": (
-        KENAN.model_copy(update={"c_coef": 1.5, "d_coef": 0.3}), changed(),
+        KENAN.model_copy(update={"c_coef": 1.5, "d_coef": 0.3}), workshop_with(),
         r"^loop: the loop is \d+\.\d+ mm short of closing.*: lower compression_ratio, or bring c_coef nearer to 1",
     ),
     "below ground": (
-        KENAN.model_copy(update={"c_coef": 1.03, "d_coef": 0.5, "compression_ratio": 0.8}), changed(),
+        KENAN.model_copy(update={"c_coef": 1.03, "d_coef": 0.5, "compression_ratio": 0.8}), workshop_with(),
         r"^below_ground: lowest body pivot.* is -\d+\.\d mm above the line.*: lower compression_ratio",
     ),
     "legs meet": (
-        Design.from_vector([105.3, 1.035, 0.57, 1.21, 0.756, 46.9, 5.2, 14.5]), changed(),
+        Design.from_vector([105.3, 1.035, 0.57, 1.21, 0.756, 46.9, 5.2, 14.5]), workshop_with(),
         r"main leg and front link overlap by [\d.]+ mm; 0\.8 mm .*: lower compression_ratio, or raise d_coef",
     ),
     "no spring": (
-        KENAN.model_copy(update={"stiffness_nmm_per_deg": 120.0}), changed(),
+        KENAN.model_copy(update={"stiffness_nmm_per_deg": 120.0}), workshop_with(),
         r"^no wire of .* makes a torsion spring for \d+ N·mm .*: lower stiffness_nmm_per_deg or compression_ratio",
     ),
     "hardly wound": (
-        KENAN.model_copy(update={"compression_ratio": 0.01, "rest_angle_deg": 40.0}), changed(),
+        KENAN.model_copy(update={"compression_ratio": 0.01, "rest_angle_deg": 40.0}), workshop_with(),
         r"loaded by 0\.40°, less than 0\.5°: raise compression_ratio",
     ),
     "weak motor": (
-        load_design("best-bo"), changed(bought={"motors": ("n20-30",)}, safety={"motor_stall_share": 0.03}),
+        load_design("best-bo"), workshop_with(bought={"motors": ("n20-30",)}, safety={"motor_stall_share": 0.03}),
         r"^no motor turns the cam: it needs \d+ mN·m, the strongest allowed motor may give 1 mN·m.*: lower stiffness",
     ),
     "small bed": (
-        KENAN, changed(printer={"bed_mm": (70.0, 70.0, 70.0)}),
+        KENAN, workshop_with(printer={"bed_mm": (70.0, 70.0, 70.0)}),
         r"^part \w+ of \d+\.\d×\d+\.\d×\d+\.\d mm does not fit .* 70\.0×70\.0×70\.0 mm at any angle, by [\d.]+ mm",
     ),
 }  # fmt: skip
@@ -136,13 +136,13 @@ def test_what_cannot_be_built_is_refused_with_value_and_remedy(case: str) -> Non
 def test_screws_as_axles_have_one_size_and_a_thinner_one_is_no_way_out() -> None:
     """M3, before anything is said of the spacers around a thicker axle."""
     with pytest.raises(JumpcadError, match=r'^bought.axle_mm = 6: bought.retention = "nuts" .*: make it 3, or choose'):
-        layout_of(KENAN, changed(bought={"axle_mm": 6.0, "leg_bearing": "", "retention": "nuts"}))
+        layout_of(KENAN, workshop_with(bought={"axle_mm": 6.0, "leg_bearing": "", "retention": "nuts"}))
 
 
 def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     """Spacers of 6.4 mm with 0.2 mm of play and walls of 0.8 mm hold axles of 4.4 mm."""
     with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
-        layout_of(KENAN, changed(bought={"axle_mm": 4.5, "leg_bearing": ""}))
+        layout_of(KENAN, workshop_with(bought={"axle_mm": 4.5, "leg_bearing": ""}))
     assert caught.value.exit_code == 2
 
 

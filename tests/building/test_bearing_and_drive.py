@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support.built import built
+from support.workshops import workshop_with
 from threadpoolctl import threadpool_limits
 
 from jumpcad.building import bearing_and_drive as settling
@@ -30,8 +31,7 @@ from jumpcad.workshop import Workshop, load_workshop
 
 
 def careful(factor: float) -> Workshop:
-    workshop = load_workshop()
-    return workshop.model_copy(update={"safety": workshop.safety.model_copy(update={"bearing_factor": factor})})
+    return workshop_with(safety={"bearing_factor": factor})
 
 
 def load_n(settled: Settled) -> float:
@@ -93,8 +93,7 @@ def test_where_none_bears_it_the_strongest_stays() -> None:
 
 
 def test_a_plain_hub_is_as_thin_as_the_leg() -> None:
-    workshop = load_workshop()
-    plain = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"leg_bearing": ""})})
+    plain = workshop_with(bought={"leg_bearing": ""})
     settled = solve_bearing_and_drive(load_design("kenan-2.0"), plain, Growth(thickness=1.1))
     assert settled.holes.bearing is None
     assert settled.sections.thickness_mm == pytest.approx(1.1 * 6.0)

@@ -8,15 +8,12 @@ import pytest
 import trimesh
 from support.built import LONG_TOES, built
 from support.each import each
-from support.workshops import changed
+from support.workshops import workshop_with
 
-from jumpcad.building import build
 from jumpcad.building.bodies import _contacts, friction_of
-from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Friction
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
-from jumpcad.workshop import load_workshop
 
 
 def pieces(robot: Robot, body: str) -> list[tuple[trimesh.Trimesh, float]]:
@@ -98,11 +95,10 @@ def test_the_bodys_ends_are_as_thick_as_their_seats_around_the_axles(axle_mm: fl
 
 
 def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
-    robot, plain = built("kenan-2.0"), load_workshop()
-    plain = plain.model_copy(update={"bought": plain.bought.model_copy(update={"leg_bearing": ""})})
+    robot = built("kenan-2.0")
     assert robot.layout.hub_bearing is not None
     assert robot.friction.pin_radius_m == (0.0, 0.0015, 0.0015, 0.0015)
-    assert build(load_design("kenan-2.0"), plain).friction.pin_radius_m == (0.0015,) * 4
-    rough = changed(pins={"friction": 0.4}, ground={"friction": 0.7, "bare_friction": 0.5})
+    assert built("kenan-2.0", leg_bearing="").friction.pin_radius_m == (0.0015,) * 4
+    rough = workshop_with(pins={"friction": 0.4}, ground={"friction": 0.7, "bare_friction": 0.5})
     rubbing = Friction(foot=0.7, body=0.5, pin=0.4, pin_radius_m=(0.0, 0.002, 0.002, 0.002))
     assert friction_of(replace(robot.layout, axle_mm=4.0), rough) == rubbing

@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from support.workshops import workshop_with
 
 from jumpcad import checks
 from jumpcad.building import assembly, build, growth
@@ -42,7 +43,7 @@ def test_designs_and_workshops_that_were_changed_to_wrong_values_are_refused() -
     design, shop = load_design("kenan-2.0"), load_workshop()
     with pytest.raises(JumpcadError, match="carrying_link_mm"):
         build(design.model_copy(update={"carrying_link_mm": -5.0}), shop)
-    wrong = shop.model_copy(update={"process": shop.process.model_copy(update={"perimeters": -1})})
+    wrong = workshop_with(shop, process={"perimeters": -1})
     with pytest.raises(JumpcadError, match=r"process\.perimeters"):
         build(design, wrong)
 
@@ -138,7 +139,7 @@ def test_what_a_round_takes_from_the_one_before_is_what_it_would_make(leg: str, 
     """All but the main leg where only its lever grew; nothing where something else did too."""
     design, shop = Design.from_vector(LIMP_LEVER), load_workshop()
     if leg != "printed":
-        shop = shop.model_copy(update={"bought": shop.bought.model_copy(update={"leg": leg})})
+        shop = workshop_with(shop, bought={"leg": leg})
     before = assembly.assembled(design, shop, "", Growth())
     after, made = (assembly.assembled(design, shop, "", growth, *given) for given in ([before], []))
     for one, other in zip(after.parts, made.parts, strict=True):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.built import built, part
 from support.strengths import with_own
+from support.workshops import workshop_with
 
 from jumpcad.building import releasing
 from jumpcad.building.releasing import release_of
@@ -66,8 +67,7 @@ def test_the_roller_moves_with_a_quarter_of_its_lever(robot: Robot, moving: Movi
     more = moving.roller_kg - bearing
     assert bearing > 0.001
     assert 0.4 * solid < more <= solid
-    process = robot.workshop.process.model_copy(update={"infill": 1.0})
-    filled = moving_in(robot, robot.workshop.model_copy(update={"process": process}))
+    filled = moving_in(robot, workshop_with(robot.workshop, process={"infill": 1.0}))
     assert filled.roller_kg - bearing == pytest.approx(solid, rel=1e-3)
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import built
-from support.workshops import changed
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.building.assembly import drawings, layout_of
@@ -22,7 +22,7 @@ from jumpcad.workshop import Workshop, load_workshop
 
 def weighed(**grams: float) -> Workshop:
     """Return the default workshop with weights of parts (g)."""
-    return changed(mass={"weighed_g": grams})
+    return workshop_with(mass={"weighed_g": grams})
 
 
 def test_solid_parts_weigh_their_volume() -> None:
@@ -42,9 +42,7 @@ def test_printed_parts_are_mostly_lighter_than_solid_ones() -> None:
 
 
 def test_a_weighed_part_weighs_what_the_scale_says() -> None:
-    workshop = load_workshop()
-    scale = workshop.mass.model_copy(update={"weighed_g": {"foot": 12.5}})
-    robot = build(load_design("kenan-2.0"), workshop.model_copy(update={"mass": scale}))
+    robot = build(load_design("kenan-2.0"), workshop_with(mass={"weighed_g": {"foot": 12.5}}))
     foot = next(part for part in robot.parts if part.name == "foot")
     assert foot.mass_kg == pytest.approx(0.0125)
     assert foot.mass_source == "weighed"
@@ -79,7 +77,7 @@ def test_a_weight_in_kilograms_or_milligrams_is_refused(share: float) -> None:
 def test_parts_of_which_a_workshops_choice_decides_may_be_weighed_for_all_robots() -> None:
     """Ends of legs of bars, and the mount of a sensor: for a robot without them their weights are of no use."""
     whole = layout_of(load_design("kenan-2.0"), shop := load_workshop())
-    barred = layout_of(load_design("kenan-2.0"), changed(bought={"leg": "carbon-tube-4x2"}))
+    barred = layout_of(load_design("kenan-2.0"), workshop_with(bought={"leg": "carbon-tube-4x2"}))
     few, more = ({one.name for one in drawings(layout, shop, "")} for layout in (replace(whole, sensor=None), barred))
     assert more - few == {"main_leg_end", "sensor_mount"}
     require_parts(more, sorted(few))
@@ -88,7 +86,7 @@ def test_parts_of_which_a_workshops_choice_decides_may_be_weighed_for_all_robots
 def test_a_part_weighs_what_the_printers_own_nozzle_lays() -> None:
     """A wider one bridges the infill of a plate with thicker threads."""
     workshop = load_workshop()
-    wide = workshop.model_copy(update={"printer": workshop.printer.model_copy(update={"nozzle_mm": 0.6})})
+    wide = workshop_with(workshop, printer={"nozzle_mm": 0.6})
     drawing = next(part.drawing for part in built("kenan-2.0").parts if part.name == "body_plate_right")
     assert weighed_part(drawing, wide).mass_kg > 1.001 * weighed_part(drawing, workshop).mass_kg
 

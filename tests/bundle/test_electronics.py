@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 from support.built import built, of_kit
 
-from jumpcad.building import build
 from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.export import export
 from jumpcad.bundle.facts import electronics_facts
 from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.checks.electronics import jumps_per_charge
-from jumpcad.design import load_design
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
@@ -126,9 +124,7 @@ def test_a_release_has_time_from_the_earliest_ready_position_until_the_sensor_op
 
 
 def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:
-    shop = built("kenan-2.0").workshop
-    bought = shop.bought.model_copy(update={"battery": "lipo-2s-180"})
-    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought}), "kenan-2.0")
+    robot = built("kenan-2.0", battery="lipo-2s-180")
     with pytest.raises(CannotBuildError, match=r"BAT\+ gets .* 8\.40 V and bears 3\.20 to 4\.20 V: choose a "):
         export(robot, tmp_path / "out", pictures=False)
     assert not (tmp_path / "out").exists()

@@ -12,6 +12,7 @@ import pytest
 from support.elsewhere import environment
 from support.pictures import with_few_pictures
 from support.places import ROOT, TESTS
+from support.workshops import workshop_with
 
 from jumpcad.bundle import export as bundle_module
 from jumpcad.bundle import uncertainty
@@ -53,9 +54,8 @@ def test_the_manifest_says_on_which_ground_the_robot_stands_and_with_which_frict
     small_robot: Robot, pad: str, friction: float
 ) -> None:
     """Its pads', or that of bare feet; the simulation of a bundle by another program needs it."""
-    changed = {"surface": "dry oak", "pad": pad, "friction": 0.7, "bare_friction": 0.3}
-    ground = small_robot.workshop.ground.model_copy(update=changed)
-    robot = replace(small_robot, workshop=small_robot.workshop.model_copy(update={"ground": ground}))
+    ground = {"surface": "dry oak", "pad": pad, "friction": 0.7, "bare_friction": 0.3}
+    robot = replace(small_robot, workshop=workshop_with(small_robot.workshop, ground=ground))
     assert bundle_module._facts(robot)["ground"] == {"friction": friction, "pad": pad, "surface": "dry oak"}
 
 

@@ -4,29 +4,20 @@ import math
 from dataclasses import replace
 
 import pytest
-from support.built import built
+from support.built import built, of_kit
 from support.decimals import decimals
 
-from jumpcad.building import build
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.firmware_numbers import numbers, release_share, start_v
 from jumpcad.catalogue import load_catalogue
-from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.robot import Robot
-from jumpcad.workshop import load_workshop
-
-
-def strong() -> Robot:
-    shop = load_workshop()
-    kit = shop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s"}
-    return build(load_design("best-bo"), shop.model_copy(update={"bought": shop.bought.model_copy(update=kit)}), "b")
 
 
 @pytest.fixture(scope="module", params=["light-1s", "strong-2s"])
 def robot(request: pytest.FixtureRequest) -> Robot:
-    return built("kenan-2.0") if request.param == "light-1s" else strong()
+    return built("kenan-2.0") if request.param == "light-1s" else of_kit("strong-2s", "best-bo")
 
 
 def seconds_a_turn(robot: Robot, volts: float, torque_nm: float) -> float:

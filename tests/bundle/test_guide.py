@@ -12,6 +12,7 @@ import jinja2.meta
 import numpy as np
 import pytest
 from support.built import LONG_TOES, built, design, geared, of_kit
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.building.bom import Bill, BilledPlate, bill_of_materials, write_bom
@@ -47,12 +48,6 @@ def guide(name: str = "kenan-2.0") -> str:
 def whole(robot: Robot, pictures: Sequence[str] = ()) -> str:
     """Return all documents of a guide, one after the other."""
     return "\n".join(write_guide(robot, pictures).values())
-
-
-def bought(**changed: object) -> Robot:
-    """Return Kenan 2.0 with other bought parts."""
-    shop = load_workshop()
-    return build(design("kenan-2.0"), shop.model_copy(update={"bought": shop.bought.model_copy(update=changed)}), "own")
 
 
 def numbers_in(pattern: str, text: str) -> list[float]:
@@ -105,7 +100,7 @@ def test_every_robot_and_workshop_has_a_guide() -> None:
         {"retention": "clips", "axle": "silver-steel"}, {"retention": "nuts"}, {"axle": "steel-tube"},
         {"spring": "9271K589"}, {"switch": ""}, {"capacitor": ""}, {"sensor": ""},
     ):  # fmt: skip
-        require_whole(bought(**changed))
+        require_whole(built("kenan-2.0", **changed))
     for key, value in (("ground.pad", "tpu-2"), ("body.stop_pad", "tpu-2"), ("spring.preload_deg", 4.0)):
         require_whole(build(design("kenan-2.0"), varied(shop, {key: value}), "own"))
 
@@ -329,7 +324,10 @@ def test_tools_go_through_what_they_are_for() -> None:
 @pytest.mark.thorough
 def test_clips_and_screws_of_axles_are_put_on_where_the_robot_has_them() -> None:
     """And tape closes the lower plate's open bores before anything stands in them."""
-    clips, nuts = whole(bought(retention="clips", axle="silver-steel")), whole(bought(retention="nuts"))
+    clips, nuts = (
+        whole(built("kenan-2.0", retention="clips", axle="silver-steel")),
+        whole(built("kenan-2.0", retention="nuts")),
+    )
     for words, told in (
         ("turn the lock nuts on", (False, False, True)), ("press a clip into every groove", (False, True, False)),
         ("its closed bores hold the axles", (True, False, False)), ("The bores are open", (False, True, True)),
@@ -345,12 +343,8 @@ def test_clips_and_screws_of_axles_are_put_on_where_the_robot_has_them() -> None
 
 @pytest.mark.thorough
 def test_preloaded_and_stock_springs_are_handled_as_such() -> None:
-    shop = load_workshop()
-    changed = {
-        "spring": shop.spring.model_copy(update={"preload_deg": 5.0}),
-        "bought": shop.bought.model_copy(update={"spring": "9271K589"}),
-    }
-    text = whole(build(design("kenan-1.0"), shop.model_copy(update=changed), "own"))
+    shop = workshop_with(spring={"preload_deg": 5.0}, bought={"spring": "9271K589"})
+    text = whole(build(design("kenan-1.0"), shop, "own"))
     assert "Two torsion springs 9271K589, one of each hand, from stock" in text
     assert "asks for 4.60 N·mm/°; the robot is computed with 26.36 N·mm/°" in text
     assert "by the preload|132 N·mm|" in text  # 26.36 · 5

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support.built import built, geared, of_kit, part, placed
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
@@ -25,7 +26,6 @@ from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring
 from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
-from jumpcad.workshop import load_workshop
 
 
 def values(robot: Robot) -> dict[str, Any]:
@@ -33,9 +33,7 @@ def values(robot: Robot) -> dict[str, Any]:
 
 
 def preloaded(preload_deg: float, name: str = "kenan-2.0") -> Robot:
-    shop = load_workshop()
-    spring = shop.spring.model_copy(update={"preload_deg": preload_deg})
-    return build(load_design(name), shop.model_copy(update={"spring": spring}))
+    return build(load_design(name), workshop_with(spring={"preload_deg": preload_deg}))
 
 
 def test_the_motor_is_a_line_from_no_load_to_stall_in_series_with_battery_and_driver() -> None:
@@ -58,9 +56,7 @@ def test_the_motor_is_a_line_from_no_load_to_stall_in_series_with_battery_and_dr
 
 def test_under_pwm_the_battery_gives_the_motors_current_for_a_share_of_the_time() -> None:
     """A motor of 6 V on two cells, 6/8.4 of the time, and beside it the boards, always."""
-    shop = load_workshop()
-    kit = shop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s", "motors": ("n20-298",)}
-    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": shop.bought.model_copy(update=kit)}))
+    robot = of_kit("strong-2s", "kenan-2.0", motors=("n20-298",))
     found, motor = operation_values(robot), robot.layout.drive.train.motor
     boards = (0.024 * 5.0 / 0.9 + 7.4 * (0.0017 + 0.001)) / 7.4
     assert motor.name == "n20-298"
@@ -240,5 +236,5 @@ def test_the_capacitors_wires_start_at_named_pins_of_the_driver() -> None:
     supply, ground = (one.removeprefix("driver ") for one in operation_values(robot)["driver_supply"])
     assert supply in driver.supply_v
     assert ground in driver.with_function("ground")
-    bare = robot.workshop.model_copy(update={"bought": robot.workshop.bought.model_copy(update={"capacitor": ""})})
+    bare = workshop_with(robot.workshop, bought={"capacitor": ""})
     assert operation_values(replace(robot, workshop=bare))["driver_supply"] == []

@@ -29,6 +29,9 @@ def test_a_manifest_of_ours_is_read_and_may_say_more(tmp_path: Path) -> None:
     (tmp_path / "manifest.json").write_text(json.dumps(GOOD | more))
     assert open_bundle(tmp_path).files == ("a/b.md",)
     assert open_bundle(tmp_path).manifest["note"] == ["\U0001f438", 1e300]
+    long = {"name": "x" * 5000, "files": {"x" * 5000 + ".md": SHA, "a/" * 1500 + "b.md": SHA}}
+    (tmp_path / "manifest.json").write_text(json.dumps(GOOD | long))
+    assert len(verify(tmp_path)) == 2
 
 
 def test_what_is_no_manifest_is_refused_in_one_line(tmp_path: Path) -> None:
@@ -39,7 +42,8 @@ def test_what_is_no_manifest_is_refused_in_one_line(tmp_path: Path) -> None:
         refused(tmp_path, text)
     for change in (
         {"format": True}, {"format": "1"}, {"format": 1.0}, {"name": ""}, {"name": 3}, {"name": "../up"},
-        {"name": ".."}, {"name": "a/b"}, {"name": "a\nb"}, {"versions": None}, {"versions": {"numpy": 2}},
+        {"name": ".."}, {"name": "a/b"}, {"name": "a\nb"}, {"name": "/dev/null"}, {"name": "\x1b[31mred"},
+        {"name": "a\0b"}, {"versions": None}, {"versions": {"numpy": 2}},
         {"files": []}, {"files": {"a.md": "sha"}}, {"files": {"a.md": SHA.upper() + "g"}}, {"files": {"a.md": None}},
         {"masses": 3}, {"masses": [{}]}, {"masses": [LINE | {"mass_kg": -1.0}]}, {"masses": [LINE | {"quantity": 0}]},
         {"masses": [LINE | {"name": None}]},
@@ -54,7 +58,7 @@ def test_a_path_that_leads_out_on_any_system_or_is_none_of_ours_makes_it_none(tm
     for path in (
         "", "/etc/a.md", "..", "../a.md", "a/../../b.md", "a/..", ".", "./a.md", "a//b.md", "a/",
         "a\\..\\b.md", "C:a.md", "a\nb.md", "a\x1b[2Jb.md", "a\x00b.md", "a\ud800.md", "manifest.json",
-        ".git/HEAD", "a/.b.md", "a",
+        ".git/HEAD", "a/.b.md", "a", "~/.bashrc",
     ):  # fmt: skip
         refused(tmp_path, json.dumps(GOOD | {"files": GOOD["files"] | {path: SHA}}))
 

@@ -3,7 +3,6 @@
 import re
 from collections import Counter
 from dataclasses import replace
-from functools import cache
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,15 +10,12 @@ import numpy as np
 import pytest
 from support.built import built
 
-from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.guide.order_values import _screw_axles, nutted_screw, order_values, strap_mm
-from jumpcad.design import load_design
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.layout.leg_bars import END_PLAY_MM
 from jumpcad.robot import Robot
-from jumpcad.workshop import load_workshop
 
 
 def order(robot: Robot) -> dict[str, Any]:
@@ -29,12 +25,6 @@ def order(robot: Robot) -> dict[str, Any]:
 def with_article(robot: Robot, pattern: str, replacement: str) -> Robot:
     hardware = tuple(replace(item, article=re.sub(pattern, replacement, item.article)) for item in robot.hardware)
     return replace(robot, hardware=hardware)
-
-
-@cache
-def bought(name: str = "kenan-2.0", **changed: object) -> Robot:
-    shop = load_workshop()
-    return build(load_design(name), shop.model_copy(update={"bought": shop.bought.model_copy(update=changed)}), name)
 
 
 def test_a_standoff_is_cut_from_the_next_longer_one() -> None:
@@ -60,7 +50,7 @@ def test_tubes_are_not_ground_and_aluminium_gives_no_sparks() -> None:
     for axle, steel, tube in (
         ("spring-steel", True, False), ("aluminium-7075", False, False), ("steel-tube", True, True)
     ):  # fmt: skip
-        for rod in order(bought(axle=axle))["rods"]:
+        for rod in order(built("kenan-2.0", axle=axle))["rods"]:
             assert (rod["steel"], rod["tube"]) == (steel, tube), axle
 
 
@@ -102,7 +92,7 @@ def test_bearings_have_their_norms_sizes() -> None:
 @pytest.mark.thorough
 def test_the_grooves_of_clips_are_ordered_where_the_rods_have_them() -> None:
     """Between the inner edges as on the rods' meshes; seven pieces of four lengths are cut from one rod."""
-    robot = bought(retention="clips", axle="silver-steel")
+    robot = built("kenan-2.0", retention="clips", axle="silver-steel")
     (rod,) = order(robot)["rods"]
     assert sum(count for count, _ in rod["cut"]) == 7
     needed = sum(count * (length + 2.0) for count, length in rod["cut"]) / 1000.0
@@ -143,7 +133,7 @@ def test_leg_and_front_link_turn_on_the_smooth_part_of_their_screws() -> None:
     Two pairs of gears need more room between the head and the leg.
     """
     for motors, longer in (((), None), (("n20-75",), 50.0)):
-        robot = bought("kenan-1.0", retention="nuts", **({"motors": motors} if motors else {}))
+        robot = built("kenan-1.0", retention="nuts", **({"motors": motors} if motors else {}))
         left, leg = robot.layout.lateral.left_plate[1], robot.layout.lateral.leg[0]
         assert (left - leg > 45.0 - 20.5) == (longer is not None)
         found = _screw_axles(robot)

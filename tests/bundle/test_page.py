@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.workshops import workshop_with
 
 import jumpcad
 from jumpcad.building import build
@@ -135,9 +136,7 @@ def test_each_figure_stands_beside_its_own_name(robot: Robot, jump: Jump) -> Non
 
 
 def test_what_is_violated_stands_out_and_names_are_escaped(robot: Robot, jump: Jump) -> None:
-    workshop = robot.workshop
-    assert workshop is not None
-    soft = workshop.model_copy(update={"safety": workshop.safety.model_copy(update={"steel_yield_mpa": 20.0})})
+    soft = workshop_with(robot.workshop, safety={"steel_yield_mpa": 20.0})
     page = write_report(replace(robot, name="a <b> & c", workshop=soft), {}, jump)
     assert parsed(page).findtext("body/h1") == "a <b> & c"
     broken = [row for row in parsed(page).iter("tr") if row.get("class") == "error"]

@@ -7,6 +7,7 @@ from functools import cache
 
 import pytest
 import trimesh
+from support.workshops import workshop_with
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.building.bom import bill_of_facts, bill_of_materials, mass_facts
@@ -36,9 +37,7 @@ def test_each_printed_pad_has_a_closed_file_of_its_mass() -> None:
 
 @cache
 def soled() -> Robot:
-    shop = load_workshop()
-    ground = shop.ground.model_copy(update={"pad": "tpu-2"})
-    return build(load_design("kenan-2.0"), shop.model_copy(update={"ground": ground}), "kenan-2.0")
+    return build(load_design("kenan-2.0"), workshop_with(ground={"pad": "tpu-2"}), "kenan-2.0")
 
 
 @pytest.mark.thorough
@@ -78,7 +77,5 @@ def test_the_guide_prints_and_glues_pads_and_does_not_order_them() -> None:
 
 @pytest.mark.thorough
 def test_a_stop_is_printed_though_the_feet_are_cut() -> None:
-    shop = load_workshop()
-    body = shop.body.model_copy(update={"stop_pad": "tpu-2"})
-    files = dict(stl_files(build(load_design("kenan-2.0"), shop.model_copy(update={"body": body}))))
+    files = dict(stl_files(build(load_design("kenan-2.0"), workshop_with(body={"stop_pad": "tpu-2"}))))
     assert [name for name in files if "_pad" in name] == ["stl/stop_pad.stl"]

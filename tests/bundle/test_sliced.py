@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 from support.slicers import OBEDIENT, pretend_slicer, three_parts
+from support.workshops import workshop_with
 
 from jumpcad.bundle import sliced
 from jumpcad.bundle.atomic_write import write_folder
@@ -85,8 +86,7 @@ def test_a_plate_of_a_material_that_the_workshop_lacks_is_told_before_it_is_slic
 
 def test_a_sliced_workshop_has_the_slicers_grams_to_a_milligram() -> None:
     """Instead of what was weighed before; other parts keep theirs."""
-    shop = load_workshop()
-    shop = shop.model_copy(update={"mass": shop.mass.model_copy(update={"weighed_g": {"cam": 1.5, "foot": 9.0}})})
+    shop = workshop_with(mass={"weighed_g": {"cam": 1.5, "foot": 9.0}})
     part = SlicedPart("cam", "PETG", 1, grams=2.34567, modelled_grams=2.3, time_s=60.0)
     found = SlicedBundle(SimpleNamespace(), "2.5.0", shop, True, (part,), (), {})
     assert found.weighed.mass.weighed_g == {"cam": 2.346, "foot": 9.0}
@@ -98,6 +98,6 @@ def test_a_file_is_modelled_with_the_printers_own_nozzle(tmp_path: Path) -> None
     """A wider one bridges the infill of a block with thicker threads."""
     path, workshop = tmp_path / "block.stl", load_workshop()
     path.write_bytes(trimesh.creation.box((30.0, 20.0, 6.0)).export(file_type="stl"))
-    wide = workshop.model_copy(update={"printer": workshop.printer.model_copy(update={"nozzle_mm": 0.6})})
+    wide = workshop_with(workshop, printer={"nozzle_mm": 0.6})
     usual, more = (_modelled_grams(path, shop, shop.material("body")) for shop in (workshop, wide))
     assert more > 1.001 * usual

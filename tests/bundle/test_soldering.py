@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from support.built import built
+from support.built import built, with_kit
 
 from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.electronics.chosen import chosen_parts
@@ -19,12 +19,6 @@ from jumpcad.workshop import DEFAULT, Workshop, load_workshop
 SPACE = "{http://www.w3.org/2000/svg}"
 LETTER = 0.5
 """Width of a letter over its height, about."""
-
-
-def of_kit(name: str) -> Workshop:
-    shop = load_workshop(DEFAULT)
-    kit = shop.catalogue.kits[name].model_dump() | {"kit": name}
-    return shop.model_copy(update={"bought": shop.bought.model_copy(update=kit)})
 
 
 def left_board() -> Workshop:
@@ -91,7 +85,7 @@ class Drawn:
 
 @pytest.fixture(scope="module", params=["light-1s", "strong-2s", "left"])
 def drawn(request: pytest.FixtureRequest) -> Drawn:
-    shop = left_board() if request.param == "left" else of_kit(request.param)
+    shop = left_board() if request.param == "left" else with_kit(request.param)
     svg = soldering_svg(replace(built("kenan-2.0"), workshop=shop))
     return Drawn(shop, wiring_of(chosen_parts(shop), shop.bought.pins), ET.fromstring(svg))
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import built
+from support.workshops import workshop_with
 
 from jumpcad.bundle.facts import spring_facts
 from jumpcad.bundle.springs import (
@@ -38,8 +39,7 @@ def test_the_torque_that_is_accepted_is_between_weak_and_strong(robot: Robot) ->
 def test_the_wire_bears_what_is_in_reserve_for_stress_and_for_nothing_else(robot: Robot) -> None:
     """20 % more than it is sized for, whatever the motor's torque has in reserve."""
     reserves = {"stress_reserve": 0.2, "motor_torque_reserve": 0.4, "kick_reserve": 0.3}
-    safety = robot.workshop.safety.model_copy(update=reserves)
-    other = replace(robot, workshop=robot.workshop.model_copy(update={"safety": safety}))
+    other = replace(robot, workshop=workshop_with(robot.workshop, safety=reserves))
     assert allowable_mpa(other) == pytest.approx(1.2 * robot.layout.drive.spring.allowable_mpa)
 
 

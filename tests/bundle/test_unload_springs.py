@@ -3,28 +3,23 @@
 import numpy as np
 import pytest
 import trimesh
-from support.built import built, geared, placed
+from support.built import built, geared, of_kit, placed
 
-from jumpcad.building import build
-from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import chained
-from jumpcad.workshop import load_workshop
 
 TIP_MM, SHANK_MM, TIP_LENGTH_MM = 2.0, 5.0, 8.0
 """A pencil iron: diameter of tip and of what follows it, length of the tip."""
 
 
-def _strong() -> Robot:
-    shop = load_workshop()
-    parts = shop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s"}
-    return build(load_design("best-bo"), shop.model_copy(update={"bought": shop.bought.model_copy(update=parts)}), "b")
-
-
-ROBOTS = {"kenan-2.0": lambda: built("kenan-2.0"), "strong-2s": _strong, "two pairs of gears": geared}
+ROBOTS = {
+    "kenan-2.0": lambda: built("kenan-2.0"),
+    "strong-2s": lambda: of_kit("strong-2s", "best-bo"),
+    "two pairs of gears": geared,
+}
 
 
 @pytest.fixture(scope="module", params=ROBOTS)

@@ -2,12 +2,11 @@
 
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
 from manifold3d import Manifold, Mesh
-from support.built import LONG_TOES, built, checked, placed
+from support.built import LONG_TOES, built, checked, of_kit, placed
 
 from jumpcad.building import assembly, build
 from jumpcad.checks import assembly as checked_assembly
@@ -24,12 +23,10 @@ from jumpcad.checks.printability import printability_findings
 from jumpcad.design import Design, load_design
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
-from jumpcad.robot import Robot
 from jumpcad.scene import assembly_order, assembly_steps
 from jumpcad.scene.assembly_order import Tool
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
-from jumpcad.workshop import load_workshop
 
 STEEP_TOES = Design.from_vector([135.2, 0.88, 0.71, 1.25, 0.22, 59.6, 28.0, 66.4])
 SHORT_BODY = Design.from_vector([79.2, 0.8807, 0.4388, 1.2223, 0.7436, 55.55, 28.06, 15.0])
@@ -38,18 +35,12 @@ FOUND = {
     "kenan-2.0": lambda: checked("kenan-2.0"),
     LONG_TOES: lambda: checked(LONG_TOES),
     "strong-2s, screws as axles, two pairs of gears": lambda: assembly_findings(
-        _bought("best-bo", kit="strong-2s", retention="nuts", motors=("n20-50",))
+        of_kit("strong-2s", "best-bo", retention="nuts", motors=("n20-50",))
     ),
     "toes, steep, whose screws are beside the ankle's pin": lambda: assembly_findings(build(STEEP_TOES)),
     "a short body, whose front axle is ahead of the springs' pin": lambda: assembly_findings(build(SHORT_BODY)),
-    "clips": lambda: assembly_findings(_bought("best-printable", axle="silver-steel", retention="clips")),
+    "clips": lambda: assembly_findings(built("best-printable", axle="silver-steel", retention="clips")),
 }
-
-
-def _bought(name: str, kit: str = "light-1s", **chosen: Any) -> Robot:
-    shop = load_workshop()
-    parts = shop.catalogue.kits[kit].model_dump() | {"kit": kit} | chosen
-    return build(load_design(name), shop.model_copy(update={"bought": shop.bought.model_copy(update=parts)}), name)
 
 
 @pytest.mark.thorough

@@ -9,7 +9,6 @@ import pytest
 import yourdfpy
 from support.built import built
 
-from jumpcad.building import build
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import load_design
 from jumpcad.dimensions import GAP_MM
@@ -19,7 +18,6 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM
 from jumpcad.strength.loads import MovingMass, push_off, toe_load_n
-from jumpcad.workshop import load_workshop
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-bo"])
@@ -107,9 +105,7 @@ def test_the_thread_of_a_screw_that_is_an_axle_bears_less_than_its_shank() -> No
 
     M3's core: 2.39 mm; thread of at least 6 mm.
     """
-    shop = load_workshop()
-    bought = shop.bought.model_copy(update={"retention": "nuts"})
-    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought}))
+    robot = built("kenan-2.0", retention="nuts")
     case, lateral = LoadCase(robot), robot.layout.lateral
     plates = [sum(plate) / 2.0 for plate in (lateral.left_plate, lateral.right_plate)]
     screw = next(item for item in robot.hardware if item.name == "leg_axle")

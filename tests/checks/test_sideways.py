@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 import shapely.affinity
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.checks.interference import Position, pieces_of, pose_of
@@ -15,15 +16,14 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import Workshop
 
 NARROW = load_design("best-bo").model_copy(update={"ground_link_angle_deg": 6.0})
 """Its toes end 10 mm from the middle, where nothing makes them wider."""
 
 
 def workshop(**body: float) -> Workshop:
-    shop = load_workshop()
-    return shop.model_copy(update={"body": shop.body.model_copy(update=body)})
+    return workshop_with(body=body)
 
 
 def tilt_rad(pin_mm: float, bore_mm: float, length_mm: float) -> float:
@@ -151,8 +151,9 @@ def test_landing_is_in_the_worst_pose_from_one_end_of_the_play_to_the_other(stro
 @pytest.mark.parametrize("reserve_deg", [0.5, 2.0, 60.0])
 def test_the_workshops_reserve_is_what_must_be_left(kenan: Robot, reserve_deg: float) -> None:
     """More than the robot has is too much, whatever the default asks for."""
-    safety = kenan.workshop.safety.model_copy(update={"roll_reserve_deg": reserve_deg})
-    (found,) = sideways_findings(replace(kenan, workshop=kenan.workshop.model_copy(update={"safety": safety})))
+    (found,) = sideways_findings(
+        replace(kenan, workshop=workshop_with(kenan.workshop, safety={"roll_reserve_deg": reserve_deg}))
+    )
     left = min(roll.margin_deg for roll in rolls(kenan))
     assert (found.limit, found.margin) == (reserve_deg, pytest.approx(left - reserve_deg))
     assert (found.severity == "info") == (left >= reserve_deg)

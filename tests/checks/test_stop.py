@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import built, placed
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.checks import check, constraint_findings
@@ -18,12 +19,11 @@ from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import Workshop
 
 
 def workshop(**body: Any) -> Workshop:
-    shop = load_workshop()
-    return shop.model_copy(update={"body": shop.body.model_copy(update=body)})
+    return workshop_with(body=body)
 
 
 def found(robot: Robot) -> dict[str, Finding]:
@@ -33,8 +33,7 @@ def found(robot: Robot) -> dict[str, Finding]:
 @cache
 def solid_kenan() -> Robot:
     """Return Kenan 2.0 of solid plastic, whose sections are those of a handbook."""
-    solid = load_workshop().process.model_copy(update={"infill": 1.0})
-    return build(load_design("kenan-2.0"), load_workshop().model_copy(update={"process": solid}))
+    return build(load_design("kenan-2.0"), workshop_with(process={"infill": 1.0}))
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -118,8 +117,7 @@ def test_the_preload_that_is_left_on_the_stop_bends_the_bar_for_good() -> None:
     """K·(p - 3°) at the pad's radius on a bar of solid plastic, whose middle bears it; none up to the stop's 3°."""
     solid = solid_kenan().workshop
     for preload_deg in (0.0, 3.0, 20.0):
-        spring = solid.spring.model_copy(update={"preload_deg": preload_deg})
-        robot = build(load_design("kenan-2.0"), solid.model_copy(update={"spring": spring}))
+        robot = build(load_design("kenan-2.0"), workshop_with(solid, spring={"preload_deg": preload_deg}))
         held = 9.2 * (preload_deg - 3.0) / robot.layout.stop.radius_mm
         low, high = robot.layout.lateral.inside
         span = high - low - robot.layout.sections.thickness_mm / 2.0
@@ -189,11 +187,8 @@ def test_the_stop_is_where_the_workshop_wants_it(angle: float, findings: Callabl
 
 
 def test_bare_feet_are_allowed_and_stand_on_plastic() -> None:
-    shop = load_workshop()
-    bare = build(
-        load_design("kenan-2.0"),
-        shop.model_copy(update={"ground": shop.ground.model_copy(update={"pad": ""})}),
-    )
+    shop = workshop_with(ground={"pad": ""})
+    bare = build(load_design("kenan-2.0"), shop)
     assert bare.foot_depth_m == pytest.approx(bare.layout.sections.foot_depth_mm / 1000.0)
     assert not [item for item in bare.hardware if item.name.startswith(("nose_pad", "toe_"))]
-    assert shop.ground.model_copy(update={"pad": ""}).foot_friction == shop.ground.bare_friction
+    assert shop.ground.foot_friction == shop.ground.bare_friction

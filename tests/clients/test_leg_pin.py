@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 from clients.clearances import Bundle, Piece
 from manifold3d import Manifold, OpType
+from support.built import built
 
-from jumpcad.building import build
 from jumpcad.bundle.export import export
-from jumpcad.design import load_design
-from jumpcad.workshop import load_workshop
 
 PIN = "leg_spring_pin"
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-printable")
@@ -32,9 +30,7 @@ def bundle(
     """A template's bundle, or one with other axles and pins."""
     if request.param in TEMPLATES:
         return Bundle(bundle_of(request.param))
-    shop = load_workshop()
-    other = shop.model_copy(update={"bought": shop.bought.model_copy(update=OTHERS[request.param])})
-    robot = build(load_design(request.param.split()[0]), other, "other")
+    robot = built(request.param.split()[0], **OTHERS[request.param])
     return Bundle(export(robot, tmp_path_factory.mktemp("bundle") / "it", pictures=False).folder)
 
 

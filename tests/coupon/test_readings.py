@@ -7,6 +7,7 @@ import pytest
 from manifold3d import JoinType
 from support.each import each
 from support.gearing import turning_play_deg
+from support.workshops import workshop_with
 
 from jumpcad.coupon.pieces import coupon_holes, coupon_pair, pinion, series_of
 from jumpcad.coupon.readings import LEAST_PLAY_MM, Readings, floor_breaks_n, measured_workshop
@@ -160,6 +161,6 @@ def test_readings_that_cannot_be_are_one_line(text: str, message: str) -> None:
 
 
 def test_a_bearing_that_the_workshop_does_not_have_has_no_seat() -> None:
-    bare = WORKSHOP.model_copy(update={"bought": WORKSHOP.bought.model_copy(update={"leg_bearing": ""})})
+    bare = workshop_with(WORKSHOP, bought={"leg_bearing": ""})
     with pytest.raises(JumpcadError, match=r"bearing_press_mm = 0\.1: the workshop's legs have no bearing"):
         read("[gauge.PETG]\nbearing_press_mm = 0.1", bare)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 from support.limits import default_limits
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.catalogue import StockSpring, load_catalogue
@@ -158,8 +159,7 @@ def test_springs_with_opposite_arms_fit_where_they_are_loaded_at_rest() -> None:
         fitted(opposite, preload_rad=named - math.radians(1.5))
     workshop = with_stock("9271K621")
     design = load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 20.0})  # which they need not have
-    loaded = workshop.model_copy(update={"spring": workshop.spring.model_copy(update={"preload_deg": 75.0})})
-    robot = build(design, loaded)
+    robot = build(design, workshop_with(workshop, spring={"preload_deg": 75.0}))
     assert wrong(robot) == []
     twice = (math.degrees(design.compression_rad) + 75.0) ** 2 - 75.0**2
     assert robot.spring.energy_j == pytest.approx(2.0 * 6.56e-3 * math.radians(1.0) * twice / 2.0)

@@ -6,7 +6,7 @@ import math
 import re
 
 import pytest
-from support.built import built, geared
+from support.built import built, geared, with_kit
 from support.limits import LP6, default_limits
 
 from jumpcad.catalogue import load_catalogue
@@ -18,7 +18,6 @@ from jumpcad.drive.train import _gear_findings, finished_train, synthesise_train
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
-from jumpcad.workshop import load_workshop
 
 MOTORS = [load_catalogue().motors[name] for name in LP6]
 LIMITS = default_limits().train
@@ -81,9 +80,7 @@ def test_the_motor_stays_within_what_its_maker_allows(law, limits):
 @pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
 def test_the_cam_is_fastest_on_a_full_battery(kit):
     """Without load the voltage of the windings goes with the speed: what the resistances take is a few per cent."""
-    shop = load_workshop()
-    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump())
-    supply = supply_of(chosen_parts(shop.model_copy(update={"bought": bought})))
+    supply = supply_of(chosen_parts(with_kit(kit)))
     roomy = dataclasses.replace(LIMITS, motor_distance_min_mm=12.0, supply=supply)
     train = synthesise_train(law_of("kenan-1.0"), MOTORS, roomy)
     motor, duty = train.motor, supply.duty(train.motor, roomy.blocked_nm)

@@ -8,7 +8,6 @@ import sys
 import ezdxf
 import numpy as np
 import pytest
-from support.built import built
 
 from jumpcad.exporters.dxf import MILLIMETRES, write_dxf, write_dxfs
 from jumpcad.robot import Robot
@@ -56,15 +55,10 @@ def test_a_sheet_is_the_same_text_whatever_the_hashes_of_strings() -> None:
     assert "LWPOLYLINE" in text
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return built("kenan-2.0")
-
-
-def test_plates_are_drawn_with_their_axle_holes_and_their_names(robot: Robot) -> None:
-    files = write_dxfs(robot)
+def test_plates_are_drawn_with_their_axle_holes_and_their_names(kenan: Robot) -> None:
+    files = write_dxfs(kenan)
     assert set(files) == {"body_plate_left", "body_plate_right"}
-    assert robot.layout is not None
+    assert kenan.layout is not None
     for drawn in files.values():
         document = read(drawn)
         centres = []
@@ -72,8 +66,8 @@ def test_plates_are_drawn_with_their_axle_holes_and_their_names(robot: Robot) ->
             points = np.array([point[:2] for point in line.get_points()])
             centres.append((points.min(axis=0) + points.max(axis=0)) / 2.0)
         for first, second in (("leg", "front"), ("leg", "cam"), ("cam", "front")):
-            apart = np.linalg.norm(robot.layout.axles[first] - robot.layout.axles[second])
+            apart = np.linalg.norm(kenan.layout.axles[first] - kenan.layout.axles[second])
             gaps = np.linalg.norm(np.array(centres)[:, None] - np.array(centres)[None], axis=2)
             assert np.abs(gaps - apart).min() < 0.01
         assert enclosed_mm2(document, "ENGRAVE") > 10.0
-    assert files == write_dxfs(robot)
+    assert files == write_dxfs(kenan)

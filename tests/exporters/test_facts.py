@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support import needs
-from support.built import built
 
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.sdf import write_sdf
@@ -23,18 +22,13 @@ SETTINGS = Settings(joint_friction_nm=0.0123, joint_damping_nms_per_rad=0.00045)
 
 
 @pytest.fixture(scope="module")
-def robot() -> Robot:
-    return built("kenan-2.0")
+def urdf(kenan: Robot) -> ET.Element:
+    return ET.fromstring(write_urdf(kenan, visuals(kenan), SETTINGS))
 
 
 @pytest.fixture(scope="module")
-def urdf(robot: Robot) -> ET.Element:
-    return ET.fromstring(write_urdf(robot, visuals(robot), SETTINGS))
-
-
-@pytest.fixture(scope="module")
-def sdf(robot: Robot) -> ET.Element:
-    return ET.fromstring(write_sdf(robot, visuals(robot), settings=SETTINGS))[0]
+def sdf(kenan: Robot) -> ET.Element:
+    return ET.fromstring(write_sdf(kenan, visuals(kenan), settings=SETTINGS))[0]
 
 
 def numbers(text: str | None) -> np.ndarray:
@@ -63,8 +57,8 @@ def leg_friction_nm(robot: Mechanism, joint: Joint) -> float:
     return 0.0123 + pins
 
 
-def test_urdf_has_every_body_with_its_inertia_and_spheres(robot: Robot, urdf: ET.Element) -> None:
-    for body in robot.bodies.values():
+def test_urdf_has_every_body_with_its_inertia_and_spheres(kenan: Robot, urdf: ET.Element) -> None:
+    for body in kenan.bodies.values():
         link = named(urdf, "link", body.name)
         origin, mass = link.find("inertial/origin"), link.find("inertial/mass")
         assert float(mass.get("value")) == pytest.approx(body.mass_kg)
@@ -78,9 +72,9 @@ def test_urdf_has_every_body_with_its_inertia_and_spheres(robot: Robot, urdf: ET
             assert float(one.find("geometry/sphere").get("radius")) == pytest.approx(contact.radius_m)
 
 
-def test_sdf_has_every_body_with_its_inertia_spheres_and_friction(robot: Robot, sdf: ET.Element) -> None:
-    rubs = coefficients(robot, SETTINGS)
-    for body in robot.bodies.values():
+def test_sdf_has_every_body_with_its_inertia_spheres_and_friction(kenan: Robot, sdf: ET.Element) -> None:
+    rubs = coefficients(kenan, SETTINGS)
+    for body in kenan.bodies.values():
         link = named(sdf, "link", body.name)
         pose = numbers(link.findtext("inertial/pose"))
         assert float(link.findtext("inertial/mass")) == pytest.approx(body.mass_kg)
@@ -96,9 +90,9 @@ def test_sdf_has_every_body_with_its_inertia_spheres_and_friction(robot: Robot, 
                 assert found == pytest.approx(rubs.contact(body.surface))
 
 
-def test_hinges_have_their_places_limits_and_losses(robot: Robot, urdf: ET.Element, sdf: ET.Element) -> None:
+def test_hinges_have_their_places_limits_and_losses(kenan: Robot, urdf: ET.Element, sdf: ET.Element) -> None:
     """The leg goes to its stop; all else a right angle beyond its travel."""
-    for joint in robot.joints:
+    for joint in kenan.joints:
         one, other = named(urdf, "joint", joint.name), named(sdf, "joint", joint.name)
         assert numbers(one.find("origin").get("xyz")) == pytest.approx(joint.origin_m, abs=1e-7)
         assert numbers(one.find("origin").get("rpy")) == pytest.approx([0.0, joint.rest_angle_rad, 0.0], abs=1e-7)
@@ -113,28 +107,28 @@ def test_hinges_have_their_places_limits_and_losses(robot: Robot, urdf: ET.Eleme
         ):
             assert float(limit.get(key)) == pytest.approx(value, abs=1e-6), key
             assert float(other.findtext(f"axis/limit/{key}")) == pytest.approx(value, abs=1e-6), key
-        upper = robot.stop.angle_rad if robot.stop and joint.name == "leg" else joint.upper_rad + math.pi / 2.0
+        upper = kenan.stop.angle_rad if kenan.stop and joint.name == "leg" else joint.upper_rad + math.pi / 2.0
         assert float(limit.get("upper")) == float(other.findtext("axis/limit/upper")) == pytest.approx(upper)
-        assert float(dynamics.get("friction")) == pytest.approx(leg_friction_nm(robot, joint))
-        assert float(other.findtext("axis/dynamics/friction")) == pytest.approx(leg_friction_nm(robot, joint))
+        assert float(dynamics.get("friction")) == pytest.approx(leg_friction_nm(kenan, joint))
+        assert float(other.findtext("axis/dynamics/friction")) == pytest.approx(leg_friction_nm(kenan, joint))
         assert float(dynamics.get("damping")) == pytest.approx(0.00045)
         assert float(other.findtext("axis/dynamics/damping")) == pytest.approx(0.00045)
 
 
-def test_the_stop_is_critically_damped_in_sdf(robot: Robot, sdf: ET.Element) -> None:
+def test_the_stop_is_critically_damped_in_sdf(kenan: Robot, sdf: ET.Element) -> None:
     """Stiffness k and 2·sqrt(k·I) about the leg's joint; other hinges have none."""
-    stop = robot.stop
+    stop = kenan.stop
     assert stop is not None
     limit = named(sdf, "joint", "leg").find("axis/limit")
-    inertia = leg_inertia_kg_m2(robot, stop.angle_rad)
+    inertia = leg_inertia_kg_m2(kenan, stop.angle_rad)
     assert float(limit.findtext("stiffness")) == pytest.approx(stop.stiffness_nm_per_rad)
     assert float(limit.findtext("dissipation")) == pytest.approx(2.0 * math.sqrt(stop.stiffness_nm_per_rad * inertia))
     for other in ("front", "ankle"):
         assert named(sdf, "joint", other).find("axis/limit/stiffness") is None
 
 
-def test_visible_meshes_stand_where_the_parts_are(robot: Robot, urdf: ET.Element, sdf: ET.Element) -> None:
-    for shape in visuals(robot):
+def test_visible_meshes_stand_where_the_parts_are(kenan: Robot, urdf: ET.Element, sdf: ET.Element) -> None:
+    for shape in visuals(kenan):
         one, other = named(urdf, "visual", shape.name), named(sdf, "visual", shape.name)
         origin, pose = one.find("origin"), numbers(other.findtext("pose"))
         for place, angles in ((numbers(origin.get("xyz")), numbers(origin.get("rpy"))), (pose[:3], pose[3:])):
@@ -148,17 +142,17 @@ def test_visible_meshes_stand_where_the_parts_are(robot: Robot, urdf: ET.Element
         assert numbers(other.findtext("material/diffuse")) == pytest.approx((*shape.colour, 1.0))
 
 
-def test_mjcf_has_the_same_bodies_and_hinges(robot: Robot) -> None:
+def test_mjcf_has_the_same_bodies_and_hinges(kenan: Robot) -> None:
     mujoco = needs.package("mujoco")
-    model = mujoco.MjModel.from_xml_string(write_mjcf(robot, SETTINGS))
-    for body in robot.bodies.values():
+    model = mujoco.MjModel.from_xml_string(write_mjcf(kenan, SETTINGS))
+    for body in kenan.bodies.values():
         index = model.body(body.name).id
         assert model.body_mass[index] == pytest.approx(body.mass_kg, rel=1e-6)
         assert model.body_ipos[index] == pytest.approx(body.com_m, abs=1e-7)
         turn = Rotation.from_quat(np.roll(model.body_iquat[index], -1)).as_matrix()
         assert same_inertia(turn @ np.diag(model.body_inertia[index]) @ turn.T, body)
-    for joint in robot.joints:
+    for joint in kenan.joints:
         index = model.joint(joint.name).id
         dof = model.jnt_dofadr[index]
         assert model.dof_damping[dof] == pytest.approx(0.00045)
-        assert model.dof_frictionloss[dof] == pytest.approx(leg_friction_nm(robot, joint))
+        assert model.dof_frictionloss[dof] == pytest.approx(leg_friction_nm(kenan, joint))

@@ -5,7 +5,6 @@ import io
 import numpy as np
 import pytest
 import trimesh
-from support.built import built
 
 from jumpcad.exporters.glb import linear_light, write_glb
 from jumpcad.mechanism.poses import body_poses
@@ -13,20 +12,15 @@ from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return built("kenan-2.0")
-
-
-def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(robot: Robot) -> None:
-    glb = write_glb(robot)
+def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(kenan: Robot) -> None:
+    glb = write_glb(kenan)
     scene = trimesh.load_scene(io.BytesIO(glb), file_type="glb")
-    things = visuals(robot)
+    things = visuals(kenan)
     parents = scene.graph.transforms.parents
     assert {thing.name: parents[thing.name] for thing in things} == {
         thing.name: f"{thing.body}_frame" for thing in things
     }
-    poses, points = body_poses(robot), []
+    poses, points = body_poses(kenan), []
     for thing in things:
         pose = poses[thing.body] @ thing.T_body_mesh
         points.append(thing.mesh.vertices / 1000.0 @ pose[:3, :3].T + pose[:3, 3])
@@ -36,7 +30,7 @@ def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(robot: 
         assert np.allclose(colour, [linear_light(part) for part in thing.colour], atol=0.5 / 255)
     low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
     assert np.allclose(scene.bounds, [[low[0], low[2], -high[1]], [high[0], high[2], -low[1]]], atol=1e-6)
-    assert glb == write_glb(robot)
+    assert glb == write_glb(kenan)
 
 
 def test_colours_are_linear_light() -> None:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 from support import needs
-from support.built import built
 from support.machines import one_sided
 
 from jumpcad.exporters.mjcf_robot import HOLD, mjcf_files, readme, write_robot
@@ -29,13 +28,8 @@ def compiled(robot: Robot) -> Any:
 
 
 @pytest.fixture(scope="module")
-def robot() -> Robot:
-    return built("kenan-2.0")
-
-
-@pytest.fixture(scope="module")
-def model(robot: Robot) -> Any:
-    return compiled(robot)
+def model(kenan: Robot) -> Any:
+    return compiled(kenan)
 
 
 def at_key(model: Any, key: str) -> Any:
@@ -47,22 +41,22 @@ def at_key(model: Any, key: str) -> Any:
 
 @pytest.mark.parametrize(("key", "loaded"), [("home", 0.0), ("wound", 1.0)])
 def test_keys_are_poses_of_the_standing_robot_which_the_motor_lets_go_or_holds(
-    robot: Robot, model: Any, key: str, loaded: float
+    kenan: Robot, model: Any, key: str, loaded: float
 ) -> None:
     """The motor holds the loaded leg with 1.25 times the springs' torque, and pulls at nothing else."""
     data = at_key(model, key)
-    for name, pose in body_poses(robot, loaded).items():
+    for name, pose in body_poses(kenan, loaded).items():
         np.testing.assert_allclose(data.body(name).xpos, pose[:3, 3], atol=1e-7)
         np.testing.assert_allclose(data.body(name).xmat.reshape(3, 3), pose[:3, :3], atol=1e-6)
-    hold = -1.25 * robot.spring.peak_torque_nm
+    hold = -1.25 * kenan.spring.peak_torque_nm
     assert data.ctrl.tolist() == pytest.approx([hold * loaded])
     assert np.abs(data.qvel).max() == 0.0
     assert model.actuator("cam").ctrlrange.tolist() == pytest.approx([hold, 0.0])
     assert model.actuator("cam").trnid[0] == model.joint("leg").id
 
 
-def test_the_last_key_is_the_moment_at_which_the_roller_leaves_the_cam(robot: Robot, model: Any) -> None:
-    release, data = release_pose(robot), at_key(model, "released")
+def test_the_last_key_is_the_moment_at_which_the_roller_leaves_the_cam(kenan: Robot, model: Any) -> None:
+    release, data = release_pose(kenan), at_key(model, "released")
     assert model.nkey == 3
     for joint in JOINTS:
         assert data.joint(joint).qpos[0] == pytest.approx(release.joint_rad[joint], abs=1e-9)
@@ -73,12 +67,12 @@ def test_the_last_key_is_the_moment_at_which_the_roller_leaves_the_cam(robot: Ro
     assert speeds == pytest.approx(np.zeros(6), abs=1e-5)  # the foot still stands, while all else turns and moves
     mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, data.body(BODY).id, speeds, 0)
     assert np.hypot(*speeds[[3, 5]]) > 0.01
-    assert compiled(replace(robot, roller_off=None)).nkey == 2
+    assert compiled(replace(kenan, roller_off=None)).nkey == 2
 
 
-def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any) -> None:
+def test_leg_and_latch_end_where_the_springs_are_loaded(kenan: Robot, model: Any) -> None:
     """The tendon `wound` is a limit there; the latch, which is off, holds the leg there."""
-    wind = robot.spring.wind_rad
+    wind = kenan.spring.wind_rad
     tendon = model.tendon("wound").id
     assert model.tendon_range[tendon, 0] == pytest.approx(-wind)
     assert model.tendon_range[tendon, 1] > math.pi  # past rest nothing but the stop is in the leg's way
@@ -88,13 +82,13 @@ def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any
     assert latch.data[:5].tolist() == pytest.approx([-wind, 0.0, 0.0, 0.0, 0.0])
     assert latch.active0[0] == 0
     assert model.equality("loop").active0[0] == 1
-    pushing = compiled(one_sided(robot))
-    assert pushing.tendon_stiffness[pushing.tendon("springs").id] == pytest.approx(robot.spring.stiffness_nm_per_rad)
+    pushing = compiled(one_sided(kenan))
+    assert pushing.tendon_stiffness[pushing.tendon("springs").id] == pytest.approx(kenan.spring.stiffness_nm_per_rad)
 
 
-def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: Any) -> None:
+def test_collisions_have_the_robots_friction_and_priority(kenan: Robot, model: Any) -> None:
     """The foot's are those of its pads; spheres where it stands."""
-    rubs = coefficients(robot, Settings())
+    rubs = coefficients(kenan, Settings())
     count = 0
     for index in range(model.ngeom):
         geom = model.geom(index)
@@ -102,7 +96,7 @@ def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: A
         assert geom.priority[0] == 1
         surface = "foot" if model.body(geom.bodyid[0]).name == FOOT else "body"
         assert geom.friction[0] == pytest.approx(rubs.contact(surface))
-    for name, body in robot.bodies.items():
+    for name, body in kenan.bodies.items():
         for contact in body.contacts:
             sphere = model.geom(f"{name}_{contact.name}_collision")
             assert sphere.pos.tolist() == pytest.approx(contact.centre_m.tolist(), abs=1e-9)
@@ -135,7 +129,7 @@ def test_the_velocity_of_the_centre_of_mass_is_how_its_place_changes(model: Any)
     assert len({round(float(data.joint(joint).qpos[0]), 6) for joint in JOINTS}) == 3
 
 
-def test_bodies_collide_by_the_convex_hull_of_their_parts(robot: Robot, model: Any) -> None:
+def test_bodies_collide_by_the_convex_hull_of_their_parts(kenan: Robot, model: Any) -> None:
     """It reaches as far as they do in any direction; the foot's stays half a millimetre above its sole."""
     directions = np.random.default_rng(0).normal(size=(50, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
@@ -147,7 +141,7 @@ def test_bodies_collide_by_the_convex_hull_of_their_parts(robot: Robot, model: A
         hull = model.mesh_vert[first : first + model.mesh_vertnum[geom.dataid[0]]] @ turn.reshape(3, 3).T + geom.pos
         parts = np.concatenate([
             one.mesh.vertices / 1000.0 @ one.T_body_mesh[:3, :3].T + one.T_body_mesh[:3, 3]
-            for one in visuals(robot) if one.body == name
+            for one in visuals(kenan) if one.body == name
         ])  # fmt: skip
         upward = directions[directions[:, 2] > 0.0] if name == FOOT else directions
         np.testing.assert_allclose((hull @ upward.T).max(axis=0), (parts @ upward.T).max(axis=0), atol=2e-5)
@@ -156,28 +150,28 @@ def test_bodies_collide_by_the_convex_hull_of_their_parts(robot: Robot, model: A
 
 
 @pytest.mark.parametrize("times", [1.0, 2.0])
-def test_the_motor_holds_by_a_quarter_more_than_the_springs_push(robot: Robot, times: float) -> None:
+def test_the_motor_holds_by_a_quarter_more_than_the_springs_push(kenan: Robot, times: float) -> None:
     """Against their opening, which is positive: the control is negative."""
-    spring = replace(robot.spring, stiffness_nm_per_rad=times * robot.spring.stiffness_nm_per_rad)
+    spring = replace(kenan.spring, stiffness_nm_per_rad=times * kenan.spring.stiffness_nm_per_rad)
     (held,) = re.findall(
-        r"Its control (\S+) N·m holds the loaded leg, 0 releases it", readme(replace(robot, spring=spring))
+        r"Its control (\S+) N·m holds the loaded leg, 0 releases it", readme(replace(kenan, spring=spring))
     )
-    assert float(held) == pytest.approx(-1.25 * times * robot.spring.peak_torque_nm, rel=5e-3)
+    assert float(held) == pytest.approx(-1.25 * times * kenan.spring.peak_torque_nm, rel=5e-3)
     assert HOLD == 1.25
 
 
 @pytest.mark.filterwarnings("ignore:Attach conflict")  # MuJoCo 4 says which options it does not take
 def test_the_notes_programs_run_and_the_robot_jumps_when_the_motor_lets_go(
-    robot: Robot, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    kenan: Robot, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Held for 0.1 s, it is in the air 0.3 s after; in another scene it has a prefix. From texts instead of files."""
     monkeypatch.chdir(tmp_path)  # where MuJoCo writes its log
-    jump, _, attach = re.findall(r"```python\n(.*?)```", readme(robot), re.DOTALL)
-    alone = write_robot(robot, visuals(robot), looks=False)
-    held = at_key(compiled(robot), "wound")
+    jump, _, attach = re.findall(r"```python\n(.*?)```", readme(kenan), re.DOTALL)
+    alone = write_robot(kenan, visuals(kenan), looks=False)
+    held = at_key(compiled(kenan), "wound")
     given = {
-        "scene": dict(mjcf_files(robot))["mjcf/scene.xml"],
-        "files": {f"{robot.name}.xml": alone.encode()},
+        "scene": dict(mjcf_files(kenan))["mjcf/scene.xml"],
+        "files": {f"{kenan.name}.xml": alone.encode()},
         "alone": alone,
     }
     own = "<mujoco><worldbody><geom type='plane' size='0 0 0.05'/></worldbody></mujoco>"
@@ -188,7 +182,7 @@ def test_the_notes_programs_run_and_the_robot_jumps_when_the_motor_lets_go(
     assert place[0] > held.sensor("com").data[0] + 0.05  # x is forward
     program = attach.replace('from_file("your_scene.xml")', "from_string(own)")
     exec(
-        program.replace(f'from_file("{robot.name}.xml")', "from_string(alone)"),
+        program.replace(f'from_file("{kenan.name}.xml")', "from_string(alone)"),
         found := given | {"own": own, "mujoco": mujoco},
     )
     assert found["model"].joint("jumper-leg").id >= 0

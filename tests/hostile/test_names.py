@@ -5,7 +5,7 @@ import socket
 from pathlib import Path
 
 from support.each import each
-from support.sandbox import ANY, Sandbox
+from support.sandbox import ANY, Sandbox, lay_odd
 
 from jumpcad.design import load_design
 
@@ -109,6 +109,7 @@ PATHS = {
     "markup": "[/no].toml",
     "url": "https://127.0.0.1:1/x.toml",
     "socket": "socket.toml",
+    "pipe": "pipe.toml",
 }
 COMMANDS = {
     "simulate": ["simulate", "--capsule", "--", "PATH"],
@@ -127,7 +128,8 @@ COMMANDS = {
 
 
 def lay_paths(sandbox: Sandbox) -> None:
-    """Put links and a socket where the odd paths lead."""
+    """Put links, a pipe and a socket where the odd paths lead."""
+    lay_odd(sandbox.work / "pipe.toml", "pipe")
     for name, target in {"loop": "loop.toml", "dangling": "nowhere", "link": "../outside/precious.txt"}.items():
         (sandbox.work / f"{name}.toml").symlink_to(target)
     with socket.socket(socket.AF_UNIX) as listener:

@@ -147,13 +147,6 @@ def test_a_workshop_stands_on_no_strange_ground(sandbox: Sandbox, case: str, key
     ask(sandbox, "workshop", (2,))
 
 
-@each("kind", ["pipe", "device", "memory", "folder", "loop"])
-@each("argument", ["design", "workshop", "settings", "readings"])
-def test_what_is_no_file_is_refused(sandbox: Sandbox, argument: str, kind: str) -> None:
-    lay_odd(sandbox.work / "x.toml", kind)
-    ask(sandbox, argument, (2,))
-
-
 MATERIALS = {
     "path": "x/../../../report",
     "formula": '=HYPERLINK("http://x")',

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import shapely
 from support.built import LONG_TOES, built, geared, in_body
-from support.workshops import changed
+from support.workshops import workshop_with
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import SEARCH_BOUNDS, Design
@@ -107,7 +107,7 @@ def test_toes_are_as_wide_as_asked_and_never_narrower_than_their_tips() -> None:
     tips = layout.design.l5_mm * math.sin(math.radians(layout.design.ground_link_angle_deg))
     for asked, wide in ((0.0, tips), (tips - 5.0, tips), (tips + 5.0, tips + 5.0)):
         assert plan_again(
-            layout, workshop=changed(body={"toe_half_width_mm": asked})
+            layout, workshop=workshop_with(body={"toe_half_width_mm": asked})
         ).toe_half_width_mm == pytest.approx(wide)
 
 
@@ -202,8 +202,7 @@ def test_the_reserve_is_kept_in_the_stops_room_and_between_the_legs() -> None:
     shop = load_workshop("default")
 
     def planned(reserve_mm: float) -> Layout:
-        safety = shop.safety.model_copy(update={"room_reserve_mm": reserve_mm})
-        return layout_of(TIGHT, shop.model_copy(update={"safety": safety}))
+        return layout_of(TIGHT, workshop_with(shop, safety={"room_reserve_mm": reserve_mm}))
 
     free = planned(0.0)
     assert 0.0 < free.stop.room_mm < shop.safety.room_reserve_mm

@@ -1,7 +1,6 @@
 """What stands and moves between the plates: each as wide as it is, and kept clear of by 0.8 mm."""
 
 import pytest
-from support.built import built
 
 from jumpcad.layout.obstacles import LEVER_HEAD_MM, swept_obstacles
 from jumpcad.layout.room import Obstacle
@@ -11,11 +10,6 @@ SCREW_HEAD_MM = 1.65
 """Height of the head of an M3 screw (ISO 7380-1)."""
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return built("kenan-2.0")
-
-
 def swept(robot: Robot, *given: float, reach_rad: float = 0.1) -> dict[str, Obstacle]:
     """Return what a robot's links sweep, by name."""
     layout = robot.layout
@@ -23,10 +17,10 @@ def swept(robot: Robot, *given: float, reach_rad: float = 0.1) -> dict[str, Obst
     return {one.name: one for one in found}
 
 
-def test_the_lever_takes_its_screw_with_the_head_to_the_left(robot: Robot) -> None:
+def test_the_lever_takes_its_screw_with_the_head_to_the_left(kenan: Robot) -> None:
     """Its interval of y is that of the screw, and a head's height more towards the left, which is up along y."""
-    right, left = swept(robot)["lever"].y_mm
-    screw = robot.layout.lateral.roller_screw
+    right, left = swept(kenan)["lever"].y_mm
+    screw = kenan.layout.lateral.roller_screw
     assert right == screw[0]
     assert SCREW_HEAD_MM <= left - screw[1] < SCREW_HEAD_MM + 0.1
     assert left - screw[1] == pytest.approx(LEVER_HEAD_MM)

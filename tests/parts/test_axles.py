@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.checks.interference import interference_findings
@@ -11,7 +12,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import Workshop
 
 CHOICES = {
     "plates": {},
@@ -21,8 +22,7 @@ CHOICES = {
 
 
 def workshop(**bought: object) -> Workshop:
-    shop = load_workshop()
-    return shop.model_copy(update={"bought": shop.bought.model_copy(update=bought)})
+    return workshop_with(bought=bought)
 
 
 @pytest.fixture(scope="module", params=list(CHOICES))

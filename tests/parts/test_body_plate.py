@@ -86,11 +86,6 @@ def test_the_motors_socket_has_a_floor_under_it_and_a_sliding_fit_around_it(name
     assert mesh.bounds[1, 1] == pytest.approx(front - 0.2, abs=1e-3)
 
 
-@pytest.fixture(scope="module")
-def kenan() -> Robot:
-    return built("kenan-2.0")
-
-
 @pytest.mark.parametrize("name", ["body_plate_left", "body_plate_right"])
 def test_plates(kenan: Robot, name: str) -> None:
     layout = kenan.layout

@@ -6,16 +6,11 @@ import numpy as np
 import pytest
 import shapely
 from manifold3d import CrossSection
-from support.built import built, cut, hole_centres, placed, region
+from support.built import cut, hole_centres, placed, region
 
 from jumpcad.parts.fittings import fitting_openings, fitting_pads, wire_hole_mm
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
-
-
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return built("kenan-2.0")
 
 
 def sizes(regions: list[CrossSection]) -> list[tuple[tuple[float, float], tuple[float, float]]]:
@@ -24,9 +19,9 @@ def sizes(regions: list[CrossSection]) -> list[tuple[tuple[float, float], tuple[
     return [(tuple(box.mean(axis=0)), tuple(box[1] - box[0])) for box in boxes]
 
 
-def test_the_plates_have_material_around_what_passes_them(robot: Robot) -> None:
+def test_the_plates_have_material_around_what_passes_them(kenan: Robot) -> None:
     """2.5 mm around the USB plug, 1.2 mm around the switch, 12 x 16 mm for a hole for leads with its tie."""
-    fittings = robot.layout.fittings
+    fittings = kenan.layout.fittings
     assert fittings.switch is not None
     left, right, switch, usb = sizes(list(fitting_pads(fittings, 0.0)))
     for (middle, size), place in ((left, fittings.left_mm), (right, fittings.right_mm)):
@@ -40,9 +35,9 @@ def test_the_plates_have_material_around_what_passes_them(robot: Robot) -> None:
         assert wide == pytest.approx((size[0] + 3.0, size[1] + 3.0), abs=2e-3)
 
 
-def test_openings_are_as_large_as_what_passes_them(robot: Robot) -> None:
+def test_openings_are_as_large_as_what_passes_them(kenan: Robot) -> None:
     """A knob's slot of 8 x 4.4 mm between screws 15 mm apart; two slots for a tie 5 mm above the hole for leads."""
-    fittings, holes = robot.layout.fittings, HoleSizes.of(robot.workshop, None)
+    fittings, holes = kenan.layout.fittings, HoleSizes.of(kenan.workshop, None)
     hole, one, other, *more = sizes(list(fitting_openings(fittings, holes, "left")))
     assert not more
     assert hole[0] == pytest.approx(wire_hole_mm(fittings.left_mm), abs=2e-3)
@@ -54,28 +49,28 @@ def test_openings_are_as_large_as_what_passes_them(robot: Robot) -> None:
     x, z = fittings.switch_mm
     assert knob == (pytest.approx((x, z), abs=2e-3), pytest.approx((8.0, 4.4), abs=2e-3))
     assert [middle for middle, _ in screws] == [pytest.approx((x + side * 7.5, z), abs=2e-3) for side in (-1.0, 1.0)]
-    m2_mm = robot.workshop.fits.m2_clearance_mm  # screws pass the plate and bite into the switch
+    m2_mm = kenan.workshop.fits.m2_clearance_mm  # screws pass the plate and bite into the switch
     assert [size for _, size in screws] == [pytest.approx((m2_mm, m2_mm), abs=0.01)] * 2
     assert usb == (pytest.approx(tuple(fittings.usb_mm), abs=2e-3), pytest.approx(fittings.usb_size_mm, abs=2e-3))
 
 
-def test_the_right_plate_is_open_for_what_there_is(robot: Robot) -> None:
+def test_the_right_plate_is_open_for_what_there_is(kenan: Robot) -> None:
     """Without a switch behind it no knob and no screws, without a socket no plug; leads pass it always."""
-    holes = HoleSizes.of(robot.workshop, None)
+    holes = HoleSizes.of(kenan.workshop, None)
     for missing, openings, pads in (({}, 7, 4), ({"switch_mm": None}, 4, 3), ({"usb_mm": None}, 6, 3)):
-        fittings = replace(robot.layout.fittings, **missing)
+        fittings = replace(kenan.layout.fittings, **missing)
         assert len(list(fitting_openings(fittings, holes, "right"))) == openings
         assert len(list(fitting_pads(fittings, 0.0))) == pads
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_leads_pass_inside_the_plates_room_for_them(robot: Robot, side: str) -> None:
+def test_leads_pass_inside_the_plates_room_for_them(kenan: Robot, side: str) -> None:
     """Hole and both slots of the tie lie within the room of 12 x 16 mm, and the plate has them."""
-    fittings, lateral = robot.layout.fittings, robot.layout.lateral
+    fittings, lateral = kenan.layout.fittings, kenan.layout.lateral
     place = fittings.left_mm if side == "left" else fittings.right_mm
     room = shapely.box(place[0] - 6.0, place[1] - 8.0, place[0] + 6.0, place[1] + 8.0)
     plate = lateral.left_plate if side == "left" else lateral.right_plate
-    segments = cut(placed(robot, f"body_plate_{side}"), sum(plate) / 2.0)
+    segments = cut(placed(kenan, f"body_plate_{side}"), sum(plate) / 2.0)
     inside = [at for at in hole_centres(segments) if room.contains(shapely.Point(at))]
     assert len(inside) == 3
     lost = room.difference(region(segments))

@@ -30,11 +30,6 @@ from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
 
-@pytest.fixture(scope="module")
-def kenan() -> Robot:
-    return built("kenan-2.0")
-
-
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_foot_holds_its_pins(kenan: Robot, side: float) -> None:
     y = side * (kenan.layout.lateral.lug_left[0] + 2.0)

@@ -11,11 +11,6 @@ from support.fits import SLIDING, TOLERANCE_MM
 from jumpcad.robot import Robot
 
 
-@pytest.fixture(scope="module")
-def kenan() -> Robot:
-    return built("kenan-2.0")
-
-
 def test_motor_seat(kenan: Robot) -> None:
     """The N20's gearbox is 10 by 12 mm; it slides into its socket, and M2 screws cut their thread beside it."""
     layout = kenan.layout

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import LONG_TOES, body_in_plane, built, cut, placed, region
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.building.assembly import assembled
@@ -107,9 +108,7 @@ def test_a_springs_arms_take_a_wires_room_beside_the_plate_and_beside_the_leg(as
 @pytest.mark.parametrize("preload_deg", [0.0, 5.0])
 def test_coil_and_leg_arm_are_one_wire_at_rest(preload_deg: float) -> None:
     """The coil ends where the leg's arm leaves it, in place and direction, with springs that are loaded at rest too."""
-    shop = load_workshop()
-    spring = shop.spring.model_copy(update={"preload_deg": preload_deg})
-    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"spring": spring}))
+    robot = build(load_design("kenan-2.0"), workshop_with(spring={"preload_deg": preload_deg}))
     T_body_leg = body_in_plane(robot, MAIN_LEG, 0.0)
     things = {item.name: item for item in robot.hardware}
     for side in ("left", "right"):

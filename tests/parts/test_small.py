@@ -10,11 +10,6 @@ from support.fits import RUNNING, TOLERANCE_MM
 from jumpcad.robot import Robot
 
 
-@pytest.fixture(scope="module")
-def kenan() -> Robot:
-    return built("kenan-2.0")
-
-
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_bushings_turn_on_the_axle_and_fill_the_wound_spring(kenan: Robot, side: str) -> None:
     lateral, spring = kenan.layout.lateral, kenan.layout.drive.spring

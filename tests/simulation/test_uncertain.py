@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import ndtr
 from support.built import built
+from support.workshops import workshop_with
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
@@ -52,8 +53,7 @@ def test_jumps_and_their_resampling_follow_from_the_seed(robot: Robot, monkeypat
 
 
 def test_the_workshop_says_how_much_springs_scatter(robot: Robot) -> None:
-    safety = robot.workshop.safety.model_copy(update={"spring_rate_scatter": 0.0})
-    exact = replace(robot, workshop=robot.workshop.model_copy(update={"safety": safety}))
+    exact = replace(robot, workshop=workshop_with(robot.workshop, safety={"spring_rate_scatter": 0.0}))
     found = uncertain_jump(exact, Settings(), "planar", samples=32)
     assert found.first_order["springs"]["ballistic_range_m"] == pytest.approx(0.0, abs=1e-9)
 

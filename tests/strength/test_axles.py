@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from support.workshops import workshop_with
 
 from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.strength.axles import (
@@ -18,8 +19,7 @@ from jumpcad.workshop import Workshop, load_workshop
 
 
 def workshop(**bought: object) -> Workshop:
-    shop = load_workshop()
-    return shop.model_copy(update={"bought": shop.bought.model_copy(update=bought)})
+    return workshop_with(bought=bought)
 
 
 def test_a_bored_bar_by_the_handbook() -> None:
@@ -73,14 +73,14 @@ def test_the_weaker_of_rod_and_the_workshops_steel_counts() -> None:
     tube = axle_bar(workshop(axle="steel-tube", axle_mm=3.0))
     assert (tube.yield_mpa, tube.bore_mm) == (210.0, pytest.approx(2.0, abs=1e-3))
     shop = workshop(axle="spring-steel", axle_mm=3.0)
-    careful = shop.model_copy(update={"safety": shop.safety.model_copy(update={"steel_yield_mpa": 900.0})})
+    careful = workshop_with(shop, safety={"steel_yield_mpa": 900.0})
     assert axle_bar(careful).yield_mpa == 900.0
     tubes = workshop(retention="clips", axle="steel-tube", axle_mm=3.0)
     assert pin_bar(tubes).yield_mpa == 210.0
-    stout = shop.model_copy(update={"safety": shop.safety.model_copy(update={"steel_yield_mpa": 123.0})})
+    stout = workshop_with(shop, safety={"steel_yield_mpa": 123.0})
     assert pin_bar(stout).yield_mpa == 123.0  # clevis pins too
     thin = workshop(axle_mm=2.0)
-    careful = thin.model_copy(update={"safety": thin.safety.model_copy(update={"steel_yield_mpa": 300.0})})
+    careful = workshop_with(thin, safety={"steel_yield_mpa": 300.0})
     assert (pin_bar(thin).yield_mpa, pin_bar(careful).yield_mpa) == (400.0, 300.0)
 
 

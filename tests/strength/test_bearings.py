@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.built import built
 from support.fits import LOADS
+from support.workshops import workshop_with
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
@@ -58,10 +59,8 @@ def test_the_washer_beside_the_roller_leaves_its_outer_ring_free(
 
 def test_a_roller_whose_outer_ring_the_screws_head_would_clamp_is_refused() -> None:
     """The head of ISO 7380-1 M3 is 5.7 mm wide; the outer ring of an MR63 (6 mm) begins nearer."""
-    shop = load_workshop()
-    small = shop.model_copy(update={"bought": shop.bought.model_copy(update={"roller": "MR63"})})
     with pytest.raises(JumpcadError, match=r'^bought\.roller = "MR63": .* head of 5\.7 mm .* choose a bearing of 7 mm'):
-        roller_bearing(small)
+        roller_bearing(workshop_with(bought={"roller": "MR63"}))
 
 
 @pytest.mark.parametrize(("outer_mm", "fits"), [(13.0, True), (16.0, False)])
@@ -106,8 +105,7 @@ def test_a_workshop_offers_the_bearings_of_its_axle_the_lightest_first() -> None
     found = [bearing for bearing in hub_bearings(workshop) if bearing]
     assert {bearing.bore_mm for bearing in found} == {3.0}
     assert [bearing.mass_g for bearing in found] == sorted(bearing.mass_g for bearing in found)
-    plain = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"leg_bearing": ""})})
-    assert hub_bearings(plain) == [None]
+    assert hub_bearings(workshop_with(bought={"leg_bearing": ""})) == [None]
 
 
 def test_the_first_guess_passes_over_bearings_of_too_small_a_rating_only() -> None:
@@ -118,7 +116,7 @@ def test_the_first_guess_passes_over_bearings_of_too_small_a_rating_only() -> No
         bearing is None or allowed_n(bearing, workshop) < 100.0 * design.peak_spring_torque_nm
         for bearing in bearings[:number]
     )
-    safer = workshop.model_copy(update={"safety": workshop.safety.model_copy(update={"bearing_factor": 20.0})})
+    safer = workshop_with(workshop, safety={"bearing_factor": 20.0})
     assert first_guess(bearings, design, safer) == len(bearings) - 1
     assert allowed_n(BEARING, safer) == pytest.approx(BEARING.static_load_n / 20.0 / LOADS)
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.fits import LOADS, with_fits_apart
 from support.strengths import with_own
+from support.workshops import workshop_with
 
 from jumpcad.design import load_design
 from jumpcad.dimensions import STOP_SEAT_MM
@@ -64,8 +65,7 @@ def test_every_beam_has_its_own_width_and_its_own_heights_from_root_to_tip() -> 
 def test_legs_with_a_bar_have_walls_around_its_socket(name: str) -> None:
     """Above and below it a wall, beside it a thin one, and the play of a lying hole on every side."""
     workshop = with_fits_apart(load_workshop())
-    bought = workshop.bought.model_copy(update={"leg": name})
-    sizes = sections(Linkage(load_design("kenan-2.0")), workshop.model_copy(update={"bought": bought}))
+    sizes = sections(Linkage(load_design("kenan-2.0")), workshop_with(workshop, bought={"leg": name}))
     bar, fits = workshop.catalogue.bars[name], workshop.fits
     high = bar.height_mm + 2.0 * (fits.lying_mm + fits.wall_mm)
     assert sizes.front_mm == pytest.approx(max(6.0, high), abs=0.011)
@@ -102,7 +102,7 @@ def test_what_others_are_printed_in_does_not_size_the_links(role: Role) -> None:
 def test_eyes_and_a_thin_dog_grow_with_the_axle() -> None:
     """Half a millimetre of radius, and one of diameter where the jaws are as thin as can be printed."""
     linkage, shop = Linkage(load_design("kenan-2.0")), load_workshop()
-    thick = shop.model_copy(update={"bought": shop.bought.model_copy(update={"axle_mm": shop.bought.axle_mm + 1.0})})
+    thick = workshop_with(shop, bought={"axle_mm": shop.bought.axle_mm + 1.0})
     before, after = sections(linkage, shop), sections(linkage, thick)
     assert after.eye_radius_mm - before.eye_radius_mm == pytest.approx(0.5)
     assert after.dog_mm - before.dog_mm == pytest.approx(1.0)
@@ -125,7 +125,7 @@ def test_the_leg_bears_the_springs_torque_and_more_than_the_force_along_it(
 
 def test_hollow_links_are_higher_than_solid_ones() -> None:
     design, workshop = load_design("best-bo"), load_workshop()
-    solid = workshop.model_copy(update={"process": workshop.process.model_copy(update={"infill": 1.0})})
+    solid = workshop_with(workshop, process={"infill": 1.0})
     by_hand = math.sqrt(6.0 * 1.15 * LOADS * 1000.0 * design.peak_spring_torque_nm / (8.0 * 15.0))
     assert sections(Linkage(design), solid).lever_root_mm == pytest.approx(math.ceil(147.0 * by_hand) / 100.0)
     assert sections(Linkage(design), workshop).lever_root_mm > 1.05 * by_hand
@@ -142,8 +142,7 @@ def test_the_stops_bar_is_a_beam_on_the_plates_under_the_pads_force() -> None:
 
     The pad's force is 0.82 of that of a lossless spring which takes 12 % of the springs' energy.
     """
-    shop = load_workshop()
-    solid = shop.model_copy(update={"process": shop.process.model_copy(update={"infill": 1.0})})
+    solid = workshop_with(process={"infill": 1.0})
     design = load_design("best-bo")
     sizes = sections(Linkage(design), solid)
     width = sizes.thickness_mm
@@ -180,9 +179,9 @@ def test_the_least_dog_has_jaws_that_print_around_the_gears_hub() -> None:
 
 def test_preloaded_springs_ask_for_thicker_dogs_and_legs() -> None:
     """Their torque grows by (δ + p)/δ, the dog's diameter by its cube root, a solid lever's height by the root."""
-    shop, design = load_workshop(), load_design("best-bo").model_copy(update={"stiffness_nmm_per_deg": 30.0})
-    solid = shop.model_copy(update={"process": shop.process.model_copy(update={"infill": 1.0})})
-    loaded = solid.model_copy(update={"spring": solid.spring.model_copy(update={"preload_deg": 10.0})})
+    design = load_design("best-bo").model_copy(update={"stiffness_nmm_per_deg": 30.0})
+    solid = workshop_with(process={"infill": 1.0})
+    loaded = workshop_with(solid, spring={"preload_deg": 10.0})
     usual, more = (sections(Linkage(design), one) for one in (solid, loaded))
     times = 1.0 + math.radians(10.0) / design.compression_rad
     assert more.thickness_mm == usual.thickness_mm

@@ -1,6 +1,7 @@
 """Built robots, and measurements of their meshes by trimesh and shapely, without the package's own geometry."""
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import shapely
@@ -15,27 +16,23 @@ from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 from jumpcad.workshop.varied import varied
+from support.workshops import workshop_with
 
 LONG_TOES = "long toes"
 """A 183 mm robot whose foot is larger than any common bed."""
 
 
 @lru_cache(maxsize=32)
-def built(name: str, workshop: str = "default", mass_model: str = "printed", motor: str = "", leg: str = "") -> Robot:
-    """Return the robot of a template or of `LONG_TOES`, built once; a quick `motor` needs two pairs of gears.
-
-    `leg` is the bar of legs with printed ends.
-    """
-    shop = load_workshop(workshop)
-    mass = shop.mass.model_copy(update={"model": mass_model})
-    bought = shop.bought.model_copy(update={"leg": leg} | ({"motors": (motor,)} if motor else {}))
-    return build(design(name), shop.model_copy(update={"mass": mass, "bought": bought}), name)
+def built(name: str, workshop: str = "default", mass_model: str = "printed", **bought: Any) -> Robot:
+    """Return the robot of a template or of `LONG_TOES`, built once; with other parts than the workshop has bought."""
+    shop = workshop_with(load_workshop(workshop), mass={"model": mass_model}, bought=bought)
+    return build(design(name), shop, name)
 
 
-@lru_cache(maxsize=2)
-def of_kit(kit: str) -> Robot:
-    """Return the robot of best-printable with the electrical parts of a kit, built once."""
-    return build(load_design("best-printable"), with_kit(kit), "best-printable")
+@lru_cache(maxsize=4)
+def of_kit(kit: str, name: str = "best-printable", **bought: Any) -> Robot:
+    """Return the robot of a template with the electrical parts of a kit, and others where asked, built once."""
+    return build(load_design(name), workshop_with(with_kit(kit), bought=bought), name)
 
 
 def with_kit(kit: str, **bought: str) -> Workshop:
@@ -51,7 +48,7 @@ def checked(name: str) -> tuple[Finding, ...]:
 
 def geared() -> Robot:
     """Return a robot with two pairs of gears: a strong design with a quick motor."""
-    return built("best-bo", motor="n20-50")
+    return built("best-bo", motors=("n20-50",))
 
 
 def design(name: str) -> Design:

@@ -5,6 +5,7 @@ import numpy as np
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 from support.built import cut, inscribed_diameter, part, placed
+from support.workshops import workshop_with
 
 PRESS, SLIDING, LOOSE, EYE, LYING, RIB = 0.10, 0.20, 0.30, 0.10, 0.10, 0.05
 """Per side, in the default workshop."""
@@ -22,7 +23,7 @@ LOADS = 1.1 * 1.05
 
 def with_fits_apart(workshop: Workshop) -> Workshop:
     """Return a workshop in which no two of the tight fits are equal."""
-    return workshop.model_copy(update={"fits": workshop.fits.model_copy(update=APART)})
+    return workshop_with(workshop, fits=APART)
 
 
 def chamfered(robot: Robot, name: str) -> bool:

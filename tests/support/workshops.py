@@ -1,12 +1,12 @@
-"""The default workshop with some of its values changed."""
+"""Workshops with some of their values changed."""
 
 from typing import Any
 
 from jumpcad.workshop import Workshop, load_workshop
 
 
-def changed(**sections: dict[str, Any]) -> Workshop:
-    """Return the default workshop with some values of some sections changed, which are not checked."""
-    workshop = load_workshop("default")
+def workshop_with(workshop: Workshop | None = None, /, **sections: dict[str, Any]) -> Workshop:
+    """Return a workshop, the default one if none is given, with some values of some sections changed, unchecked."""
+    workshop = workshop or load_workshop("default")
     parts = {name: getattr(workshop, name).model_copy(update=values) for name, values in sections.items()}
     return workshop.model_copy(update=parts)
