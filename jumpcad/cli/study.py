@@ -39,7 +39,7 @@ def study(
     """Show a study, also while it runs; compare several; export the trials."""
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.search.study.store import StudyStore
-    from jumpcad.search.study.table import TABLES, write_table
+    from jumpcad.search.study.trial import TABLES, write_table
 
     if len(files) > 1 and (export or plots):
         raise JumpcadError("--export and --plots are for one study; name one file")

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from jumpcad.search.study.result import Result as Result
     from jumpcad.search.study.run import run_study as run_study
     from jumpcad.search.study.store import StudyStore as StudyStore
-    from jumpcad.search.study.table import write_table as write_table
     from jumpcad.search.study.trial import Trial as Trial
+    from jumpcad.search.study.trial import write_table as write_table
 else:
     __getattr__, __dir__, __all__ = lazy_exports(__name__)

@@ -150,12 +150,7 @@ def elite(trials: Sequence[Trial]) -> list[Trial]:
 
 
 @check_arguments
-def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Importance:
-    """Return the importance of the free parameters of the evaluator's space; see `importance_in`."""
-    return importance_in(evaluator.space, trials, seed)
-
-
-def importance_in(space: Space, trials: Sequence[Trial], seed: int) -> Importance:
+def importance(searched: Evaluator | Space, trials: Sequence[Trial], seed: int) -> Importance:
     """Return the permutation importance of the free parameters for the score of designs that jump.
 
     A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is permuted there.
@@ -167,6 +162,7 @@ def importance_in(space: Space, trials: Sequence[Trial], seed: int) -> Importanc
     JumpcadError
         If too few designs jump, or all score alike.
     """
+    space = searched.space if isinstance(searched, Evaluator) else searched
     feasible = [trial for trial in trials if trial.score is not None]
     if len(feasible) < 2 * FOLDS:
         raise JumpcadError(

@@ -21,10 +21,10 @@ from jumpcad.mechanism.model import Mechanism
 from jumpcad.search.estimate.estimated_robot import layout_figures, robot_figures
 from jumpcad.search.estimate.refusal import layout_findings, room_findings
 from jumpcad.search.pick.tolerances import PREFIX, Tolerances, perturbed
+from jumpcad.search.study.code_hash import code_digest, versions
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective
 from jumpcad.search.study.requirement import Required, Requirement, requirements_of, violations
 from jumpcad.search.study.variant import NOTHING, Variant
-from jumpcad.search.study.versions import code_digest, versions
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
 from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE, floors

@@ -4,7 +4,7 @@ from typing import Any
 
 from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
-from jumpcad.search.explore import LEAST_R_SQUARED, importance_in
+from jumpcad.search.explore import LEAST_R_SQUARED, importance
 from jumpcad.search.pick.robust import ActiveBound
 from jumpcad.search.report.words import reason_words, with_unit
 from jumpcad.search.study.store import StudyStore
@@ -23,7 +23,7 @@ def importances(store: StudyStore, found: StudySummary) -> dict[str, Any]:
     if len({trial.score for trial in feasible}) < 2:
         return {}
     try:
-        learned = importance_in(found.space, feasible[:: -(-len(feasible) // MOST_LEARNED)], store.identity["seed"])
+        learned = importance(found.space, feasible[:: -(-len(feasible) // MOST_LEARNED)], store.identity["seed"])
     except JumpcadError:
         return {"learned": None, "jumped": counted(len(feasible), "design")}
     most = max(float(learned.mean.max()), 0.01)

@@ -16,7 +16,6 @@ from jumpcad.plural import counted
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.phases import FRONTS
-from jumpcad.search.pick.righting import kept_righting
 from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report.drawings import evenly, history, parallel, slices
@@ -27,7 +26,7 @@ from jumpcad.search.report.study_plots import study_figures
 from jumpcad.search.report.words import meaning_of, named, value_words, with_unit
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.study.summary import StudySummary, summary
+from jumpcad.search.study.summary import StudySummary, kept_righting, summary
 from jumpcad.search.study.trial import Trial, feasible_trials
 
 SHOWN = 10

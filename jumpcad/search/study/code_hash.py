@@ -1,9 +1,11 @@
-"""Hashes of own objectives: a study goes on only with the one that it was made with."""
+"""Hashes of code, jumpcad's and that of own objectives, and versions of packages: a study goes on only with its own."""
 
 import hashlib
+import importlib.metadata
 import sysconfig
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from functools import cache
 from modulefinder import ModuleFinder
 from pathlib import Path
 from types import CellType, CodeType, FunctionType, ModuleType
@@ -11,6 +13,12 @@ from typing import Any
 
 import numpy as np
 
+from jumpcad.files import templates_folder
+
+PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio")
+"""The packages of jumpcad that do not affect the trials of a study."""
+FORKS = {"pybullet": "pybullet-arm64"}
+"""What is installed in place of a package where that has no wheel."""
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
 
 
@@ -87,3 +95,32 @@ def _is_own(file: str) -> bool:
     libraries = [str(Path(__file__).parents[2])]
     libraries += [str(sysconfig.get_path(kind)) for kind in ("stdlib", "platstdlib", "purelib", "platlib")]
     return not any(Path(file).is_relative_to(library) for library in libraries)
+
+
+@cache
+def code_digest() -> str:
+    """Return a hash (hexadecimal) of the code and the catalogue that decide the trials of a study.
+
+    Between two releases the version number stays, but the code changes.
+    """
+    package = Path(__file__).parents[2]
+    files = {path.relative_to(package).as_posix(): path for path in package.rglob("*.py")}
+    files |= {f"hardware/{path.name}": path for path in (templates_folder() / "hardware").glob("*.toml")}
+    found = hashlib.sha256()
+    for name in sorted(files):
+        if name.split("/")[0] not in PRESENTATION:
+            content = files[name].read_bytes()
+            found.update(f"{name} {len(content)}\n".encode() + content)
+    return found.hexdigest()[:16]
+
+
+def versions(*packages: str) -> dict[str, str]:
+    """Return the installed versions of packages; of those that are not installed, `none`."""
+    return {package: _version(package) or _version(FORKS.get(package, package)) or "none" for package in packages}
+
+
+def _version(package: str) -> str | None:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return None

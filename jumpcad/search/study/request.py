@@ -29,9 +29,9 @@ from jumpcad.search.phases import (
     Method,
 )
 from jumpcad.search.space import Space
+from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.objective import Objective, find_objective
 from jumpcad.search.study.trial import Trial
-from jumpcad.search.study.versions import versions
 
 MOST_EVALUATIONS = 1_000_000
 """About a day of one core, at 80 ms an evaluation (docs/speed.md)."""

@@ -15,16 +15,15 @@ from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
 from jumpcad.search.fronts import front
 from jumpcad.search.phases import METHODS, SEARCH_PHASES
-from jumpcad.search.pick.righting import simulated_righting
 from jumpcad.search.pick.robust import ActiveBound, Candidate, active_bounds, rank_candidates
+from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.study.pool import Pool
 from jumpcad.search.study.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.study.result import Result
 from jumpcad.search.study.store import ENDED, StudyStore, difference
-from jumpcad.search.study.summary import keep_pick, pick_run
+from jumpcad.search.study.summary import keep_pick, pick_run, simulated_righting
 from jumpcad.search.study.trial import Trial, best_trial, count_rejections, is_flat
-from jumpcad.search.study.versions import versions
 
 FIRST = 50
 """Designs after which it is said that none jumps."""

@@ -1,4 +1,4 @@
-"""`StudySummary`: what a study file knows of its search; its robust picks, and what each of them found."""
+"""`StudySummary`: what a study file knows of its search; its robust picks, and how its winner rights itself."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -6,21 +6,37 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
+from jumpcad.building import build
 from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
+from jumpcad.landing.landing import land
+from jumpcad.search.models import RIGHTS_ITSELF, PrintedModel, RobotModel
 from jumpcad.search.phases import EXPLORED, FRONTS, NAMES
 from jumpcad.search.pick.robust import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Figure, Objective, Word, described_objective
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.study.trial import Count, Phase, Position, Trial, best_trial, is_flat, searched, trial_numbers
+from jumpcad.search.study.trial import (
+    Count,
+    Finite,
+    Position,
+    Share,
+    Trial,
+    best_trial,
+    is_flat,
+    searched,
+    trial_numbers,
+)
 
-PICKS = "picks"
-"""Key under which a study remembers its robust picks: one for each length of the search and of the pick."""
+PICKS, RIGHTING = "picks", "righting"
+"""Keys under which a study remembers its robust picks, one for each length of the search and of the pick, and how its
+winner rights itself."""
+TRIES = 50
+"""Drops in any attitude, and landings of own jumps; they take half a minute."""
 
 
 class _Candidate(TomlTable):
-    trial: tuple[Phase, Count, Count, Count]
+    trial: Position
     parameters_score: Figure
     print_score: Figure
     rejections: dict[Word, Count]
@@ -35,11 +51,22 @@ class _Pick(TomlTable):
     bounds: list[ActiveBound] | None = None
 
 
-_KIND = TypeAdapter(list[_Pick])
+class _Shares(TomlTable):
+    tries: Finite
+    drops: Share
+    landings: Share
+
+
+class _Righting(TomlTable):
+    trial: Position
+    shares: _Shares
+
+
+_PICKS, _RIGHTING = TypeAdapter(list[_Pick]), TypeAdapter(_Righting)
 
 
 def _recall(store: StudyStore) -> list[dict[str, Any]]:
-    picks: list[dict[str, Any]] = store.recall(PICKS, [], _KIND)
+    picks: list[dict[str, Any]] = store.recall(PICKS, [], _PICKS)
     return picks
 
 
@@ -77,6 +104,34 @@ def read_pick(store: StudyStore, trials: Sequence[Trial], designs: int) -> tuple
     except KeyError:
         raise JumpcadError(f"{store.path}: is damaged: a candidate of its pick is none of its trials") from None
     return found, [ActiveBound(**bound) for bound in ended[-1]["bounds"]]
+
+
+def simulated_righting(model: RobotModel, store: StudyStore, winner: Trial | None) -> dict[str, float]:
+    """Return the shares of drops and of own landings after which the winner stands, and keep them in the study.
+
+    Empty where nobody asked, or there is no winner or no MuJoCo.
+    """
+    if winner is None or not isinstance(model, PrintedModel) or not model.requires(RIGHTS_ITSELF):
+        return {}
+    if kept := kept_righting(store, winner):
+        return kept
+    try:
+        varied = model.varied(winner.workshop) if winner.workshop else model
+        found = land(build(winner.design, varied.workshop, name=""), TRIES, settings=model.settings)
+    except JumpcadError as error:
+        store.note_once(f"{RIGHTS_ITSELF}: not simulated: {error}")
+        return {}
+    shares = {"tries": float(TRIES), "drops": found.drops_righted, "landings": found.share_righted}
+    store.remember(RIGHTING, {"trial": list(winner.position), "shares": shares})
+    return shares
+
+
+def kept_righting(store: StudyStore, winner: Trial | None) -> dict[str, float]:
+    """Return what a study keeps of the righting of this winner; empty where it was not simulated."""
+    kept = store.recall(RIGHTING, None, _RIGHTING)
+    if kept is None or winner is None or kept["trial"] != list(winner.position):
+        return {}
+    return dict(kept["shares"])
 
 
 @dataclass(frozen=True)

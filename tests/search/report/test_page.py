@@ -26,8 +26,7 @@ from jumpcad.search.study.request import Request
 from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary
-from jumpcad.search.study.table import write_table
-from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.trial import Trial, write_table
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
 

@@ -127,7 +127,7 @@ def test_what_a_study_remembers_is_what_a_search_remembered() -> None:
         "picks": [{}, [{"designs": 9}], [pick | {"candidates": [candidate | {"trial": ["moon", 0, 0, 0]}]}],
                   [pick | {"candidates": [candidate | {"print_score": "x"}]}], [pick | {"bounds": [{}]}]],
     }  # fmt: skip
-    kinds: dict[str, TypeAdapter[Any]] = REMEMBERED | {"picks": summary._KIND}
+    kinds: dict[str, TypeAdapter[Any]] = REMEMBERED | {"picks": summary._PICKS}
     for key, kind in kinds.items():
         for value in fine[key]:
             validated(kind.validate_json, key, json.dumps(value))

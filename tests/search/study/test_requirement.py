@@ -13,7 +13,7 @@ from jumpcad.findings import errors
 from jumpcad.landing.landing import land
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.search.models import robot_model
-from jumpcad.search.pick import righting
+from jumpcad.search.study import summary
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.requirement import Requirement, requirements_of, violations
 from jumpcad.search.study.store import StudyStore
@@ -90,16 +90,16 @@ def test_righting_is_a_figure_where_it_is_required() -> None:
 
 def test_the_righting_of_a_winner_is_simulated_once(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("mujoco")
-    monkeypatch.setattr(righting, "TRIES", 2)
+    monkeypatch.setattr(summary, "TRIES", 2)
     model = robot_model("printed").requiring(["rights_itself>=0.1"])
     winner = Trial("bo", 0, 0, load_design("best-bo"), Evaluation("jump"), 1.0, "", 0.0, {})
     with StudyStore.write(None, {}) as store:
-        assert righting.simulated_righting(robot_model("printed"), store, winner) == {}
-        shares = righting.simulated_righting(model, store, winner)
+        assert summary.simulated_righting(robot_model("printed"), store, winner) == {}
+        shares = summary.simulated_righting(model, store, winner)
         own = land(built("best-bo"), 2)
         assert shares == {"tries": 2.0, "drops": own.drops_righted, "landings": own.share_righted}
-        monkeypatch.setattr(righting, "land", None)
-        assert righting.simulated_righting(model, store, winner) == shares
+        monkeypatch.setattr(summary, "land", None)
+        assert summary.simulated_righting(model, store, winner) == shares
 
 
 def test_the_winner_of_a_search_keeps_what_was_required() -> None:

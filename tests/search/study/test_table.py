@@ -11,8 +11,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search.study.objective import Evaluation
-from jumpcad.search.study.table import write_table
-from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.trial import Trial, write_table
 
 
 @pytest.fixture

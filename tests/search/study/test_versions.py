@@ -7,20 +7,20 @@ import numpy as np
 import pytest
 
 from jumpcad.search.models import CapsuleModel
-from jumpcad.search.study import versions
-from jumpcad.search.study.versions import PRESENTATION, code_digest
+from jumpcad.search.study import code_hash
+from jumpcad.search.study.code_hash import PRESENTATION, code_digest
 
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
     """Return the folder of a small package that stands in for this one."""
     root = tmp_path / "jumpcad"
-    for name in ("search/study/versions.py", "simulation/run.py", "cli/study.py"):
+    for name in ("search/study/code_hash.py", "simulation/run.py", "cli/study.py"):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(f"# {name}\n")
     (tmp_path / "templates" / "hardware").mkdir(parents=True)
-    monkeypatch.setattr(versions, "__file__", str(root / "search" / "study" / "versions.py"))
-    monkeypatch.setattr(versions, "templates_folder", lambda: tmp_path / "templates")
+    monkeypatch.setattr(code_hash, "__file__", str(root / "search" / "study" / "code_hash.py"))
+    monkeypatch.setattr(code_hash, "templates_folder", lambda: tmp_path / "templates")
     return root
 
 
@@ -68,5 +68,5 @@ print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part
 
 def test_versions_are_of_what_is_installed():
     """What is not there has none, so that a study knows where it was installed later."""
-    found = versions.versions("numpy", "no-such-package-of-jumpcad")
+    found = code_hash.versions("numpy", "no-such-package-of-jumpcad")
     assert found == {"numpy": np.__version__, "no-such-package-of-jumpcad": "none"}
