@@ -136,6 +136,12 @@ def strongest() -> Robot:
     return built("best-bo")
 
 
+@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    """Kenan 2.0, then the strongest, where a module has no robot of its own."""
+    return built(request.param)
+
+
 @pytest.fixture(scope="session")
 def bundle_of(tmp_path_factory: pytest.TempPathFactory, of_all_workers: Path) -> Callable[..., Path]:
     """Return a function that gives a template's bundle, made once for all workers; not to be changed.

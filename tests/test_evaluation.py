@@ -10,13 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support import needs
-from support.loaded import loaded_range_m
 from support.places import ROOT
 from support.workshops import workshop_with
 
 from jumpcad import evaluation
 from jumpcad.building import build, built_and_checked
-from jumpcad.bundle.export import export
 from jumpcad.checks import constraint_findings
 from jumpcad.checks.interference import pieces_of
 from jumpcad.design import Design, load_design
@@ -50,14 +48,6 @@ def test_the_jump_is_that_of_the_robot_that_is_written(name: str, tmp_path: Path
     assert found.jump.com_rise_m == pytest.approx(again.com_rise_m, rel=1e-9)
     assert found.jump.mass_kg == pytest.approx(again.mass_kg, rel=1e-12)
     assert found.fitness == pytest.approx(1000.0 * again.ballistic_range_m / robot.design.l_max_mm)
-
-
-def test_pybullet_that_loads_the_bundle_sees_the_same_jump(tmp_path: Path) -> None:
-    needs.package("pybullet")
-    named = build(KENAN, name="kenan-2.0")  # engraved, so a little lighter than a candidate
-    loaded = loaded_range_m(export(named, tmp_path / "k", pictures=False).folder / "urdf" / "kenan-2.0.urdf")
-    assert loaded == pytest.approx(simulate(named).ballistic_range_m, rel=1e-9)
-    assert loaded == pytest.approx(evaluate(KENAN).jump.ballistic_range_m, rel=5e-3)
 
 
 def test_its_masses_are_those_of_its_parts() -> None:

@@ -15,14 +15,10 @@ from support.commands import exit_code_of
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.export import export
-from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
-from jumpcad.layout.electronics import Electronics
-from jumpcad.layout.room import EVERYWHERE, disc
-from jumpcad.layout.tray_places import tray_place
 from jumpcad.workshop import load_workshop
 
 Tables = dict[str, dict[str, Any]]
@@ -94,16 +90,6 @@ def boards(length: float, width: float) -> Tables:
     }
 
 
-def like(slot: str, **figures: Any) -> Tables:
-    """Return a workshop with a battery, controller or driver that is a shipped one with other figures."""
-    kind, shipped = {
-        "battery": ("batteries", "lipo-1s-300"),
-        "controller": ("boards", "xiao-esp32c3"),
-        "driver": ("boards", "drv8833"),
-    }[slot]
-    return {"bought": {slot: "own"}, f"{kind}.own": {"like": shipped, "source": "test", **figures}}
-
-
 def bearing(place: str, bore: float, outer: float, width: float) -> Tables:
     """Return a workshop with a bearing of a size in the hub (`leg_bearing`) or for the roller (`roller`)."""
     grams = 0.6 * 7.85e-3 * math.pi / 4.0 * abs(outer**2 - bore**2) * width  # of a ring of steel, six tenths
@@ -172,10 +158,6 @@ REFUSED = {
         r"^part body_plate_left of 3\d\d\.\d×\d+\.\d×\d\.\d mm does not fit the bed of "
         r"250\.0×210\.0×220\.0 mm at any angle.*: choose .* smaller battery or boards",
     ),
-    "bearing 625 in the hub": (
-        bearing("leg_bearing", 5.0, 16.0, 5.0),
-        r'^bought\.leg_bearing = "own": no such bearing has the bore of bought\.axle_mm = 3: change one of them',
-    ),
     "bearing 625 for the roller": (
         bearing("roller", 5.0, 16.0, 5.0),
         r'^bought\.roller = "own": its bore of 5 mm does not fit the M3 screw that holds it: choose a '
@@ -190,25 +172,9 @@ REFUSED = {
         bearing("leg_bearing", 3.0, 8.0, 15.0),
         r"^no M3 screw of \d+\.\d mm; the longest in stock is 30 mm: choose a narrower bought\.leg_bearing or",
     ),
-    "a board with too few pins": (
-        like("controller", button="") | {"boards.own.pins": {"GND": ["ground"], "D1": ["gpio3", "adc", "pwm"]}},
-        r"^own has no pin left for motor and sleep and ready: 1 of 4 suit: choose a controller with more pins",
-    ),
-    "a driver without outputs": (
-        like("driver") | {"boards.own.pins": {"GND": ["ground"], "AIN1": ["forward"]}},
-        r"^driver own has no pin motor\+ and motor-: choose another bought.driver",
-    ),
     "two cells where one is borne": (
         {"bought": {"battery": "lipo-2s-180"}},
         r"^xiao-esp32c3 at BAT\+ gets 6\.\d\d to 8\.40 V and bears 3\.20 to 4\.20 V: choose a bought\.kit, ",
-    ),
-    "one cell for a motor of 12 V": (
-        {"bought": {"kit": "strong-2s", "battery": "lipo-1s-300"}},
-        r"^n20-298-hpcb12 at winding gets 3\.30 to 4\.20 V and bears 5\.00 to 12\.00 V: choose a bought\.kit, ",
-    ),
-    "a charger that is too strong": (
-        like("battery", capacity_mah=100.0, charge_ma=100.0),
-        r"^xiao-esp32c3 charges own with 370 mA; 100 mA are allowed, by its charge_ma: another bought\.battery",
     ),
     "a mount without a base": (
         {"body": {"plate_mm": 9.5}},
@@ -286,21 +252,3 @@ def test_a_bundle_with_own_parts_builds_again_from_itself(written: Write, tmp_pa
     listed = json.loads((first / "manifest.json").read_text())["files"]
     assert filecmp.cmpfiles(first, second, [*listed, "manifest.json"], shallow=False)[1:] == ([], [])
     assert "gear motor square-16" in (first / "bom.csv").read_text()
-
-
-def test_what_does_not_fit_is_an_answer_and_not_a_wrong_request(written: Write) -> None:
-    with pytest.raises(CannotBuildError):
-        build(KENAN, load_workshop(written(REFUSED["short shaft"][0])))
-
-
-def test_a_battery_that_hits_the_cam_is_refused_with_its_size() -> None:
-    """Beside a cam that reaches to the plates' end no tray of 200 x 200 mm has room."""
-    catalogue = load_catalogue()
-    battery = catalogue.batteries["lipo-1s-300"].model_copy(update={"length_mm": 200.0, "height_mm": 200.0})
-    electronics = Electronics(battery, catalogue.boards["xiao-esp32c3"], catalogue.boards["drv8833"])
-    words = (
-        r"^no room for the battery and electronics: [\d.]+ mm too little .*: raise .*, or choose a smaller battery or "
-        r"smaller boards: lipo-1s-300, .* take 20[\d.]+ x 2[\d.]+ mm$"
-    )
-    with pytest.raises(JumpcadError, match=words):
-        tray_place([disc("cam", (-20.0, 40.0), 60.0, EVERYWHERE)], electronics, 80.0, (-15.0, 15.0))

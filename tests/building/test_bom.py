@@ -19,11 +19,6 @@ from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
 
-@pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
-def robot(request: pytest.FixtureRequest) -> Robot:
-    return built(request.param)
-
-
 def rows(robot: Robot) -> list[dict[str, str]]:
     lines = table(write_bom(bill_of_materials(robot)))
     assert lines[-1]["kind"] == "total"

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.folders import add_mine, has_mine, listed, old
 
 from jumpcad.bundle import atomic_write
 from jumpcad.bundle.atomic_write import change_files, require_unedited, write_folder
@@ -37,6 +36,30 @@ def dying(*arguments, **options):
 setattr(holder, step, dying)
 atomic_write.write_folder(sys.argv[1], "robot", {}, {"a.md": "new", "deep/b.md": "new", "c.md": "new"}.items())
 """
+
+
+def old(target: Path) -> None:
+    """Write a bundle of two files."""
+    write_folder(target, "robot", {}, {"a.md": "old", "deep/b.md": "old"}.items())
+
+
+def add_mine(target: Path) -> None:
+    """Add what only a user can have: a file, one between ours, an empty folder, a link to nowhere."""
+    (target / "notes.txt").write_text("mine")
+    (target / "deep" / "mine.txt").write_text("mine")
+    (target / "empty").mkdir()
+    (target / "link").symlink_to("nowhere")
+
+
+def has_mine(target: Path) -> bool:
+    """Tell whether what `add_mine` added is there unchanged."""
+    kept = [(target / name).read_text() for name in ("notes.txt", "deep/mine.txt")]
+    return kept == ["mine", "mine"] and (target / "empty").is_dir() and os.readlink(target / "link") == "nowhere"
+
+
+def listed(folder: Path) -> list[str]:
+    """Return the paths of all that is in a folder, sorted."""
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
 
 
 @pytest.fixture

@@ -1,22 +1,19 @@
 """Firmware, drawings of leads and the manifest's `electronics` of a bundle, for both kits."""
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from support.built import built, of_kit
+from support.built import of_kit
 
 from jumpcad.bundle.drawings.lead_lines import leads_of
-from jumpcad.bundle.export import export
 from jumpcad.bundle.facts import electronics_facts
 from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
-from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
@@ -121,13 +118,6 @@ def test_a_release_has_time_from_the_earliest_ready_position_until_the_sensor_op
     earliest, latest = sensor.ready_rad + sensor.scatter_rad, sensor.open_rad + sensor.scatter_rad
     share = math.degrees(earliest + latest) / 360.0
     assert share * (found["WIND_MAX_MS"] - 100.0) <= found["RELEASE_MAX_MS"] <= share * found["WIND_MAX_MS"] + 100.0
-
-
-def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:
-    robot = built("kenan-2.0", battery="lipo-2s-180")
-    with pytest.raises(CannotBuildError, match=r"BAT\+ gets .* 8\.40 V and bears 3\.20 to 4\.20 V: choose a "):
-        export(robot, tmp_path / "out", pictures=False)
-    assert not (tmp_path / "out").exists()
 
 
 def test_the_tie_over_the_balance_lead_has_walls_beside_its_slots(robot: Robot) -> None:

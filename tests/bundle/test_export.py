@@ -81,26 +81,6 @@ def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path, monke
     assert bytes_of(tmp_path / "here") == bytes_of(tmp_path / "there")
 
 
-def test_a_build_that_breaks_leaves_the_old_bundle(
-    small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    folder = tmp_path / "b"
-    exported(small_robot, folder)
-    before = bytes_of(tmp_path)
-    whole = Path.write_bytes
-
-    def full_disk(self: Path, data: bytes) -> int:
-        if self.suffix == ".glb":
-            raise OSError(28, "No space left on device")
-        return whole(self, data)
-
-    monkeypatch.setattr(bundle_module.Path, "write_bytes", full_disk)
-    with pytest.raises(JumpcadError, match="No space left on device"):
-        exported(small_robot, folder)
-    monkeypatch.undo()
-    assert bytes_of(tmp_path) == before
-
-
 @pytest.mark.parametrize("name", ["", "../up", "a/b", ".hidden", "a\nb"])
 def test_names_that_cannot_be_files_are_refused(name: str, small_robot: Robot, tmp_path: Path) -> None:
     with pytest.raises(JumpcadError, match="is used in file names"):

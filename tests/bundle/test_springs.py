@@ -20,11 +20,6 @@ from jumpcad.bundle.springs import (
 from jumpcad.robot import Robot
 
 
-@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
-def robot(request: pytest.FixtureRequest) -> Robot:
-    return built(request.param)
-
-
 def test_the_torque_that_is_accepted_is_between_weak_and_strong(robot: Robot) -> None:
     """Least: 10 % softer and 10° narrower, rounded up; most: 10 % more, or what the wire bears without its reserve."""
     spring = robot.layout.drive.spring

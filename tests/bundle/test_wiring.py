@@ -8,8 +8,8 @@ import shapely
 from support.built import of_kit
 
 from jumpcad.bundle.drawings.wiring import wires, wiring_svg
-from jumpcad.electronics.chosen import Chosen, chosen_parts
-from jumpcad.electronics.nets import Wiring, wiring_of
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import wiring_of
 from jumpcad.robot import Robot
 
 SPACE = "{http://www.w3.org/2000/svg}"
@@ -20,12 +20,6 @@ STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#
 @pytest.fixture(scope="module", params=["light-1s", "strong-2s"])
 def robot(request: pytest.FixtureRequest) -> Robot:
     return of_kit(request.param)
-
-
-def net_list(robot: Robot) -> tuple[Chosen, Wiring]:
-    """Return a robot's electrical parts and their nets."""
-    chosen = chosen_parts(robot.workshop)
-    return chosen, wiring_of(chosen, robot.workshop.bought.pins)
 
 
 def numbers(element: ET.Element, *keys: str) -> list[float]:
@@ -75,7 +69,8 @@ def test_the_drawing_traced_along_its_lines_is_the_net_list(robot: Robot) -> Non
     A net has the colour of its wires in the table, grey where parts' own legs need none; no line of another net lies on
     one of it.
     """
-    root, (_, wiring) = ET.fromstring(wiring_svg(robot)), net_list(robot)
+    root = ET.fromstring(wiring_svg(robot))
+    wiring = wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)
     starts, lines = starts_of(root), lines_of(root)
     group = list(range(len(lines)))
     for (i, (_, one)), (j, (_, other)) in itertools.combinations(enumerate(lines), 2):
@@ -100,13 +95,3 @@ def test_the_drawing_traced_along_its_lines_is_the_net_list(robot: Robot) -> Non
     }
     assert traced == expected
     assert STROKES["own legs"] in traced.values()
-
-
-def test_every_net_has_one_wire_less_than_terminals(robot: Robot) -> None:
-    _, wiring = net_list(robot)
-    found = wires(robot)
-    for net in wiring.nets:
-        of_net = [one for one in found if one[0] == net.name]
-        assert len(of_net) == len(net.terminals) - 1
-        assert {end for _, start, end, *_ in of_net for end in (start, end)} == {*net.terminals}
-        assert {colour for *_, colour, _ in of_net if colour} <= {net.colour}

@@ -8,14 +8,6 @@ import pytest
 from support.commands import Run
 
 
-def test_interrupt_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(_: str) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("jumpcad.design.load_design", interrupted)
-    assert run("new", "robot.toml") == (130, "", "jumpcad: interrupted\n")
-
-
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_is_exit_code_128_and_its_number(
     run: Run, monkeypatch: pytest.MonkeyPatch, number: signal.Signals

@@ -5,11 +5,9 @@ import itertools
 import math
 
 import pytest
-from support.limits import default_limits
+from support.limits import default_limits, law_of
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.design import load_design
-from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_choice import _printable, by_cost, least_tip_mm
 from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.gears import Gear, least_shift
@@ -20,11 +18,6 @@ MOTORS = list(load_catalogue().motors.values())
 SHARE = 0.25 * 0.95 / 1.1
 """Of the stall torque: a quarter, 5 % of it in reserve, for springs that may be 10 % stiffer."""
 LIMITS = default_limits().train
-
-
-def law_of(name):
-    design = load_design(name)
-    return CamLaw(design.compression_rad, design.stiffness_nm_per_rad, math.radians(310), math.radians(30))
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

@@ -6,23 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.each import each
-from support.limits import default_limits
+from support.springs import LENGTH_MM, LIMITS, NAMES, WIRE, spring_of
 
-from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.spring import inner_fibre, torsion_spring
 from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
-
-WIRE = load_catalogue().wire
-LENGTH_MM = 13.0
-LIMITS = replace(default_limits().spring, body_lengths_max_mm=(LENGTH_MM,), pin_radius_min_mm=0.0)
-NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
-
-
-def spring_of(name, limits=LIMITS):
-    design = load_design(name)
-    return design, synthesise_spring(springs_on_leg(design), -math.radians(design.rest_angle_deg), WIRE, limits)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -7,11 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.each import each
-from support.limits import default_limits
+from support.springs import LENGTH_MM, LIMITS, NAMES, WIRE, spring_of
 
-from jumpcad.catalogue import load_catalogue
-from jumpcad.design import Design, load_design
-from jumpcad.drive.spring import SpringLimits, TorsionSpring, inner_fibre
+from jumpcad.design import load_design
+from jumpcad.drive.spring import TorsionSpring, inner_fibre
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.drive.spring_choice import (
     _arms_between,
@@ -24,18 +23,8 @@ from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import Spring
 
-WIRE = load_catalogue().wire
-LENGTH_MM = 13.0
-LIMITS = replace(default_limits().spring, body_lengths_max_mm=(LENGTH_MM,), pin_radius_min_mm=0.0)
-NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
 ONE_WIRE = WIRE.model_copy(update={"diameters_mm": (1.2,), "tensile_strength_mpa": (2000.0,)})
 TURN = 2.0 * math.pi
-
-
-def spring_of(name: str, limits: SpringLimits = LIMITS) -> tuple[Design, TorsionSpring]:
-    """Return a template's design and the spring that is made for it."""
-    design = load_design(name)
-    return design, synthesise_spring(springs_on_leg(design), -math.radians(design.rest_angle_deg), WIRE, limits)
 
 
 def test_the_turns_of_a_coil_follow_from_the_stiffness() -> None:

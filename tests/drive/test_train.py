@@ -7,11 +7,9 @@ import re
 
 import pytest
 from support.built import built, geared, with_kit
-from support.limits import LP6, default_limits
+from support.limits import LP6, default_limits, law_of
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.design import load_design
-from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
 from jumpcad.drive.train import _gear_findings, finished_train, synthesise_train
@@ -21,11 +19,6 @@ from jumpcad.errors import CannotBuildError
 
 MOTORS = [load_catalogue().motors[name] for name in LP6]
 LIMITS = default_limits().train
-
-
-def law_of(name):
-    design = load_design(name)
-    return CamLaw(design.compression_rad, design.stiffness_nm_per_rad, math.radians(310), math.radians(30))
 
 
 def trains():

@@ -29,6 +29,7 @@ WRITERS: dict[str, tuple[str, ...]] = {
     "search": (*SEARCH, "s.db"),
     "table": ("study", "study.db", "--export", "t.csv"),
     "pictures": ("study", "study.db", "--plots", "there"),
+    "drawings": ("render", "robot", "-o", "there"),
     "times": ("slice", "robot"),
 }
 """A command for every kind of file that is written."""
@@ -77,8 +78,8 @@ def as_anybody() -> Iterator[None]:
         libc.capset(head, struct.pack("6I", *rights))
 
 
-FULL = [(name, 4096) for name in WRITERS if name != "times"] + [
-    (name, 160) for name in ("new", "readings", "trajectory", "search", "table", "pictures")
+FULL = [(name, 4096) for name in WRITERS if name not in ("times", "drawings")] + [
+    (name, 160) for name in ("new", "readings", "trajectory", "search", "table", "pictures", "drawings")
 ]
 """Commands and the bytes to which a file may grow: some, or fewer than any file has."""
 
@@ -90,11 +91,6 @@ def test_a_full_disk_leaves_all_or_nothing(sandbox: Sandbox, command: str, left:
     leaves = ["s.db", *logs]  # from which a search goes on
     with full_disk(left):
         sandbox.run(*WRITERS[command], exits=(0,) if small else (2,), writes=["r.toml", "w.toml"], leaves=leaves)
-
-
-def test_a_full_disk_leaves_no_drawing(sandbox: Sandbox) -> None:
-    with full_disk(160):
-        sandbox.run("render", "robot", "-o", "drawn", exits=(2,))
 
 
 @pytest.mark.parametrize("command", ["new", "build over", "coupon", "readings", "trajectory", "table"])
@@ -169,13 +165,6 @@ def test_an_interrupt_leaves_nothing_half(
         assert done.err == "jumpcad: interrupted\n"
         assert not [path for path in sandbox.work.iterdir() if path.name.startswith(".")]
         assert sandbox.call("verify", "robot").code == 0
-
-
-def test_what_a_killed_build_left_is_no_harm(sandbox: Sandbox) -> None:
-    sandbox.write(".robot.abcd1234/new/stl/foot.stl", "half")
-    sandbox.write(".r.toml.abcd1234", "half")
-    sandbox.run(*WRITERS["build over"], exits=(0,), writes=["robot"])
-    sandbox.run(*WRITERS["new"], exits=(0,), writes=["r.toml"])
 
 
 def test_a_lost_worker_is_no_lost_search(sandbox: Sandbox) -> None:

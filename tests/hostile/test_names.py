@@ -150,24 +150,14 @@ CREATABLE = ("line", "colour", "url", "markup", "nothing", "deep", "missing fold
 """Names and folders that a command may make, or leave alone."""
 CREATED = [("home", "coupon"), ("dangling", "coupon"), ("home", "study"), ("home", "winner")]
 MADE = ("~", "no", "a", "https:", "nowhere", "s.db")
+SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "2", "--workers", "0")
 WRITERS = {
     "new": ["new", "--", "PATH"],
     "coupon": ["coupon", "--output=PATH"],
     "measured": ["coupon", "--measured", "readings.toml", "--output=PATH"],
     "trajectory": ["simulate", "kenan-2.0", "--capsule", "--trajectory=PATH"],
-    "study": ["optimize", "nsga2", "--model", "capsule", "--evaluations", "2", "--workers", "0", "--study=PATH"],
-    "winner": [
-        "optimize",
-        "nsga2",
-        "--model",
-        "capsule",
-        "--study=s.db",
-        "--evaluations",
-        "2",
-        "--workers",
-        "0",
-        "--output=PATH",
-    ],
+    "study": [*SEARCH, "--study=PATH"],
+    "winner": [*SEARCH, "--study=s.db", "--output=PATH"],
     "export": ["study", "study.db", "--export=PATH"],
 }
 

@@ -1,6 +1,5 @@
 """Where something stands already: what a user made or changed is kept, or the command refuses and names it."""
 
-import json
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,7 +14,6 @@ OTHER = ("build", "best-bo", "--no-pictures", "-o")
 COUPON = ("coupon", "-o")
 SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0")
 JUMP = ("simulate", "kenan-2.0", "--capsule", "--trajectory")
-FOREIGN = ({"name": "PWA", "icons": []}, {"format": 1}, {"format": 1, "name": "x", "files": []}, [], None)
 
 
 @dataclass(frozen=True)
@@ -171,16 +169,3 @@ def test_what_a_user_has_is_kept(sandbox: Sandbox, originals: Originals, case: s
     one = CASES[case]
     one.lay(sandbox, originals)
     sandbox.run(*one.command, exits=one.exits, writes=one.writes, keeps=one.keeps)
-
-
-@each("number", range(len(FOREIGN)))
-@each("command", [BUILD, COUPON])
-def test_a_manifest_of_another_kind_makes_no_bundle(sandbox: Sandbox, command: tuple[str, ...], number: int) -> None:
-    sandbox.write("site/manifest.json", json.dumps(FOREIGN[number]))
-    sandbox.write("site/src/thesis.md", "x")
-    sandbox.run(*command, "site", exits=(2,))
-
-
-def test_who_edits_a_bundle_is_told_which_file(sandbox: Sandbox, originals: Originals) -> None:
-    EDITED(sandbox, originals)
-    assert "assembly.md" in sandbox.run(*BUILD, "there", exits=(2,)).err

@@ -17,11 +17,6 @@ from jumpcad.robot import Robot
 HOLE_MM, AXLE_MM = 5.2, 3.0
 
 
-@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
-def robot(request: pytest.FixtureRequest) -> Robot:
-    return built(request.param)
-
-
 def hole(robot: Robot, *around: Obstacle) -> PinHole:
     layout = robot.layout
     return pin_hole(

@@ -17,11 +17,6 @@ from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import Robot
 
 
-@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
-def robot(request: pytest.FixtureRequest) -> Robot:
-    return built(request.param)
-
-
 def frame(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
     """Unit vectors along the leg at its stop, and out of it, the way that it turns; z is up, angles below x."""
     below = math.radians(robot.design.rest_angle_deg) + robot.layout.stop.angle_rad

@@ -3,14 +3,9 @@
 import numpy as np
 import pytest
 import shapely
-from support.built import built, cut, placed, region
+from support.built import cut, placed, region
 
 from jumpcad.robot import Robot
-
-
-@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
-def robot(request: pytest.FixtureRequest) -> Robot:
-    return built(request.param)
 
 
 def along(robot: Robot, shape: shapely.Geometry) -> shapely.Geometry:

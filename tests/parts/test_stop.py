@@ -2,14 +2,9 @@
 
 import numpy as np
 import pytest
-from support.built import built, cut, part, placed, region
+from support.built import cut, part, placed, region
 
 from jumpcad.robot import Robot
-
-
-@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
-def robot(request: pytest.FixtureRequest) -> Robot:
-    return built(request.param)
 
 
 def test_tabs_stand_in_the_plates_slots(robot: Robot) -> None:

@@ -23,11 +23,6 @@ from jumpcad.workshop import load_workshop
 from jumpcad.workshop.varied import varied
 
 
-@pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
-def robot(request: pytest.FixtureRequest) -> Robot:
-    return built(request.param)
-
-
 def put_on(robot: Robot) -> list[tuple[str, Move, Visual]]:
     """Return the keys of the steps, their moves and what is moved, in order."""
     steps = assembly_steps(robot)

@@ -1,11 +1,13 @@
 """Limits of the drive as the default workshop gives them."""
 
+import math
 from dataclasses import replace
 
 from jumpcad.building.limits import drive_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive import DriveLimits
+from jumpcad.drive.cam_law import CamLaw
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.bearings import hub_bearings, hub_width_mm
@@ -25,3 +27,9 @@ def default_limits(name: str = "kenan-2.0") -> DriveLimits:
     roller = load_catalogue().bearings[workshop.bought.roller]
     limits = drive_limits(workshop, roller, sizes, HoleSizes.of(workshop, bearing))
     return replace(limits, motors=LP6, train=replace(limits.train, supply=None))
+
+
+def law_of(name: str) -> CamLaw:
+    """Return how a cam winds a template's springs in 310 degrees, 30 of them at either end."""
+    design = load_design(name)
+    return CamLaw(design.compression_rad, design.stiffness_nm_per_rad, math.radians(310), math.radians(30))
