@@ -33,8 +33,9 @@ CAGES: dict[str, dict[str, str | bool]] = {
 }
 DROPS, LANDINGS, JUMPS, SEEDS = 60, 20, 10, 3
 HEAD = (
-    "| robot | cage | mass (g) | range, rise (mm) | turn, pitch at touchdown | m per charge | stable poses, least | "
-    f"stands of {DROPS} drops | of {LANDINGS} own landings | jumps of {SEEDS} x {JUMPS} |"
+    "| robot | cage | mass | range, rise | pitch at touchdown | metres per charge | stable poses: as computed, least | "
+    f"stands of {DROPS} drops | of {LANDINGS} own landings | jumps of {SEEDS} × {JUMPS} |\n"
+    f"|---|---|{'--:|' * 8}"
 )
 
 
@@ -46,16 +47,15 @@ def row(name: str, cage: str) -> str:
     except JumpcadError as refusal:
         return f"| {name} | {cage} | {refusal} |"
     jump, broken = simulate(robot), [one.name for one in errors(quick_findings(robot)) if one.name.startswith("cage")]
-    reach = jump.ballistic_range_m or 0.0
     drops = share_righted(robot, DROPS, np.random.default_rng(0))
     stood = sum(jumps(robot, JUMPS, seed).stood for seed in range(SEEDS))
     cells = (
-        name,
-        ", ".join([cage, *broken]),
-        f"{1000.0 * robot.mass_kg:.1f}",
-        f"{1000.0 * reach:.0f}, {1000.0 * (jump.com_rise_m or 0.0):.0f}",
-        f"{jump.turn_deg:.0f}°, {jump.touchdown_pitch_deg:.0f}°",
-        f"{reach * jumps_per_charge(robot):.0f}",
+        name if name in UPRIGHT else f"`{name}`",
+        cage + "".join(f" (`{one}` fails)" for one in broken),
+        f"{1000.0 * robot.mass_kg:.1f} g",
+        f"{1000.0 * (jump.ballistic_range_m or 0.0):.0f}, {1000.0 * (jump.com_rise_m or 0.0):.0f} mm",
+        f"{jump.touchdown_pitch_deg:.0f}°".replace("-", "−"),
+        f"{(jump.ballistic_range_m or 0.0) * jumps_per_charge(robot):.0f}",
         f"{share_on_feet(robot):.2f}, {least_share_on_feet(robot):.2f}",
         f"{DROPS * drops:.0f}",
         f"{LANDINGS * land(robot, LANDINGS, 0).share_righted:.0f}",
@@ -66,7 +66,7 @@ def row(name: str, cage: str) -> str:
 
 def main() -> None:
     """Print the table."""
-    print(HEAD + "\n|" + "---|" * HEAD.count(" |"), flush=True)
+    print(HEAD, flush=True)
     for name in sys.argv[1:] or [*UPRIGHT, *template_names("robots")]:
         for cage in CAGES:
             print(row(name, cage), flush=True)
