@@ -87,23 +87,30 @@ def evenly(count: int, most: int) -> list[int]:
 
 
 def history(found: StudySummary) -> dict[str, Any]:
-    """Return every design's score in the order of the search; no axes where none jumps, nothing without designs."""
+    """Return every design's score in the order of the search, and the best one before its last fifth.
+
+    No axes where none jumps, nothing without designs.
+    """
     trials, objective = found.trials, found.objective
     if not trials:
         return {}
     scores = np.array([np.nan if trial.score is None else trial.score for trial in trials])
     feasible = np.flatnonzero(np.isfinite(scores))
     if not len(feasible):
-        return {"gain": _gain(scores), "axes": None}
+        return {"axes": None}
     axes = Axes(scale([1.0, float(len(trials))], whole=True), scale(scores[feasible].tolist()))
     chosen = [int(feasible[index]) for index in evenly(len(feasible), MOST_DOTS)]
     rejected = np.flatnonzero(np.isnan(scores))
     ticks = (axes.x(rejected[n] + 1) for n in evenly(len(rejected), MOST_DOTS))
     best = np.fmax.accumulate(scores)
+    before = best[-1 - len(trials) // 5]
     rises = [n for n in feasible.tolist() if n == feasible[0] or best[n] > best[n - 1]]
     return {
-        "gain": _gain(scores, found.is_explored),
         "axes": axes,
+        "number": int(np.nanargmax(scores)) + 1,
+        "highest": float(best[-1]),
+        "before": None if found.is_explored or len(trials) < 10 or np.isnan(before) else float(before),
+        "little": LITTLE,
         "meaning": f"{objective.meaning} ({objective.unit})",
         "phases": {
             phase: axes.dots((n + 1, scores[n]) for n in chosen if trials[n].phase == phase)
@@ -112,24 +119,6 @@ def history(found: StudySummary) -> dict[str, Any]:
         "rejected": "".join(f"M{x:.1f} {axes.height - axes.foot:g}v-9" for x in ticks),
         "best": axes.steps([(n + 1, best[n]) for n in rises]),
     }
-
-
-def _gain(scores: np.ndarray, is_explored: bool = False) -> str:
-    """Return when the best design was found, and what the last fifth of a search gained."""
-    if not np.isfinite(scores).any():
-        return "None jumps."
-    number, best = int(np.nanargmax(scores)), float(np.nanmax(scores))
-    said = f"The best is number {number + 1} of {len(scores)}."
-    before = scores[: len(scores) - len(scores) // 5]
-    if is_explored or len(scores) < 10 or not np.isfinite(before).any():
-        return said
-    last = float(np.nanmax(before))
-    if best <= last:
-        return f"{said} The last fifth of the search found nothing better: going on promises little."
-    share = (best - last) / abs(last) if last else np.inf
-    means = "going on promises little" if share < LITTLE else "going on may pay"
-    rise = f"by {100.0 * share:.1f} %" if last else f"from 0 to {best:.4g}"
-    return f"{said} The last fifth of the search raised the best score {rise}: {means}."
 
 
 def slices(found: StudySummary, shown: Sequence[Trial]) -> list[dict[str, Any]]:

@@ -24,10 +24,9 @@ from jumpcad.search.report.lessons import bound_rows, importances, reason_rows, 
 from jumpcad.search.report.shown_design import EDGE_MM, LINKS, POSES, box_mm, chart
 from jumpcad.search.report.study_plots import study_figures
 from jumpcad.search.report.words import meaning_of, named, value_words, with_unit
-from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary, kept_righting, summary
-from jumpcad.search.study.trial import Trial, feasible_trials
+from jumpcad.search.study.trial import Trial
 
 SHOWN = 10
 """Number of best designs that are shown if no neighbours were examined and no front was searched."""
@@ -60,8 +59,11 @@ def write_study_page(store: StudyStore, name: str) -> str:
         "designs": counted(len(found.trials), "design"),
         "cost": cost,
         "is_front": is_front,
-        "cards": _cards(store, found),
-        "methods": ", then ".join(_stages(store)) or identity["method"],
+        "identity": identity,
+        "stages": store.recall("stages", []),
+        "held": store.trials(),
+        "righting": kept_righting(store, found.winner),
+        "counted": counted,
         "asked": [_asked(parameter, found.winner) for parameter in found.space.parameters],
         "best": best_values(store, found, shown),
         "history": history(found),
@@ -77,32 +79,6 @@ def write_study_page(store: StudyStore, name: str) -> str:
         "versions": ", ".join(f"{one} {str(version)[:12]}" for one, version in identity.get("versions", {}).items()),
     }
     return allowed(fill("report/study/page.html.j2", values))
-
-
-def _cards(store: StudyStore, found: StudySummary) -> dict[str, str]:
-    """Return the study's main data."""
-    identity, trials, count = store.identity, store.trials(), len(found.trials)
-    planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
-    return {
-        "method": identity["method"],
-        "robot": identity["model"]["name"],
-        "designs of the search": f"{count}" + (f" of {planned}" if planned > count else ""),
-        "of them jump": str(len(feasible_trials(found.trials))),
-        "designs around the best": str(len(trials) - count),
-        "seed": str(identity["seed"]),
-        "time of all evaluations": f"{sum(trial.duration_s for trial in trials):.0f} s",
-    } | _righting(store, found)
-
-
-def _righting(store: StudyStore, found: StudySummary) -> dict[str, str]:
-    """Return how the winner rights itself, where that was simulated."""
-    shares = kept_righting(store, found.winner)
-    named = {"drops": "winner stands after drops", "landings": "… after its own landings"}
-    return {words: f"{100.0 * shares[name]:.0f} %" for name, words in named.items() if shares}
-
-
-def _stages(store: StudyStore) -> list[str]:
-    return [f"{stage['method']}, {counted(stage['evaluations'], 'design')}" for stage in store.recall("stages", [])]
 
 
 def _asked(parameter: SearchParameter, winner: Trial | None) -> list[str]:
@@ -131,7 +107,6 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
     if is_front:
         drawn |= {
             "meaning": meanings()["pareto"],
-            "reach": _reach(shown, found.objective, cost),
             "area": hypervolume(found.trials, cost=cost),
             "whole": len(front(found.trials, cost)),
         }
@@ -169,21 +144,6 @@ def _shown(found: StudySummary, of_front: Cost | None) -> list[Trial]:
         best = front(found.trials, of_front)
         return [best[place] for place in evenly(len(best), MOST_SHOWN)]
     return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
-
-
-def _reach(shown: Sequence[Trial], objective: Objective, cost: Cost) -> str:
-    """Return from where to where a front goes, in words."""
-    low, high = shown[0], shown[-1]
-
-    def spent(trial: Trial) -> str:
-        return f"{cost.shown(cost.of(trial)):.3g} {cost.figure.unit}"
-
-    ends = [f"{one.score:.3g} {objective.unit} with {spent(one)}" for one in (low, high)]
-    said, highest = f"Here it goes from {ends[0]} to {ends[1]}", high.score or 0.0
-    if highest <= 0.0:
-        return f"{said}."
-    half = next(trial for trial in shown if (trial.score or 0.0) >= 0.5 * highest)
-    return f"{said}; half of the highest score comes with {spent(half)}."
 
 
 def _pictures(store: StudyStore) -> dict[str, tuple[str, str]]:

@@ -11,7 +11,7 @@ import pytest
 from support.hills import FIXED, SMALL
 
 from jumpcad.files.rendering import environment, fill
-from jumpcad.search.report.drawings import Axes, _best, _gain, _line, _spread, evenly, history, parallel, scale, slices
+from jumpcad.search.report.drawings import Axes, _best, _line, _spread, evenly, history, parallel, scale, slices
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
@@ -48,13 +48,6 @@ GAINS = (
 )  # fmt: skip
 
 
-def test_a_history_tells_what_its_last_fifth_gained() -> None:
-    """A share of the best score before it, of which 1 % is little; of ten designs, the last two. Nothing of a sweep."""
-    for scores, said in GAINS:
-        assert _gain(np.array(scores)) == said
-        assert _gain(np.array(scores), is_explored=True) == said.partition(" The last fifth")[0]
-
-
 def trial(*unit: float) -> Trial:
     """Return a trial at a point of the space of compression ratio, rest angle and stiffness."""
     return Trial("ga", 0, 0, SMALL.to_design(unit), Evaluation("jump"), 1.0, "m", 0.0)
@@ -71,6 +64,15 @@ def known(*scores: float | None) -> StudySummary:
     shares = np.linspace(0.1, 0.9, len(scores)).tolist()
     trials = [replace(trial(share, 0.5, 0.5), score=score) for share, score in zip(shares, scores, strict=True)]
     return StudySummary(SMALL, find_objective("fitness"), trials, None, [], [], {})
+
+
+def test_a_history_tells_what_its_last_fifth_gained() -> None:
+    """A share of the best score before it, of which 1 % is little; of ten designs, the last two. Nothing of a sweep."""
+    for scores, said in GAINS:
+        found = known(*(None if np.isnan(score) else score for score in scores))
+        swept = replace(found, trials=[replace(one, phase="sweep") for one in found.trials])
+        for one, words in ((found, said), (swept, said.partition(" The last fifth")[0])):
+            assert f"designs that were rejected. {words}</p>" in drawn(one, "history").replace("\n", " ")
 
 
 def test_the_best_run_together_or_spread_by_their_reach_in_each_range() -> None:

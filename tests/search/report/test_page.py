@@ -13,7 +13,7 @@ from support.shops import SHOP, Shop
 from support.studies import IDENTITY
 
 from jumpcad.design import load_design
-from jumpcad.search.fronts import SPRING_ENERGY, find_cost, front, hypervolume
+from jumpcad.search.fronts import SPRING_ENERGY, front, hypervolume
 from jumpcad.search.pick.robust import Candidate
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report import page as study_page
@@ -107,7 +107,7 @@ def test_says_what_was_asked_and_found(studies):
     assert asked["compression_ratio"][2] == "0.1 … 0.8"
     assert asked["carrying_link_mm"][1:] == ["length of the main leg, l2", "fixed at 100 mm", "100 mm"]
     assert float(asked["compression_ratio"][3]) == pytest.approx(0.5, abs=0.05)  # the top of the bump
-    cards = {text(card[0]): text(card[1]) for card in parsed(page).iter("div") if len(card) and card[0].tag == "dt"}
+    cards = cards_of(page)
     assert (cards["method"], cards["robot"], cards["seed"]) == ("bo", "bump", "0")
     with StudyStore.read(studies / "bo.db") as store:
         searched = [trial for trial in store.trials() if trial.phase == "bo"]
@@ -244,14 +244,19 @@ def words(store, found, monkeypatch):
     return " ".join(re.sub(r"<[^>]*>", " ", re.sub("<wbr />", "", write_study_page(store, "study"))).split())
 
 
+def cards_of(page):
+    """Return the main data of a study."""
+    return {text(card[0]): text(card[1]) for card in parsed(page).iter("div") if len(card) and card[0].tag == "dt"}
+
+
 def test_the_main_data_of_a_study_stand_on_its_cards(monkeypatch):
     """Designs of the search, of those that were planned, how many jump; those around the best; time of all."""
     store, found = made_up(versions={"numpy": "2.0.1", "code": "0123456789abcdef"})
     candidate = Candidate(TRIALS[3], 1.0, 2.0, {}, 4)
     with store:
         store.note("a worker was lost")
-        cards = study_page._cards(store, found)
         said = words(store, found, monkeypatch)
+        cards = cards_of(write_study_page(store, "study"))
         robust = words(store, replace(found, winner=TRIALS[3], candidates=[candidate]), monkeypatch)
     assert cards == {
         "method": "ga", "robot": "hill", "designs of the search": "4 of 7", "of them jump": "3",
@@ -263,18 +268,24 @@ def test_the_main_data_of_a_study_stand_on_its_cards(monkeypatch):
     assert "The most robust of the best designs: range of the jump 2 m." in robust
 
 
-def test_a_front_is_told_from_end_to_end_and_where_half_of_it_is_reached():
+def test_a_front_is_told_from_end_to_end_and_where_half_of_it_is_reached(monkeypatch):
     """Scores 1, 1.9, 2.1 and 4: the third is the first with half of the highest; of scores below 0 no half is told."""
     scored = zip((1.0, 1.9, 2.1, 4.0), (0.2, 0.3, 0.4, 0.5), strict=True)
     shown = [shown_trial(score, n, compression_ratio=ratio) for n, (score, ratio) in enumerate(scored)]
     low, half, high = (f"{shown[n].design.spring_energy_j:.3g} J" for n in (0, 2, 3))
-    said = f"Here it goes from 1 m with {low} to 4 m with {high}"
-    aim = find_objective("range")
-    assert study_page._reach(shown, aim, SPRING_ENERGY) == f"{said}; half of the highest score comes with {half}."
-    below = [replace(one, score=one.score - 9.0) for one in shown]
-    assert study_page._reach(below, aim, SPRING_ENERGY) == f"Here it goes from -8 m with {low} to -5 m with {high}."
     rises = [replace(one, evaluation=Evaluation("jump", {"com_rise_m": 1.0 / (n + 2)})) for n, one in enumerate(shown)]
-    assert "from 1 m with 0.5 m to 4 m with 0.2 m" in study_page._reach(rises, aim, find_cost("rise"))
+    below = [replace(one, score=one.score - 9.0) for one in shown]
+    for against, trials, said in (
+        ("spring-energy", shown, f"1 m with {low} to 4 m with {high}; half of the highest score comes with {half}."),
+        ("spring-energy", below, f"-8 m with {low} to -5 m with {high}."),
+        ("rise", rises, "1 m with 0.5 m to 4 m with 0.2 m; "),
+    ):  # fmt: skip
+        store, found = made_up("nsga2", against=against)
+        numbers = {trial.position: n for n, trial in enumerate(trials, start=1)}
+        with store:
+            assert f"Here it goes from {said}" in words(
+                store, replace(found, trials=trials, numbers=numbers), monkeypatch
+            )
 
 
 def test_designs_that_are_shown_are_the_front_the_candidates_or_the_best():
