@@ -140,27 +140,19 @@ def _slice(
 
     name, names = parameter.name, parameter.names
     across = scale([parameter.lower, parameter.upper], ticks=3, whole=bool(names))
+    number, ends = at(best)[0], (("lower", parameter.lower), ("upper", parameter.upper))
     axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, first=1.0 if names else 0.0)
     return {
         "name": name,
         "axes": axes,
         "unit": unit_of(name),
         "meaning": meaning_of(name) or ", ".join(f"{n} is {one}" for n, one in enumerate(names, 1)),
-        "best": _best(parameter, at(best)[0]),
+        "best": with_unit(value_words(parameter.value(number), 4), name),
+        "end": next((end for end, bound in ends if not names and abs(number - bound) <= 1e-3 * parameter.width), ""),
         "ages": [axes.dots(at(trial) for place, trial in chosen if place == age) for age in range(AGES)],
         "top": axes.dots([at(best)]),
         "shown": [(axes.x(x), axes.y(y)) for x, y in map(at, shown)],
     }
-
-
-def _best(parameter: SearchParameter, number: float) -> str:
-    """Return a parameter's value in the best design, and where it lies in its range."""
-    value = parameter.value(number)
-    if isinstance(value, str):
-        return value
-    ends = {"at the lower end of the range": parameter.lower, "at the upper end of the range": parameter.upper}
-    at = next((f", {words}" for words, end in ends.items() if abs(number - end) <= 1e-3 * parameter.width), "")
-    return f"{with_unit(f'{value:.4g}', parameter.name)}{at}"
 
 
 def parallel(found: StudySummary, shown: Sequence[Trial]) -> dict[str, Any]:
@@ -169,11 +161,14 @@ def parallel(found: StudySummary, shown: Sequence[Trial]) -> dict[str, Any]:
     if space.dimension < 2 or not feasible:
         return {}
     best = feasible[: max(BEST_LEAST, round(BEST_SHARE * len(feasible)))]
+    reach = np.ptp(np.array([space.to_unit(trial.variant) for trial in best]), axis=0).tolist()
     others = feasible[len(best) : MOST_LINES]
     third = -(-len(others) // 3) or 1
     bundles = [others[2 * third :], others[third : 2 * third], others[:third], best]
     return {
-        "spread": _spread(space, best),
+        "together": [one.name for one, share in zip(space.free, reach, strict=True) if share <= TOGETHER],
+        "apart": [one.name for one, share in zip(space.free, reach, strict=True) if share > APART],
+        "told": len(best) >= BEST_LEAST,
         "best": len(best),
         "others": bool(others),
         "height": ROW * space.dimension + 6.0,
@@ -190,19 +185,3 @@ def _line(space: Space, trial: Trial) -> str:
     unit = space.to_unit(trial.variant).tolist()
     places = [f"{LEFT + share * (RIGHT - LEFT):.0f} {ROW * (row + 1):g}" for row, share in enumerate(unit)]
     return f"M{places[0]}L{' '.join(places[1:])}"
-
-
-def _spread(space: Space, best: Sequence[Trial]) -> str:
-    """Return in which parameters the best designs run together, and in which they spread."""
-    if len(best) < BEST_LEAST:
-        return ""
-    reach = np.ptp(np.array([space.to_unit(trial.variant) for trial in best]), axis=0)
-    names = [parameter.name for parameter in space.free]
-    together = [name for name, share in zip(names, reach.tolist(), strict=True) if share <= TOGETHER]
-    apart = [name for name, share in zip(names, reach.tolist(), strict=True) if share > APART]
-    said = [
-        f"run together, within a tenth of the range, in {', '.join(together)}" if together else "",
-        f"spread over more than half of the range in {', '.join(apart)}" if apart else "",
-    ]
-    words = "; they ".join(part for part in said if part)
-    return f"Here the best {len(best)} {words or 'neither run together nor spread widely in any parameter'}."

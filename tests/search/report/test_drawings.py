@@ -11,7 +11,7 @@ import pytest
 from support.hills import FIXED, SMALL
 
 from jumpcad.files.rendering import environment, fill
-from jumpcad.search.report.drawings import Axes, _best, _line, _spread, evenly, history, parallel, scale, slices
+from jumpcad.search.report.drawings import Axes, _line, evenly, history, parallel, scale, slices
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
@@ -78,17 +78,18 @@ def test_a_history_tells_what_its_last_fifth_gained() -> None:
 def test_the_best_run_together_or_spread_by_their_reach_in_each_range() -> None:
     """Within a tenth they run together, over more than half they spread; of fewer than five nothing is said."""
     best = [trial(0.5 + 0.02 * n, 0.1 + 0.2 * n, 0.5 + 0.07 * n) for n in range(5)]
-    assert _spread(SMALL, best) == (
-        "Here the best 5 run together, within a tenth of the range, in compression_ratio; they spread over more than "
-        "half of the range in rest_angle_deg."
-    )
-    assert _spread(SMALL, best[:4]) == ""
-    middling = [trial(0.1 + 0.07 * n, 0.5 + 0.07 * n, 0.3) for n in range(5)]
-    assert _spread(SMALL, middling) == (
-        "Here the best 5 run together, within a tenth of the range, in stiffness_nmm_per_deg."
-    )
-    none = [trial(*[0.5 + 0.07 * n] * 3) for n in range(5)]
-    assert _spread(SMALL, none).endswith("neither run together nor spread widely in any parameter.")
+    for trials, said in (
+        (best, " Here the best 5 run together, within a tenth of the range, in compression_ratio; they spread over "
+         "more than half of the range in rest_angle_deg."),
+        (best[:4], " "),
+        ([trial(0.1 + 0.07 * n, 0.5 + 0.07 * n, 0.3) for n in range(5)],
+         " Here the best 5 run together, within a tenth of the range, in stiffness_nmm_per_deg."),
+        ([trial(0.5 + 0.07 * n, 0.1 + 0.2 * n, 0.5 + 0.07 * n) for n in range(5)],
+         " Here the best 5 spread over more than half of the range in rest_angle_deg."),
+        ([trial(*[0.5 + 0.07 * n] * 3) for n in range(5)],
+         " Here the best 5 neither run together nor spread widely in any parameter."),
+    ):  # fmt: skip
+        assert f"or others make up for it.{said}</p>" in drawn(replace(known(), trials=trials), "parallel")
 
 
 def box(page: str) -> tuple[float, float]:
@@ -151,7 +152,7 @@ def test_each_slice_has_every_jump_at_its_value_and_score_and_the_best_and_the_s
             assert read(page)(float(x), float(y)) == pytest.approx(
                 (getattr(one.design, parameter.name), one.score), **near
             )
-        assert f"Best: {_best(parameter, places[2][0])}." in page
+        assert f"Best: {places[2][0]:.4g}" in page
         assert read(page)(0.0, 50.0)[1] > read(page)(0.0, 150.0)[1]  # more is higher up
         width, height = box(page)
         words = [(float(x), float(y)) for x, y in re.findall(r'<text x="([\d.]+)" y="([-\d.]+)"', page)]
