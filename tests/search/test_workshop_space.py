@@ -61,13 +61,11 @@ def test_a_space_with_a_workshop_survives_its_record():
 @pytest.mark.parametrize(
     ("option", "message"),
     [
-        ({"bound": ["body.plate=1:2"]}, r"did you mean body.plate_mm\?"),
         ({"bound": ["bought.battery=1:2"]}, "bought.battery"),
         ({"bound": ["body.plate_mm=0.1:2"]}, "must be at least 1"),
         ({"bound": ["body.plate_mm=2:1"]}, "empty range"),
         ({"choose": ["bought.motors=a,b"]}, "is a list"),
         ({"choose": ["bought.battery=lipo-1s-300,nope"]}, "bought.battery = 'nope': is no battery in the catalogue"),
-        ({"choose": ["release.play_deg=auto,15"]}, "names and numbers do not mix"),
         ({"choose": ["bought.battery=lipo-1s-300"], "fix": ["bought.battery=lipo-1s-300"]}, "given twice"),
     ],
 )

@@ -14,6 +14,18 @@ from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
 
+GRID = np.array(np.meshgrid(*[np.linspace(0, 1, 21)] * 3)).reshape(3, -1).T
+
+
+def trials_of(model, points):
+    """Return the trials of designs at points of the unit cube."""
+    designs = [SMALL.to_design(point) for point in points]
+    found = [(design, model(design)) for design in designs]
+    return [
+        Trial("pareto", 0, place, design, one, one.metrics.get("fitness"), "m", 0.0)
+        for place, (design, one) in enumerate(found)
+    ]
+
 
 def test_caps_end_at_the_largest_energy():
     # At c = 1 there is no tilt: half of 30 N·mm/deg times the square of 0.8 of 70°; c = 1.2 tilts the body and adds.
@@ -25,13 +37,7 @@ def test_caps_end_at_the_largest_energy():
 
 def dominated_share(evaluator):
     """Return the area under the true front that an evaluator's front misses, as a share."""
-    grid = np.array(np.meshgrid(*[np.linspace(0, 1, 21)] * 3)).reshape(3, -1).T
-    true = []
-    for place, point in enumerate(grid):
-        design = SMALL.to_design(point)
-        score = Hill()(design).metrics.get("fitness")
-        true.append(Trial("pareto", 0, place, design, Evaluation("jump"), score, "m", 0.0))
-    return hypervolume(evaluator.trials) / hypervolume(true)
+    return hypervolume(evaluator.trials) / hypervolume(trials_of(Hill(), GRID))
 
 
 @pytest.mark.thorough
@@ -111,16 +117,8 @@ def test_a_cost_that_is_not_known_before_is_learned(evaluator, against):
     """Two planes; much less of the true front's area is missed than by random designs."""
     one, cost = evaluator(model=Weighed()), find_cost(against)
     run_pareto(one, stage(41, 0, initial=9, against=against))
-    grid = np.array(np.meshgrid(*[np.linspace(0, 1, 21)] * 3)).reshape(3, -1).T
-    true = [trial_of(Weighed(), SMALL.to_design(point), place) for place, point in enumerate(grid)]
-    random = [trial_of(Weighed(), SMALL.to_design(point), 0) for point in SMALL.spread(41, np.random.default_rng(1))]
+    true, random = (trials_of(Weighed(), points) for points in (GRID, SMALL.spread(41, np.random.default_rng(1))))
     whole, found, drawn = (hypervolume(trials, cost=cost) for trials in (true, one.trials, random))
     assert whole - found < (0.4 if against == "mass" else 0.6) * (whole - drawn)
     costs = [cost.of(trial) for trial in front(one.trials, cost)]
     assert costs == sorted(costs)
-
-
-def trial_of(model, design, place):
-    """Return the trial of a design."""
-    found = model(design)
-    return Trial("pareto", 0, place, design, found, found.metrics.get("fitness"), "m", 0.0)

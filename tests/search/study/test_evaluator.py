@@ -87,19 +87,14 @@ def test_a_model_that_always_fails_ends_the_run(evaluator):
     assert one.store.trials() == []
 
 
-def test_failures_after_something_worked_are_rows(evaluator):
+def test_failures_beside_or_after_something_that_worked_are_rows(evaluator):
     """The model works here, so designs are the cause, also where they are all of a batch."""
     one = evaluator(model=Trap(way="bug"))
-    one.evaluate([design for design in designs(16) if design.rest_angle_deg < 60.0], "ga", 0)
-    found = one.evaluate([design for design in designs(32) if design.rest_angle_deg > 60.0], "ga", 1)
-    assert len(found) > 1
-    assert {trial.evaluation.verdict for trial in found} == {QUARANTINED}
-
-
-def test_a_single_bad_design_is_a_row(evaluator):
-    one = evaluator(model=Trap(way="bug"))
-    trials = one.evaluate(designs(32), "ga", 0)
-    assert {trial.evaluation.verdict for trial in trials if trial.design.rest_angle_deg > 60.0} == {QUARANTINED}
+    steep = [design for design in designs(32) if design.rest_angle_deg > 60.0]
+    for step, batch in enumerate((designs(16), steep)):
+        found = [trial for trial in one.evaluate(batch, "ga", step) if trial.design.rest_angle_deg > 60.0]
+        assert len(found) > 1
+        assert {trial.evaluation.verdict for trial in found} == {QUARANTINED}
     assert any("quarantined: ZeroDivisionError" in note for note in one.store.notes())
 
 

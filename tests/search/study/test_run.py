@@ -156,25 +156,6 @@ def test_a_larger_budget_lengthens_a_study(tmp_path, method):
         run(request, tmp_path / "s.db")
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"seed": 5}, "seed: 4 there, 5 here"),
-        ({"method": "bo"}, 'method: "ga" there, "bo" here'),
-        ({"space": Space.default()}, "space.carrying_link_mm"),
-        ({"model": Hill(name="other")}, 'model.name: "hill" there, "other" here'),
-        ({"objective": "range"}, "objective"),
-    ],
-)
-def test_a_study_of_another_request_is_refused(tmp_path, change, message):
-    request = replace(REQUEST, method="ga", evaluations=5)
-    run(request, tmp_path / "s.db")
-    before = contents(tmp_path / "s.db")
-    with pytest.raises(JumpcadError, match=message):
-        run(replace(request, **change), tmp_path / "s.db")
-    assert contents(tmp_path / "s.db") == before
-
-
 @pytest.mark.thorough
 def test_genetic_then_bayesian_ends_on_the_top():
     result = run(replace(REQUEST, method="ga+bo", evaluations=60))
