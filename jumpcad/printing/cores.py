@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from manifold3d import CrossSection, JoinType, OpType
 
-from jumpcad.solids.moments import areas_and_borders, borders_mm
+from jumpcad.solids.moments import Measured, areas_and_borders
 from jumpcad.solids.outline import Region, box_around, union
 from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, CrossSections
 from jumpcad.transforms import Array
@@ -37,7 +37,7 @@ class Cores:
     """
 
     def __init__(self, sections: CrossSections, numbers: Iterable[int], shell_mm: float, spacing_mm: float) -> None:
-        self._sections = sections
+        self._sections, self.measured = sections, Measured(NOTHING)
         self._cut: dict[tuple[int, int], Region | None] = {}
         self._divided: dict[tuple[int, frozenset[int], frozenset[int]], tuple[Region, Region]] = {}
         self.inside: dict[int, Region] = {}
@@ -48,9 +48,9 @@ class Cores:
                 whole[around] = _moved(sections.outlines[around], -shell_mm)
             # less what is nearer to the pocket than the perimeters are thick
             self.inside[number] = whole[around] if number == around else whole[around] - _moved(pocket, shell_mm)
-        borders = borders_mm(list(self.inside.values())).tolist()
-        for (number, core), border in zip(self.inside.items(), borders, strict=True):
-            slim = 2.0 * core.area() < spacing_mm * border
+        areas, borders = self.measured.of(list(self.inside.values()))
+        slims = (2.0 * areas[:, 0] < spacing_mm * borders[:, 0]).tolist()
+        for (number, core), slim in zip(self.inside.items(), slims, strict=True):
             if slim and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty():
                 self.inside[number] = NOTHING
 

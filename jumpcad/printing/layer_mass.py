@@ -17,7 +17,7 @@ from manifold3d import CrossSection, OpType
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.printing.cores import Cores, section_moments
 from jumpcad.printing.runs import LayerRun, Numbers, jumps_of, runs_of
-from jumpcad.solids.moments import areas_and_borders, mass_of, prism_moments
+from jumpcad.solids.moments import Measured, mass_of, prism_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, CrossSections
 from jumpcad.transforms import Array
@@ -137,7 +137,7 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
     thread = math.pi * nozzle_mm**2 / 4.0 / (nozzle_mm + BRIDGE_GAP_MM)
     excess = thread / process.layer_height_mm - 1.0 if hollow > 0.0 else 0.0
 
-    area, border = _table(cases, fillings, bridged)
+    area, border = _table(cases, fillings, bridged, cores.measured)
     inside = spacing * SOLID_TURNS * border[0] + hollow * (spacing * SPARSE_TURNS * border[1] - area[1])
     inside -= void * borders[which[middles]]
     z0, z1 = levels[:-1], levels[1:]
@@ -200,12 +200,11 @@ def _bridged(
     return [over(case, run.first) for case, run in zip(cases, runs, strict=True)]
 
 
-def _table(cases: Sequence[Case], fillings: Mapping[Case, Filling], bridged: Sequence[Region]) -> tuple[Array, Array]:
+def _table(
+    cases: Sequence[Case], fillings: Mapping[Case, Filling], bridged: Sequence[Region], measured: Measured
+) -> tuple[Array, Array]:
     """Return the area moments (3, n, 6) of what is solid, sparse and bridged in n runs, and those of the borders."""
-    count = len(fillings)
-    regions = [*(filling.solid for filling in fillings.values()), *(filling.sparse for filling in fillings.values())]
-    number = {case: index for index, case in enumerate(fillings)}
-    solid = np.array([number[case] for case in cases])
-    rows = np.stack([solid, solid + count, 2 * count + np.arange(len(cases))])
-    areas, borders = areas_and_borders([*regions, *bridged])
-    return areas[rows], borders[rows]
+    filled = [fillings[case] for case in cases]
+    regions = [*(one.solid for one in filled), *(one.sparse for one in filled), *bridged]
+    areas, borders = measured.of(regions)
+    return areas.reshape(3, -1, 6), borders.reshape(3, -1, 6)

@@ -50,7 +50,7 @@ class Stack:
         cuts = [(rounded_z(z0), rounded_z(z1), region) for z0, z1, region in pockets]
         levels = {z for z0, z1, _ in cuts for z in (z0, z1)}
         slabs = []
-        for slab in _arranged(self.slabs, ()).slabs:
+        for slab in self.slabs:
             inside = {z for z in levels if slab.z0_mm < z < slab.z1_mm}
             for z0, z1 in itertools.pairwise(sorted({slab.z0_mm, *inside, slab.z1_mm})):
                 cut = next((index for index, (low, high, _) in enumerate(cuts) if low <= z0 and z1 <= high), None)

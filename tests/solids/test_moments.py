@@ -37,7 +37,12 @@ def test_moments_of_a_border_are_those_of_a_thin_strip():
 
 def test_a_border_goes_around_holes_too():
     plate, hole = outline.rectangle((30.0, 12.0)), outline.rectangle((4.0, 2.0), (3.0, 1.0))
-    assert moments.borders_mm([plate - hole, plate - plate, hole]) == pytest.approx([2 * (42 + 6), 0.0, 2 * 6])
+    holed, empty = plate - hole, plate - plate
+    measured = moments.Measured(empty)
+    for regions, lengths in (([holed, empty, holed], [96, 0, 96]), ([hole, holed], [12, 96])):
+        areas, borders = measured.of(regions)
+        assert borders[:, 0] == pytest.approx(lengths)
+        assert areas[:, 0] == pytest.approx([region.area() for region in regions])
 
 
 def test_many_regions_at_once_are_each_as_alone():
