@@ -111,15 +111,13 @@ def _apart(pockets: Region, wall_mm: float) -> Region:
     if wider.num_contour() == pockets.num_contour():
         return pockets
     each = pockets.decompose()
-    between = (wider.offset(-half, JoinType.Miter) - pockets).decompose()
+    between = (wider.offset(-half, JoinType.Miter) - pockets).simplify(SAGITTA_MM).decompose()  # without slivers
     thin = [piece for piece in between if _touched(grown(piece, SAGITTA_MM), each) > 1]
     return pockets - grown(union(thin), wall_mm / 2.0) if thin else pockets
 
 
 def _touched(piece: Region, regions: Sequence[Region]) -> int:
     """Return how many of some regions a piece overlaps."""
-    if piece.is_empty():  # as most are, slivers along rounded corners; what is empty has an endless box
-        return 0
     return sum(not (piece ^ region).is_empty() for region in regions if not boxes_apart(piece, region))
 
 
