@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from manifold3d import CrossSection, JoinType, OpType
 
-from jumpcad.solids.moments import Measured, areas_and_borders
+from jumpcad.solids.moments import Measured, contours_moments
 from jumpcad.solids.outline import Region, box_around, union
 from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, CrossSections
 from jumpcad.transforms import Array
@@ -19,10 +19,10 @@ MANY_HOLES, FEW_CORNERS = 10, 100
 """Least contours of an outline that may be twice as coarse, and most corners of each: plates, but not gears."""
 
 
-def section_moments(sections: CrossSections) -> tuple[Array, Array]:
-    """Return the area moments (n, 6) of the n different cross-sections, and those along their borders."""
+def section_moments(sections: CrossSections, contours: Sequence[Sequence[Array]]) -> tuple[Array, Array]:
+    """Return the area moments (n, 6) of the n different cross-sections with some contours, and of their borders."""
     count = len(sections.outlines)
-    areas, borders = areas_and_borders([*sections.outlines, *(pocket for _, pocket in sections.pockets)])
+    areas, borders = contours_moments(contours)
     around = [number for number, _ in sections.pockets]
     areas[count:] = areas[around] - areas[count:]
     borders[count:] = borders[around] + borders[count:]

@@ -6,10 +6,11 @@ of the layers that count as top or bottom ends there, and infill elsewhere. The 
 as bridges, with round threads of the nozzle's diameter d, d + 0.05 mm apart.
 """
 
+import itertools
 import math
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Literal, NamedTuple, Protocol
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from manifold3d import CrossSection, OpType
@@ -33,7 +34,7 @@ BRIDGE_GAP_MM = 0.05
 """Distance between the threads of a bridge (fixed in PrusaSlicer's Flow.hpp, BRIDGE_EXTRA_SPACING)."""
 
 
-class Weighable(Hashable, Protocol):
+class Weighable(Protocol):
     """What can be sliced and weighed, z up from the bed (mm)."""
 
     @property
@@ -69,14 +70,14 @@ Case = tuple[int, Window]
 """What a filling depends on: the number of a layer's outline, and its window."""
 
 
-_KNOWN: WeakKeyDictionary[Weighable, dict[Hashable, MassProperties]] = WeakKeyDictionary()
-"""Masses of shapes, as long as the shape is in memory: gears and small parts recur in many designs."""
+KEPT = 64
+"""Sliced parts of which moments are kept: spacers, mounts and trays recur in many designs."""
 
 
 def mass_properties(
     shape: Weighable, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
 ) -> MassProperties:
-    """Return mass, centre and inertia of one part in its printing frame (kg, m); equal shapes are weighed once.
+    """Return mass, centre and inertia of one part in its printing frame (kg, m).
 
     Parameters
     ----------
@@ -89,11 +90,8 @@ def mass_properties(
     model
         `solid` for volume times density, `printed` for the layer model.
     """
-    known, case = _KNOWN.setdefault(shape, {}), (density_g_cm3, process, nozzle_mm, model)
-    if case not in known:
-        moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
-        known[case] = mass_of(moments, density_g_cm3)
-    return known[case]
+    moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
+    return mass_of(moments, density_g_cm3)
 
 
 def line_spacing_mm(width_mm: float, height_mm: float) -> float:
@@ -119,9 +117,32 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
     those of the middle layer of a run of layers that are alike. A chamfer takes from a layer's area, not from what is
     inside its perimeters.
     """
-    levels, sections = sliced(shape, process)
+    return _printed(_Contoured(sliced(shape, process)), process, nozzle_mm)
+
+
+class _Contoured:
+    """Layers with the contours of their outlines and pockets, equal where those are: parts of as many layers are."""
+
+    def __init__(self, layers: Layers) -> None:
+        self.levels, self.sections = layers
+        self.contours = self.sections.contours()
+        around = tuple(number for number, _ in self.sections.pockets)
+        arrays = (self.levels, self.sections.which, self.sections.inset_mm, *itertools.chain(*self.contours))
+        self._key = around, tuple(map(len, self.contours)), tuple([array.tobytes() for array in arrays])
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Contoured) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+
+@lru_cache(KEPT)
+def _printed(layers: _Contoured, process: Process, nozzle_mm: float) -> Array:
+    """Return the volume moments (10,) of the extruded plastic of layers."""
+    levels, sections = layers.levels, layers.sections
     which, inset = sections.which, sections.inset_mm
-    areas, borders = section_moments(sections)
+    areas, borders = section_moments(sections, layers.contours)
     jumps = jumps_of(which, areas[which, 0])
     runs = runs_of(areas[which], jumps, process)
     middles = [run.middle for run in runs]

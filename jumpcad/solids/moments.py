@@ -5,6 +5,7 @@ Volume moments are arrays (10,): ∫1, ∫x, ∫y, ∫z, ∫x², ∫y², ∫z²,
 Both add up, also with weights and signs.
 """
 
+import itertools
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -28,7 +29,12 @@ def areas_moments(regions: Sequence[CrossSection]) -> Array:
 
 
 def areas_and_borders(regions: Sequence[CrossSection]) -> tuple[Array, Array]:
-    """Return the moments (n, 6) of regions and those along their borders, which are those of a strip per its width.
+    """Return the moments (n, 6) of regions and those along their borders, which are those of a strip per its width."""
+    return contours_moments([region.to_polygons() for region in regions])
+
+
+def contours_moments(regions: Sequence[Sequence[Array]]) -> tuple[Array, Array]:
+    """Return the moments (n, 6) of regions, given their contours (k, 2), and those along their borders.
 
     Borders are integrated by Simpson's rule, which is exact along straight sides.
     """
@@ -49,16 +55,16 @@ class Measured:
         if new:
             self._regions |= new  # alive, so that no other one gets its identity
             self._number |= zip(new, range(len(self._rows), len(self._rows) + len(new)), strict=True)
-            self._rows = np.concatenate([self._rows, *(_moments(*sides) for sides in _batches(list(new.values())))])
+            self._rows = np.concatenate([self._rows, np.hstack(areas_and_borders(list(new.values())))])
         rows = self._rows[[self._number[id(region)] for region in regions]]
         return rows[:, :6], rows[:, 6:]
 
 
-def _batches(regions: Sequence[CrossSection]) -> Iterator[tuple[Array, Array, npt.NDArray[np.int64]]]:
+def _batches(regions: Sequence[Sequence[Array]]) -> Iterator[tuple[Array, Array, npt.NDArray[np.int64]]]:
     """Yield the sides of regions, few enough at once to stay in the processor's cache."""
     first = count = 0
     for index, region in enumerate(regions):
-        corners = region.num_vert()
+        corners = sum(map(len, region))
         if index > first and count + corners > BATCH_SIDES:
             yield _sides(regions[first:index])
             first, count = index, 0
@@ -83,23 +89,18 @@ def _moments(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
     return _sums(products, ends)
 
 
-def _sides(regions: Sequence[CrossSection]) -> tuple[Array, Array, npt.NDArray[np.int64]]:
-    """Return where the sides of all regions' polygons start and end, (2, m) each, and where each region's end (n,)."""
-    contours, ends = [], []
-    count = 0
-    for region in regions:
-        polygons = region.to_polygons()
-        contours += polygons
-        count += sum(map(len, polygons))
-        ends.append(count)
-    if not count:
-        return np.zeros((2, 0)), np.zeros((2, 0)), np.zeros(len(regions), dtype=np.int64)
+def _sides(regions: Sequence[Sequence[Array]]) -> tuple[Array, Array, npt.NDArray[np.int64]]:
+    """Return where the sides of all regions' contours start and end, (2, m) each, and where each region's end (n,)."""
+    ends = np.cumsum([sum(map(len, region)) for region in regions], dtype=np.int64)
+    contours = list(itertools.chain(*regions))
+    if not contours:
+        return np.zeros((2, 0)), np.zeros((2, 0)), ends
     start = np.concatenate(contours).T
     last = np.cumsum([len(contour) for contour in contours]) - 1
     end = np.empty_like(start)
     end[:, :-1] = start[:, 1:]
     end[:, last] = start[:, np.concatenate([[0], last[:-1] + 1])]
-    return start, end, np.array(ends)
+    return start, end, ends
 
 
 def _sums(products: Array, ends: npt.NDArray[np.int64]) -> Array:

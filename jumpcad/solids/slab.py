@@ -42,6 +42,10 @@ class CrossSections(NamedTuple):
     inset_mm: Array
     pockets: Sequence[tuple[int, Region]] = ()
 
+    def contours(self) -> list[list[Array]]:
+        """Return the contours (k, 2) of each outline, then of each pocket."""
+        return [region.to_polygons() for region in (*self.outlines, *(pocket for _, pocket in self.pockets))]
+
 
 @dataclass(frozen=True, eq=False)
 class Slab:

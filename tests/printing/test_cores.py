@@ -38,7 +38,7 @@ def test_a_pocket_has_perimeters_of_its_own() -> None:
     found = Cores(sections, [first, second], 1.0, 0.4).inside
     assert found[first].area() == pytest.approx(38.0**2)
     assert found[second].area() == pytest.approx(38.0**2 - 12.0**2)
-    areas, borders = section_moments(sections)
+    areas, borders = section_moments(sections, sections.contours())
     assert areas[[first, second], 0] == pytest.approx([1600.0, 1500.0])
     assert borders[[first, second], 0] == pytest.approx([160.0, 200.0])
     assert areas[second, 1] == pytest.approx(-100.0 * 3.0)
