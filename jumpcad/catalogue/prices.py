@@ -30,10 +30,10 @@ class Prices(TomlTable):
 
     def eur(self, article: str) -> tuple[float, str, int] | None:
         """Return the price of one piece (€), the shop with its date, or `estimate`, and how many are sold together."""
-        beginnings = [beginning for beginning in self.pieces if article.startswith(beginning)]
-        if not beginnings:
+        ends = range(len(article), 0, -1)  # the longest beginning first
+        found = next((self.pieces[article[:end]] for end in ends if article[:end] in self.pieces), None)
+        if found is None:
             return None
-        found = self.pieces[max(beginnings, key=len)]
         price = found.price / found.pack * (self.eur_per_usd if found.currency == "USD" else 1.0)
         return price, f"{found.shop}, {found.date}" if found.shop else ESTIMATE, found.pack
 

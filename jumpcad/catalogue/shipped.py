@@ -132,7 +132,8 @@ class Catalogue:
 
     def with_own(self, own: Mapping[str, Mapping[str, Article]]) -> "Catalogue":
         """Return the catalogue with a user's own parts, by kind and name, beside the shipped ones."""
-        return replace(self, **{kind: getattr(self, kind).with_own(parts) for kind, parts in own.items() if parts})
+        both = {kind: getattr(self, kind).with_own(parts) for kind, parts in own.items() if parts}
+        return replace(self, **both) if both else self
 
     def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
         """Return the mass of a steel rod (g)."""

@@ -41,11 +41,15 @@ def jumps_of(which: Numbers, area_mm2: Array) -> list[int]:
     which, area_mm2
         The number of each layer's cross-section, and its area, (n,).
     """
-    changed = np.concatenate([[True], which[1:] != which[:-1], [True]])
-    beside_steady = ~changed[:-2] | ~changed[2:]
-    change = np.abs(np.diff(area_mm2, prepend=area_mm2[0], append=area_mm2[-1]))
-    large = change[1:-1] > JUMP * area_mm2.max() + 2.0 * np.maximum(change[:-2], change[2:])
-    return [int(index) + 1 for index in np.flatnonzero(changed[1:-1] & (beside_steady | large))]
+    sizes, changes = area_mm2.tolist(), (np.flatnonzero(which[1:] != which[:-1]) + 1).tolist()
+    change = [0.0, *(abs(upper - lower) for lower, upper in itertools.pairwise(sizes)), 0.0]
+    ends, least = {0, *changes, len(sizes)}, JUMP * max(sizes)
+
+    def is_jump(layer: int) -> bool:
+        beside_steady = layer - 1 not in ends or layer + 1 not in ends
+        return beside_steady or change[layer] > least + 2.0 * max(change[layer - 1], change[layer + 1])
+
+    return list(filter(is_jump, changes))
 
 
 def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[LayerRun]:
@@ -63,12 +67,13 @@ def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[LayerRu
     count, below, above = len(area), process.bottom_layers, process.top_layers
     cuts = {jump + step for jump in jumps for step in (-above, 0, below)} | {below, count - above}
     ends = sorted({0, count, *(cut for cut in cuts if 0 < cut < count)})
+    changes = np.flatnonzero((area[1:] != area[:-1]).any(axis=1)) + 1
+    if set(changes.tolist()) <= set(jumps):
+        return list(itertools.starmap(LayerRun, itertools.pairwise(ends)))
     a, x, y, xx, yy, _ = area.T
     sizes = np.stack([a, xx + yy - (x * x + y * y) / np.maximum(a, SMALLEST_AREA_MM2)])
     steps = np.diff(sizes, prepend=sizes[:, :1], append=sizes[:, -1:])
     steps[:, list(jumps)] = 0.0
-    if not steps.any():
-        return list(itertools.starmap(LayerRun, itertools.pairwise(ends)))
     bends = (np.abs(np.diff(steps)) / sizes.max(axis=1, keepdims=True)).max(axis=0)
     bends = np.pad(bends, (below, above))
     bent = np.cumsum(bends[:count] + bends[below : below + count] + bends[below + above :])

@@ -27,6 +27,7 @@ SLIVER_MM = 0.01
 ORIGIN = (0.0, 0.0)
 
 
+@lru_cache(maxsize=512)
 def facets(diameter_mm: float) -> int:
     """Return how many sides a circle gets: at least 64, a multiple of 8, and within `SAGITTA_MM` of the circle."""
     return max(MIN_FACETS, 8 * math.ceil(math.pi / 8.0 / _half_step(diameter_mm)))
