@@ -58,17 +58,18 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
 
     If none of its first designs jumps, print a warning with the numbers of reasons.
     """
-    from jumpcad.search.study.run import Hopeless
+    from jumpcad.search.study.run import hopeless
 
     if quiet:
         yield lambda trial, computed: None
         return
-    tally, hopeless = Tally(total), Hopeless()
+    tally = Tally(total)
+    first: list[Trial] = []
     with status("search …") as tell:
 
         def watch(trial: "Trial", computed: bool) -> None:
             tell(tally.add(trial, computed))
-            if warning := hopeless.warning(trial):
+            if warning := hopeless(first, trial):
                 print(f"jumpcad: {warning}", file=sys.stderr, flush=True)
 
         yield watch

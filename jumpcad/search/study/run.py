@@ -32,24 +32,15 @@ PICK_SHARE = 0.25
 """Share of a limited time that is kept for the robust pick, at most: that of its evaluations."""
 
 
-class Hopeless:
-    """Looks at the first designs of a search: when none of them jumps, its bounds may hold no robot."""
-
-    def __init__(self) -> None:
-        self._first: list[Trial] | None = []
-
-    def warning(self, trial: Trial) -> str:
-        """Return what to tell after a trial, with the reasons counted; mostly nothing."""
-        if self._first is None or trial.phase not in SEARCH_PHASES:
-            return ""
-        self._first.append(trial)
-        if trial.score is not None:
-            self._first = None
-        elif len(self._first) == FIRST:
-            reasons = ", ".join(f"{name} {count}" for name, count in count_rejections(self._first).items())
-            self._first = None
-            return f"none of the first {FIRST} designs jumps ({reasons}): there may be no robot within these bounds"
+def hopeless(first: list[Trial], trial: Trial) -> str:
+    """Add a trial to the first ones of a search; return what to tell when none of these jumps, mostly nothing."""
+    if trial.phase not in SEARCH_PHASES or len(first) == FIRST:
         return ""
+    first.append(trial)
+    if len(first) < FIRST or best_trial(first) is not None:
+        return ""
+    reasons = ", ".join(f"{name} {count}" for name, count in count_rejections(first).items())
+    return f"none of the first {FIRST} designs jumps ({reasons}): there may be no robot within these bounds"
 
 
 class Clock:
@@ -94,11 +85,12 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         stages = _stages(request, store, len(prior))
         if store.recall(ENDED) is not None:
             store.remember(ENDED, None)  # until this run ends
-        hopeless, clock, allowance, picking, cut = Hopeless(), Clock(request.hours), 0, False, False
+        clock, allowance, picking, cut = Clock(request.hours), 0, False, False
+        first: list[Trial] = []
 
         def watched(trial: Trial, computed: bool) -> None:
             clock.see(computed)
-            if warning := hopeless.warning(trial):
+            if warning := hopeless(first, trial):
                 store.note_once(warning)
             watch(trial, computed)
 
