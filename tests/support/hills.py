@@ -4,6 +4,7 @@ import math
 import os
 import signal
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -73,6 +74,21 @@ class Hill(RobotModel):
     @property
     def digest(self) -> str:
         return "hill"
+
+
+def _flat(_design: Design) -> float | None:
+    return 5.0
+
+
+@dataclass(frozen=True)
+class Shaped(Hill):
+    """A hill of another shape: by design the fitness, None where it is rejected (`loop`)."""
+
+    height: Callable[[Design], float | None] = _flat
+
+    def __call__(self, design: Design) -> Evaluation:
+        fitness = self.height(design)
+        return Evaluation("loop") if fitness is None else Evaluation("jump", {"fitness": fitness})
 
 
 @dataclass(frozen=True)

@@ -1,13 +1,13 @@
 """The robust pick: the scores of the neighbours decide."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.hills import FIXED, SMALL, Hill
+from support.hills import FIXED, SMALL, Hill, Shaped
 
 from jumpcad.building import build
-from jumpcad.design import PARAMETERS, load_design
+from jumpcad.design import load_design
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search.models import robot_model
 from jumpcad.search.pick.robust import (
@@ -30,32 +30,22 @@ from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop
 
 
-@dataclass(frozen=True)
-class Spiked(Hill):
-    """A plateau of height 5 with a needle of height 9 that is 0.2 % of its parameter wide."""
-
-    def __call__(self, design):
-        needle = abs(design.rest_angle_deg - 60.0) < 0.06
-        return Evaluation("jump", {"fitness": 9.0 if needle else 5.0 - 0.01 * abs(design.rest_angle_deg - 40.0)})
+def spiked(design):
+    """Return a plateau of height 5 with a needle of height 9 that is 0.2 % of its parameter wide."""
+    needle = abs(design.rest_angle_deg - 60.0) < 0.06
+    return 9.0 if needle else 5.0 - 0.01 * abs(design.rest_angle_deg - 40.0)
 
 
-@dataclass(frozen=True)
-class Needles(Hill):
-    """A plateau of height 5 at small rest angles; elsewhere 9, but for exact values of the stiffness only."""
-
-    def __call__(self, design):
-        if design.rest_angle_deg < 35.0:
-            return Evaluation("jump", {"fitness": 5.0})
-        return (
-            Evaluation("jump", {"fitness": 9.0})
-            if design.stiffness_nmm_per_deg % 1.0 == 0
-            and (design.rest_angle_deg == 45.0 and design.carrying_link_mm == 100.0)
-            else Evaluation("loop")
-        )
+def needled(design):
+    """Return a plateau of height 5 at small rest angles; elsewhere 9, but for exact values of the stiffness only."""
+    if design.rest_angle_deg < 35.0:
+        return 5.0
+    exact = design.rest_angle_deg == 45.0 and design.carrying_link_mm == 100.0
+    return 9.0 if exact and design.stiffness_nmm_per_deg % 1.0 == 0 else None
 
 
 def test_a_plateau_beats_a_needle(evaluator):
-    one = evaluator(model=Spiked())
+    one = evaluator(model=Shaped(height=spiked))
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": angle}) for angle in (60.0, 40.0, 30.0)], "bo", 0)
     ranked = rank_candidates(one, one.trials, seed=0, evaluations=200)
@@ -77,7 +67,7 @@ def test_neighbours_follow_from_the_seed(evaluator):
 
 
 def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
-    one = evaluator(model=Needles())
+    one = evaluator(model=Shaped(height=needled))
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     needles = [centre.model_copy(update={"stiffness_nmm_per_deg": 6.0 + number}) for number in range(12)]
     plateau = centre.model_copy(update={"rest_angle_deg": 30.0})
@@ -101,7 +91,7 @@ def test_refused_neighbours_count_nothing_and_are_named(evaluator):
 
 @pytest.mark.parametrize("evaluations", [5, 8, 19, 52, 152, 192])
 def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluator, evaluations):
-    one = evaluator(model=Spiked())
+    one = evaluator(model=Shaped(height=spiked))
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": 30.0 + number}) for number in range(20)], "bo", 0)
     ranked = rank_candidates(one, one.trials, seed=0, evaluations=evaluations)
@@ -110,19 +100,6 @@ def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluat
     rounds = plan_rounds(evaluations)
     assert [count for count, _ in rounds] == [2**power for power in reversed(range(len(rounds)))]
     assert sum(new for _, new in rounds) <= 32
-
-
-@dataclass(frozen=True)
-class Late(Hill):
-    """9 above a rest angle of 45°, with stiffnesses off 20 by the share `kept` at most, and 5 below."""
-
-    kept: float = 0.0
-
-    def __call__(self, design):
-        if design.rest_angle_deg < 45.0:
-            return Evaluation("jump", {"fitness": 5.0})
-        off = abs(design.stiffness_nmm_per_deg / 20.0 - 1.0)
-        return Evaluation("loop") if off > self.kept + 1e-9 else Evaluation("jump", {"fitness": 9.0})
 
 
 @pytest.mark.parametrize("below", [0.0, 7.0, 100.0])
@@ -135,7 +112,14 @@ def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below
     edge = edge.model_copy(update={"stiffness_nmm_per_deg": 20.0})
     examined = _Examined(0, Trial("bo", 0, 0, edge, Evaluation("jump"), 9.0, "m", 0.0))
     first = [variant.design for _, variant in examined.neighbours(2, 0, Tolerances(0.2))]
-    one = evaluator(model=Late(kept=max(abs(design.stiffness_nmm_per_deg / 20.0 - 1.0) for design in first)))
+    kept = max(abs(design.stiffness_nmm_per_deg / 20.0 - 1.0) for design in first) + 1e-9
+
+    def late(design):
+        if design.rest_angle_deg < 45.0:
+            return 5.0
+        return None if abs(design.stiffness_nmm_per_deg / 20.0 - 1.0) > kept else 9.0
+
+    one = evaluator(model=Shaped(height=late))
     aim = replace(one.objective, figure=lambda metrics: metrics["fitness"] - below)
     one.request = replace(one.request, own=aim)
     one.evaluate([edge, fine], "bo", 0)
@@ -184,22 +168,15 @@ def test_variation_keeps_to_what_a_design_can_be():
     assert max(d.rest_angle_deg for d in varied_parameters(flat, np.random.default_rng(0))) == 90.0
 
 
-@dataclass(frozen=True)
-class Slope(Hill):
-    """Fitness grows by 2 over a range of the stiffness and falls by 3 over one of the rest angle."""
-
-    def __call__(self, design):
-        if design.compression_ratio > 0.8:
-            return Evaluation("loop")
-        unit = dict(zip(PARAMETERS, design.to_vector(), strict=True))
-        fitness = (
-            20.0 + 2.0 * (unit["stiffness_nmm_per_deg"] - 5.0) / 25.0 - 3.0 * (unit["rest_angle_deg"] - 20.0) / 50.0
-        )
-        return Evaluation("jump", {"fitness": fitness})
+def slope(design):
+    """Return what grows by 2 over a range of the stiffness and falls by 3 over one of the rest angle."""
+    if design.compression_ratio > 0.8:
+        return None
+    return 20.0 + 2.0 * (design.stiffness_nmm_per_deg - 5.0) / 25.0 - 3.0 * (design.rest_angle_deg - 20.0) / 50.0
 
 
 def test_active_bounds_and_their_worth(evaluator):
-    one = evaluator(model=Slope())
+    one = evaluator(model=Shaped(height=slope))
     names = [parameter.name for parameter in SMALL.free]
     assert names == ["compression_ratio", "rest_angle_deg", "stiffness_nmm_per_deg"]
     (trial,) = one.evaluate([SMALL.to_design([1.0, 0.0, 1.0])], "bo", 0)

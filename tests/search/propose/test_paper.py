@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from support.hills import SMALL, Hill
+from support.hills import SMALL, Hill, Shaped
 from support.pictures import with_plain_figures
 from support.stages import stage
 
@@ -96,12 +96,9 @@ def test_the_gain_at_which_other_searches_end_does_not_apply_to_it():
 
 
 def test_without_a_jumper_it_ends():
-    class Never(Hill):
-        def __call__(self, design):
-            return super().__call__(design.model_copy(update={"compression_ratio": 0.75}))
-
+    never = Shaped(height=lambda design: None)
     with local_pool(0) as pool:
-        result = run_study(Request(SMALL, Never(), method="paper", evaluations=60), None, pool)
+        result = run_study(Request(SMALL, never, method="paper", evaluations=60), None, pool)
     assert result.winner is None
 
 
