@@ -44,7 +44,7 @@ LENGTH_MM = 0.2
 """Error of a link's length of a robot that is made in no workshop; judgement."""
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
+@dataclass(frozen=True, repr=False)
 class RobotModel:
     """A picklable, pure function from design to evaluation: geometric checks, then what the class of a robot does.
 
