@@ -19,7 +19,6 @@ from jumpcad.search.study.trial import Trial, feasible_trials
 from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 from jumpcad.workshop import load_workshop, workshop_value
-from jumpcad.workshop.varied import Value
 
 ELITE_SHARE = 0.1
 """Share of the feasible designs whose components are compared with those of all."""
@@ -223,14 +222,9 @@ def _grid(parameter: SearchParameter, points: int) -> Array:
 
 def _start(evaluator: Evaluator, around: Design) -> Variant:
     """Return a design in the model's workshop, with the values that the space varies or fixes."""
-    held: dict[str, Value] = {}
-    for parameter in evaluator.space.of_workshop:
-        workshop = evaluator.model.workshop or load_workshop()
-        held[parameter.name] = workshop_value(workshop, parameter.name)
-        if not parameter.free:
-            held[parameter.name] = parameter.value(parameter.lower)
-    fixed = {parameter.name: parameter.lower for parameter in evaluator.space.parameters if not parameter.free}
-    return Variant(around, held).changed({name: value for name, value in fixed.items() if name not in held})
+    space, model = evaluator.space, evaluator.model
+    held = {one.name: workshop_value(model.workshop or load_workshop(), one.name) for one in space.of_workshop}
+    return Variant(around, held).changed({one.name: one.value(one.lower) for one in space.parameters if not one.free})
 
 
 def _with(start: Variant, values: dict[SearchParameter, float]) -> Variant:

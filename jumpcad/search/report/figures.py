@@ -87,13 +87,6 @@ def svg_text(figure: Figure) -> str:
     return drawn.getvalue()
 
 
-def heat(figure: Figure, axes: Axes, x: Any, y: Any, values: Any, label: str) -> None:
-    """Draw values (len(y), len(x)) as a colour map with a colour bar."""
-    image = axes.pcolormesh(x, y, values, shading="nearest", cmap="viridis", rasterized=True)
-    axes.grid(False)
-    figure.colorbar(image, ax=axes, label=label)
-
-
 def labels(axes: Axes, x: str, y: str, title: str = "") -> None:
     """Name the axes."""
     axes.set_xlabel(x)

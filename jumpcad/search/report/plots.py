@@ -18,7 +18,7 @@ from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, front
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.propose.posterior import SearchPosterior, unwarped, warped
-from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
+from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, labels, panels
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.trial import Trial, best_trial, feasible_trials
@@ -62,17 +62,11 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
     feasible = [trial for trial in trials if trial.score is not None]
     order = np.arange(len(feasible))
     for axes, parameter in zip(all_axes, space.free, strict=True):
-
-        def at(trial: Trial, parameter: SearchParameter = parameter) -> float:
-            return parameter.number(trial.variant.value(parameter.name))
-
         _name_ticks(axes, parameter.names)
-        dots = axes.scatter(
-            [at(trial) for trial in feasible], _scores(feasible), c=order, cmap="viridis", s=8,
-            rasterized=len(feasible) > MOST_DRAWN,
-        )  # fmt: skip
+        values, many = _values(parameter, feasible), len(feasible) > MOST_DRAWN
+        dots = axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8, rasterized=many)
         if best := best_trial(feasible):
-            axes.plot(at(best), best.score or 0.0, **BEST)
+            axes.plot(*_values(parameter, [best]), best.score or 0.0, **BEST)
         low, high = axes.get_xlim() if feasible else (parameter.lower, parameter.upper)
         reach = MARGIN * parameter.width
         axes.set_xlim(min(low, parameter.lower - reach), max(high, parameter.upper + reach))
@@ -199,17 +193,9 @@ def acquisition(
     Of two parameters, they stand beside each other; with one column, which is narrow, below each other.
     """
     best = max((trial.score for trial in trials if trial.score is not None), default=0.0)
-    return (
-        _one_parameter(space, trials, posterior, objective, best, 6.4 if columns > 1 else 4.6)
-        if space.dimension == 1
-        else _two(space, trials, posterior, objective, best, columns)
-    )
-
-
-def _one_parameter(
-    space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, best: float, width: float
-) -> Figure:
-    figure, (above, below) = panels(2, width, 2.6, columns=1)
+    if space.dimension > 1:
+        return _two(space, trials, posterior, objective, best, columns)
+    figure, (above, below) = panels(2, 6.4 if columns > 1 else 4.6, 2.6, columns=1)
     unit = np.linspace(0.0, 1.0, 401)
     points, parameter = unit[:, None], space.free[0]
     x = parameter.lower + unit * parameter.width
@@ -219,9 +205,8 @@ def _one_parameter(
         above.fill_between(x, low, high, color=BLUE, alpha=0.2, lw=0, label="± 2 σ")
         above.plot(x, unwarped(mean), color=BLUE, label="surrogate")
     feasible = [trial for trial in trials if trial.score is not None]
-    values = [parameter.number(trial.variant.value(parameter.name)) for trial in feasible]
     _name_ticks(below, parameter.names)
-    above.plot(values, _scores(feasible), "o", ms=4, color="black", label="evaluated")
+    above.plot(_values(parameter, feasible), _scores(feasible), "o", ms=4, color="black", label="evaluated")
     above.legend()
     labels(above, "", _named(objective))
     below.plot(x, _log_acquisition(posterior, points, best), color=ORANGE)
@@ -238,16 +223,16 @@ def _two(
     first, second = space.free
     x, y = first.lower + unit * first.width, second.lower + unit * second.width
     mean = np.full(len(points), warped(best)) if posterior.score is None else posterior.score.predict(points)[0]
-    heat(figure, left, x, y, unwarped(mean).reshape(61, 61), _named(objective))
-    heat(figure, right, x, y, _log_acquisition(posterior, points, best).reshape(61, 61), ACQUISITION)
-    for axes, title in ((left, "surrogate"), (right, "acquisition")):
+    for axes, title, values, label in (
+        (left, "surrogate", unwarped(mean), _named(objective)),
+        (right, "acquisition", _log_acquisition(posterior, points, best), ACQUISITION),
+    ):
+        image = axes.pcolormesh(x, y, values.reshape(61, 61), shading="nearest", cmap="viridis", rasterized=True)
+        axes.grid(False)
+        figure.colorbar(image, ax=axes, label=label)
         for colour, chosen in (("white", True), (RED, False)):
-            shown = [trial.variant for trial in trials if (trial.score is not None) == chosen]
-            axes.plot(
-                [first.number(one.value(first.name)) for one in shown],
-                [second.number(one.value(second.name)) for one in shown],
-                ".", ms=7, mec="black", mew=0.4, color=colour,
-            )  # fmt: skip
+            shown = [trial for trial in trials if (trial.score is not None) == chosen]
+            axes.plot(_values(first, shown), _values(second, shown), ".", ms=7, mec="black", mew=0.4, color=colour)
         labels(axes, first.name, second.name, f"{title}; rejected designs in red")
     return figure
 
@@ -273,6 +258,11 @@ def _name_ticks(axes: Axes, names: Sequence[str]) -> None:
 def _named(objective: Objective) -> str:
     """Return the score's name with its unit, in lines that fit the height of a small panel."""
     return fill(f"{objective.meaning} ({objective.unit})", 26)
+
+
+def _values(parameter: SearchParameter, trials: Sequence[Trial]) -> list[float]:
+    """Return the values of a parameter (n,), of names their indices."""
+    return [parameter.number(trial.variant.value(parameter.name)) for trial in trials]
 
 
 def _scores(trials: Sequence[Trial]) -> Array:

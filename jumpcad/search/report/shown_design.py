@@ -28,8 +28,6 @@ HEADLINES = ("ballistic_range_m", "com_rise_m", "mass_kg", "winding_time_s")
 """Figures that are shown at once; the others open on a click."""
 RADIUS, LEAST_RADIUS = 6.0, 3.5
 """Of a point, and of one that has others near it."""
-POINTS = {"toe tip": "toe", "ankle": "ankle", "front eye": "eye", "front pivot": "front", "back pivot": "back"}
-"""Joints, and their names in `_standing_joints`."""
 LINKS = {
     "toes": ("toe tip", "ankle"),
     "foot": ("ankle", "front eye"),
@@ -128,31 +126,29 @@ def _lines(trial: Trial) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
 
 
 def joints_mm(design: Design) -> dict[str, dict[str, tuple[float, float]]]:
-    """Return the `POINTS` of each pose in mm: x forward from the ankle, z up from the ground.
+    """Return the joints of each pose, with the foot flat, in mm: x forward from the ankle, z up from the ground.
+
+    Toes spread sideways, so that from the side they look shorter.
 
     Raises
     ------
     CannotBuildError
         If the design has no assembled pose, or its loop does not close when loaded.
     """
-    found = {}
+    found, linkage = {}, Linkage(design)
     for name, leg_rad in zip(POSES, (-design.compression_rad, 0.0), strict=True):
-        # Toes spread sideways, so that from the side they look shorter.
-        at = _standing_joints(Linkage(design), leg_rad)
-        corners = (at[one] for one in POINTS.values())
-        places = np.round([(point.real, point.imag) for point in corners], 1) + 0.0
-        found[name] = dict(zip(POINTS, map(tuple, places.tolist()), strict=True))
+        pose = linkage.pose([leg_rad])
+        turn = cmath.exp(1j * float(pose.foot_rad[0]))
+        ankle, eye = (complex(points(joint)[0]) for joint in (pose.ankle_mm, pose.front_eye_mm))
+        back, front = (complex(points(joint)) for joint in (linkage.back_pivot_mm, linkage.front_pivot_mm))
+        at = {"toe tip": complex(float(toe_tip_mm(design)[0]), 0.0), "ankle": 0j}
+        at |= {
+            joint: (place - ankle) * turn
+            for joint, place in (("front eye", eye), ("front pivot", front), ("back pivot", back))
+        }
+        places = np.round([(point.real, point.imag) for point in at.values()], 1) + 0.0
+        found[name] = dict(zip(at, map(tuple, places.tolist()), strict=True))
     return found
-
-
-def _standing_joints(linkage: Linkage, leg_rad: float) -> dict[str, complex]:
-    """Return the joints in the frame of the ankle with the foot flat, as x + iz (mm); the toes' tip from the side."""
-    pose = linkage.pose([leg_rad])
-    turn = cmath.exp(1j * float(pose.foot_rad[0]))
-    ankle, eye = (complex(points(joint)[0]) for joint in (pose.ankle_mm, pose.front_eye_mm))
-    back, front = (complex(points(joint)) for joint in (linkage.back_pivot_mm, linkage.front_pivot_mm))
-    seen = {name: (joint - ankle) * turn for name, joint in {"back": back, "front": front, "eye": eye}.items()}
-    return seen | {"ankle": 0j, "toe": complex(float(toe_tip_mm(linkage.design)[0]), 0.0)}
 
 
 def box_mm(designs: Iterable[Design]) -> Box:
