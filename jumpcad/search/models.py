@@ -92,7 +92,10 @@ class RobotModel:
     @property
     def making(self) -> Tolerances:
         """How far what is made of a design differs from it: of a robot that is made in no workshop, lengths alone."""
-        return Tolerances(LENGTH_MM)
+        if self.workshop is None:
+            return Tolerances(LENGTH_MM)
+        length, rate = self.workshop.fits.link_tolerance_mm, self.workshop.safety.spring_rate_scatter / 2.0
+        return Tolerances(length, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
 
     @property
     def limit_names(self) -> Sequence[str]:
@@ -263,14 +266,6 @@ class PrintedModel(RobotModel):
         others = {key: value for key, value in values.items() if not key.startswith(PREFIX)}
         model = replace(self, perturbation={key: value for key, value in values.items() if key not in others})
         return replace(model, workshop=varied(self.workshop or load_workshop(), others)) if others else model
-
-    @property
-    def making(self) -> Tolerances:
-        """How far what is made of a design differs from it; without a workshop, as a capsule's."""
-        if self.workshop is None:
-            return super().making
-        length, rate = self.workshop.fits.link_tolerance_mm, self.workshop.safety.spring_rate_scatter / 2.0
-        return Tolerances(length, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
 
     @property
     def limit_names(self) -> Sequence[str]:

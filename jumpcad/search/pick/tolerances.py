@@ -90,15 +90,10 @@ class Tolerances:
         ]
 
     def varied(self, one: Variant, generator: np.random.Generator) -> list[Variant]:
-        """Return variants with every parameter within ±1 %."""
-        designs = varied_parameters(one.design, generator)
+        """Return variants with every parameter varied evenly within ±1 %, and within a design's limits."""
+        factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)
+        designs = [design_within_limits(np.array(one.design.to_vector()) * factor) for factor in factors]
         return [_made(one, design) if self.printed else replace(one, design=design) for design in designs]
-
-
-def varied_parameters(design: Design, generator: np.random.Generator) -> list[Design]:
-    """Return designs with every parameter varied evenly within ±1 %, and within a design's limits."""
-    factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)
-    return [design_within_limits(np.array(design.to_vector()) * factor) for factor in factors]
 
 
 def perturbed(robot: Robot, settings: Settings, values: Mapping[str, Value]) -> tuple[Robot, Settings]:

@@ -21,10 +21,6 @@ Watch = Callable[[Trial, bool], None]
 """Called with every trial, and whether it was computed now (or read from the study file)."""
 
 
-def ignore(_trial: Trial, _computed: bool) -> None:
-    """Watch nothing."""
-
-
 class Evaluator:
     """Evaluates designs for the methods.
 
@@ -52,7 +48,7 @@ class Evaluator:
         store: StudyStore,
         pool: Pool,
         prior: Sequence[Trial] = (),
-        watch: Watch = ignore,
+        watch: Watch = lambda trial, computed: None,
         expired: Callable[[], bool] = lambda: False,
     ) -> None:
         self.request = request

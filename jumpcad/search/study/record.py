@@ -57,17 +57,16 @@ def read_trial(row: Sequence[Any], free: int, keys: Sequence[str]) -> Trial:
 
 def _require_proposal(trial: Trial, free: int) -> None:
     """Require that what a method predicted fits a space of so many free numbers and names."""
-    proposal = trial.proposal
-    thetas = proposal.get("theta", {})
+    thetas, tried = trial.proposal.get("theta", {}), trial.proposal.get("tried", [])
+    others = [value for name, value in trial.proposal.items() if name not in ("theta", "tried")]
     if trial.phase in LEARNING_PHASES and trial.step and not thetas:
         raise JumpcadError("proposal.theta: missing")
-    if not isinstance(thetas, dict) or any(not 3 <= len(theta) <= free + 2 for theta in thetas.values()):
-        raise JumpcadError(f"proposal.theta: must be lists of 3 to {free + 2} hyperparameters")
-    tried = proposal.get("tried", [])
-    if not isinstance(tried, list) or any(not 1 <= len(point) <= free for point in tried):
-        raise JumpcadError(f"proposal.tried: must be lists of 1 to {free} coordinates")
-    if any(not isinstance(value, float) for name, value in proposal.items() if name not in ("theta", "tried")):
-        raise JumpcadError("proposal: must be numbers, besides theta and tried")
+    if not (
+        (isinstance(thetas, dict) and all(3 <= len(theta) <= free + 2 for theta in thetas.values()))
+        and (isinstance(tried, list) and all(1 <= len(point) <= free for point in tried))
+        and all(isinstance(value, float) for value in others)
+    ):
+        raise JumpcadError(f"proposal: is none of a search with {free} free numbers and names")
 
 
 class _Named(TomlTable):

@@ -17,7 +17,7 @@ from jumpcad.search.fronts import front
 from jumpcad.search.phases import METHODS, SEARCH_PHASES
 from jumpcad.search.pick.robust import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.study.code_hash import versions
-from jumpcad.search.study.evaluator import Evaluator, Watch, ignore
+from jumpcad.search.study.evaluator import Evaluator, Watch
 from jumpcad.search.study.pool import Pool
 from jumpcad.search.study.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.study.result import Result
@@ -70,7 +70,9 @@ class Clock:
 
 
 @check_arguments
-def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watch = ignore) -> Result:
+def run_study(
+    request: Request, path: str | Path | None, pool: Pool, watch: Watch = lambda trial, computed: None
+) -> Result:
     """Run a study, or continue the one in a file; None keeps it in memory.
 
     Raises

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
 
 from pydantic import TypeAdapter
 
@@ -65,14 +64,9 @@ class _Righting(TomlTable):
 _PICKS, _RIGHTING = TypeAdapter(list[_Pick]), TypeAdapter(_Righting)
 
 
-def _recall(store: StudyStore) -> list[dict[str, Any]]:
-    picks: list[dict[str, Any]] = store.recall(PICKS, [], _PICKS)
-    return picks
-
-
 def pick_run(store: StudyStore, designs: int, evaluations: int) -> int:
     """Return the number of the pick, with so many evaluations, of a search of so many designs; a new one if need be."""
-    asked, picks = {"designs": designs, "evaluations": evaluations}, _recall(store)
+    asked, picks = {"designs": designs, "evaluations": evaluations}, store.recall(PICKS, [], _PICKS)
     runs = [run for run, pick in enumerate(picks) if asked.items() <= pick.items()]
     if not runs:
         store.remember(PICKS, [*picks, asked])
@@ -81,7 +75,7 @@ def pick_run(store: StudyStore, designs: int, evaluations: int) -> int:
 
 def keep_pick(store: StudyStore, run: int, candidates: Sequence[Candidate], bounds: Sequence[ActiveBound]) -> None:
     """Keep what a pick found."""
-    picks = _recall(store)
+    picks = store.recall(PICKS, [], _PICKS)
     found = [vars(one) | {"trial": one.trial.position} for one in candidates]
     picks[run] |= {"candidates": found, "bounds": [asdict(bound) for bound in bounds]}
     store.remember(PICKS, picks)
@@ -95,7 +89,7 @@ def read_pick(store: StudyStore, trials: Sequence[Trial], designs: int) -> tuple
     JumpcadError
         If a candidate is none of the study's trials.
     """
-    ended = [pick for pick in _recall(store) if pick["designs"] == designs and pick.get("candidates")]
+    ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick["designs"] == designs and pick.get("candidates")]
     if not ended:
         return [], []
     held = {trial.position: trial for trial in trials}
