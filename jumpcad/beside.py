@@ -6,7 +6,6 @@ import pickle
 import signal
 import sys
 import threading
-import warnings
 from collections.abc import Callable, Sequence
 from functools import cache, partial
 from multiprocessing.connection import Connection
@@ -44,8 +43,7 @@ def beside(function: Callable[..., T], *arguments: object) -> Callable[[], T]:
     ours, theirs = multiprocessing.Pipe(duplex=False)
     copy = multiprocessing.get_context("fork").Process(target=_answer, args=(theirs, here), daemon=True)
     try:
-        with deferred_interrupts(), warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)  # other threads only print what is being done
+        with deferred_interrupts():
             copy.start()
     except OSError:  # no memory, or too many processes
         return here
@@ -83,6 +81,7 @@ def _answer(answer: Connection, function: Callable[[], object]) -> None:
     """Send a function's result; nothing if it fails: it will fail again where it is seen."""
     for number in (signal.SIGINT, signal.SIGTERM):  # the first goes to the whole group, and only its parent answers it
         signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
+    sys.stdout = sys.stderr = None  # a thread that shows progress may have locked them, and is not in this copy
     try:
         answer.send_bytes(pickle.dumps(function()))
     except Exception:

@@ -1,8 +1,10 @@
 """Work in a copy of this process: its result, its errors, and where there is no copy."""
 
+import io
 import os
 import signal
 import sys
+import threading
 from collections.abc import Callable
 
 import pytest
@@ -57,6 +59,20 @@ def test_interrupts_are_this_process_s_affair() -> None:
     """Ctrl-C goes to the whole group of processes: the copy ignores it; SIGTERM ends it without a word."""
     found = beside(lambda: [signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM)])()
     assert found == [signal.SIG_IGN, signal.SIG_DFL]
+
+
+def test_a_copy_waits_for_no_lock_of_a_thread_that_it_has_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Such as that of a terminal's progress, through which Python prints warnings too."""
+    held = threading.Lock()
+
+    class Progress(io.StringIO):
+        def write(self, text: str) -> int:
+            assert held.acquire(timeout=1.0)
+            return len(text)
+
+    monkeypatch.setattr(sys, "stderr", Progress())
+    with held:
+        assert beside(lambda: print("a warning", file=sys.stderr) or os.getpid())() != os.getpid()
 
 
 def test_findings_are_the_same_on_one_core_and_on_two(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,6 +6,7 @@ import logging
 import os
 import pickle
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -58,6 +59,7 @@ def start_worker(parent: int) -> None:
     one_thread()
     # Engines print a banner; the parent may be printing one JSON document.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    sys.stderr = sys.__stderr__  # what shows progress may stand there, locked by a thread that is not in this copy
     threading.Thread(target=_end_with_parent, args=(parent,), daemon=True).start()
     collect_seldom()
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # as in `jumpcad.cli.commands.run`
