@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
-from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.linkage import linkage_of
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Mechanism, five_bar
 from jumpcad.transforms import Array
@@ -65,7 +65,7 @@ def capsule_robot(design: Design) -> Mechanism:
         _body(FRONT_LINK, link(np.array([l3, 0.0, 0.0]))),
         _body(FOOT, foot, foot_contacts),
     )
-    joints, loop, spring = five_bar(Linkage(design), (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
+    joints, loop, spring = five_bar(linkage_of(design), (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
     return Mechanism("capsule", design, {body.name: body for body in bodies}, joints, loop, spring, foot_depth_m=radius)
 
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import Basis, Finding, at_least
-from jumpcad.mechanism.linkage import Linkage, Pose, toe_tip_mm
+from jumpcad.mechanism.linkage import Linkage, Pose, linkage_of, toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism
 from jumpcad.transforms import Array
 
@@ -59,7 +59,7 @@ def geometry_findings(design: Design) -> list[Finding]:
         return [_loop_finding(assembly, "there is no pose with parallel legs and a flat foot")]
     if design.compression_rad <= 0:
         return [_winding_finding(design)]
-    linkage = Linkage(design)
+    linkage = linkage_of(design)
     margin = linkage.closing_margin_mm()
     loop = _loop_finding(margin, "foot and front link must reach each other over the whole travel")
     if margin <= 0:

@@ -166,10 +166,16 @@ class Linkage:
         return np.asarray(diagonal / distance * (along + side * np.sqrt(square)))
 
 
+@lru_cache(maxsize=8)
+def linkage_of(design: Design) -> Linkage:
+    """Return the linkage of a design: one simulation asks for it a dozen times."""
+    return Linkage(design)
+
+
 @lru_cache(maxsize=64)
 def _solved(design: Design, leg: bytes, shape: tuple[int, ...], other_branch: bool) -> Pose:
     """Return the pose of a design: loads, masses and room ask for it at the same angles."""
-    return Linkage(design)._pose(np.frombuffer(leg).reshape(shape), other_branch)
+    return linkage_of(design)._pose(np.frombuffer(leg).reshape(shape), other_branch)
 
 
 def toe_tip_mm(design: Design) -> Array:

@@ -294,10 +294,9 @@ class PrintedModel(RobotModel):
 
         Where it has no such figure, its fitness ranks the designs: it has no size but that of its links.
         """
-        quick = CapsuleModel(settings=load_settings("screening"), engine=self.estimate_engine)
-        if not quick.admits(design):
+        if not self._quick.admits(design):
             return -math.inf
-        found = quick(design)
+        found = self._quick(design)
         if found.verdict != "jump":
             return -math.inf
         try:
@@ -305,7 +304,11 @@ class PrintedModel(RobotModel):
         except JumpcadError:
             return found.metrics["fitness"]
 
-    @property
+    @cached_property
+    def _quick(self) -> CapsuleModel:
+        return CapsuleModel(settings=load_settings("screening"), engine=self.estimate_engine)
+
+    @cached_property
     def estimate_engine(self) -> str:
         """The engine of what is only estimated: the planar one, compiled or not, unless it lacks what is asked for."""
         from jumpcad.simulation.planar import LACKING
@@ -313,7 +316,7 @@ class PrintedModel(RobotModel):
         lacks = any(getattr(self.settings or Settings(), key) for key in LACKING)
         return self.engine if lacks else "planar"
 
-    @property
+    @cached_property
     def estimate_settings(self) -> Settings:
         """The settings of what is only estimated: the model's with steps of `ESTIMATE_STEP_S`, or longer ones."""
         settings = self.settings or Settings()

@@ -26,7 +26,7 @@ from jumpcad.search.parameter import (
     require_new,
     several,
 )
-from jumpcad.search.study.variant import NOTHING, Variant
+from jumpcad.search.study.variant import NOTHING, Key, Variant
 from jumpcad.sobol import sobol
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop
@@ -192,9 +192,16 @@ class Space:
 
     def to_unit(self, one: Design | Variant) -> Array:
         """Return the point (dimension,) of a design or variant; outside of the unit cube if it is out of bounds."""
-        variant = Variant.of(one)
-        numbers = ((parameter, parameter.number(variant.value(parameter.name))) for parameter in self.free)
-        return np.array([(number - parameter.lower) / parameter.width for parameter, number in numbers])
+        key = (variant := Variant.of(one)).key
+        if key not in self._units:
+            numbers = ((parameter, parameter.number(variant.value(parameter.name))) for parameter in self.free)
+            self._units[key] = tuple((number - parameter.lower) / parameter.width for parameter, number in numbers)
+        return np.array(self._units[key])
+
+    @cached_property
+    def _units(self) -> dict[Key, tuple[float, ...]]:
+        """Points of variants that were asked for: every step of a search asks for all of its trials."""
+        return {}
 
     def contains(self, one: Design | Variant) -> bool:
         """Tell whether a design or variant has the fixed values and is within all ranges and choices (to 1e-9)."""

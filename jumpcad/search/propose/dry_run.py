@@ -49,6 +49,7 @@ class DryRun:
         self._variants: dict[tuple[float, ...], Variant] = {}
         self._prior = {trial.key for trial in evaluator.prior}
         self._passed_over: list[Variant] = []
+        self._failures: dict[Key, Trial | None] = {}  # until figures are fitted anew
 
     @classmethod
     def of(cls, evaluator: Evaluator, phase: str, seed: int, run: int) -> Self | None:
@@ -73,6 +74,7 @@ class DryRun:
         tried = [*self._passed_over, *self._tried(trials, ())]
         self.look_at(tried)
         self.estimator.learn(trials)
+        self._failures.clear()
         if self.estimator.ready:
             jumped = [trial.variant for trial in trials if trial.score is not None]
             self.look_at([*map(self._variant, self.ranked[:FIRST]), *tried, *jumped])
@@ -95,6 +97,11 @@ class DryRun:
 
         What stays on the ground has the margins of its statics.
         """
+        if variant.key not in self._failures:
+            self._failures[variant.key] = self._failure(variant)
+        return self._failures[variant.key]
+
+    def _failure(self, variant: Variant) -> Trial | None:
         laid, estimate = self.estimator.layout(variant), self.estimator(variant)
         if isinstance(laid, Evaluation):
             return _stayed(variant, laid)

@@ -92,7 +92,7 @@ class Trial:
         """Values that identify the variant."""
         return self.variant.key
 
-    @property
+    @cached_property
     def variant(self) -> Variant:
         """The evaluated design with its values of the workshop."""
         return Variant(self.design, self.workshop)
