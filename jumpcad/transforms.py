@@ -44,11 +44,6 @@ def turned_about_y(vector: npt.ArrayLike, angle_rad: npt.ArrayLike) -> Array:
     return np.stack([cos * x + sin * z, cos * z - sin * x], axis=-1)
 
 
-def velocity_about_y(vector: Array) -> Array:
-    """Return the velocity (n, 2) of points at x-z vectors (n, 2) from a pivot, per unit turn about +y."""
-    return np.stack([vector[:, 1], -vector[:, 0]], axis=-1)
-
-
 def rotation_about_y(angle_rad: float) -> Array:
     """Return the rotation (3, 3) about y, from its quaternion."""
     w, _, y, _ = quaternion_about_y(angle_rad)

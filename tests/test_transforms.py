@@ -15,7 +15,6 @@ from jumpcad.transforms import (
     quaternion_about_y,
     rotation_about_y,
     turned_about_y,
-    velocity_about_y,
 )
 
 ANGLES = [-2.0, -0.3, 0.0, 0.7, math.pi / 2, 3.0]
@@ -43,12 +42,6 @@ def test_a_quaternion_turns_by_twice_its_own_angle(angle: float) -> None:
     v = np.array([0.3, 5.0, -1.2])
     turned = v + 2.0 * w * np.cross(u, v) + 2.0 * np.cross(u, np.cross(u, v))
     np.testing.assert_allclose(turned, rotation_about_y(angle) @ v, atol=1e-14)
-
-
-def test_velocity_is_the_change_with_the_angle() -> None:
-    vectors, step = np.array([[0.3, -1.2], [2.0, 0.5]]), 1e-6
-    change = (turned_about_y(vectors, step) - turned_about_y(vectors, -step)) / (2.0 * step)
-    np.testing.assert_allclose(velocity_about_y(vectors), change, atol=1e-9)
 
 
 def test_chained_poses_are_one_after_the_other() -> None:

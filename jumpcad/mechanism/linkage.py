@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
-from jumpcad.transforms import Array, direction, velocity_about_y
+from jumpcad.transforms import Array
 
 Complex = npt.NDArray[np.complex128]
 
@@ -112,20 +112,6 @@ class Linkage:
         ankle, foot = self._ankle(leg_rad), self._foot(leg_rad)
         return np.stack([(pivot - ankle) * foot.conjugate() for pivot in (0.0, self.l1)], axis=-1).imag / self.l4
 
-    def jacobian(self, leg_rad: npt.ArrayLike) -> Array:
-        """Return d(ankle x, ankle z, foot angle)/d(leg angle), shape (n, 3), in mm/rad, mm/rad and rad/rad.
-
-        Velocity analysis of the four-bar (e.g. Norton, Design of Machinery, ch. 6): the eye's velocity is the same
-        computed along main leg and foot as along the front link.
-        """
-        pose = self.pose(leg_rad)
-        ankle_rate = self.l2 * velocity_about_y(direction(self.rest_rad + pose.leg_rad))
-        foot_arm = velocity_about_y(pose.front_eye_mm - pose.ankle_mm)
-        front_arm = velocity_about_y(pose.front_eye_mm - self.front_pivot_mm)
-        matrix = np.stack([foot_arm, -front_arm], axis=-1)
-        rates = np.linalg.solve(matrix, -ankle_rate[..., None])[..., 0]
-        return np.column_stack([ankle_rate, rates[:, 0]])
-
     def rates(self, leg_rad: float) -> tuple[float, float, complex]:
         """Return d(foot angle, front joint, ankle)/d(leg angle), the ankle as x + iz (mm/rad); no linear algebra.
 
@@ -137,12 +123,6 @@ class Linkage:
     def turning(self, leg_rad: Array) -> tuple[Array, Array]:
         """Return d(foot angle, front joint)/d(leg angle) at leg angles (n,), as `rates`."""
         return _turning(self._ankle(leg_rad), self._foot(leg_rad), self.l1)
-
-    def transmission_angle_rad(self, leg_rad: npt.ArrayLike) -> Array:
-        """Return the angle (n,) between foot and front link at the front eye, folded into 0…π/2."""
-        pose = self.pose(leg_rad)
-        angle = np.abs(np.mod(pose.foot_rad - (self.rest_rad + pose.front_rad), math.pi))
-        return np.minimum(angle, math.pi - angle)
 
     def _ankle(self, leg_rad: npt.ArrayLike) -> Complex:
         """Return the ankle (n,) as x + iz, seen from the back pivot."""

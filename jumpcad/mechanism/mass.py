@@ -29,13 +29,6 @@ class MassProperties(ByValue):
         x, y, z = np.asarray(size_m, dtype=float) ** 2
         return cls(mass_kg, np.zeros(3), mass_kg / 12.0 * np.diag([y + z, x + z, x + y]))
 
-    @classmethod
-    def tube_y(cls, mass_kg: float, outer_m: float, length_m: float, inner_m: float = 0.0) -> Self:
-        """Return a uniform tube along y, given its outer and inner *diameters* and its length, about its centre."""
-        radii = (outer_m**2 + inner_m**2) / 4.0
-        across = mass_kg / 12.0 * (3.0 * radii + length_m**2)
-        return cls(mass_kg, np.zeros(3), np.diag([across, mass_kg * radii / 2.0, across]))
-
     def placed(self, transform: Array) -> "MassProperties":
         """Return the same body seen from a frame in which this frame is `transform` (4, 4), lengths in m."""
         rotation = transform[:3, :3]

@@ -25,15 +25,6 @@ def plate_of(layout: Layout, part: str) -> str:
     return "right" if part == "motor" or (part == "switch" and layout.fittings.switch_mm is not None) else ""
 
 
-def lead_way(layout: Layout, one: str, other: str) -> Array:
-    """Return the corners (n, 3) of the way from one part to another, which end in the middle of each.
-
-    It is that of `_lead_mm`, except that outside it keeps away from the standoffs' screws and from the opening for USB.
-    """
-    start, end = (outer_way(layout, part) for part in (one, other))
-    return np.stack([*start, *corners(layout, one, other, start[-1], end[-1]), *reversed(end)])
-
-
 def battery_way(layout: Layout) -> Array:
     """Return the corners (5, 3) of the way of the battery's own leads: ahead of the trays up to the plug."""
     seats, (x, z) = layout.electronics.seats(layout.lateral.inside), layout.tray_mm
