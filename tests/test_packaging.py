@@ -13,7 +13,10 @@ from pathlib import Path
 
 import pytest
 from support import needs
+from support.built import built
 from support.places import ROOT
+
+from jumpcad import export
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
 PARSING = {"typer", "rich"}
@@ -73,6 +76,18 @@ def test_wheel_works_in_a_fresh_environment(installed: Path, tmp_path: Path) -> 
     run(installed / "jumpcad", "new", "frog.toml", "--from", "best-bo", folder=tmp_path)
     jump = json.loads(run(installed / "jumpcad", "simulate", "frog.toml", "--capsule", "--json", folder=tmp_path))
     assert jump["verdict"] == "jump"
+
+
+def test_the_wheel_writes_what_the_source_tree_writes(installed: Path, tmp_path: Path) -> None:
+    """Every file, though pip compiled all that is Python in the package, templates too."""
+    assert list(installed.parent.rglob("templates/**/*.pyc"))
+    run(installed / "jumpcad", "build", "kenan-2.0", "--ros2", "--no-pictures", "-o", "wheel", folder=tmp_path)
+    export(built("kenan-2.0"), tmp_path / "tree", pictures=False, ros2=True)
+    wrote = [
+        {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+        for folder in (tmp_path / "wheel", tmp_path / "tree")
+    ]
+    assert wrote[0] == wrote[1]
 
 
 @needs.without("ruff")

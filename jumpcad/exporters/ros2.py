@@ -75,8 +75,8 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
         "SPRING_REFERENCE": f"{robot.spring.preload_rad:.9g}",
         "SPRING_STIFFNESS": f"{robot.spring.stiffness_nm_per_rad:.9g}",
     }
-    templates = templates_folder() / "ros2"  # with @WORDS@ to be replaced, in their names too
-    for file in sorted(path for path in templates.rglob("*") if path.is_file()):
+    templates = templates_folder() / "ros2"  # with @WORDS@ to be replaced, in their names too; pip compiles its *.py
+    for file in sorted(path for path in templates.rglob("*") if path.is_file() and path.suffix != ".pyc"):
         texts = file.relative_to(templates).as_posix(), file.read_text(encoding="utf-8")
         path, text = (re.sub("@([A-Z_]+)@", lambda found: words[found[1]], one) for one in texts)
         yield f"{folder}/{path}", text

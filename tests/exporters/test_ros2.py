@@ -1,6 +1,8 @@
 """Joints that mimic the leg's in ROS: the line through their angles, against numpy's polynomial fit."""
 
+import compileall
 import re
+import shutil
 import xml.etree.ElementTree as ET
 from functools import cache
 from pathlib import Path
@@ -13,7 +15,9 @@ from support.decimals import decimals
 from support.each import each
 
 from jumpcad.design import load_design
+from jumpcad.exporters import ros2
 from jumpcad.exporters.ros2 import body_box, capsules, mimicked, model_name, ros2_files
+from jumpcad.files import templates_folder
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
@@ -38,6 +42,14 @@ def test_dependent_joints_follow_the_leg_by_the_line_of_least_squares(name: str)
 def files() -> dict[str, str | bytes]:
     """Return the files of a ROS package by their names."""
     return {Path(path).name: content for path, content in ros2_files(built("kenan-2.0"))}
+
+
+def test_what_pip_compiles_is_no_file_of_the_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shutil.copytree(templates_folder() / "ros2", tmp_path / "ros2")
+    assert compileall.compile_dir(tmp_path, quiet=1)
+    assert list(tmp_path.rglob("*.pyc"))
+    monkeypatch.setattr(ros2, "templates_folder", lambda: tmp_path)
+    assert {Path(path).name: content for path, content in ros2_files(built("kenan-2.0"))} == files()
 
 
 @pytest.fixture(scope="module")
