@@ -11,7 +11,7 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
-from jumpcad.bundle.inputs import kept_design, kept_workshop
+from jumpcad.bundle.inputs import kept_robot
 from jumpcad.bundle.lanes import lane, lanes_values
 from jumpcad.bundle.limits import limits_of, tightest, used
 from jumpcad.bundle.manifest import open_bundle
@@ -201,7 +201,6 @@ def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot
     if str(one).endswith(".db"):
         raise JumpcadError(f"{one}: is a study; a trial of it is named by its number, as in {one}#28")
     if os.path.isdir(one) and str(one) not in template_names("robots"):
-        bundle = open_bundle(one)
-        return build(kept_design(bundle), kept_workshop(bundle), bundle.name)
+        return kept_robot(open_bundle(one))
     shop = workshop or load_workshop(own_workshop(str(one)))
     return build(load_design(one), shop, Path(one).name.removesuffix(".toml"))

@@ -1,13 +1,28 @@
 """Design and workshop of a bundle, from which the same robot can be built again."""
 
+from jumpcad.building import build
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import read_toml
+from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 
 DESIGN = "design.toml"
 WORKSHOP = "workshop.toml"
+
+
+def kept_robot(bundle: Bundle) -> Robot:
+    """Return the robot of a bundle, built again from its design and workshop.
+
+    Raises
+    ------
+    JumpcadError
+        If one of the two cannot be read.
+    CannotBuildError
+        If the design cannot be built.
+    """
+    return build(kept_design(bundle), kept_workshop(bundle), bundle.name)
 
 
 def kept_design(bundle: Bundle) -> Design:

@@ -113,19 +113,18 @@ def simulate(
     for option, words in (("--trajectory", "records"), ("--uncertain", "takes")):
         if len(engines) > 1 and (trajectory if option == "--trajectory" else uncertain):
             raise JumpcadError(f"{option} {words} one engine: choose --engine pybullet, mujoco or planar")
-    of_printed = f"{design}: {{}} for printed robots: give the design, or its bundle"
-    if uncertain and written and not Path(design).is_dir():
-        raise JumpcadError(of_printed.format("--uncertain is"))
+    if (uncertain or landed) and written and not Path(design).is_dir():
+        asked_for = "--uncertain is" if uncertain else "--landing and --jumps are"
+        raise JumpcadError(f"{design}: {asked_for} for printed robots: give the design, or its bundle")
     changes = ({"flight": "simulated"} if flight else {}) | ({"trajectory": True} if trajectory else {})
     asked = load_settings(settings).model_copy(update=changes)
+    written = None if capsule or landed else written
     robot = capsule_robot(subject) if capsule else written or printed_robot(design, workshop)
     model = "capsule" if capsule else "printed"
-    if written and not capsule:
+    if written:
         model = "chain" if chain else "own bodies" if Path(design).suffix == ".toml" else "URDF"
     heading = {"design": design, "model": model, "settings": settings}
-    if landed:
-        if not isinstance(robot, Robot):
-            raise JumpcadError(of_printed.format("--landing and --jumps are"))
+    if landed and isinstance(robot, Robot):
         alone_jump = simulate_jump(robot, asked, "mujoco")
         if alone_jump.verdict != "jump":
             _report(heading, [alone_jump], as_json, None)

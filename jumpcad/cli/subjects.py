@@ -101,7 +101,7 @@ def printed_robot(
         If the design cannot be built.
     """
     from jumpcad.building import build as build_robot
-    from jumpcad.bundle.inputs import kept_design, kept_workshop
+    from jumpcad.bundle.inputs import kept_robot
     from jumpcad.design import load_design
     from jumpcad.workshop import load_workshop, own_workshop
 
@@ -111,7 +111,7 @@ def printed_robot(
                 raise JumpcadError(
                     f"{option} {value}: {subject} is a bundle, built in a workshop of its own; give a design"
                 )
-        return build_robot(kept_design(bundle), kept_workshop(bundle), bundle.name)
+        return kept_robot(bundle)
     shop = load_workshop(workshop or own_workshop(subject), printer, material)
     return build_robot(load_design(subject), shop, name_of(subject))
 

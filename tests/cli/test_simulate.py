@@ -127,6 +127,15 @@ def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(command: Run, bu
     assert command(urdf, "--uncertain") == (2, "", refused)
 
 
+def test_a_bundle_lands_and_jumps_on_as_its_design_and_its_urdf_alone_is_refused(command: Run, bundle: Path) -> None:
+    needs.package("mujoco")
+    for options in (["--landing", "--tries", "1"], ["--jumps", "1"]):
+        (code, out, _), design = command(bundle, *options, "--json"), command("kenan-2.0", *options, "--json")[1]
+        assert (code, json.loads(out) | {"design": "kenan-2.0"}) == (0, json.loads(design)), options
+        refused = command(bundle / "urdf" / "kenan-2.0.urdf", *options)
+        assert (refused[0], "--landing and --jumps are for printed robots: give the design" in refused[2]) == (2, True)
+
+
 def test_robots_with_bodies_of_their_own(command: Run) -> None:
     needs.package("mujoco")
     for name, model, engine in (("light_jumper", "own bodies", "pybullet"), ("chain_jumper", "chain", "mujoco")):
