@@ -110,28 +110,16 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
             "area": hypervolume(found.trials, cost=cost),
             "whole": len(front(found.trials, cost)),
         }
-    titles = ["design", "trial", f"score ({found.objective.unit})", "springs (J)"]
-    rows = [
-        [str(number), str(of_study), f"{trial.score:.4g}", f"{energy_j(trial.design):.4f}"]
-        for number, (trial, of_study) in enumerate(zip(shown, numbers, strict=True), start=1)
-    ]
-    if are_candidates:
-        titles[3:3] = ["±1 %", "as made", "rejected"]
-        for row, one in zip(rows, found.candidates, strict=True):
-            rejected = f"{sum(one.rejections.values())} of {one.neighbours}"
-            row[3:3] = [f"{one.parameters_score:.4g}", f"{one.print_score:.4g}", rejected]
-    for row, trial in zip(rows, shown, strict=True):
-        row += [value_words(trial.variant.value(parameter.name), 4) for parameter in found.space.free]
+    for one, trial in zip(drawn["shown"], shown, strict=True):
+        values = [value_words(trial.variant.value(parameter.name), 4) for parameter in found.space.free]
+        one |= {"energy_j": energy_j(trial.design), "values": values}
     return drawn | {
         "box": box_mm(trial.design for trial in shown),
         # a front ends at its highest score, a ranking starts so
         "first": len(shown) if is_front else 1,
-        "candidates": are_candidates,
+        "candidates": found.candidates if are_candidates else [],
         "making": Tolerances.of(store.identity).words,
-        # ratios have no unit; a phone has no room for the springs beside the neighbours
-        "titles": [*titles, *(named(parameter.name).removesuffix(" (ratio)") for parameter in found.space.free)],
-        "first_extra": len(titles) - are_candidates,
-        "rows": rows,
+        "names": [named(parameter.name).removesuffix(" (ratio)") for parameter in found.space.free],
         "poses": POSES,
         "links": LINKS,
         "edge_mm": EDGE_MM,
