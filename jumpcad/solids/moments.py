@@ -75,14 +75,14 @@ def _batches(regions: Sequence[Sequence[Array]]) -> Iterator[tuple[Array, Array,
 def _moments(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
     """Return the moments (n, 12) of n regions and of their borders, from the sides (2, m) of all."""
     (x0, y0), (x1, y1) = start, end
-    x, y = x0 + x1, y0 + y1
-    cross, part = (x0 * y1 - x1 * y0) / 24.0, np.hypot(x1 - x0, y1 - y0) / 6.0
-    squares_x, squares_y, mixed = x0 * x0 + x1 * x1, y0 * y0 + y1 * y1, x0 * y0 + x1 * y1
-    xx, yy, xy = squares_x + x * x, squares_y + y * y, mixed + x * y
-    products = np.empty((12, len(x)))
+    both = start + end
+    squares, mixed = start * start + end * end + both * both, x0 * y0 + x1 * y1 + both[0] * both[1]
+    cross, part = (x0 * y1 - x1 * y0) / 24.0, np.hypot(*(end - start)) / 6.0
+    products = np.empty((12, len(x0)))
     for row, weight in ((0, cross), (6, part)):
-        products[row + 1], products[row + 2] = x * weight, y * weight
-        products[row + 3], products[row + 4], products[row + 5] = xx * weight, yy * weight, xy * weight
+        np.multiply(both, weight, out=products[row + 1 : row + 3])
+        np.multiply(squares, weight, out=products[row + 3 : row + 5])
+        np.multiply(mixed, weight, out=products[row + 5])
     products[0], products[6] = 12.0 * cross, 6.0 * part
     products[1:3] *= 4.0
     products[7:9] *= 3.0
