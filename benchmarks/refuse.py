@@ -1,4 +1,4 @@
-"""What refusing weak springs before a robot is built is worth: wrong refusals, share caught, least body.
+"""What refusing robots before they are built is worth: wrong refusals, share caught, least body.
 
 N robots of random designs in random workshops are built and simulated with a random share of their springs' energy.
 Run `python benchmarks/refuse.py --robots 2000 [--seed N]`.
@@ -44,8 +44,8 @@ def workshop(rng: np.random.Generator) -> Workshop:
     )
 
 
-def robots(count: int, seed: int) -> Iterator[tuple[str, bool, float]]:
-    """Yield verdict, whether it was refused first, and mass of the body (kg) of random robots."""
+def robots(count: int, seed: int) -> Iterator[tuple[str, str, float]]:
+    """Yield verdict, for what it was refused first if it was, and mass of the body (kg) of random robots."""
     rng, found = np.random.default_rng(seed), 0
     while found < count:
         drawn = {
@@ -62,8 +62,8 @@ def robots(count: int, seed: int) -> Iterator[tuple[str, bool, float]]:
             continue
         found += 1
         settings = Settings(spring_efficiency=float(rng.uniform(0.3, 1.0)))
-        refused = bool(statics_refusal(design, made, settings))
-        yield simulate(robot, settings).verdict, refused, robot.bodies[BODY].mass_kg
+        refused = [finding.name for finding in statics_refusal(design, made, settings, tips=True)]
+        yield simulate(robot, settings).verdict, "".join(refused), robot.bodies[BODY].mass_kg
 
 
 def main() -> None:
@@ -75,7 +75,8 @@ def main() -> None:
     rows = list(robots(arguments.robots, arguments.seed))
     all_of, refused = (Counter(verdict for verdict, no, _ in rows if no or every) for every in (True, False))
     for verdict, count in sorted(all_of.items()):
-        wrong = f", {refused[verdict]} WRONGLY" if verdict == "jump" else ""
+        wrongly = sum(no not in ("", one) and (one == "jump" or no == "tips") for one, no, _ in rows if one == verdict)
+        wrong = f", {wrongly} WRONGLY" if wrongly else ""
         print(f"{verdict}: {count}, {refused[verdict] / count:.1%} refused first{wrong}")
     print(f"lightest body: {1000.0 * min(mass for *_, mass in rows):.1f} g")
 
