@@ -5,8 +5,7 @@ from typing import Any
 from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
 from jumpcad.search.explore import LEAST_R_SQUARED, importance
-from jumpcad.search.pick.robust import ActiveBound
-from jumpcad.search.report.words import reason_words, with_unit
+from jumpcad.search.report.words import reason_words
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import count_rejections
@@ -44,21 +43,6 @@ def importances(store: StudyStore, found: StudySummary) -> dict[str, Any]:
     }
 
 
-def bound_rows(found: StudySummary) -> list[tuple[str, ...]]:
-    """Return the bounds on which the winner lies, and the change of the score beyond each."""
-    score = (found.winner.score if found.winner else None) or 0.0
-    return [
-        (
-            one.name,
-            one.side,
-            with_unit(f"{one.value:g}", one.name),
-            with_unit(f"{one.beyond:g}", one.name),
-            _cost(one, found.objective.unit, score),
-        )
-        for one in found.bounds
-    ]
-
-
 def rising(found: StudySummary) -> list[str] | None:
     """Return beyond which bounds the score rises by more than rounding; None where none was examined."""
     score = abs((found.winner.score if found.winner else None) or 0.0)
@@ -71,13 +55,3 @@ def reason_rows(found: StudySummary) -> list[tuple[str, str, float, str]]:
     counts = count_rejections(found.trials)
     most = max(counts.values(), default=1)
     return [(reason, reason_words(reason), count / most, str(count)) for reason, count in counts.items()]
-
-
-def _cost(bound: ActiveBound, unit: str, score: float) -> str:
-    if bound.worth is not None:
-        share = f" ({100.0 * bound.worth / abs(score):+.1f} %)" if score else ""
-        return f"{bound.worth:+.4g} {unit}{share}"
-    if bound.unknown:
-        return "not examined in this study"
-    means = "; ".join(filter(None, map(reason_words, bound.reason.split(", "))))
-    return f"rejected, {bound.reason}{f': {means}' if means else ''}"

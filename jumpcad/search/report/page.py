@@ -20,10 +20,10 @@ from jumpcad.search.pick.robust import best_apart
 from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report.drawings import evenly, history, parallel, slices
 from jumpcad.search.report.figures import meanings, svg_text
-from jumpcad.search.report.lessons import bound_rows, importances, reason_rows, rising
+from jumpcad.search.report.lessons import importances, reason_rows, rising
 from jumpcad.search.report.shown_design import EDGE_MM, LINKS, POSES, box_mm, chart
 from jumpcad.search.report.study_plots import study_figures
-from jumpcad.search.report.words import meaning_of, named, value_words, with_unit
+from jumpcad.search.report.words import meaning_of, named, reason_words, value_words, with_unit
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary, kept_righting, summary
 from jumpcad.search.study.trial import Trial
@@ -71,7 +71,8 @@ def write_study_page(store: StudyStore, name: str) -> str:
         "parallel": parallel(found, shown),
         "pictures": _pictures(store),
         "importance": importances(store, found),
-        "bounds": bound_rows(found),
+        "with_unit": with_unit,
+        "reason_words": reason_words,
         "rising": rising(found),
         "rejected": sum(trial.score is None for trial in found.trials),
         "reasons": reason_rows(found),

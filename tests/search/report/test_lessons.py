@@ -16,7 +16,8 @@ from jumpcad.plural import counted
 from jumpcad.search.explore import Importance
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.report import lessons
-from jumpcad.search.report.lessons import bound_rows, importances, reason_rows, rising
+from jumpcad.search.report.lessons import importances, reason_rows, rising
+from jumpcad.search.report.words import reason_words, with_unit
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial
@@ -48,7 +49,8 @@ def page(found: StudySummary) -> str:
     values = {
         "importance": importances(SimpleNamespace(identity={"seed": 7}), found), "found": found,
         "rising": rising(found),
-        "bounds": bound_rows(found), "reasons": reason_rows(found), "designs": counted(len(found.trials), "design"),
+        "with_unit": with_unit, "reason_words": reason_words,
+        "reasons": reason_rows(found), "designs": counted(len(found.trials), "design"),
         "rejected": sum(trial.score is None for trial in found.trials),
     }  # fmt: skip
     return fill("report/study/lessons.html.j2", values)
