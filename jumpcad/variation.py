@@ -32,7 +32,7 @@ COLUMNS = ("name", "l2_mm", "l3_mm", "l4_mm", "l5_mm", "stiffness_nmm_per_deg", 
 def variants(robot: Robot, count: int = 100, seed: int = 0) -> tuple[Robot, ...]:
     """Return robots as they may be made of a design: named, with parts and workshop of the robot itself.
 
-    Links have errors within `fits.link_tolerance_mm`, evenly spread; the rate of springs scatters by half of
+    Links have errors within two sliding fits, evenly spread; the rate of springs scatters by half of
     `safety.spring_rate_scatter` (a standard deviation), masses by 4 %, the friction of floor and pins as that of
     untested ones, as in `jumpcad simulate --uncertain`. The first robots are the same for any count.
 

@@ -23,6 +23,7 @@ import jumpcad
 from jumpcad.cli.commands import app, run
 from jumpcad.design import PARAMETERS
 from jumpcad.search import optimization
+from jumpcad.workshop import Workshop
 
 DOCS = ROOT / "docs"
 CHAPTERS = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DOCS.glob("*.md"))}
@@ -95,6 +96,13 @@ def test_every_parameter_is_explained_with_its_ranges() -> None:
 def vars_of(constraint: object) -> list[float]:
     """Return the value of a constraint such as `Ge(ge=20)`."""
     return [getattr(constraint, type(constraint).__name__.lower())]
+
+
+def test_keys_of_a_workshop_that_are_named_exist() -> None:
+    """`fits.sliding_mm` is a key of the table `fits`; tables of own names, such as `materials`, are not looked into."""
+    named = {found for text in CHAPTERS.values() for found in re.findall(r"`([a-z]+)\.([a-z_]+)\b", text)}
+    tables = {name: getattr(field.annotation, "model_fields", None) for name, field in Workshop.model_fields.items()}
+    assert [f"{table}.{key}" for table, key in named if tables.get(table) and key not in tables[table]] == []
 
 
 @pytest.mark.thorough

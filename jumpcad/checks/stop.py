@@ -64,33 +64,15 @@ BASIS = {
 def stop_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `stop_strength`, `stop_plates`, `stop_leg`, `stop_pad`, `stop_clearance`; preloaded: `stop_creep`."""
     case, blow, stop = LoadCase(robot), robot.stop_blow, robot.layout.stop
-    low, high = robot.layout.lateral.inside
-    span, width = high - low, robot.layout.sections.thickness_mm
-    moment = BLOW_FACTOR * blow.force_n * (span - width / 2.0) / 4.0
-    most = stress = float(Beam(STOP_PAD_MM, stop.depth_mm - STOP_SEAT_MM, case.shell).stress_mpa(moment))
-    strength = robot.workshop.material("links").strength_in_plane_mpa
+    bar, plates, leg = _stresses_mpa(robot, case, BLOW_FACTOR * blow.force_n, BLOW_FACTOR * blow.torque_nm)
+    links, body = (robot.workshop.material(role).strength_in_plane_mpa for role in ("links", "body"))
     remedy = f"choose a softer body.stop_pad, or {SOFTER.partition(', or ')[2]}"
-    yield stress_finding(
-        "stop_strength", "the rest stop's bar at twice the impact force", stress, strength, remedy, "stop"
-    )
-    plate = robot.layout.lateral.left_plate
-    thickness, twice = plate[1] - plate[0], np.array([0.0, BLOW_FACTOR * blow.force_n])
-    left, right = AxleBeam.of(robot.layout.lateral.plates_mm, (0.0, twice)).on_plates_n()[:, 1]
-    ear = float(Beam(thickness, EAR_MM).stress_mpa(max(left, right) * stop.radius_mm))
-    stress = max(ear, float(left) * _at_hole(robot, thickness))
-    most = max(most, stress)
-    strength = robot.workshop.material("body").strength_in_plane_mpa
-    yield stress_finding("stop_plates", "plates' ears at twice the impact force", stress, strength, remedy, "plate")
-    sections, share = robot.layout.sections, stop.radius_mm / robot.design.l2_mm
-    height = sections.leg_root_mm + share * (sections.leg_tip_mm - sections.leg_root_mm)
-    leg = Beam(sections.thickness_mm, height, case.shell)
-    moment = BLOW_FACTOR * 1000.0 * blow.torque_nm * (1.0 - share)
-    stress = float(leg.stress_mpa(moment))
-    strength = robot.workshop.material("links").strength_in_plane_mpa
-    yield stress_finding("stop_leg", "main leg at its heel, at twice the impact force", stress, strength, remedy, "leg")
+    yield stress_finding("stop_strength", "the rest stop's bar at twice the impact force", bar, links, remedy, "stop")
+    yield stress_finding("stop_plates", "plates' ears at twice the impact force", plates, body, remedy, "plate")
+    yield stress_finding("stop_leg", "main leg at its heel, at twice the impact force", leg, links, remedy, "leg")
     if (loaded_rad := robot.spring.preload_rad - stop.angle_rad) > 0.0:
         held_nm = robot.spring.stiffness_nm_per_rad * loaded_rad
-        lasting = max(most, stress) * held_nm / (BLOW_FACTOR * blow.torque_nm)
+        lasting = max(_stresses_mpa(robot, case, 1000.0 * held_nm / stop.radius_mm, held_nm))
         yield at_most(
             "stop_creep", lasting, CREEP_MPA, "MPa",
             f"plates, leg and rest stop under the springs' preload, which lasts: {lasting:.1f} of {CREEP_MPA:g} MPa",
@@ -112,6 +94,22 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
         f"leaves room for {room:.1f}°",
         "choose a stiffer body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio",
     )  # fmt: skip
+
+
+def _stresses_mpa(robot: Robot, case: LoadCase, force_n: float, torque_nm: float) -> tuple[float, float, float]:
+    """Return the stress in bar, plates' ears and leg under a force on the pad, and its torque about the leg's joint."""
+    stop, sections = robot.layout.stop, robot.layout.sections
+    low, high = robot.layout.lateral.inside
+    moment = force_n * (high - low - sections.thickness_mm / 2.0) / 4.0
+    bar = float(Beam(STOP_PAD_MM, stop.depth_mm - STOP_SEAT_MM, case.shell).stress_mpa(moment))
+    plate = robot.layout.lateral.left_plate
+    thickness = plate[1] - plate[0]
+    left, right = AxleBeam.of(robot.layout.lateral.plates_mm, (0.0, np.array([0.0, force_n]))).on_plates_n()[:, 1]
+    ear = float(Beam(thickness, EAR_MM).stress_mpa(max(left, right) * stop.radius_mm))
+    share = stop.radius_mm / robot.design.l2_mm
+    height = sections.leg_root_mm + share * (sections.leg_tip_mm - sections.leg_root_mm)
+    leg = Beam(sections.thickness_mm, height, case.shell).stress_mpa(1000.0 * torque_nm * (1.0 - share))
+    return bar, max(ear, float(left) * _at_hole(robot, thickness)), float(leg)
 
 
 def _at_hole(robot: Robot, thickness_mm: float) -> float:

@@ -47,7 +47,7 @@ class Blow:
 def leg_blow(bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_rad: float) -> Blow:
     """Return the impact of the leg on a stop past rest, after a push-off from loaded springs.
 
-    In flight ½·I·q̇² + ½·H²/J + V is constant, with the angular momentum H and the inertia J of all about their centre,
+    Springs that do not raise the robot bring no leg to its stop: the impact is 0. In flight ½·I·q̇² + ½·H²/J + V is constant, with the angular momentum H and the inertia J of all about their centre,
     and the springs' energy V.
 
     Raises
@@ -57,8 +57,10 @@ def leg_blow(bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_
     """
     chain = _Chain(bodies, linkage, spring, stop_rad)
     state = _push_off(chain, bodies[FOOT].contacts)
-    momentum, energy = chain.about_common(state)
     inertia, whole = chain.in_flight(stop_rad)
+    if state is None:
+        return Blow(float(chain.leg[0]), 0.0, inertia)
+    momentum, energy = chain.about_common(state)
     left = energy + spring.stored_j(state.leg_rad) - spring.stored_j(stop_rad) - 0.5 * momentum**2 / whole
     return Blow(state.leg_rad, (2.0 * max(left, 0.0) / inertia) ** 0.5, inertia)
 
@@ -162,8 +164,11 @@ class _Chain:
         return float(double - momentum**2 / whole), float(whole)
 
 
-def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:
-    """Return the state at take-off, or at the end of the leg's travel where the robot does not leave the ground."""
+def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State | None:
+    """Return the state at take-off, or at the end of the leg's travel where the robot does not leave the ground.
+
+    None if neither comes, since the weight presses the leg back or holds it.
+    """
     nose, toe = (max(contacts, key=lambda sphere: sign * sphere.centre_m[0]) for sign in (1.0, -1.0))
     state, flat = _State(float(chain.leg[0]), 0.0, 0.0, 0.0, toe), True
     for _ in range(round(GIVEN_UP_S / STEP_S)):
@@ -173,6 +178,8 @@ def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:
             found = chain.equations(state)
         rates, up = _accelerations(found, flat)
         if up <= 0.0 or state.leg_rad >= chain.leg[-1]:
+            return state
+        if state.leg_rad < chain.leg[0]:
             break
         half = _moved(state, rates, 0.5 * STEP_S, state)
         rates, _ = _accelerations(chain.equations(half), flat)
@@ -182,7 +189,7 @@ def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:
             found = chain.equations(state)
             leg = state.leg_rad_s + found.mixed / found.leg * state.foot_rad_s
             state, flat = _State(state.leg_rad, 0.0, leg, 0.0, toe), True
-    return state
+    return None
 
 
 def _on_the_sole(chain: _Chain, state: _State, nose: ContactSphere) -> tuple[_State, bool, _Equations]:

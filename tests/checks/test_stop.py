@@ -124,6 +124,8 @@ def test_the_preload_that_is_left_on_the_stop_bends_the_bar_for_good() -> None:
         bar = 6.0 * held * span / 4.0 / (8.0 * (6.0 - 0.6) ** 2)
         limits = found(robot)
         assert ("stop_creep" in limits) == (preload_deg > 3.0), preload_deg
+    still = found(quicker(robot, 0.0))["stop_creep"]  # it never reaches its stop
+    assert still.value == pytest.approx(limits["stop_creep"].value)
     largest = max(("stop_strength", "stop_plates", "stop_leg"), key=lambda name: limits[name].value or 0.0)
     assert limits["stop_creep"].value == pytest.approx(
         bar * (limits[largest].value or 0.0) / (limits["stop_strength"].value or 1.0), rel=1e-3

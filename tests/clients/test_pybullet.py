@@ -1,11 +1,17 @@
 """PyBullet reads the URDF as it was written, and the robot that it loads jumps as far as the one in memory."""
 
+import re
+from collections.abc import Callable
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support import needs
+from support.built import built
 from support.clients import Case, same_tensor
 from support.loaded import loaded_range_m
+from support.places import ROOT
 
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
@@ -43,3 +49,19 @@ def test_jumps_as_far_as_in_memory(case: Case) -> None:
     here = simulate(case.robot).ballistic_range_m
     assert loaded_range_m(case.bundle.urdf) == pytest.approx(here, rel=1e-9)
     assert simulate(robot_from_urdf(case.bundle.urdf)).ballistic_range_m == pytest.approx(here, rel=1e-9)
+
+
+@pytest.mark.thorough
+def test_the_program_of_the_docs_raises_a_tilted_robot_as_high(
+    bundle_of: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its body leans by 7° where the springs are released: loaded upright, it rises 13 % too high."""
+    page = (ROOT / "docs" / "simulators.md").read_text(encoding="utf-8")
+    (program,) = re.findall(r"```python\n(import json\n.*?)assert [^\n]*\n```", page, re.S)
+    (tmp_path / "exports").mkdir()
+    (tmp_path / "exports" / "best-printable").symlink_to(bundle_of("best-printable"))
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, float] = {}
+    exec(program.replace("kenan-2.0", "best-printable"), names)
+    rise_m = simulate(built("best-printable")).com_rise_m
+    assert names["highest_m"] - names["stood_m"] == pytest.approx(rise_m, rel=0.02)

@@ -49,6 +49,16 @@ def test_damping_only_takes_from_the_blow() -> None:
     assert leg_blow(robot.bodies, robot.linkage, robot.spring, leg).stop_rad_s > rate
 
 
+def test_no_blow_has_more_energy_than_the_springs_held() -> None:
+    """Weight takes from it while the leg opens; a leg that it presses back, or holds, does not come to the stop."""
+    for robot in map(built, ("kenan-2.0", "best-bo")):
+        for times in np.geomspace(0.03, 2.0, 10):
+            spring = replace(robot.spring, stiffness_nm_per_rad=times * robot.spring.stiffness_nm_per_rad)
+            blow = leg_blow(robot.bodies, robot.linkage, spring, robot.layout.stop.angle_rad)
+            assert blow.energy_j < 0.15 * spring.energy_j, f"{robot.name}, {times:.2f} times as stiff"
+            assert times > 0.1 or blow.energy_j == 0.0, f"{robot.name}, {times:.2f} times as stiff"
+
+
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_inertia_in_flight_is_what_is_left_without_momenta(name: str) -> None:
     """Least squares: of all motions of the body's frame, free flight takes the one with the least energy."""
