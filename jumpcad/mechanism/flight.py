@@ -47,8 +47,8 @@ class Blow:
 def leg_blow(bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_rad: float) -> Blow:
     """Return the impact of the leg on a stop past rest, after a push-off from loaded springs.
 
-    Springs that do not raise the robot bring no leg to its stop: the impact is 0. In flight ½·I·q̇² + ½·H²/J + V is constant, with the angular momentum H and the inertia J of all about their centre,
-    and the springs' energy V.
+    In flight ½·I·q̇² + ½·H²/J + V is constant, with the angular momentum H and the inertia J of all about their centre,
+    and the springs' energy V. Springs that do not raise the robot bring no leg to its stop: the impact is 0.
 
     Raises
     ------
