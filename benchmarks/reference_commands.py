@@ -25,8 +25,9 @@ def _command(name: str, command: Any) -> str:
     arguments = [_words(one)[0] for one in command.params if one.param_type_name == "argument"]
     usage = " ".join(["jumpcad", name, *arguments, "[OPTIONS]"])
     paragraphs = re.sub(r"[ \t]*\n[ \t]*", "\n", command.help.strip())
+    example = [re.sub("jumpcad .*", r"`\g<0>`", command.epilog)] if command.epilog else []
     return "\n\n".join(
-        [f"## jumpcad {name}", f"```text\n{usage}\n```", paragraphs, table(("", "meaning", "default"), rows)]
+        [f"## jumpcad {name}", f"```text\n{usage}\n```", paragraphs, *example, table(("", "meaning", "default"), rows)]
     )
 
 

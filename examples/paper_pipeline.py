@@ -47,7 +47,7 @@ def main() -> None:
 
     if result.best is None:
         raise SystemExit("no design jumps: evaluate more designs")
-    print(f"best {result.best.score:.3f}, robust pick {result.score:.3f} body lengths")
+    print(f"best {result.best.score:.3f}, robust pick {result.score:.3f} {result.request.aim.unit}")
     for bound in result.bounds:
         change = f"is rejected ({bound.reason})" if bound.worth is None else f"changes the score by {bound.worth:+.3f}"
         print(f"{bound.name} is at its {bound.side} bound; {bound.beyond:g} {change}")

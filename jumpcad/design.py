@@ -99,7 +99,7 @@ class Design(Record):
 
     @property
     def l_max_mm(self) -> float:
-        """Longest link, the body length of the fitness: max(l2, l3, l5) (mm)."""
+        """Longest link, by which the fitness divides: max(l2, l3, l5) (mm)."""
         return max(self.l2_mm, self.l3_mm, self.l5_mm)
 
     @property

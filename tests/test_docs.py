@@ -27,6 +27,7 @@ from jumpcad.workshop import Workshop
 
 DOCS = ROOT / "docs"
 CHAPTERS = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DOCS.glob("*.md"))}
+PAGES = ["README.md", "CONTRIBUTING.md", *(f"docs/{name}.md" for name in CHAPTERS)]
 BLOCKS = {
     name: found for name, text in CHAPTERS.items() if (found := re.findall(r"^```(\w+)\n(.*?)^```", text, re.S | re.M))
 }
@@ -135,7 +136,7 @@ def test_examples_run(
                 require_known(line)
 
 
-@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", *(f"docs/{name}.md" for name in CHAPTERS)])
+@pytest.mark.parametrize("page", [*PAGES, "docs/reference/commands.md"])
 def test_commands_named_in_texts_and_tables_exist(page: str) -> None:
     for command in re.findall(r"`jumpcad ([a-z]+\b[^`]*)`", (ROOT / page).read_text(encoding="utf-8")):
         require_known(shlex.split(command))

@@ -69,8 +69,16 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "studio": studio.studio,
 }
 """In the order in which the help lists them."""
+EXAMPLES = {
+    "new": "my-robot.toml --from kenan-2.0",
+    "build": "my-robot.toml -o my-bundle",
+    "check": "my-robot.toml --all",
+    "simulate": "my-robot.toml --uncertain",
+    "optimize": "--seed 0 --study jump.db -o winner.toml",
+}
 for name, command in COMMANDS.items():
-    app.command(name)(command)
+    example = f"Example: jumpcad {name} {EXAMPLES[name]}" if name in EXAMPLES else None
+    app.command(name, epilog=example)(command)
 
 
 def _print_version(wanted: bool) -> None:

@@ -77,7 +77,7 @@ OutputOption = Annotated[
 ]
 
 
-NO_PICK = f"none of fewer than {4 * LEAST_PICK}"
+NO_PICK = f"none for the robust pick, which needs {4 * LEAST_PICK} in all"
 
 
 @with_search_options
@@ -206,9 +206,9 @@ def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
 def _heading(request: "Request", path: Path) -> str:
     """Return what is printed before a search."""
     name, free = request.model.name, request.space.dimension
-    pick = f", {request.pick or NO_PICK} for the robust pick"
+    pick = f"{request.pick} for the robust pick" if request.pick else NO_PICK
     study = f"study {without_controls(str(path))}: {request.method} on the {name} robot, free parameters: {free}"
-    return f"{study}\nevaluations: {request.searched} for the search{pick}"
+    return f"{study}\nevaluations: {request.searched} for the search, {pick}"
 
 
 def _headed(heading: str, watch: "Watch") -> "Watch":

@@ -40,7 +40,7 @@ WorkshopOption = Annotated[
     str | None,
     typer.Option(
         help="Workshop of the printed robot: a template's name or a file.",
-        show_default="default; best-jumper has its own",
+        show_default="default; best-jumper and first-robot have their own",
         autocompletion=completion("workshops"),
     ),
 ]

@@ -22,7 +22,7 @@ def test_views_of_the_space(folder):
         assert all(Path(picture).is_file() for picture in found["pictures"])
     base, head, *rows = run("explore", "sweep", *QUICK, "--points", 3).splitlines()
     assert base.endswith("the others are those of best-bo")
-    assert re.match(r"parameter +unit +values +score in body lengths +best at +feasible$", head)
+    assert re.match(r"parameter +unit +values +score in link lengths +best at +feasible$", head)
     assert re.search(r"^rest_angle_deg +° +20 … 70 +\d+\.\d+ … +\d+\.\d+  (20|45|70) +\d of 3$", "\n".join(rows), re.M)
     assert "they say nothing about the robot" in run("explore", "pca", *QUICK, "--samples", 80)
     assert "did you mean sweep" in refusal("explore", "sweeps", *QUICK)

@@ -6,6 +6,11 @@ from pathlib import Path
 
 import pytest
 from support.commands import Run
+from typer.main import get_command
+
+from jumpcad.cli.commands import app
+from jumpcad.files import template_names
+from jumpcad.workshop import DEFAULT, own_workshop
 
 
 def test_a_bare_name_is_the_template_and_a_path_the_bundle(
@@ -48,3 +53,9 @@ def test_links_in_a_bundle_are_not_read(run: Run, bundle: Path, tmp_path: Path) 
         assert (code, out, err.count("\n")) == (2, "", 1)
         assert f"{path}: a link" in err
         shutil.rmtree(own)
+
+
+def test_the_help_names_the_templates_that_have_a_workshop_of_their_own() -> None:
+    (option,) = (one for one in get_command(app).commands["check"].params if one.name == "workshop")
+    named = [name for name in template_names("robots") if name in option.show_default]
+    assert named == [name for name in template_names("robots") if own_workshop(name) != DEFAULT]

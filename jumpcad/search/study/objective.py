@@ -163,7 +163,7 @@ OBJECTIVES: dict[str, Objective] = {
     objective.name: objective
     for objective in (
         Objective("body_lengths", "range over the robot's size", "body lengths", lambda m: m["body_lengths"]),
-        Objective("fitness", "range over the longest link", "body lengths", lambda m: m["fitness"]),
+        Objective("fitness", "range over the longest link", "link lengths", lambda m: m["fitness"]),
         Objective("range", "range of the jump", "m", _range_m),
         Objective("rise", "rise of the centre of mass", "m", lambda m: m["com_rise_m"]),
         Objective(

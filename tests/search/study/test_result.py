@@ -156,7 +156,7 @@ def test_a_front_that_seeks_more_of_both_is_shown_by_the_figures_themselves() ->
     """Range against fitness, which is half of the score here: of two designs the better one has more of both."""
     request = Request(SMALL, Hill(), "range", "nsga2", 40, against="fitness")
     lines = dict(found(request=request, candidates=[])._lines())
-    assert lines["range over the longest link 2.5 body lengths"] == "5"
+    assert lines["range over the longest link 2.5 link lengths"] == "5"
     assert not any("-" in name for name in lines)
 
 
