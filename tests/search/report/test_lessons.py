@@ -15,8 +15,8 @@ from jumpcad.findings import Finding
 from jumpcad.plural import counted
 from jumpcad.search.explore import Importance
 from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
-from jumpcad.search.report import lessons
-from jumpcad.search.report.lessons import importances, reason_rows, rising
+from jumpcad.search.report import page as study_page
+from jumpcad.search.report.page import importances, reason_rows, rising
 from jumpcad.search.report.words import reason_words, with_unit
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
@@ -71,7 +71,7 @@ def test_three_that_are_clear_matter_most_the_largest_first(monkeypatch: pytest.
         (alone, "by the length of the bar. c_coef matters most. Learned"),
         (replace(alone, deviation=np.array([0.1])), f"by the length of the bar. {none}c_coef. Learned"),
     ):  # fmt: skip
-        monkeypatch.setattr(lessons, "importance", lambda *_, known=learned: known)
+        monkeypatch.setattr(study_page, "importance", lambda *_, known=learned: known)
         assert said in text(known(WON, replace(WON, score=3.0)))
 
 
@@ -82,7 +82,7 @@ def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_impor
     two, alike = known(WON, replace(WON, score=3.0), failed("tips")), known(WON, WON)
     told = ((0.5, "fall of R²"), (0.494, "(R² 0.49, at least 0.5 is asked for)"), (np.nan, "(R² nan, "))
     for r_squared, said in told:
-        monkeypatch.setattr(lessons, "importance", lambda *_, known=r_squared: replace(LEARNED, r_squared=known))
+        monkeypatch.setattr(study_page, "importance", lambda *_, known=r_squared: replace(LEARNED, r_squared=known))
         assert said in text(two)
         assert ("From 40 designs the score of others cannot be predicted" in text(two)) == (r_squared != 0.5)
         assert ("c_coef" in text(two)) == (r_squared == 0.5)
@@ -91,7 +91,7 @@ def test_what_predicts_less_than_half_of_the_variance_does_not_say_what_is_impor
     def refused(*_: object) -> None:
         raise JumpcadError("too few")
 
-    monkeypatch.setattr(lessons, "importance", refused)
+    monkeypatch.setattr(study_page, "importance", refused)
     assert text(two).startswith("Importance 2 designs that jumped: too few to say what is important.")
 
 
