@@ -132,6 +132,7 @@ WORDS = {
     "rear_radius_mm": "of the rear hoop",
     "front_radius_mm": "of the front hoop",
     "bar_mm": "height of the bars",
+    "flight.turn_deg": "turn of the body from take-off to touchdown, forwards; `flight` is null if it does not jump",
     "rights_itself.static": "least probability that the robot, put down anyhow, is wound upright",
     "used_up": "what the guide tells the builder to use up, and spares",
     "limits": "limits that count; those used by less than a tenth do not",

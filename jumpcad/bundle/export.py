@@ -13,7 +13,15 @@ from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
-from jumpcad.bundle.facts import cage_facts, electronics_facts, joint_facts, release_facts, spring_facts, stop_facts
+from jumpcad.bundle.facts import (
+    cage_facts,
+    electronics_facts,
+    flight_facts,
+    joint_facts,
+    release_facts,
+    spring_facts,
+    stop_facts,
+)
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.bundle.guide.page import write_page
@@ -33,7 +41,7 @@ from jumpcad.findings import errors
 from jumpcad.landing.series import Series
 from jumpcad.robot import Robot, require_name
 from jumpcad.scene.stable_poses import share_on_feet
-from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import default_engine
 from jumpcad.simulation.uncertain import Uncertainty
 
@@ -78,10 +86,11 @@ def export(
     if wrong := errors(electronics_findings(robot)):
         raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
     exporters = chosen([name for name, wanted in (("step", step), ("ros2", ros2)) if wanted])
-    return write_folder(folder, robot.name, _facts(robot), contents(robot, exporters, pictures), force)
+    jump = _jump(robot, pictures)
+    return write_folder(folder, robot.name, _facts(robot, jump), contents(robot, exporters, pictures, jump), force)
 
 
-def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
+def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: Jump) -> Files:
     """Return path and content of every file of a bundle, except its manifest."""
     moving = beside(_moving, robot) if pictures else _Moving
     for part in robot.parts:
@@ -104,7 +113,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
     svgs = {path: str(text).encode() for path, text in files.items() if path.endswith(".svg")}
     page = write_page(guide, robot.name, {**shown, **svgs})
     files |= {**shown, **guide, "assembly.html": page}
-    files["report.html"] = _page(robot, seen, glb if pictures and isinstance(glb, bytes) else None, files, sure)
+    files["report.html"] = _page(robot, jump, seen, glb if pictures and isinstance(glb, bytes) else None, files, sure)
     return files.items()
 
 
@@ -121,23 +130,27 @@ def _moving(robot: Robot) -> _Moving:
 
 def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:
     """Return report.html alone, with links to `files` relative to it; it shows recorded jumps in a row if given."""
-    return _page(robot, renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
+    return _page(robot, _jump(robot, True), renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
+
+
+def _jump(robot: Robot, trajectory: bool) -> Jump:
+    return simulate(robot, Settings(flight="simulated", trajectory=trajectory), default_engine())
 
 
 def _page(
     robot: Robot,
+    jump: Jump,
     seen: Mapping[str, bytes],
     glb: bytes | None,
     files: Iterable[str],
     sure: Uncertainty | None,
     series: Series | None = None,
 ) -> str:
-    jump = simulate(robot, Settings(flight="simulated", trajectory=glb is not None), default_engine())
     pictures = {name: seen[name] for name in RENDERS if name in seen}
     return write_report(robot, pictures, jump, glb, tuple(files), sure if jump.verdict == "jump" else None, series)
 
 
-def _facts(robot: Robot) -> dict[str, Any]:
+def _facts(robot: Robot, jump: Jump) -> dict[str, Any]:
     """Return the manifest's entries about the robot."""
     return {
         "mass_kg": robot.mass_kg,
@@ -156,6 +169,7 @@ def _facts(robot: Robot) -> dict[str, Any]:
         "stop": stop_facts(robot),
         "joints": joint_facts(robot),
         "cage": cage_facts(robot),
+        "flight": flight_facts(jump),
         "rights_itself": {"static": round(share_on_feet(robot), 3)},
         "ground": {
             "friction": robot.workshop.ground.foot_friction,

@@ -1,4 +1,4 @@
-"""The manifest's entries about a robot: springs, release, stop, electronics, joints."""
+"""The manifest's entries about a robot: springs, release, stop, electronics, joints, cage, flight."""
 
 import math
 from typing import Any
@@ -12,8 +12,10 @@ from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.scene.hulls import CAGE
+from jumpcad.simulation import Jump
 
 DIGITS, ROLL_DIGITS = 6, 3
+FLIGHT = "turn_deg", "touchdown_pitch_deg", "lateral_offset_mm"
 
 
 def spring_facts(robot: Robot) -> list[dict[str, Any]]:
@@ -178,3 +180,10 @@ def cage_facts(robot: Robot) -> dict[str, Any] | None:
         ],
         "mass_kg": sum(piece.mass_kg for piece in pieces if piece.name.startswith(CAGE)),
     }
+
+
+def flight_facts(jump: Jump) -> dict[str, float] | None:
+    """Return turn and touchdown of a jump, and how far its centre of mass is beside the leg; None if there is none."""
+    if jump.verdict != "jump":
+        return None
+    return {name: round(getattr(jump, name), ROLL_DIGITS) for name in FLIGHT}

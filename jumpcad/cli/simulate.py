@@ -183,11 +183,10 @@ def _land(robot: "Robot", heading: dict[str, str], settings: "Settings", tries: 
     import numpy as np
 
     from jumpcad.landing.landing import land
-    from jumpcad.scene.stable_poses import share_on_feet
 
-    found, static = land(robot, tries, seed, settings), share_on_feet(robot)
+    found = land(robot, tries, seed, settings)
     if as_json:
-        print_json(heading | {"landing": found.to_dict() | {"share_on_feet_static": static}})
+        print_json(heading | {"landing": found.to_dict()})
         return
     names = {"touches down at": "touchdown_m", "rests at": "rest_m"}
     distances = {
@@ -195,7 +194,7 @@ def _land(robot: "Robot", heading: dict[str, str], settings: "Settings", tries: 
         for label, name in names.items()
     }
     print_text(
-        "landing", design=heading["design"], tries=tries, distances=distances, found=found, static=static,
+        "landing", design=heading["design"], tries=tries, distances=distances, found=found,
         stop_mm=robot.workshop.safety.landing_stop_mm,
     )  # fmt: skip
 

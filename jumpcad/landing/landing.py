@@ -13,6 +13,7 @@ from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import Blow, Blows, PartForce, landing_strength, part_forces
 from jumpcad.robot import Robot
+from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.settings import Settings
 from jumpcad.simulation.prior import FLOOR_SHARE
 
@@ -48,13 +49,15 @@ class Landing:
 class Landings:
     """Landings of a robot's own jumps, the forces of their hardest blows, and what the part hit hardest bears.
 
-    `drops_righted` is the share of as many drops in any attitude after which the winding robot stands on its feet.
+    `drops_righted` is the share of as many drops in any attitude after which the winding robot stands on its feet;
+    `share_on_feet_static` that by its stable poses, without any motion.
     """
 
     tries: tuple[Landing, ...]
     drops_righted: float = 0.0
     forces: tuple[PartForce, ...] = ()
     strength: Finding | None = None
+    share_on_feet_static: float = 0.0
 
     @property
     def share_on_feet(self) -> float:
@@ -81,6 +84,7 @@ class Landings:
             "drops_righted": self.drops_righted,
             "share_on_feet": self.share_on_feet,
             "share_righted": self.share_righted,
+            "share_on_feet_static": self.share_on_feet_static,
             "rests_on": self.rests_on,
         }
         strength = None if self.strength is None else self.strength.to_dict()
@@ -116,7 +120,7 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
     found = tuple(_land(arena, rng) for _ in range(tries))
     forces = part_forces(robot, (blow for one in found for blow in one.blows))
     righted = share_righted(robot, tries, rng, settings)
-    return Landings(found, righted, tuple(forces), landing_strength(robot, forces))
+    return Landings(found, righted, tuple(forces), landing_strength(robot, forces), share_on_feet(robot))
 
 
 def distances_m(robot: Robot, tries: int, rng: np.random.Generator) -> list[tuple[float, float]]:

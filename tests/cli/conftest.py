@@ -13,6 +13,7 @@ from support.proposals import with_less_work
 from jumpcad.bundle import export
 from jumpcad.exporters.registry import Exporter, Files
 from jumpcad.robot import Robot
+from jumpcad.simulation import Jump
 
 
 @pytest.fixture
@@ -34,8 +35,8 @@ def contents() -> Iterator[None]:
     make = export.contents
     known = once({}, make, robot_key)
 
-    def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
-        return make(robot, exporters, pictures) if pictures else known(robot, exporters, pictures)
+    def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: Jump) -> Files:
+        return make(robot, exporters, pictures, jump) if pictures else known(robot, exporters, pictures, jump)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(export, "contents", contents)

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 from support import needs
+from support.built import built
 from support.commands import Run
 from support.places import ROOT
 
+import jumpcad
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Settings, simulate
@@ -127,10 +129,15 @@ def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(command: Run, bu
     assert command(urdf, "--uncertain") == (2, "", refused)
 
 
-def test_a_bundle_lands_and_jumps_on_as_its_design_and_its_urdf_alone_is_refused(command: Run, bundle: Path) -> None:
+def test_a_bundle_lands_and_jumps_on_as_its_design_and_as_python_says_and_its_urdf_alone_is_refused(
+    command: Run, bundle: Path
+) -> None:
     needs.package("mujoco")
-    for options in (["--landing", "--tries", "1"], ["--jumps", "1"]):
+    robot = built("kenan-2.0")
+    told = {"landing": jumpcad.land(robot, 1).to_dict()}, {"series": jumpcad.jumps(robot, 1).to_dict()}
+    for options, python in zip((["--landing", "--tries", "1"], ["--jumps", "1"]), told, strict=True):
         (code, out, _), design = command(bundle, *options, "--json"), command("kenan-2.0", *options, "--json")[1]
+        assert json.loads(json.dumps(python)).items() <= json.loads(design).items(), options
         assert (code, json.loads(out) | {"design": "kenan-2.0"}) == (0, json.loads(design)), options
         refused = command(bundle / "urdf" / "kenan-2.0.urdf", *options)
         assert (refused[0], "--landing and --jumps are for printed robots: give the design" in refused[2]) == (2, True)
