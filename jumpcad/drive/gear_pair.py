@@ -59,13 +59,6 @@ class GearPair:
         return path / (math.pi * self.module_mm * _COS)
 
     @property
-    def tip_clearance_mm(self) -> float:
-        """Least gap between a tip and the root it reaches into (mm)."""
-        tips = (self.pinion.tip_radius_mm, self.wheel.tip_radius_mm)
-        roots = (self.wheel.root_radius_mm, self.pinion.root_radius_mm)
-        return self.centre_distance_mm - max(tip + root for tip, root in zip(tips, roots, strict=True))
-
-    @property
     def involute_margin_mm(self) -> float:
         """By how much contact ends before either fillet begins, as roll length; negative is interference (mm)."""
         margins = []

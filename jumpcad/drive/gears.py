@@ -109,19 +109,6 @@ class Gear:
         angles, radii = self._flank
         return float(2 * angles[-1] * radii[-1])
 
-    def span_mm(self, teeth: int) -> float:
-        """Return the base tangent length over some teeth (mm)."""
-        turns = (teeth - 0.5) * math.pi + self.teeth * involute(PRESSURE_ANGLE_RAD)
-        return self.module_mm * (_COS * turns + 2 * self.shift * _SIN) - self.thinning_mm * _COS
-
-    def over_pins_mm(self, pin_mm: float) -> float:
-        """Return the size over two pins of a diameter, in opposite gaps (mm)."""
-        half_gap = (math.pi * self.module_mm - self.pitch_thickness_mm) / (2 * self.pitch_radius_mm)
-        value = involute(PRESSURE_ANGLE_RAD) + pin_mm / (2 * self.base_radius_mm) - half_gap
-        centre = self.base_radius_mm / math.cos(float(inverse_involute(value)))
-        odd = math.cos(math.pi / (2 * self.teeth)) if self.teeth % 2 else 1.0
-        return 2 * centre * odd + pin_mm
-
     _fillet_points = 8
     _involute_points = 10
 

@@ -49,13 +49,6 @@ class Weighable(Protocol):
         """Return the cross-sections at heights (n,) ascending."""
 
 
-class Layers(NamedTuple):
-    """A part cut into layers: where the n layers begin and end (n + 1,), from the bed up, and their cross-sections."""
-
-    levels_mm: Array
-    sections: CrossSections
-
-
 class Filling(NamedTuple):
     """The solidly and the sparsely filled region inside the perimeters, and whether all of it is sparse."""
 
@@ -77,19 +70,7 @@ KEPT = 64
 def mass_properties(
     shape: Weighable, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
 ) -> MassProperties:
-    """Return mass, centre and inertia of one part in its printing frame (kg, m).
-
-    Parameters
-    ----------
-    shape
-        The part in printing orientation (mm).
-    density_g_cm3
-        Density of its material.
-    process, nozzle_mm
-        How it is printed.
-    model
-        `solid` for volume times density, `printed` for the layer model.
-    """
+    """Return mass, centre and inertia of one part in its printing frame (kg, m); `solid` is volume times density."""
     moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
     return mass_of(moments, density_g_cm3)
 
@@ -99,13 +80,13 @@ def line_spacing_mm(width_mm: float, height_mm: float) -> float:
     return width_mm - height_mm * (1.0 - math.pi / 4.0)
 
 
-def sliced(shape: Weighable, process: Process) -> Layers:
-    """Return the layers of a shape, each with the cross-section at its middle as slicers take it."""
+def sliced(shape: Weighable, process: Process) -> tuple[Array, CrossSections]:
+    """Return where a shape's n layers begin and end (n + 1,), from the bed up, and the sections at their middles."""
     bottom, top = (float(z) for z in shape.bounds_mm[:, 2])
     first, height = process.first_layer_mm, process.layer_height_mm
     above = max(0, math.ceil((top - bottom - first) / height - 0.5 - 1e-6))
     levels = bottom + np.array([0.0, *(first + height * np.arange(above + 1))])
-    return Layers(levels, shape.sections_at(np.round((levels[:-1] + levels[1:]) / 2.0, 6)))
+    return levels, shape.sections_at(np.round((levels[:-1] + levels[1:]) / 2.0, 6))
 
 
 def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Array:
@@ -117,28 +98,27 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
     those of the middle layer of a run of layers that are alike. A chamfer takes from a layer's area, not from what is
     inside its perimeters.
     """
-    return _printed(_Contoured(sliced(shape, process)), process, nozzle_mm)
+    return _printed(_Layers(*sliced(shape, process)), process, nozzle_mm)
 
 
-class _Contoured:
-    """Layers with the contours of their outlines and pockets, equal where those are: parts of as many layers are."""
+class _Layers:
+    """What `sliced` returns, equal where levels, contours and insets are: also of parts that end in one layer."""
 
-    def __init__(self, layers: Layers) -> None:
-        self.levels, self.sections = layers
-        self.contours = self.sections.contours()
-        around = tuple(number for number, _ in self.sections.pockets)
-        arrays = (self.levels, self.sections.which, self.sections.inset_mm, *itertools.chain(*self.contours))
-        self._key = around, tuple(map(len, self.contours)), tuple([array.tobytes() for array in arrays])
+    def __init__(self, levels_mm: Array, sections: CrossSections) -> None:
+        self.levels, self.sections, self.contours = levels_mm, sections, sections.contours()
+        arrays = (levels_mm, sections.which, sections.inset_mm, *itertools.chain(*self.contours))
+        around, counts = tuple(number for number, _ in sections.pockets), tuple(map(len, self.contours))
+        self._key = around, counts, tuple([array.tobytes() for array in arrays])
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Contoured) and self._key == other._key
+        return isinstance(other, _Layers) and self._key == other._key
 
     def __hash__(self) -> int:
         return hash(self._key)
 
 
 @lru_cache(KEPT)
-def _printed(layers: _Contoured, process: Process, nozzle_mm: float) -> Array:
+def _printed(layers: _Layers, process: Process, nozzle_mm: float) -> Array:
     """Return the volume moments (10,) of the extruded plastic of layers."""
     levels, sections = layers.levels, layers.sections
     which, inset = sections.which, sections.inset_mm
