@@ -80,6 +80,8 @@ class Cores:
         if pockets and not sparse.is_empty():
             void = union(pockets) if len(pockets) > 1 else pockets[0]
             smaller = sparse - void
+            if not bounds and not smaller.is_empty():
+                return (NOTHING, core) if _same_area(core, smaller) else (core ^ void, smaller)
             if not _same_area(sparse, smaller):
                 sparse = smaller
                 bounds.append(box_around(core, 1.0) - void)

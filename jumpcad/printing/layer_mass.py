@@ -8,8 +8,8 @@ as bridges, with round threads of the nozzle's diameter d, d + 0.05 mm apart.
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Hashable, Mapping, Sequence
+from functools import cached_property, lru_cache
 from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
@@ -63,8 +63,8 @@ Case = tuple[int, Window]
 """What a filling depends on: the number of a layer's outline, and its window."""
 
 
-KEPT = 64
-"""Sliced parts of which moments are kept: spacers, mounts and trays recur in many designs."""
+KEPT, FEW = 64, 4
+"""Sliced parts of which moments are kept, each of few outlines: spacers, mounts and trays recur in many designs."""
 
 
 def mass_properties(
@@ -98,7 +98,9 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
     those of the middle layer of a run of layers that are alike. A chamfer takes from a layer's area, not from what is
     inside its perimeters.
     """
-    return _printed(_Layers(*sliced(shape, process)), process, nozzle_mm)
+    layers = _Layers(*sliced(shape, process))
+    weigh = _printed if len(layers.contours) <= FEW else _printed.__wrapped__
+    return weigh(layers, process, nozzle_mm)
 
 
 class _Layers:
@@ -106,9 +108,12 @@ class _Layers:
 
     def __init__(self, levels_mm: Array, sections: CrossSections) -> None:
         self.levels, self.sections, self.contours = levels_mm, sections, sections.contours()
-        arrays = (levels_mm, sections.which, sections.inset_mm, *itertools.chain(*self.contours))
-        around, counts = tuple(number for number, _ in sections.pockets), tuple(map(len, self.contours))
-        self._key = around, counts, tuple([array.tobytes() for array in arrays])
+
+    @cached_property
+    def _key(self) -> Hashable:
+        around, counts = tuple(number for number, _ in self.sections.pockets), tuple(map(len, self.contours))
+        arrays = (self.levels, self.sections.which, self.sections.inset_mm, *itertools.chain(*self.contours))
+        return around, counts, tuple([array.tobytes() for array in arrays])
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Layers) and self._key == other._key
