@@ -13,7 +13,7 @@ from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.inputs import kept_robot
 from jumpcad.bundle.lanes import lane, lanes_values
-from jumpcad.bundle.limits import limits_of, tightest, used
+from jumpcad.bundle.limits import limits_of, tightest, used, with_verdict
 from jumpcad.bundle.manifest import open_bundle
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -42,7 +42,7 @@ FIGURES = {
     "spring_stiffness_nm_per_rad": ("stiffness", "N·mm/°", 1000.0 * math.pi / 180.0, 2),
     "electrical_energy_j": ("energy of a jump", "J", 1.0, 2),
     "winding_time_s": ("winding", "s", 1.0, 1),
-    "metres_per_charge": ("metres per charge", "m", 1.0, 1),
+    "metres_per_charge": ("metres per charge, unaided", "m", 1.0, 1),
     "cost_eur": ("cost with estimates", "€", 1.0, 2),
 }
 """Label, unit, factor from SI and digits of each figure that is compared."""
@@ -59,7 +59,7 @@ class ComparedRobot:
     @cached_property
     def findings(self) -> list[Finding]:
         """Its limits that count, the violated ones first, then the tightest."""
-        return tightest(limits_of(self.robot))
+        return tightest(with_verdict(limits_of(self.robot), self.jump))
 
     @cached_property
     def figures(self) -> dict[str, float | None]:
@@ -97,7 +97,7 @@ class Comparison:
         return fill("report/comparison_table.html.j2", {"comparison": self})
 
     @cached_property
-    def tightest(self) -> list[Finding]:
+    def differing(self) -> list[Finding]:
         """The worst limit of each robot, but for those used alike by all of them, such as what equal boards bear."""
         alike = set.intersection(*({(limit.name, used(limit)) for limit in one.findings} for one in self.robots))
         differ = [[limit for limit in one.findings if (limit.name, used(limit)) not in alike] for one in self.robots]
@@ -125,8 +125,11 @@ class Comparison:
             figures = [one.figures[name] for one in self.robots]
             shown = ["–" if value is None else f"{factor * value:.{digits}f}" for value in figures]
             yield [f"{label} ({unit})", *shown]
-        yield ["tightest that differs", *(limit.name for limit in self.tightest)]
-        yield ["how tight", *map(used, self.tightest)]
+        for label, limits in (
+            ("tightest", [one.findings[0] for one in self.robots]),
+            ("tightest that differs", self.differing),
+        ):
+            yield [label, *(f"{limit.name}, {used(limit)}" for limit in limits)]
         yield ["violated limits", *(str(len(one.violated)) for one in self.robots)]
         for name, values in self.differs.items():
             yield [name, *("–" if value in (None, "") else f"{value:g}" if isinstance(value, float) else str(value)
@@ -136,8 +139,8 @@ class Comparison:
         """Return plain data for JSON."""
         robots = [
             {"name": one.label, "verdict": one.jump.verdict, **one.figures, "violated": one.violated,
-             "tightest": limit.name}
-            for one, limit in zip(self.robots, self.tightest, strict=True)
+             "tightest": one.findings[0].name, "tightest_that_differs": limit.name}
+            for one, limit in zip(self.robots, self.differing, strict=True)
         ]  # fmt: skip
         return {"robots": robots, "refused": self.refused, "differs": self.differs}
 

@@ -6,6 +6,7 @@ from typing import Any
 from jumpcad.checks import check
 from jumpcad.findings import SHOWN_AS, Finding, errors
 from jumpcad.robot import Robot, carried
+from jumpcad.simulation import Jump
 
 JUST = "at the limit"
 SEVERITIES = ("error", "warning", "info")
@@ -22,6 +23,12 @@ A margin of exactly 0 is that of a condition that holds or does not, and is not 
 def limits_of(robot: Robot) -> list[Finding]:
     """Return the findings of every check of a robot, checked once."""
     return check(robot)
+
+
+def with_verdict(limits: Sequence[Finding], jump: Jump) -> list[Finding]:
+    """Return limits with what forbids the jump, which is a violated limit too: what is counted and named everywhere."""
+    known = {finding.name for finding in limits}
+    return [*limits, *(finding for finding in errors(jump.findings) if finding.name not in known)]
 
 
 def limit_values(findings: Sequence[Finding]) -> dict[str, Any]:

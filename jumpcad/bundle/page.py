@@ -12,7 +12,7 @@ from urllib.parse import quote
 
 from jumpcad.building.bom import bill_of_materials, euros
 from jumpcad.bundle.compared import compared_of
-from jumpcad.bundle.limits import limit_values, limits_of
+from jumpcad.bundle.limits import limit_values, limits_of, with_verdict
 from jumpcad.bundle.viewer import viewer_values
 from jumpcad.dimensions import unit_of_key
 from jumpcad.exporters.xml import allowed
@@ -67,7 +67,7 @@ def write_report(
         "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"),
         "version": __version__,
     }
-    values |= robot_values(robot) | file_values(files) | limit_values(limits_of(robot))
+    values |= robot_values(robot) | file_values(files) | limit_values(with_verdict(limits_of(robot), jump))
     return allowed(fill("report/report.html.j2", values))
 
 

@@ -193,11 +193,11 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
 
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return the figures that `build` prints."""
-    from jumpcad.bundle.limits import limits_of, ordered, violation
+    from jumpcad.bundle.limits import limits_of, ordered, violation, with_verdict
     from jumpcad.checks.engraving import engraving_findings
 
     train = robot.layout.drive.train
-    energy, findings = robot.spring.energy_j, limits_of(robot)
+    energy, findings = robot.spring.energy_j, with_verdict(limits_of(robot), printed)
     return {
         "name": robot.name,
         "folder": str(bundle.folder),

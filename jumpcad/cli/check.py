@@ -59,7 +59,7 @@ def check(
     """
     from jumpcad.building import build
     from jumpcad.building.bom import bill_of_materials
-    from jumpcad.bundle.limits import counted_limits, limits_of, ordered
+    from jumpcad.bundle.limits import counted_limits, limits_of, ordered, with_verdict
     from jumpcad.checks import basis_of
     from jumpcad.design import load_design
     from jumpcad.errors import CannotBuildError
@@ -80,10 +80,7 @@ def check(
         raise remedies.of_refusal(refusal) from None
     bill_of_materials(robot)  # rejects prices of what it does not have
     jump = simulate(robot, engine=default_engine())
-    limits = limits_of(robot)
-    known = {finding.name for finding in limits}
-    found = [*limits, *(finding for finding in errors(jump.findings) if finding.name not in known)]
-    findings = remedies.of_findings(ordered(found))
+    findings = remedies.of_findings(ordered(with_verdict(limits_of(robot), jump)))
     count = counted_limits(findings)
     if explain:
         findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]

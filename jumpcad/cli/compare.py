@@ -29,10 +29,11 @@ def compare(
 
     Prints a table, and writes a page on which they jump side by side to one
     scale. Bundles and trials keep their own workshops. The exit code is 1 if
-    one of them cannot be built.
+    one of them cannot be built, or `jumpcad check` of it has 1.
     """
     from jumpcad.comparison import compare as compare_robots
     from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
+    from jumpcad.findings import errors
     from jumpcad.workshop import load_workshop
 
     require_apart({"--output": output}, {"a robot": robots[0], "--workshop": workshop})
@@ -46,7 +47,7 @@ def compare(
         print_json(found.to_dict() | {"page": str(output)})
     else:
         _print(found, output)
-    if found.refused:
+    if found.refused or any(errors(one.findings) for one in found.robots):
         raise typer.Exit(1)
 
 

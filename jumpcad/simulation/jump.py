@@ -42,9 +42,9 @@ class EnergyBudget:
     def account_j(self) -> dict[str, float]:
         """What makes the jump, what is left, and what is lost where; the values add up to the loaded energy.
 
-        No loss is negative: what an engine's arithmetic has gained is taken from the largest entry.
+        What an engine's arithmetic has gained makes a loss negative, mostly `contact`; `gained_j` is all of it.
         """
-        account = {
+        return {
             "useful": self.forward_j + self.upward_j + self.lift_j,
             "internal": self.internal_j,
             "springs": self.spring_j,
@@ -53,10 +53,11 @@ class EnergyBudget:
             "slip": self.slip_j,
             "contact": self.contact_j,
         }
-        gained = sum(min(value, 0.0) for value in account.values())
-        account = {name: max(value, 0.0) for name, value in account.items()}
-        account[max(account, key=lambda name: account[name])] += gained
-        return account
+
+    @property
+    def gained_j(self) -> float:
+        """What rounding has gained: where losses are shown from 0 on, they add up to so much more than was loaded."""
+        return -sum(min(value, 0.0) for value in self.account_j.values())
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 from jumpcad.building import build
-from jumpcad.bundle.limits import JUST, ordered, used
+from jumpcad.bundle.limits import JUST, ordered, used, with_verdict
 from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
@@ -32,9 +32,9 @@ class Printed:
     @cached_property
     def findings(self) -> list[Finding]:
         """Every limit, the violated ones first, then those just kept that have no share, then the tightest ones."""
-        if self.robot is None:
+        if self.robot is None or self.jump is None:
             return []
-        every = ordered(quick_findings(self.robot))
+        every = ordered(with_verdict(quick_findings(self.robot), self.jump))
         kept = [one for one in every if one.severity == "info"]
         just = [one for one in kept if one.use is None and used(one) == JUST]
         return [one for one in every if one.severity != "info"] + just + [one for one in kept if one.use is not None]

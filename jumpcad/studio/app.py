@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.bundle.export import export
-from jumpcad.bundle.limits import limits_of, violation
+from jumpcad.bundle.limits import limits_of, violation, with_verdict
 from jumpcad.bundle.viewer import parts_facts
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
@@ -273,7 +273,7 @@ class Studio:
             bundle = export(found.robot, self.folder / f"{self.name}-studio", pictures=True)
         finally:
             self._building.release()
-        wrong = [violation(limits_of(found.robot))]
+        wrong = [violation(with_verdict(limits_of(found.robot), found.jump))]
         if found.jump.verdict != "jump":
             wrong.insert(0, f"it does not jump ({found.jump.verdict})")
         return "; ".join([f"built {bundle.folder}", *(f"**{one}**" for one in wrong if one)])

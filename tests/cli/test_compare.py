@@ -51,3 +51,21 @@ def test_one_that_cannot_be_built_leaves_the_others_their_table(
     assert "cannot be built: " in (tmp_path / "c.html").read_text(encoding="utf-8")
     assert run("compare", bad, bad, "-o", tmp_path / "d.html")[:2] == (1, "")
     assert not (tmp_path / "d.html").exists()
+
+
+def test_limits_are_counted_and_named_as_by_check(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A robot that stays on the ground violates one more, which its jump finds and no check of the robot."""
+    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
+    monkeypatch.setattr(comparison, "HOPS", 1)
+    flat = tmp_path / "flat.toml"
+    kenan = jumpcad.load_design("kenan-2.0")
+    flat.write_text(kenan.model_copy(update={"compression_ratio": 0.05}).to_toml(), encoding="utf-8")
+    code, out, _ = run("compare", "kenan-2.0", flat, "-o", tmp_path / "c.html", "--json")
+    told = {}
+    for robot, one in zip(("kenan-2.0", flat), json.loads(out)["robots"], strict=True):
+        told[robot], said, _ = run("check", robot, "--json")
+        findings = json.loads(said)["findings"]
+        assert one["violated"] == [found["name"] for found in findings if found["severity"] != "info"], robot
+        assert one["tightest"] == findings[0]["name"], robot
+    assert list(told.values()) == [0, code] == [0, 1]
+    assert one["violated"] == ["no_takeoff"]

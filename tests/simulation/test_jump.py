@@ -44,8 +44,9 @@ def test_the_account_has_every_entry_of_the_budget_once() -> None:
     assert sum(account.values()) == 511.0
 
 
-def test_no_loss_is_negative_and_the_account_still_adds_up() -> None:
+def test_the_account_alters_no_entry_and_shown_losses_add_up_less_what_rounding_gained() -> None:
     budget = EnergyBudget(0.05, 0.05, 0.01, 0.01, 0.002, 0.003, 0.004, -0.0001, -0.0003)
-    assert sum(budget.account_j.values()) == pytest.approx(sum(vars(budget).values()))
-    assert min(budget.account_j.values()) == 0.0
-    assert budget.account_j["useful"] == pytest.approx(0.1096)
+    whole = sum(vars(budget).values())
+    assert sum(budget.account_j.values()) == pytest.approx(whole)
+    assert budget.account_j["useful"] == pytest.approx(0.11)
+    assert sum(max(value, 0.0) for value in budget.account_j.values()) - budget.gained_j == pytest.approx(whole)

@@ -177,7 +177,7 @@ OBJECTIVES: dict[str, Objective] = {
         ),
         Objective(
             "metres-per-charge",
-            "range of all jumps of a full battery, put on its feet each time",
+            "range × jumps of a full battery, put on its feet each time",
             "m",
             lambda m: _range_m(m) * m["jumps_per_charge"],
         ),
