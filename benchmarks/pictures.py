@@ -1,23 +1,33 @@
-"""The moving pictures of README and docs: a jump of Kenan 2.0 from winding to flight, three jumps of best-jumper.
+"""The pictures of README and docs: a jump of Kenan 2.0 from winding to flight, three jumps of best-jumper, stills.
 
-    python benchmarks/pictures.py [FOLDER]
+    python benchmarks/pictures.py [FOLDER [calibration|coupon|front|history|plate|report|sweeps ...]]
 
 `mechanism.svg` is drawn from the lines of the mechanism, `jumps.gif` from the robot's parts, simulated in MuJoCo: both
-slow where the robot is fast. The folder is docs/pictures unless another is named.
+slow where the robot is fast. Stills that are named are drawn instead, by their commands in docs/index.md (minutes);
+`report` needs Chromium. The folder is docs/pictures unless another is named.
 """
 
+import contextlib
+import io
 import math
+import subprocess
 import sys
+import tempfile
+import zipfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from PIL import Image
 
 from jumpcad.building import build
 from jumpcad.bundle.motion_gif import motion_gif
+from jumpcad.bundle.step_pictures import paletted
 from jumpcad.bundle.viewer import viewer_data
+from jumpcad.cli.commands import run
 from jumpcad.design import load_design
+from jumpcad.exporters import threemf
 from jumpcad.landing.series import jumps
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
@@ -32,6 +42,18 @@ ROBOT, JUMPER = "kenan-2.0", "best-jumper"
 WIDE = (720, 300)
 PX_PER_MM, EDGE_PX = 1.6, 46.0
 COLOURS = {BODY: "#4a4f57", MAIN_LEG: "#1f6fb2", FRONT_LINK: "#c8641a", FOOT: "#2f8f4e"}
+STILLS = {
+    "calibration": ("calibrate kenan-1.0 --plots .", "parameters.png"),
+    "coupon": ("coupon -o made", "made/print/plate-1-PETG.3mf"),
+    "front": ("optimize pareto --plots .", "front.png"),
+    "history": ("optimize --plots .", "history.png"),
+    "plate": ("build kenan-2.0 --no-pictures -o made", "made/print/plate-1-PLA.3mf"),
+    "report": ("report kenan-2.0 -o report.html", "screenshot.png"),
+    "sweeps": ("explore sweep --plots .", "sweeps.png"),
+}
+CHROMIUM = (
+    "chromium --headless --no-sandbox --hide-scrollbars --window-size=960,980 --virtual-time-budget=20000 --screenshot"
+)
 INK, GHOST, CAM = "#22262b", "#9aa1aa", "#d9a441"
 WORDS = {
     "winding": "Winding: the cam lifts the roller and winds the springs",
@@ -41,15 +63,8 @@ WORDS = {
 }
 
 
-def shown() -> tuple[Robot, dict[str, Any]]:
-    """Return the robot and its motion as columns over the shown time, from the planar engine."""
-    robot = build(load_design(ROBOT), name=ROBOT)
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True), "planar")
-    return robot, viewer_data(robot, jump)
-
-
 def mechanism_svg(robot: Robot, data: dict[str, Any]) -> str:
-    """Return the animated drawing of the mechanism, seen from its right side; browsers play it without a script."""
+    """Return an animated drawing of the columns of a motion, from the right side; browsers play it without a script."""
     times = np.array(data["show_s"])
     clock = f'dur="{times[-1]:g}s" repeatCount="indefinite" keyTimes="{_list(times / times[-1], 4)}"'
     frames = {name: np.array(values) for name, values in data["frames"].items()}
@@ -89,19 +104,18 @@ def _shapes(robot: Robot, data: dict[str, Any], clock: str) -> dict[str, str]:
     design, drive, layout = robot.design, robot.layout.drive, robot.layout
     cam, geometry = drive.cam, drive.cam.geometry
     hub, front = (-design.l1_mm / 2.0, 0.0), (design.l1_mm / 2.0, 0.0)
-    roller = geometry.roller_mm(0.0)
-    to_leg = math.radians(design.rest_angle_deg)
-    lever = (
-        roller[0] * math.cos(to_leg) - roller[1] * math.sin(to_leg),
-        roller[0] * math.sin(to_leg) + roller[1] * math.cos(to_leg),
-    )
+    turned = complex(*geometry.roller_mm(0.0)) * np.exp(1j * math.radians(design.rest_angle_deg))
+    lever = (turned.real, turned.imag)
     outline = " ".join(_point(*point) for point in cam.profile_mm)
-    axis = layout.cam_axis_mm
+    axis, stages = layout.cam_axis_mm, drive.train.stages
     turn = _animated("rotate", [[math.degrees(one)] for one in data["cam_rad"]], clock)
     wheels = "".join(
         f'<circle cx="{PX_PER_MM * x:.1f}" cy="{-PX_PER_MM * z:.1f}" r="{PX_PER_MM * radius:.1f}" fill="none" '
         f'stroke="{GHOST}" stroke-dasharray="2 2"/>'
-        for (x, z), radius in _wheels(robot)
+        for (x, z), radius in (
+            (axis, stages[-1].wheel.pitch_radius_mm),
+            (layout.motor_mm, stages[0].pinion.pitch_radius_mm),
+        )
     )
     return {
         FOOT: _bar((0.0, 0.0), (design.l4_mm, 0.0), COLOURS[FOOT], 7)
@@ -116,13 +130,6 @@ def _shapes(robot: Robot, data: dict[str, Any], clock: str) -> dict[str, str]:
         + _circle(lever, geometry.roller_radius_mm, "#ffffff")
         + _spiral(),
     }
-
-
-def _wheels(robot: Robot) -> Iterable[tuple[tuple[float, float], float]]:
-    """Yield centre and pitch radius (mm) of the first and the last wheel."""
-    stages = robot.layout.drive.train.stages
-    yield tuple(robot.layout.cam_axis_mm), stages[-1].wheel.pitch_radius_mm
-    yield tuple(robot.layout.motor_mm), stages[0].pinion.pitch_radius_mm
 
 
 def _moving(frames: Array, clock: str, shapes: str) -> str:
@@ -196,15 +203,33 @@ def _list(values: Iterable[float], digits: int) -> str:
     return ";".join(f"{value:.{digits}f}" for value in values)
 
 
+def still(name: str) -> Image.Image:
+    """Return a picture that a command makes, 800 pixels wide at most; of a plate, that in its file, drawn larger."""
+    command, made = STILLS[name]
+    threemf.PICTURE = (640, 480)
+    with tempfile.TemporaryDirectory() as place, contextlib.chdir(place):
+        assert run(command.split()) == 0
+        if name == "report":
+            subprocess.run([*CHROMIUM.split(), Path("report.html").resolve().as_uri()], check=True)
+        file = zipfile.Path(made, "Metadata/thumbnail.png") if made.endswith("3mf") else Path(made)
+        picture = Image.open(io.BytesIO(file.read_bytes()))
+        picture.thumbnail((800, 800), Image.Resampling.LANCZOS)
+    return paletted(picture.convert("RGB"))
+
+
 def main() -> None:
     """Draw them."""
-    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else FOLDER
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else FOLDER).resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    robot, data = shown()
+    for name in sys.argv[2:]:
+        still(name).save(folder / f"{name}.png", optimize=True)
+    if sys.argv[2:]:
+        return
+    robot, jumper = (build(load_design(name), load_workshop(own_workshop(name)), name) for name in (ROBOT, JUMPER))
+    settings = Settings(flight="simulated", trajectory=True)
+    data = viewer_data(robot, simulate(robot, settings, "planar"))
     (folder / "mechanism.svg").write_text(mechanism_svg(robot, data), encoding="utf-8")
-    jumper = build(load_design(JUMPER), load_workshop(own_workshop(JUMPER)), JUMPER)
-    jump = simulate(jumper, Settings(flight="simulated", trajectory=True), "planar")
-    row = viewer_data(jumper, jump, jumps(jumper, 3, record=True))
+    row = viewer_data(jumper, simulate(jumper, settings, "planar"), jumps(jumper, 3, record=True))
     (folder / "jumps.gif").write_bytes(motion_gif(jumper, row, WIDE, View(yaw_deg=-78.0, pitch_deg=12.0)))
 
 
