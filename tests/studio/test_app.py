@@ -43,13 +43,13 @@ def test_a_point_of_a_study_brings_its_design_and_workshop(study: Path, tmp_path
     server, points = viser.ViserServer(host="127.0.0.1", port=0, verbose=False), Points(study)
     shown = Studio(points.trial(1).design, "four", ["fine", "of the study"], server, tmp_path, points)
     assert shown.workshop == load_workshop("fine")
-    assert "best 1: 2 body lengths (trial 1)" in points.listed
+    assert "best 1: 2 link lengths (trial 1)" in points.listed
     assert (shown.trial.min, shown.trial.max, shown.trial.step) == (1, 4, 1)
     shown._run_action(lambda: shown.open(4))
     assert shown.status.content == "as trial 4"
     assert (shown.design, shown.workshop) == (points.trial(4).design, load_workshop())
     assert "trial 4 of 4" in shown.point.content
-    assert shown.best.value == "best 3: 1 body lengths (trial 4)"
+    assert shown.best.value == "best 3: 1 link lengths (trial 4)"
     shown.open(2)
     assert shown.best.value == BY_NUMBER
     shown.open(4)

@@ -57,7 +57,7 @@ def test_slices_mark_the_best(tmp_path):
     for axes, parameter in zip(figure.axes, space.free, strict=False):
         (star,) = axes.lines
         assert (star.get_xdata()[0], star.get_ydata()[0]) == (getattr(best.design, parameter.name), best.score)
-        assert axes.get_ylabel().split() == ["range", "over", "the", "longest", "link", "(body", "lengths)"]
+        assert axes.get_ylabel().split() == ["range", "over", "the", "longest", "link", "(link", "lengths)"]
 
 
 @pytest.mark.parametrize("ratio", [0.4, 0.7, 0.95], ids=["between two", "beside a rejected one", "outside"])
