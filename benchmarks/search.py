@@ -74,9 +74,9 @@ class Spread(PrintedModel):
 
 
 def genetic_then_bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
-    """Run PyGAD, then 50 evaluations of GP-EI on all that it saw."""
-    run_genetic(evaluator, stage(evaluator, "ga", seed, evaluations - 50))
-    run_bayesian(evaluator, stage(evaluator, "bo", seed, 50))
+    """Run PyGAD, then GP-EI on all that it saw for the last fifth."""
+    run_genetic(evaluator, stage(evaluator, "ga", seed, evaluations - evaluations // 5))
+    run_bayesian(evaluator, stage(evaluator, "bo", seed, evaluations // 5))
 
 
 def score_of(evaluator: Evaluator, step: int, point: npt.ArrayLike) -> float:
@@ -136,13 +136,13 @@ def main() -> None:
     """Print one line per method: median [least, greatest] at each mark."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=5)
-    parser.add_argument("--methods", default=",".join(METHODS).replace(", ", ";"))
+    parser.add_argument("--methods", default=",".join(METHODS).replace(", ", "; "))
     parser.add_argument("--model", default="capsule")
     parser.add_argument("--evaluations", type=int, default=1000, help="at most, of every method")
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
-    chosen = [name.replace(";", ", ") for name in arguments.methods.split(",")]
+    chosen = [name.replace(";", ",") for name in arguments.methods.split(",")]
     table = {}
     for name in chosen:
         method, evaluations = METHODS[name][0], min(METHODS[name][1], arguments.evaluations)
