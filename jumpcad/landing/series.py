@@ -120,10 +120,7 @@ class Recorder:
     _looks: int = 0
     _touched: bool = False
 
-    def __post_init__(self) -> None:
-        self.arena.watch = self._watch if self.on else None
-
-    def _watch(self) -> None:
+    def watch(self) -> None:
         """Notice a touch of the falling robot, which may end before the next look."""
         self._touched |= self.arena.data.ncon > 0 and bool(self.arena.velocity_m_s[2] < 0.0)
 
@@ -202,6 +199,7 @@ def jumps(
     arena.stand("home")
     first = arena.centre_of_mass_m
     recorder = Recorder(arena, record)
+    arena.watch = recorder.watch if record else None
     hops = tuple(_hop(arena, train.winding_s, rng, recorder) for _ in range(count))
     way = float(np.linalg.norm((arena.centre_of_mass_m - first)[:2]))
     arena.wind(train.winding_s)
