@@ -44,7 +44,7 @@ class DryRun:
     def __init__(self, evaluator: Evaluator, phase: str, seed: int, run: int) -> None:
         assert isinstance(evaluator.model, PrintedModel)
         self._evaluator, self._phase, self._seed, self._run = evaluator, phase, seed, run
-        self._space, self.shared = evaluator.space, evaluator.shared
+        self._space = evaluator.space
         self.estimator = Estimator(evaluator.space, evaluator.model, evaluator.objective)
         self._variants: dict[tuple[float, ...], Variant] = {}
         self._prior = {trial.key for trial in evaluator.prior}
@@ -81,7 +81,7 @@ class DryRun:
 
     def look_at(self, variants: Iterable[Variant]) -> None:
         """Lay out and estimate, on all cores, what was not yet."""
-        self.estimator.look_at(variants, self.shared)
+        self.estimator.look_at(variants, self._evaluator.shared)
 
     def known(self, trials: Sequence[Trial], tried: Sequence[Array]) -> set[Key]:
         """Return the keys of what was tried for `trials` and since then."""

@@ -14,7 +14,6 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import erfcx, log_ndtr
 
-from jumpcad.beside import Shared, one_by_one
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
 from jumpcad.search.study.trial import Trial
@@ -53,7 +52,6 @@ class SearchPosterior:
         thetas: Mapping[str, Any],
         fit: bool,
         guesses: Mapping[Key, tuple[Array, float]] = NO_GUESSES,
-        shared: Shared = one_by_one,
     ) -> Self:
         """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
 
@@ -67,21 +65,16 @@ class SearchPosterior:
             Whether they are fitted anew. What has no hyperparameters yet is always fitted.
         guesses
             Points (d,) and guessed scores of variants, by their keys; of trials too.
-        shared
-            Shares fits among cores.
         """
         x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension)
 
         def learn(name: str, points: Array, values: Array) -> Surrogate:
             return Surrogate(points, values, thetas.get(name), fit, space.categories)
 
-        def limit(name: str) -> Surrogate:
-            known = np.isfinite(margins[name])
-            return learn(name, x[known], _scaled(margins[name][known]))
-
-        margins = constraint_margins(trials)
-        fitted = (shared if fit else one_by_one)(limit, [*margins])
-        constraints = dict(zip(margins, fitted, strict=True))
+        constraints = {}
+        for name, margins in constraint_margins(trials).items():
+            known = np.isfinite(margins)
+            constraints[name] = learn(name, x[known], _scaled(margins[known]))
         jumps = [(point, trial) for point, trial in zip(x, trials, strict=True) if trial.score is not None]
         points = np.array([point for point, _ in jumps]).reshape(-1, space.dimension)
         scores = np.array([trial.score for _, trial in jumps])

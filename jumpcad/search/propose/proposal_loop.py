@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.beside import Shared, one_by_one
 from jumpcad.search.propose.acquisition import DIGITS, HELD_BONUS, Proposal
 from jumpcad.search.propose.dry_run import DryRun
 from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
@@ -157,12 +156,10 @@ class ProposalLoop:
     def _learned(self) -> SearchPosterior:
         """Return the posterior of the trials and all dry runs, with what was proposed believed."""
         trials, guesses = list(self._trials), NO_GUESSES
-        shared: Shared = one_by_one
         if self._dry_run is not None:
-            shared = self._dry_run.shared
             trials += self._dry_run.failures(self._trials, self.tried)
             guesses = self._dry_run.estimates(self._trials, self.tried)
-        posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._refit, guesses, shared)
+        posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._refit, guesses)
         self.thetas, self._refit = {**self.thetas, **posterior.thetas}, False
         for point in self._proposed:
             posterior = posterior.condition_on(point)

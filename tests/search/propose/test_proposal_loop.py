@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from support.hills import SMALL, Hill
 
-from jumpcad.beside import one_by_one
 from jumpcad.search.propose.acquisition import Proposal
 from jumpcad.search.propose.proposal_loop import DRAWN, HELD, ROUNDS, STEP, WITHIN, ProposalLoop, neighbours
 from jumpcad.search.space import Space
@@ -28,8 +27,6 @@ TRIALS = [trial_of(point) for point in SMALL.spread(16, np.random.default_rng(0)
 
 class DryRun:
     """Only what is left of a half holds; of what was tried, nothing else is known."""
-
-    shared = staticmethod(one_by_one)
 
     def __init__(self, half=0.5, ready=False):
         self.half, self.estimator = half, SimpleNamespace(ready=ready, refuses=lambda _: False)
