@@ -35,7 +35,9 @@ FAILS = "cannot be built"
 VERBS = {"lower": -1, "shorten": -1, "raise": 1, "lengthen": 1, "bring": 0}
 NEARER = " nearer to 1"
 DIRECTIONS = VERBS | {"a lower": -1, "smaller": -1, "shorter": -1, "less": -1, "larger": 1, "longer": 1, "more": 1}
-WORD = re.compile(rf"\b(?:({'|'.join(reversed(DIRECTIONS))})|([a-z]+\.[a-z_]+|{'|'.join(PARAMETERS)}))\b")
+KEY = rf"(?:[a-z]+\.[a-z_]+|{'|'.join(PARAMETERS)})"
+KEYS = re.compile(rf"\b{KEY}(?:(?:, | or ){KEY})*\b")
+WORD = re.compile(rf"\b(?:({'|'.join(reversed(DIRECTIONS))})|({KEY}))\b")
 
 
 class Remedies:
@@ -80,7 +82,7 @@ class Remedies:
             value = self._cure(key, DIRECTIONS[word], (name, margin), wrong)
             if value is not None:
                 said = f"{key} {'to' if word in VERBS else '='} {value:g}"
-                return re.sub(f"{key}({NEARER})?", said, remedy, count=1), wrong - self._tried[key, value][0]
+                return told_first(remedy, key, said), wrong - self._tried[key, value][0]
         return remedy, frozenset()
 
     def _is_far(self, word: str, key: str) -> bool:
@@ -157,6 +159,15 @@ def asked(remedy: str) -> Iterator[tuple[str, str]]:
         last = word or last
         if key and last:
             yield last, key
+
+
+def told_first(remedy: str, key: str, said: str) -> str:
+    """Return a remedy that says a parameter's number before the other parameters in a row, which have none."""
+    for row in KEYS.finditer(remedy):
+        if key in (names := re.split(", | or ", row[0])):
+            others = [name for name in names if name != key]
+            return remedy[: row.start()] + " or ".join([said, *others]) + remedy[row.end() :].removeprefix(NEARER)
+    return remedy
 
 
 def _margin(refusal: CannotBuildError) -> float:

@@ -10,7 +10,7 @@ from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import EvaluationResult, evaluate
 from jumpcad.findings import limit
-from jumpcad.remedies import TRIES, Remedies
+from jumpcad.remedies import TRIES, Remedies, told_first
 from jumpcad.workshop import load_workshop
 from jumpcad.workshop.varied import varied
 
@@ -58,6 +58,17 @@ def test_the_value_that_is_named_cures_and_was_found_by_few_tries(tried: list[De
         assert wrong(bad.model_copy(update={match[1]: cured})) == [], said
         with pytest.raises((AssertionError, CannotBuildError)):
             assert wrong(bad.model_copy(update={match[1]: now + 0.5 * (cured - now)})) == []
+
+
+def test_a_number_stands_with_its_own_parameter() -> None:
+    """Behind the last of a row it would be read as that of all of them."""
+    for remedy, key, said in (
+        ("raise d_coef or c_coef", "c_coef", "raise c_coef to 1 or d_coef"),
+        ("raise d_coef or c_coef, or lower e_coef", "d_coef", "raise d_coef to 1 or c_coef, or lower e_coef"),
+        ("raise d_coef, rest_angle_deg or c_coef", "c_coef", "raise c_coef to 1 or d_coef or rest_angle_deg"),
+        ("bring c_coef nearer to 1", "c_coef", "bring c_coef to 1"),
+    ):
+        assert told_first(remedy, key, f"{key} to 1") == said
 
 
 def test_no_number_is_sought_where_a_check_takes_a_second(tried: list[Design]) -> None:

@@ -55,10 +55,10 @@ def place(source: str, text: str, key: str) -> str:
     return source if line is None else f"{source}:{line}"
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
+def did_you_mean(word: str, known: Iterable[str], alike: float = 0.6) -> str:
     """Return a hint at the most similar known word, by its letters in whatever case, or nothing."""
     words = {one.casefold(): one for one in known}
-    near = difflib.get_close_matches(word[:LONGEST].casefold(), list(words), n=1, cutoff=0.6)
+    near = difflib.get_close_matches(word[:LONGEST].casefold(), list(words), n=1, cutoff=alike)
     return f" (did you mean {words[near[0]]}?)" if near else ""
 
 

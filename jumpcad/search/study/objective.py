@@ -136,22 +136,31 @@ class Objective:
             raise JumpcadError(f"the objective {self.name} of an evaluation {why}: its figures are wrong") from None
 
     def require(self, names: Iterable[str], what: str = "the objective") -> None:
-        """Require that it needs no other figures than these; an own function is tried on figures of 1.
+        """Require that it needs no other figures than these; an own function is tried on figures of 1 and of 0.
 
         Raises
         ------
         JumpcadError
             Naming the first that it needs besides, and the most similar one that there is.
         """
-        tried = TriedFigures(names)
-        with suppress(JumpcadError):  # what figures of 1 do besides says nothing of those of a jump
-            self.figure(tried)
-        for name in tried.lacking:
-            hint = did_you_mean(name, tried) or ": choose another figure or --model"
-            raise JumpcadError(
-                f"{what} {self.name} needs {without_controls(name)[:80]}, which this model does not give{hint}; "
-                "`jumpcad list figures` names all"
-            )
+        names = [*names]
+        for tried in (TriedFigures(names, 1.0), TriedFigures(names, 0.0)):
+            with suppress(JumpcadError, ZeroDivisionError):  # what else these do says nothing of a jump's figures
+                self.figure(tried)
+            for name in tried.lacking:
+                raise JumpcadError(
+                    f"{what} {self.name} needs {without_controls(name)[:80]}, which this model does not give"
+                    f"{instead_of(name, names)}; `jumpcad list figures` names all"
+                )
+
+
+def instead_of(name: str, names: Iterable[str]) -> str:
+    """Return what to take instead of a figure that a model does not give, or which robots have it."""
+    from jumpcad.evaluation import FIGURES
+
+    if name in FIGURES:
+        return ": printed robots alone have it"
+    return did_you_mean(name, names, 0.55) or ": choose another figure or --model"
 
 
 def _range_m(metrics: Mapping[str, float]) -> float:

@@ -30,15 +30,16 @@ REMEDY = "mend it; what a study file holds is kept, and `--from-study` takes it 
 
 
 class TriedFigures(dict[str, float]):
-    """Figures of 1 on which a function is tried, and the names that it asked for besides."""
+    """Equal figures on which a function is tried, and the names that it asked for besides."""
 
-    def __init__(self, names: Iterable[str]) -> None:
-        super().__init__(dict.fromkeys(names, 1.0))
+    def __init__(self, names: Iterable[str], value: float) -> None:
+        super().__init__(dict.fromkeys(names, value))
+        self.value = value
         self.lacking: list[str] = []
 
     def __missing__(self, name: object) -> float:
         self.lacking.append(str(name) if isinstance(name, str | int | float) else type(name).__name__)
-        return 1.0
+        return self.value
 
 
 def own_function(asked: Any) -> tuple[str, Callable[[Mapping[str, float]], float], str]:

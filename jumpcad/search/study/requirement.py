@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError
-from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
 from jumpcad.findings import Finding, at_least, at_most
+from jumpcad.search.study.objective import instead_of
 
 NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)"
 FORM = re.compile(rf"\s*(?:{NUMBER}\s*<=\s*)?([A-Za-z_]\w*)\s*(?:(<=|>=)\s*{NUMBER})?\s*", re.I)
@@ -105,8 +105,8 @@ def requirements_of(asked: Iterable[str] | Required, known: Iterable[str]) -> tu
     for one in found:
         if one.name not in names and not any(one.name.startswith(name[:-1]) for name in names if name.endswith("*")):
             raise JumpcadError(
-                f"{one.name}: a jump of this robot has no such figure{did_you_mean(one.name, names)}; "
-                "jumpcad list figures has them all"
+                f"{one.name}: a jump of this robot has no such figure{instead_of(one.name, names)}; "
+                "`jumpcad list figures` names all"
             )
     return tuple(sorted(found, key=str))
 

@@ -119,8 +119,8 @@ class StudyStore:
         return self
 
     def __exit__(self, kind: object, error: BaseException | None, _: object) -> None:
-        """Close the file; remove it if it was made for a request that is wrong, and holds no evaluation."""
-        useless = self._made and isinstance(error, JumpcadError) and self._is_empty()
+        """Close the file; remove it if it was made for a request that is wrong, and holds no score."""
+        useless = self._made and isinstance(error, JumpcadError) and self._has_no_score()
         if useless and self.path is not None:
             self.path.unlink(missing_ok=True)
         self.close()
@@ -178,9 +178,11 @@ class StudyStore:
         with self._transaction():
             self._connection.executemany("INSERT INTO trials VALUES (?, ?, ?, ?, ?, ?)", map(to_row, trials))
 
-    def _is_empty(self) -> bool:
+    def _has_no_score(self) -> bool:
         try:
-            return not self._connection.execute("SELECT EXISTS (SELECT 1 FROM trials)").fetchone()[0]
+            return not self._connection.execute(
+                "SELECT EXISTS (SELECT 1 FROM trials WHERE score IS NOT NULL)"
+            ).fetchone()[0]
         except (AttributeError, sqlite3.Error):  # it could not be opened, or there was no space for its tables
             return True
 

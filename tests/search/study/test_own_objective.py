@@ -60,13 +60,17 @@ def test_a_file_finds_the_modules_beside_it_from_any_folder(tmp_path, monkeypatc
 
 
 def test_names_are_checked_before_the_first_evaluation_and_nothing_is_left(tmp_path, monkeypatch):
-    """A function is tried on figures of 1; what else it does with these is no fault."""
+    """A function is tried on figures of 1 and of 0; what else it does with these is no fault."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "aims.py").write_text("def far(m):\n    return m['ballistic_rangem'] - m['com_rise_m']\n")
     said = refusal("optimize", "ga", *QUICK, "--evaluations", 12, "--objective", "aims.py:far")
     assert "the objective far needs ballistic_rangem" in said
     assert "did you mean ballistic_range_m?" in said
     assert [path.name for path in tmp_path.iterdir() if path.suffix in (".db", ".toml")] == []
+    with pytest.raises(JumpcadError, match="own needs nosuch"):
+        find_objective(lambda m: m["a"] if m["a"] > 0.5 else m["nosuch"]).require(["a"])
+    with pytest.raises(JumpcadError, match=r"jumps-per-joule needs electrical_energy_j.*printed robots alone have it"):
+        find_objective("jumps-per-joule").require(["fitness"])
     find_objective(lambda m: 1.0 / (m["a"] - m["b"])).require(["a", "b"])
     find_objective(lambda m: m.get("c", 0.0)).require(["a"])
     with pytest.raises(JumpcadError, match="own needs laid_coil_mm"):

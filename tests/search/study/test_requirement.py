@@ -1,6 +1,7 @@
 """Requirements: what they say, what keeps them, on which floors, and that a search's winner does."""
 
 import math
+import re
 
 import pytest
 from support.built import built
@@ -46,6 +47,9 @@ def test_what_is_no_requirement_is_told_in_one_line() -> None:
             requirements_of({"turn_deg": limits}, FIGURES)
     with pytest.raises(JumpcadError, match=r"turn_degs: .* \(did you mean turn_deg\?\)"):
         requirements_of(["turn_degs<=3"], FIGURES)
+    for wrong, hint in (("rangee_m<=1", "did you mean ballistic_range_m?"), ("cost_eur<=9", "printed robots alone")):
+        with pytest.raises(JumpcadError, match=re.escape(hint)):
+            robot_model("capsule").requiring([wrong])
     with pytest.raises(JumpcadError, match="does not apply to the published robot"):
         robot_model("published").requiring(["fitness>=1"])
 

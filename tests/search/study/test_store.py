@@ -184,22 +184,25 @@ def test_a_study_of_another_format_is_refused(tmp_path):
         path.unlink()
 
 
-def test_a_file_that_was_made_for_a_wrong_request_is_gone_again_unless_it_holds_an_evaluation(tmp_path):
+def test_a_file_that_was_made_for_a_wrong_request_is_gone_again_unless_it_holds_a_score(tmp_path):
     """What was there before stays, as does what another fault leaves."""
 
-    def attempt(path, error, rows):
+    def attempt(path, error, found):
         with StudyStore.write(path, IDENTITY) as store:
-            store.append(trials(rows))
+            store.append(found)
             raise error
 
-    def left(path, error, rows=0):
+    def left(path, error, found=()):
         with pytest.raises(type(error)):
-            attempt(path, error, rows)
+            attempt(path, error, found)
         return sorted(one.name for one in path.parent.iterdir() if one.name.startswith(path.name))
 
     wrong = JumpcadError("wrong")
     assert left(tmp_path / "a.db", wrong) == []
-    assert left(tmp_path / "b.db", wrong, rows=2) == ["b.db"]
+    assert left(tmp_path / "b.db", wrong, trials(2)) == ["b.db"]
+    assert (
+        left(tmp_path / "d.db", wrong, [replace(one, score=None) for one in trials(2)]) == []
+    )  # of rejected designs alone
     assert left(tmp_path / "c.db", ValueError("a fault")) == ["c.db"]
     assert left(tmp_path / "c.db", wrong) == ["c.db"]  # of before
     with pytest.raises(JumpcadError), StudyStore.read(tmp_path / "c.db"):
