@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,8 @@ from jumpcad.bundle.motion import series_motion
 from jumpcad.errors import JumpcadError
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.landing import land, share_righted
-from jumpcad.landing.series import Hop, Series, jumps
+from jumpcad.landing.series import Hop, Recorder, Series, jumps
+from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.robot import Robot
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.settings import Settings
@@ -146,6 +148,19 @@ def test_recorded_jumps_keep_their_energy_in_the_air(strongest: Robot) -> None:
     assert np.ptp(energy) < 0.01 * energy.mean()
     assert np.ptp(path.potential_j[flight]) > 0.3 * energy.mean()
     assert jumps(strongest, 2, seed=3).hops == series.hops
+
+
+def test_a_flight_ends_with_its_first_touch_though_none_is_seen_at_a_look() -> None:
+    """Contacts at the steps from look to look, while it rises and while it falls: a toe may touch as it leaves."""
+    data = SimpleNamespace(ncon=0, time=0.0, xpos=np.zeros((4, 3)), xquat=np.zeros((4, 4)))
+    arena = SimpleNamespace(data=data, bodies=dict(zip(BODY_NAMES, range(4), strict=True)), energies_j=(0.0, 0.0, 0.0))
+    recorder = Recorder(arena, True, 1, ["push-off 1"])  # type: ignore[arg-type]
+    for contacts, upwards in (((1, 0), 1.0), ((1, 0), 1.0), ((0, 0), -1.0), ((1, 0), -1.0)):
+        arena.velocity_m_s = np.array([0.0, 0.0, upwards])
+        for data.ncon in contacts:
+            recorder.watch()
+        recorder.look()
+    assert recorder.phases[1:] == ["flight 1"] * 3 + ["landing 1"]
 
 
 def test_the_viewer_shows_recorded_jumps_at_their_places(strongest: Robot) -> None:
