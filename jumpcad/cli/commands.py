@@ -6,6 +6,7 @@ import sys
 import traceback
 from collections.abc import Callable, Sequence
 from functools import cache
+from itertools import pairwise
 from typing import Annotated, Any
 
 import typer
@@ -147,6 +148,9 @@ def _carry_out(arguments: list[str]) -> int:
         from typer.completion import shell_complete
 
         return shell_complete(command, {}, "jumpcad", COMPLETE, asked)
+    for option, value in pairwise(arguments):
+        if option.startswith("-") and not value:  # else it would be the current folder, or as if not given
+            raise JumpcadError(f"{option} '': its value is empty: give one, or leave {option} out")
     try:
         with _context(command, arguments) as context:
             command.invoke(context)

@@ -151,3 +151,10 @@ def test_completion_is_installed_without_an_error(tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=surroundings)
     assert (done.returncode, done.stderr) == (0, "")
     assert f"bash completion installed in {tmp_path}" in done.stdout
+
+
+def test_an_option_without_a_value_is_named(run: Run) -> None:
+    """Else an empty folder would be the current one, and an empty workshop the default."""
+    for *words, option in (("build", "kenan-2.0", "-o"), ("check", "kenan-2.0", "--workshop"), ("optimize", "--study")):
+        said = f"jumpcad: {option} '': its value is empty: give one, or leave {option} out\n"
+        assert run(*words, option, "") == (2, "", said)

@@ -14,12 +14,6 @@ from jumpcad.search.report.figures import PICTURES
     ("arguments", "message"),
     [
         (["optimize", "--evaluations", "0"], "evaluations = 0 must be at least 1"),
-        (["optimize", "--model", "capsule", "--around", "kenan-2.0", "--only", ""], "'' is not a parameter"),
-        (["optimize", "--model", "capsule", "--around", ""], "'' is neither a TOML file nor one of the robots"),
-        (["optimize", "--model", "printed", "--workshop", ""], "'' is neither a TOML file nor one of the workshops"),
-        (["optimize", "--settings", ""], "'' is neither a TOML file nor one of the settings"),
-        (["explore", "sweep", "--model", "capsule", "--around", ""], "'' is neither a TOML file nor one of the robots"),
-        (["explore", "feasibility", "--model", "capsule", "--over", ""], "a map has two parameters"),
         (["optimize", "gaa"], "did you mean ga"),
         (["optimize", "--model", "capsul"], "did you mean capsule"),
         (["optimize", "--fix", "stifness_nmm_per_deg=9"], "did you mean stiffness_nmm_per_deg"),
