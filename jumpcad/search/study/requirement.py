@@ -67,6 +67,12 @@ class Requirement:
             raise JumpcadError(f"{name}>={least:g}: it is a share, at most 1: require 0.9 for 90 %")
         return cls(name, least, most)
 
+    def __and__(self, other: "Requirement") -> "Requirement":
+        """Return the tighter of both limits on either side; raises `JumpcadError` if they contradict each other."""
+        least, most = ([one for one in pair if one is not None]
+                       for pair in ((self.least, other.least), (self.most, other.most)))  # fmt: skip
+        return self.of(self.name, max(least, default=None), min(most, default=None))
+
     def at(self, margin: float) -> float:
         """Return the figure that has a margin to the only limit."""
         return (self.most or 0.0) - margin if self.least is None else self.least + margin
@@ -87,12 +93,12 @@ Required = Mapping[str, tuple[float | None, float | None]]
 
 
 def requirements_of(asked: Iterable[str] | Required, known: Iterable[str]) -> tuple[Requirement, ...]:
-    """Return requirements, sorted by name, of texts or of pairs by name.
+    """Return requirements, one of each figure, sorted by name, of texts or of pairs by name.
 
     Raises
     ------
     JumpcadError
-        If one is none, or names no figure that is `known`.
+        If one is none, names no figure that is `known`, or contradicts another.
     """
     if isinstance(asked, Mapping):
         for name, limits in asked.items():
@@ -108,7 +114,10 @@ def requirements_of(asked: Iterable[str] | Required, known: Iterable[str]) -> tu
                 f"{one.name}: a jump of this robot has no such figure{instead_of(one.name, names)}; "
                 "`jumpcad list figures` names all"
             )
-    return tuple(sorted(found, key=str))
+    whole: dict[str, Requirement] = {}
+    for one in found:
+        whole[one.name] = whole.get(one.name, one) & one
+    return tuple(sorted(whole.values(), key=str))
 
 
 def violations(

@@ -54,6 +54,13 @@ def test_what_is_no_requirement_is_told_in_one_line() -> None:
         robot_model("published").requiring(["fitness>=1"])
 
 
+def test_requirements_on_one_figure_are_their_intersection() -> None:
+    texts = ["-30<=turn_deg<=30", "turn_deg<=40", "mass_kg<=0.2", "turn_deg>=-10"]
+    assert requirements_of(texts, FIGURES) == requirements_of(["-10<=turn_deg<=30", "mass_kg<=0.2"], FIGURES)
+    with pytest.raises(JumpcadError, match=r"turn_deg: at least 40 and at most 30 cannot both hold"):
+        requirements_of(["turn_deg<=30", "turn_deg>=40"], FIGURES)
+
+
 def test_margins_are_the_distance_to_each_limit() -> None:
     asked = requirements_of({"turn_deg": (-30.0, 30.0), "leg_strength": (5.0, None)}, [*FIGURES, "leg_*"])
     found = {one.name: one.margin for one in violations(asked, {"turn_deg": 40.0}, {"leg_strength": 7.0})}
