@@ -55,7 +55,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
         )
         require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
-        drawing.require_bed(workshop.printer.bed_mm)
+        drawing.require_bed(workshop.printer.bed_mm, layout.cage is not None)
     known = {part.name: part for part in before.parts} if before is not None else {}
     parts = (*(_weighed(drawing, workshop, known.get(drawing.name)) for drawing in drawn), *kept)
     bodies = bodies_of(layout, parts, hardware)

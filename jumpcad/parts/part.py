@@ -60,9 +60,9 @@ class Drawing:
         """Return how the part fits a bed (x, y, z)."""
         return fit_to_bed(self.shape.bounds_mm, self._outline_mm, bed_mm)
 
-    def require_bed(self, bed_mm: Sequence[float]) -> None:
-        """Reject a part that fits the bed at no angle."""
-        require_bed(self.name, self.shape.bounds_mm, self._outline_mm, bed_mm)
+    def require_bed(self, bed_mm: Sequence[float], caged: bool = False) -> None:
+        """Reject a part that fits the bed at no angle; `caged`: body plates have horns."""
+        require_bed(self.name, self.shape.bounds_mm, self._outline_mm, bed_mm, caged)
 
     def _outline_mm(self) -> Array:
         return self.shape.outline_mm

@@ -19,6 +19,7 @@ SMALLER = {
     "cage_bar": "smaller cage.rear_radius_mm and cage.front_radius_mm",
 }
 """What to change where a part is too large, by the beginning of its name; other parts are the body's."""
+CAGED = 'shorter horns by cage.front_ahead_mm and cage.rear_behind_mm, no cage (cage.rod = ""), '
 
 
 @dataclass(frozen=True)
@@ -54,8 +55,10 @@ def fit_to_bed(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[
     return best
 
 
-def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> BedFit:
-    """Return how a part lies on the bed.
+def require_bed(
+    name: str, bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float], caged: bool = False
+) -> BedFit:
+    """Return how a part lies on the bed; `caged` says whether body plates have horns for a cage.
 
     Raises
     ------
@@ -67,15 +70,16 @@ def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_m
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
         raise CannotBuildError(
             f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle, by {-found.margin_mm:.1f} mm: "
-            f"choose a larger printer in the workshop, or {_smaller(name)}",
+            f"choose a larger printer in the workshop, or {_smaller(name, caged)}",
             "bed", found.margin_mm,
         )  # fmt: skip
     return found
 
 
-def _smaller(name: str) -> str:
+def _smaller(name: str, caged: bool) -> str:
     """Return what makes a part smaller."""
-    return next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER["body_plate"])
+    horns = CAGED if caged and name.startswith("body_plate") else ""
+    return horns + next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER["body_plate"])
 
 
 def _at_angles(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[BedFit]:

@@ -163,6 +163,11 @@ def test_what_cannot_be_made_is_refused_with_the_number() -> None:
     ):
         with pytest.raises(CannotBuildError, match=told):
             caged(**values)
+    small = load_workshop("best-jumper", "mini")
+    with pytest.raises(CannotBuildError, match=r"horns by cage.front_ahead_mm and cage.rear_behind_mm, no cage"):
+        jumpcad.build(jumpcad.load_design("kenan-2.0"), small)
+    for key, value in {"cage.rear_behind_mm": 20.0, "cage.rod": ""}.items():
+        assert jumpcad.build(jumpcad.load_design("kenan-2.0"), varied(small, {key: value})), key
     for key, value in (("arc_deg", 90.0), ("rear_radius_mm", 5.0), ("rod", "bamboo")):
         with pytest.raises(jumpcad.JumpcadError, match=f"cage.{key}"):
             caged(**{key: value})
