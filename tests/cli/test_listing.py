@@ -25,6 +25,10 @@ def test_listed_names_are_taken(run: Run, kind: str, tmp_path) -> None:
             assert (code, err) == (0, "")
 
 
+def test_a_template_is_described_in_one_line_of_a_terminal(run: Run) -> None:
+    assert len(run("list", "templates")[1].splitlines()) == 1 + len(names(run, "templates"))
+
+
 def test_an_unknown_kind_is_refused_with_a_hint(run: Run) -> None:
     code, out, err = run("list", "printer")
     assert (code, out) == (2, "")
