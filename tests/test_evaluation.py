@@ -17,11 +17,12 @@ from jumpcad import evaluation
 from jumpcad.building import build, built_and_checked
 from jumpcad.checks import constraint_findings
 from jumpcad.checks.interference import pieces_of
-from jumpcad.design import Design, load_design
+from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.files import template_names
+from jumpcad.findings import errors
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Settings, simulate
@@ -131,7 +132,7 @@ def test_what_can_be_built_but_not_jump_has_a_verdict_and_no_fitness() -> None:
 
 
 def test_springs_that_cannot_raise_a_body_are_refused_before_anything_is_drawn(monkeypatch):
-    """The verdict of the whole robot, if that tips no earlier; the rest is computed when it is asked for."""
+    """The verdict of the whole robot; the rest is computed when it is asked for."""
     drawn = []
 
     def counted(*given, name):
@@ -149,6 +150,22 @@ def test_springs_that_cannot_raise_a_body_are_refused_before_anything_is_drawn(m
     for wrong in ({"engine": "bullet"}, {"settings": Settings().model_copy(update={"dt_s": -1.0})}):
         with pytest.raises(JumpcadError):
             evaluate(FEEBLE, **wrong)
+
+
+@pytest.mark.thorough
+def test_the_verdict_is_that_of_the_jump_of_the_robot_as_built() -> None:
+    """Of any design, refused early or not: springs that are too weak come before a robot that tips over."""
+    generator, both = np.random.default_rng(3), 0
+    low, high = np.array([(one.lower, one.upper) for one in SEARCH_BOUNDS.values()]).T
+    for _ in range(30):
+        design = Design.from_vector(generator.uniform(low, high))
+        try:
+            found = evaluate(design, engine="planar")
+            assert found.verdict == found.jump.verdict, design
+        except CannotBuildError:
+            continue
+        both += {"tips", "too_weak"} <= {one.name for one in errors(found.jump.findings)}
+    assert both > 1
 
 
 def test_every_cheap_check_is_among_its_findings() -> None:

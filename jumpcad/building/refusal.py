@@ -27,12 +27,16 @@ FOOT_KG_M, TOE_KG_M = 0.074, 0.026
 """Mass of prints per length, and where the main leg's centre is; those of the foot a fifth more than usual."""
 SURE_MM = 12.0
 """By how much such a robot must tip over; 800 robots as built tipped over less by 11 mm at most."""
+SURE_SHARE = 0.4
+"""Of its springs' energy, what must be left then: else it may be too weak, which is its verdict. Of 110 robots, those
+with less than nothing left were too weak as built, those with 0.29 and more were not."""
 
 
 def statics_refusal(design: Design, workshop: Workshop, settings: Settings, tips: bool = False) -> tuple[Finding, ...]:
     """Return `too_weak` of springs that could not raise the published body alone; nothing of others.
 
-    Where it is asked for, `tips` of others that would tip over by `SURE_MM` with that body on usual legs.
+    Where it is asked for, also of others that would tip over by `SURE_MM` with that body on usual legs: then `tips`,
+    or `too_weak` where they are that too.
 
     It has 70 g; printed bodies have 71 g and more, and legs besides (`benchmarks/refuse.py`); less with lighter
     electrical parts than any that are shipped. Nothing is said where the user weighed parts. The design has passed the
@@ -62,5 +66,9 @@ def statics_refusal(design: Design, workshop: Workshop, settings: Settings, tips
         FOOT: (foot_kg + toes_kg, (foot_m, 0.0, 0.0)),
     }
     bodies = {name: replace(plain.bodies[name], mass_kg=kg, com_m=np.array(at)) for name, (kg, at) in usual.items()}
-    over, _ = statics_findings(replace(plain, bodies=bodies))
-    return (replace(over, message=f"{over.message}; with usual legs"),) if over.margin < -SURE_MM else ()
+    over, weak = statics_findings(replace(robot, bodies=bodies), settings.gravity_m_s2)
+    left = weak.margin / robot.spring.energy_j
+    if over.margin >= -SURE_MM or 0.0 <= left < SURE_SHARE:
+        return ()
+    first = weak if left < 0.0 else over
+    return (replace(first, message=f"{first.message}; with usual legs"),)

@@ -1,7 +1,7 @@
 """Feasibility without solids or simulation: findings with signed margins.
 
 A design is tested in two steps: first its geometry alone, then the statics of the mechanism's masses. The verdict is
-the first test that fails, in this order.
+the first test that fails, in this order; of a printed robot springs that are too weak come before tipping over.
 """
 
 import math

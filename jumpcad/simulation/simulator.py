@@ -53,7 +53,8 @@ def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, eng
         findings += statics_findings(mechanism, settings.gravity_m_s2)
     refused = errors(findings)
     if refused:
-        return Jump(refused[0].name, engine, mechanism.mass_kg, mechanism.spring.energy_j, findings=tuple(findings))
+        first = refused[-1 if mechanism.roller_off else 0].name  # of printed robots `too_weak` comes before `tips`
+        return Jump(first, engine, mechanism.mass_kg, mechanism.spring.energy_j, findings=tuple(findings))
     settings = divided(mechanism, settings)
     with maker.world(mechanism, settings) as world:
         run = maker.run(world, mechanism, settings)
