@@ -41,6 +41,7 @@ from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.variant import Variant
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.simulation.prior import floors
 from jumpcad.workshop import load_workshop, own_workshop
 
 HERE = Path(__file__).parent
@@ -290,9 +291,21 @@ def of_landings() -> dict[str, str]:
         )  # fmt: skip
     head = ("design", "turn", "pitch at touchdown", "bar", "step", "rests after", "mostly on",
             "stands when wound again", "stable poses on the feet")  # fmt: skip
-    series = jumps(build(load_design(JUMPER), load_workshop(own_workshop(JUMPER)), JUMPER), 10)  # its name is engraved
-    charge = f"{series.jumps_per_charge} jumps, {series.metres_per_charge:.0f} m"
-    return {"landings": table(head, rows), "charge": charge}
+    return {"landings": table(head, rows), **_of_jumper()}
+
+
+def _of_jumper() -> dict[str, str]:
+    """Return what a charge is to best-jumper, how it walks in three runs, and its pitches on three floors."""
+    robot = build(load_design(JUMPER), load_workshop(own_workshop(JUMPER)), JUMPER)  # its name is engraved
+    walks = [jumps(robot, 10, seed) for seed in range(3)]
+    turns, away = ([getattr(one, name) for one in walks] for name in ("heading_drift_deg", "distance_m"))
+    pitches = [simulate(robot, one).touchdown_pitch_deg for one in (Settings(), *floors(robot, Settings()))]
+    usual, slippery, rough = (f"{pitch:.0f}°".replace("-", "−") for pitch in pitches)
+    return {
+        "charge": f"{walks[0].jumps_per_charge} jumps, {walks[0].metres_per_charge:.0f} m along its way",
+        "walk": f"{min(turns):.0f} to {max(turns):.0f}°, and ends {min(away):.1f} to {max(away):.1f} m from its start",
+        "pitches": f"{usual}; {slippery}, {rough}",
+    }
 
 
 def of_assumptions() -> dict[str, str]:

@@ -20,7 +20,7 @@ from jumpcad.findings import Finding, at_most
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.pads import TOE_AHEAD_MM, TOE_BACK_MM
 from jumpcad.robot import Robot
-from jumpcad.strength.cage import landing_n
+from jumpcad.strength.cage import landing_n, ring_n_per_mm
 
 if TYPE_CHECKING:
     from jumpcad.landing.arena import Arena
@@ -94,13 +94,17 @@ class Blows:
 
 @dataclass(frozen=True)
 class PartForce:
-    """The hardest blow on a part, and the forces on a floor that gives nothing and on one that gives the stop."""
+    """The hardest blow on a part, and the forces on a floor that gives nothing and on one that gives the stop.
+
+    `sag_mm` is how far a hoop of the cage gives on the first, None of another part.
+    """
 
     part: str
     energy_j: float
     speed_m_s: float
     hard_n: float
     soft_n: float
+    sag_mm: float | None = None
 
 
 def part_forces(robot: Robot, blows: Iterable[Blow]) -> list[PartForce]:
@@ -108,25 +112,29 @@ def part_forces(robot: Robot, blows: Iterable[Blow]) -> list[PartForce]:
 
     On a hard floor a foot's blow is met by its pad, with the front link or the toe behind it, and one on a cage by its
     hoop: F = √(2·E·k). One on printed edges crushes them, F = 2·b·R·√(2·r·d) over the dent d. All are upper bounds. On
-    a soft one a blow is met evenly over `safety.landing_stop_mm`, F = E/s, as the checks take it.
+    a soft one a blow is met evenly over `safety.landing_stop_mm`, F = E/s, as the checks take it, or by what gives in
+    the part, if it gives more.
     """
     hardest: dict[str, Blow] = {}
     for blow in blows:
         hardest[blow.part] = max(hardest.get(blow.part, blow), blow, key=lambda one: one.energy_j)
-    case, stop_mm = LoadCase(robot), robot.workshop.safety.landing_stop_mm
-    return [
-        PartForce(blow.part, blow.energy_j, blow.speed_m_s, hard_n(case, blow.part, 1000.0 * blow.energy_j),
-                  1000.0 * blow.energy_j / stop_mm)
-        for blow in sorted(hardest.values(), key=lambda one: -one.energy_j)
-        if blow.energy_j >= LEAST_J
-    ]  # fmt: skip
+    case, stop_mm, cage = LoadCase(robot), robot.workshop.safety.landing_stop_mm, robot.layout.cage
+    found = []
+    for blow in sorted(hardest.values(), key=lambda one: -one.energy_j):
+        if blow.energy_j < LEAST_J:
+            continue
+        hard = hard_n(case, blow.part, 1000.0 * blow.energy_j)
+        sag = hard / ring_n_per_mm(cage.rod, cage.tightest_mm) if cage and blow.part == CAGE else None
+        soft = min(1000.0 * blow.energy_j / stop_mm, hard)
+        found.append(PartForce(blow.part, blow.energy_j, blow.speed_m_s, hard, soft, sag))
+    return found
 
 
 def hard_n(case: LoadCase, part: str, energy_nmm: float) -> float:
     """Return the largest force (N) of a blow of some energy on a floor that gives nothing."""
     sections, shell, workshop, cage = case.layout.sections, case.shell, case.workshop, case.layout.cage
     if part == CAGE and cage is not None:
-        return landing_n(cage.rod, min(arc.radius_mm for arc in cage.arcs), energy_nmm / 1000.0)
+        return landing_n(cage.rod, cage.tightest_mm, energy_nmm / 1000.0)
     if part not in (NOSE, TOE):
         plates, material = 2.0 * float(np.diff(case.layout.lateral.left_plate)[0]), workshop.material("body")
         width = plates if part == "body" else sections.thickness_mm

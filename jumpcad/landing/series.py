@@ -29,7 +29,8 @@ class Hop:
     """One jump of a row: whether it stood on its feet at the release, and what became of it.
 
     `way_m` is how far its centre of mass moved along the floor until it rested, `height_m` how high it rose,
-    `heading_deg` the turn of its heading (left positive), `time_s` winding, waiting, flight and landing.
+    `heading_deg` where it faced at the release, against where it faced at first (left positive, from -180 to 180),
+    `time_s` winding, waiting, flight and landing.
     """
 
     stood: bool
@@ -43,8 +44,8 @@ class Hop:
 class Series:
     """Jumps in a row, with the energy of a jump, how many a full battery gives, and the motion if it was recorded.
 
-    `stands_again` says whether it stands once it is wound after the last one. Figures of a jump are those of jumps
-    from its feet.
+    `stands_again` and `faces_deg` say whether it stands once it is wound after the last one, and where it then faces.
+    Figures of a jump are those of jumps from its feet.
     `phases` (n,) are those of the trajectory's moments, such as `flight 2` of the second jump: see `Recorder`.
     """
 
@@ -54,6 +55,7 @@ class Series:
     electrical_j: float
     jumps_per_charge: int
     stands_again: bool
+    faces_deg: float
     trajectory: Trajectory | None = None
     phases: tuple[str, ...] = ()
 
@@ -87,9 +89,11 @@ class Series:
         return self.electrical_j * len(ways) / (self.weight_n * sum(ways)) if sum(ways) > 0.0 else math.inf
 
     @property
-    def heading_drift_deg(self) -> float:
-        """Root mean square turn of the heading in a jump from its feet; 0 if there is none."""
-        return math.sqrt(sum(hop.heading_deg**2 for hop in self.hops if hop.stood) / max(1, self.stood))
+    def heading_drift_deg(self) -> float | None:
+        """Median turn from one stand to the next, with landing, winding and rolling up; None if it has no next."""
+        stands = np.array([*(hop.stood for hop in self.hops), self.stands_again])
+        turns = np.diff([*(hop.heading_deg for hop in self.hops), self.faces_deg])[stands[:-1] & stands[1:]]
+        return float(np.median(np.abs((turns + 180.0) % 360.0 - 180.0))) if turns.size else None
 
     @property
     def seconds_per_jump(self) -> float:
@@ -101,7 +105,7 @@ class Series:
         names = ("stood", "way_m", "metres_per_charge", "cost_of_transport", "heading_drift_deg", "seconds_per_jump")
         figures = {name: getattr(self, name) for name in names}
         return {**figures, "distance_m": self.distance_m, "electrical_j": self.electrical_j,
-                "stands_again": self.stands_again, "unaided": self.unaided, "jumps_per_charge": self.jumps_per_charge,
+                "stands_again": self.stands_again, "faces_deg": self.faces_deg, "unaided": self.unaided, "jumps_per_charge": self.jumps_per_charge,
                 "jumps": [asdict(hop) for hop in self.hops]}  # fmt: skip
 
 
@@ -206,7 +210,7 @@ def jumps(
     arena.step(REST_S, quiet=True)
     weight = robot.mass_kg * arena.gravity_m_s2
     moved = (recorder.trajectory, tuple(recorder.phases)) if record else (None, ())
-    return Series(hops, way, weight, train.electrical_j, jumps_per_charge(robot), arena.stands, *moved)
+    return Series(hops, way, weight, train.electrical_j, jumps_per_charge(robot), arena.stands, math.degrees(arena.heading_rad), *moved)
 
 
 def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Recorder) -> Hop:
@@ -215,7 +219,7 @@ def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Record
     arena.wind(wind_s, lambda: recorder("winding"))
     arena.step(REST_S, quiet=True)
     recorder("winding")
-    stood, start, heading = arena.stands, arena.centre_of_mass_m, arena.heading_rad
+    stood, start, heading = arena.stands, arena.centre_of_mass_m, math.degrees(arena.heading_rad)
     highest = float(start[2])
 
     def look() -> None:
@@ -231,5 +235,4 @@ def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Record
     rested_s = arena.rest(look)
     arena.step(max(LANDING_S + REST_S - rested_s, QUIET_STEP_S), quiet=True)
     way = float(np.linalg.norm((arena.centre_of_mass_m - start)[:2]))
-    turned = (arena.heading_rad - heading + math.pi) % (2.0 * math.pi) - math.pi
-    return Hop(stood, way, highest - float(start[2]), math.degrees(turned), float(arena.data.time) - begun)
+    return Hop(stood, way, highest - float(start[2]), heading, float(arena.data.time) - begun)

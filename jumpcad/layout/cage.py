@@ -133,6 +133,18 @@ class Cage(ByValue):
     bars: tuple[CageBar, CageBar]
     arcs: tuple[CageArc, ...]
 
+    @property
+    def tightest_mm(self) -> float:
+        """Radius of the arc that is bent most."""
+        return min(arc.radius_mm for arc in self.arcs)
+
+
+def hoop_mm(cage: Cage, bar: CageBar, arc: CageArc) -> tuple[float, float]:
+    """Return how wide a bent hoop is outside, and how high over its bar's lower edge, in the hoop's plane."""
+    half = arc.radius_mm * math.sin(min(arc.angle_rad, math.pi) / 2.0)
+    centre = float((arc.T_body_arc[:3, 3] - bar.T_body_bar[:3, 3]) @ bar.T_body_bar[:3, 1])
+    return 2.0 * half + cage.rod.diameter_mm, centre + arc.radius_mm + (cage.rod.diameter_mm + cage.bar_mm) / 2.0
+
 
 def with_cage(layout: Layout, workshop: Workshop) -> Layout:
     """Return a layout with the cage of its workshop, if that has one.

@@ -8,7 +8,7 @@ from jumpcad.checks import check
 from jumpcad.evaluation import evaluate
 from jumpcad.findings import errors
 from jumpcad.landing.arena import Arena
-from jumpcad.landing.blows import CAGE, Blows, part_forces
+from jumpcad.landing.blows import CAGE, NOSE, TOE, Blow, Blows, part_forces
 from jumpcad.landing.landing import land, share_righted
 from jumpcad.landing.series import jumps
 from jumpcad.robot import Robot
@@ -44,9 +44,17 @@ def test_it_touches_down_upright_on_all_floors_of_its_workshop(robot: Robot) -> 
 
 def test_it_jumps_ten_times_from_its_feet(robot: Robot) -> None:
     pytest.importorskip("mujoco")
-    series = jumps(robot, 10)
+    series = jumps(robot, 10, record=True)
     assert series.stood == 10
     assert series.way_m > 5.0
+    path, phases = series.trajectory, np.array(series.phases)
+    assert path is not None
+    flights = [path.position_m[phases == f"flight {number}", 0, :2] for number in range(1, 11)]
+    went_deg = [np.degrees(np.arctan2(*(one[len(one) // 2] - one[0])[::-1])) for one in flights]
+    off = np.array([hop.heading_deg for hop in series.hops]) - went_deg
+    assert np.abs((off + 180.0) % 360.0 - 180.0).max() < 10.0  # it flies the way that it faces
+    turns = np.diff([*went_deg, series.faces_deg])
+    assert series.heading_drift_deg == pytest.approx(np.median(np.abs((turns + 180.0) % 360.0 - 180.0)), abs=5.0)
 
 
 def test_upside_down_its_hoops_land_first_and_softly(robot: Robot) -> None:
@@ -60,6 +68,12 @@ def test_upside_down_its_hoops_land_first_and_softly(robot: Robot) -> None:
     (on_hoop,) = (one for one in part_forces(robot, blows.all) if one.part == CAGE)
     assert 0.02 < on_hoop.energy_j < robot.mass_kg * 9.81 * 0.25
     assert on_hoop.hard_n == pytest.approx((2.0 * on_hoop.energy_j * 50.0) ** 0.5, rel=0.5)
+    assert on_hoop.sag_mm is not None
+    assert 0.5 * on_hoop.hard_n * on_hoop.sag_mm / 1000.0 == pytest.approx(on_hoop.energy_j)
+    for part in (CAGE, NOSE, TOE, "body"):
+        for impulse in (0.02, 0.2, 2.0):
+            (force,) = part_forces(robot, [Blow(part, 2.0, 0.0, impulse)])
+            assert force.soft_n <= force.hard_n, (part, impulse)
 
 
 @pytest.mark.thorough

@@ -110,17 +110,19 @@ def test_jumps_in_a_row_begin_where_the_last_one_ended(strongest: Robot) -> None
 def test_a_charge_takes_a_robot_until_it_lies(strongest: Robot) -> None:
     """One that always stands uses the battery up; what one that lies does is no way, however often it is asked."""
     hop = jumps(strongest, 1, seed=3).hops[0]
-    lies = replace(hop, stood=False, way_m=0.01, heading_deg=0.0)
+    lies = replace(hop, stood=False, way_m=0.01)
 
     def series(*hops: Hop, again: bool) -> Series:
-        return Series(hops, 0.0, 1.0, 2.0, 100, again)
+        return Series(hops, 0.0, 1.0, 2.0, 100, again, 170.0)
 
     assert series(hop, again=True).metres_per_charge == pytest.approx(100.0 * hop.way_m)
     assert series(hop, hop, again=True).metres_per_charge == pytest.approx(100.0 * hop.way_m)
     for one in (series(hop, again=False), series(hop, lies, again=False), series(hop, lies, hop, again=True)):
         assert (one.unaided, one.metres_per_charge) == (1, pytest.approx(hop.way_m))
         assert one.cost_of_transport == pytest.approx(2.0 / hop.way_m)
-        assert one.heading_drift_deg == pytest.approx(abs(hop.heading_deg))
+    assert series(hop, lies, again=False).heading_drift_deg is None
+    back = replace(hop, heading_deg=-170.0)
+    assert series(hop, back, back, again=True).heading_drift_deg == pytest.approx(20.0)  # of about 170, 0 and 20
 
 
 def test_on_the_moon_it_rises_about_six_times_as_high(strongest: Robot) -> None:

@@ -123,6 +123,13 @@ def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
     for arc in cage.arcs:
         assert f"pultruded glass fibre rod 1.5 mm, cut {arc.length_mm:.0f} mm long" in names
         assert f"{arc.name.removeprefix('cage_').replace('_', ' ')} {arc.length_mm:.0f} mm" in guide
+    rods, told = 1.5, re.findall(r"hoop (\d+) wide, (\d+) over its bar's lower edge \(radius (\d+)\)", guide)
+    for bar, arc, (width, height, radius) in zip(cage.bars, cage.arcs[:2], np.array(told, dtype=float), strict=True):
+        seen = (arc.points_mm - bar.T_body_bar[:3, 3]) @ bar.T_body_bar[:3, :3]  # as a caliper measures it
+        assert [width, height] == pytest.approx(
+            [np.ptp(seen[:, 0]) + rods, seen[:, 1].max() + (rods + cage.bar_mm) / 2.0], abs=1.0
+        )
+        assert radius == pytest.approx(arc.radius_mm, abs=0.5)
     assert sum(thing.name.startswith("cage_") for thing in steps["cage"].added) == 2 + len(cage.arcs) + 4
     assert "rest" not in steps
     count, metres = map(int, re.search(r"from (\d) rods of (\d) m", guide).groups())  # type: ignore[union-attr]

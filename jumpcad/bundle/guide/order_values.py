@@ -10,7 +10,7 @@ import numpy as np
 from jumpcad.building.bom import Bill
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
 from jumpcad.exporters.threemf import print_plates
-from jumpcad.layout.cage import SOCKET_MM
+from jumpcad.layout.cage import SOCKET_MM, hoop_mm
 from jumpcad.layout.leg_bars import END_PLAY_MM
 from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.pads import printed_pads
@@ -101,9 +101,13 @@ def _cage(robot: Robot) -> dict[str, Any] | None:
             for part in robot.parts
             if part.name.startswith("cage_bar_")
         },
+        "hoops": {  # radius of the rod's middle; outside: across, and over the lower edge of the bar (mm)
+            bar.name.removeprefix("cage_bar_"): (arc.radius_mm, *hoop_mm(cage, bar, arc))
+            for bar, arc in zip(cage.bars, cage.arcs, strict=False)
+        },
         "bow": any(bar.post_mm for bar in cage.bars),
         "socket_mm": SOCKET_MM,
-        "push_n": cage.rod.bending_nmm2 / min(arc.radius_mm for arc in cage.arcs) ** 2,
+        "push_n": cage.rod.bending_nmm2 / cage.tightest_mm**2,
     }
 
 
