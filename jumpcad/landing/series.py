@@ -105,8 +105,8 @@ class Series:
         names = ("stood", "way_m", "metres_per_charge", "cost_of_transport", "heading_drift_deg", "seconds_per_jump")
         figures = {name: getattr(self, name) for name in names}
         return {**figures, "distance_m": self.distance_m, "electrical_j": self.electrical_j,
-                "stands_again": self.stands_again, "faces_deg": self.faces_deg, "unaided": self.unaided, "jumps_per_charge": self.jumps_per_charge,
-                "jumps": [asdict(hop) for hop in self.hops]}  # fmt: skip
+                "stands_again": self.stands_again, "faces_deg": self.faces_deg, "unaided": self.unaided,
+                "jumps_per_charge": self.jumps_per_charge, "jumps": [asdict(hop) for hop in self.hops]}  # fmt: skip
 
 
 @dataclass
@@ -210,7 +210,8 @@ def jumps(
     arena.step(REST_S, quiet=True)
     weight = robot.mass_kg * arena.gravity_m_s2
     moved = (recorder.trajectory, tuple(recorder.phases)) if record else (None, ())
-    return Series(hops, way, weight, train.electrical_j, jumps_per_charge(robot), arena.stands, math.degrees(arena.heading_rad), *moved)
+    charge, faces_deg = jumps_per_charge(robot), math.degrees(arena.heading_rad)
+    return Series(hops, way, weight, train.electrical_j, charge, arena.stands, faces_deg, *moved)
 
 
 def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Recorder) -> Hop:
