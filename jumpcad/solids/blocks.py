@@ -4,7 +4,6 @@ Unlike a `Stack` its cross-section changes from layer to layer. The section at a
 same numbers as the solid: a bar's is a set of rectangles, a finger's the hull of two discs.
 """
 
-import itertools
 import math
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
@@ -185,13 +184,12 @@ class Turned:
     def contours_at(self, heights_mm: Array) -> list[Contours]:
         """Return the block's outlines at heights (n,), turned and moved."""
         sections = self.block.contours_at(heights_mm)
-        keys = [[contour.tobytes() for contour in contours] for contours in sections]
-        known = dict(zip(itertools.chain(*keys), itertools.chain(*sections), strict=True))
+        known = {id(contour): contour for contours in sections for contour in contours}
         if not known:
             return sections
         ends = np.cumsum([len(contour) for contour in known.values()])[:-1]
         moved = dict(zip(known, np.split(self._moved(np.concatenate(list(known.values()))), ends), strict=True))
-        return [[moved[key] for key in at_height] for at_height in keys]
+        return [[moved[id(contour)] for contour in contours] for contours in sections]
 
     def _moved(self, points_mm: Array) -> Array:
         cos, sin = math.cos(self.angle_rad), math.sin(self.angle_rad)
