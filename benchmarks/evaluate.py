@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 import pybullet
+from evaluator import cpu_ms
 from manifold3d import CrossSection
 
 from jumpcad import evaluation, published
@@ -72,13 +73,6 @@ def designs_of_each(count: int) -> dict[str, list[Design]]:
             for one in kinds:
                 found[one] += [design] if len(found[one]) < count else []
     return found
-
-
-def cpu_ms(call: Callable[[], object]) -> float:
-    """Return the CPU time of a call."""
-    start = process_time()
-    call()
-    return 1000.0 * (process_time() - start)
 
 
 def speeds(designs: list[Design], rounds: int) -> dict[str, float]:

@@ -11,9 +11,9 @@ import json
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from time import process_time
 
 import numpy as np
+from evaluator import cpu_ms
 
 from jumpcad import published
 from jumpcad.building import build
@@ -117,13 +117,6 @@ def slipping_errors(robots: Sequence[Mechanism], count: int) -> dict[str, dict[s
         for engine in (*RIVALS, "planar")
     }
     return compared | {"mujoco against pybullet": errors_of(fine["mujoco"], fine["pybullet"])}
-
-
-def cpu_ms(call: Callable[[], object]) -> float:
-    """Return the CPU time of a call."""
-    start = process_time()
-    call()
-    return 1000.0 * (process_time() - start)
 
 
 def speeds(rounds: int) -> dict[str, dict[str, float]]:

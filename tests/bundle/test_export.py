@@ -40,15 +40,6 @@ def test_manifest_knows_every_file(small_robot: Robot, tmp_path: Path) -> None:
     assert bundle.urdf.is_file()
 
 
-def test_masses_in_the_manifest_add_up(small_robot: Robot, tmp_path: Path) -> None:
-    manifest = exported(small_robot, tmp_path / "b").manifest
-    lines = sum(line["quantity"] * line["mass_kg"] for line in manifest["masses"])
-    bodies = sum(body["mass_kg"] for body in manifest["bodies"].values())
-    assert lines == pytest.approx(manifest["mass_kg"], rel=1e-12)
-    assert bodies == pytest.approx(manifest["mass_kg"], rel=1e-12)
-    assert {line["source"] for line in manifest["masses"]} == {"solid", "catalogue"}
-
-
 @pytest.mark.parametrize(("pad", "friction"), [("sj5616", 0.7), ("", 0.3)])
 def test_the_manifest_says_on_which_ground_the_robot_stands_and_with_which_friction(
     small_robot: Robot, pad: str, friction: float

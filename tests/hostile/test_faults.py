@@ -128,9 +128,7 @@ def test_a_study_in_a_locked_folder_is_read(sandbox: Sandbox) -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="rights of root are taken as Linux has them")
-@pytest.mark.parametrize(
-    "path", ["robot/manifest.json", "robot/design.toml", "robot/urdf", "readings.toml", "study.db"]
-)
+@pytest.mark.parametrize("path", LOCKED)
 def test_a_locked_file_is_said(sandbox: Sandbox, path: str) -> None:
     mode = (sandbox.work / path).stat().st_mode
     (sandbox.work / path).chmod(0o000)
@@ -204,15 +202,3 @@ def test_a_worker_that_starts_is_not_interrupted(sandbox: Sandbox) -> None:
     )  # fmt: skip
     assert "Traceback" not in done.err
     assert "repeated" not in done.out
-
-
-@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252"])
-@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("check", "机器人.toml"), ("reproduce",)])
-def test_a_terminal_of_another_encoding_is_borne(sandbox: Sandbox, command: tuple[str, ...], encoding: str) -> None:
-    sandbox.run(*command, exits=(0, 2), encoding=encoding)
-
-
-def test_a_locale_of_ascii_is_borne(sandbox: Sandbox) -> None:
-    surroundings = {"PYTHONIOENCODING": "ascii", "LC_ALL": "C", "PYTHONUTF8": "0"}
-    sandbox.process("reproduce", exits=(0,), environment=surroundings)
-    sandbox.process("verify", "机器人", exits=(2,), environment=surroundings)

@@ -104,24 +104,6 @@ def test_a_function_may_use_anything(sandbox: Sandbox, case: str) -> None:
             assert find_objective(given).score(JUMP) == 1.0
 
 
-@each(
-    ("model", "objective", "lacking"),
-    [
-        ("capsule", "range-per-joule", "electrical_energy_j"),
-        ("capsule", "body_lengths", "body_lengths"),
-        ("published", "jumps-per-joule", "electrical_energy_j"),
-        ("published", "rise", "com_rise_m"),
-    ],
-)
-def test_a_figure_that_the_robot_lacks_is_said_before_the_search(
-    sandbox: Sandbox, model: str, objective: str, lacking: str
-) -> None:
-    """Before a study file is made, too."""
-    words = (*SEARCH[:1], "ga", "--model", model, "--evaluations", "6", "--workers", "0", "--study", "s.db")
-    done = sandbox.run(*words, "--objective", objective, "--json", exits=(2,))
-    assert f"needs {lacking}, which this model does not give" in done.err
-
-
 def test_an_interrupt_in_an_objective_is_one(sandbox: Sandbox) -> None:
     sandbox.write("o.py", "def f(m):\n raise KeyboardInterrupt\n")
     sandbox.run(*SEARCH, "--objective", "o.py:f", "--json", exits=(130,), writes=["s.db"])

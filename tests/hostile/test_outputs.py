@@ -10,7 +10,6 @@ from support.sandbox import ANY, Sandbox
 from hostile.conftest import Originals
 
 BUILD = ("build", "kenan-2.0", "--no-pictures", "-o")
-OTHER = ("build", "best-bo", "--no-pictures", "-o")
 COUPON = ("coupon", "-o")
 SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0")
 JUMP = ("simulate", "kenan-2.0", "--capsule", "--trajectory")
@@ -91,26 +90,13 @@ CASES = {
     "a bundle with a user's files": Case(
         ADDED, (*BUILD, "there"), (0,), ("there",), ("there/notes.txt", "there/stl/mine.stl", "there/photos")
     ),
-    "a bundle with a user's files by force": Case(
-        ADDED, (*BUILD, "there", "--force"), (0,), ("there",), ("there/notes.txt", "there/stl/mine.stl", "there/photos")
-    ),
     "a bundle with an edited guide": Case(EDITED, (*BUILD, "there")),
-    "a bundle with an edited guide by force": Case(EDITED, (*BUILD, "there", "--force"), (0,), ("there",)),
-    "a bundle with an edited design": Case(bundle(there__design_0toml="x = 1\n"), (*BUILD, "there")),
     "a coupon with readings": Case(
         bundle(kind="coupon", there__readings_0toml="[gauge.PETG]\naxle_press_mm = 0.1\n"), (*COUPON, "there")
     ),
-    "another robot's bundle": Case(bundle(), (*OTHER, "there")),
     "a coupon for a robot": Case(bundle(kind="coupon"), (*BUILD, "there")),
-    "a robot for a coupon": Case(bundle(), (*COUPON, "there")),
     "a bundle whose meshes lie outside": Case(
         link("there/stl", "../../outside/folder", bundle()), (*BUILD, "there"), ANY, ("there",)
-    ),
-    "a bundle whose bill lies outside": Case(
-        link("there/bom.csv", "../../outside/precious.txt", bundle()), (*BUILD, "there"), ANY, ("there",)
-    ),
-    "a bundle whose meshes lie outside, by force": Case(
-        link("there/stl", "../../outside/folder", bundle()), (*BUILD, "there", "--force"), ANY, ("there",)
     ),
     "drawings over a user's": Case(files(there__rest_0png="my photo"), ("render", "kenan-2.0", "-o", "there")),
     "drawings into a user's folder": Case(

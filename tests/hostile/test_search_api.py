@@ -52,21 +52,3 @@ def test_what_cannot_be_a_path_is_refused(sandbox: Sandbox, option: str, path: s
     with sandbox.untouched():
         said = refused(lambda: jumpcad.optimize(**{"evaluations": 1, "workers": 0, option: path}))
     assert "cannot be" in said
-
-
-UNUSED = {
-    "workshop of capsules": {"model": "capsule", "workshop": "/nonexistent.toml"},
-    "workshop of the published": {"model": "published", "workshop": "default"},
-    "settings of the published": {"model": "published", "settings": "fine"},
-    "engine of the published": {"model": "published", "engine": "mujoco"},
-}
-
-
-@each("case", UNUSED)
-@each("command", [("optimize",), ("explore", "sweep")])
-def test_an_option_that_the_model_does_not_use_is_refused(
-    sandbox: Sandbox, command: tuple[str, ...], case: str
-) -> None:
-    words = [word for name, value in UNUSED[case].items() for word in (f"--{name}", value)]
-    assert sandbox.run(*command, *words, "--workers", "0", exits=(2,)).out == ""
-    refused(lambda: jumpcad.optimize(**UNUSED[case]))
