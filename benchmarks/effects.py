@@ -97,7 +97,7 @@ def energy_accounts(accounts: Mapping[str, Mapping[str, float]]) -> Figure:
     totals = np.array([sum(account.values()) for account in accounts.values()])
     colours = (BLUE, ORANGE, GREY, RED, "#4f9d69", "#8d5fa8", "#6b4a2f")
     for index, name in enumerate(next(iter(accounts.values()))):
-        share = np.array([account[name] for account in accounts.values()]) / totals
+        share = np.array([max(account[name], 0.0) for account in accounts.values()]) / totals
         axes.barh(list(accounts), share, left=left, color=colours[index % len(colours)], label=name)
         left += share
     axes.invert_yaxis()

@@ -111,4 +111,5 @@ def _embed(tokens: list[Token], pictures: Mapping[str, bytes]) -> None:
         path = str(image.attrGet("src"))
         if path in pictures:
             data = base64.b64encode(pictures[path]).decode()
+            image.attrSet("tabindex", "0")  # on a phone a tap shows it in full size
             image.attrSet("src", f"data:{TYPES[path.rpartition('.')[2]]};base64,{data}")
