@@ -36,10 +36,7 @@ class LayerRun(NamedTuple):
 def jumps_of(which: Numbers, area_mm2: Array) -> list[int]:
     """Return the layers whose cross-section differs from the one below by more than a step in a series of small ones.
 
-    Parameters
-    ----------
-    which, area_mm2
-        The number of each layer's cross-section, and its area, (n,).
+    Given are the number of each layer's cross-section, and its area, (n,).
     """
     sizes, changes = area_mm2.tolist(), (np.flatnonzero(which[1:] != which[:-1]) + 1).tolist()
     change = [0.0, *(abs(upper - lower) for lower, upper in itertools.pairwise(sizes)), 0.0]
@@ -57,12 +54,8 @@ def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[LayerRu
 
     Where area and polar moment about the centre change from layer to layer, they change steadily within a run, and so
     do the layers that make them bottom or top; its length is odd. Its middle layer is then the average of all.
-    It has no more layers than a top: what a run bridges begins where the run below ends.
-
-    Parameters
-    ----------
-    area
-        Area moments of all layers, (n, 6).
+    It has no more layers than a top: what a run bridges begins where the run below ends. Given are the area moments of
+    all layers, (n, 6).
     """
     count, below, above = len(area), process.bottom_layers, process.top_layers
     cuts = {jump + step for jump in jumps for step in (-above, 0, below)} | {below, count - above}

@@ -114,14 +114,9 @@ def _sums(products: Array, ends: npt.NDArray[np.int64]) -> Array:
 
 
 def prism_moments(area: Array, z0_mm: npt.ArrayLike, z1_mm: npt.ArrayLike) -> Array:
-    """Return the volume moments (10,) of prisms over regions, all together.
+    """Return the volume moments (10,) of prisms over regions with area moments (6,) or (n, 6), all together.
 
-    Parameters
-    ----------
-    area
-        Area moments of the regions, (6,) or (n, 6).
-    z0_mm, z1_mm
-        Bottoms and tops of the prisms, one number or (n,).
+    Their bottoms and tops are one number or (n,).
     """
     a, sx, sy, sxx, syy, sxy = np.atleast_2d(area).T
     z0, z1 = np.asarray(z0_mm, dtype=float), np.asarray(z1_mm, dtype=float)

@@ -11,18 +11,9 @@ PARALLEL = 1e-6
 
 
 def swept(stack: Stack, path_mm: Array) -> Stack | None:
-    """Return the exact volume that a stack sweeps from `path_mm` before its place to its place.
+    """Return the exact volume that a stack sweeps from `path_mm` (3,), in its own frame, before its place to its place.
 
-    Parameters
-    ----------
-    stack
-        In its own frame, at its place.
-    path_mm
-        The whole move (3,) in that frame, along the stack's axis or square to it.
-
-    Returns
-    -------
-    The swept volume; None where the path is oblique to the axis.
+    None where the path is neither along the stack's axis nor square to it.
     """
     length = float(np.linalg.norm(path_mm))
     flat, along = np.asarray(path_mm[:2], dtype=float), float(path_mm[2])
