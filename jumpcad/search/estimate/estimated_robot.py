@@ -6,6 +6,7 @@ centre of mass and inertia of the bodies, the radii that touch the ground, the s
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -56,7 +57,7 @@ def robot_figures(robot: Robot) -> dict[str, float]:
 
 def estimated_robot(design: Design, figures: Mapping[str, float], like: Robot) -> Mechanism:
     """Return the robot of a design with these figures, in all else like another one of its workshop."""
-    plain = capsule_robot(design)
+    plain = _plain(design)
     bodies = {name: _body(plain.bodies[name], figures, like.bodies[name]) for name in BODY_NAMES}
     spring = springs_on_leg(design, like.workshop.stock_spring, like.spring.preload_rad)
     release = RollerOff(
@@ -71,6 +72,9 @@ def estimated_robot(design: Design, figures: Mapping[str, float], like: Robot) -
         roller_off=release,
         friction=like.friction,
     )
+
+
+_plain = lru_cache(maxsize=512)(capsule_robot)  # of designs that are estimated anew with other figures
 
 
 def _body(plain: Body, figures: Mapping[str, float], like: Body) -> Body:
