@@ -42,11 +42,13 @@ CALLS = {
     "simulate settings": lambda odd: jumpcad.simulate(CAPSULE, 0 if odd is None else odd),
     "simulate engine": lambda odd: jumpcad.simulate(CAPSULE, None, odd),
     "Design": jumpcad.Design,
+    "Design alone": lambda odd: jumpcad.Design(c_coef=odd),
     "Design value": lambda odd: jumpcad.Design(**{**DESIGN.model_dump(), "c_coef": odd}),
     "from_vector": jumpcad.Design.from_vector,
     "from_vector value": lambda odd: jumpcad.Design.from_vector([odd] * 8),
     "Settings": jumpcad.Settings,
     "Settings value": lambda odd: jumpcad.Settings(dt_s=odd),
+    "Settings key": lambda odd: jumpcad.Settings(**{str(odd): odd}),
     "Workshop": jumpcad.Workshop,
     "Workshop value": lambda odd: jumpcad.Workshop(printer=odd),
 }
@@ -56,8 +58,10 @@ CALLS = {
 def test_nonsense_is_refused(call: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.chdir(tmp_path)
     for odd in ODD:
-        with pytest.raises(JumpcadError):
+        with pytest.raises(JumpcadError) as caught:
             CALLS[call](odd)
+        assert str(caught.value).isprintable()
+        assert len(str(caught.value)) <= 4000 + len(str(odd)), "ten clauses of a path, a key, a value and a reason"
     assert list(tmp_path.iterdir()) == []
 
 

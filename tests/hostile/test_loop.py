@@ -65,31 +65,6 @@ def test_a_missing_section_or_value_is_refused(
     check(without(originals.loop, place), ANY if place[0] in UNREAD else (2,))
 
 
-CONTRADICTIONS = {
-    "unknown body": (("loop", "body_a"), '"nobody"'),
-    "one body twice": (("loop", "body_a"), '"foot"'),
-    "unknown joint": (("spring", "joint"), '"knee"'),
-    "negative spring": (("spring", "stiffness_nm_per_rad"), "-1"),
-    "spring of a railway car": (("spring", "stiffness_nm_per_rad"), "1e300"),
-    "unknown surface": (("surfaces", "back"), '"ice"'),
-    "travel backwards": (("travel_rad", "leg"), "[1, -1]"),
-    "travel of one": (("travel_rad", "leg"), "[1]"),
-    "point in the plane": (("loop", "point_a_m"), "[0.1, 0]"),
-    "point of points": (("loop", "point_a_m"), "[[1, 2, 3], [1, 2, 3], [1, 2, 3]]"),
-    "point far away": (("loop", "point_a_m"), "[1e300, 0, 0]"),
-    "point beside the plane": (("loop", "point_a_m"), "[0.1, 0.05, 0]"),
-    "foot above the ground": (("foot_depth_m",), "-1e9"),
-    "design of another": (("design", "carrying_link_mm"), "200.0"),
-    "design that cannot be": (("design", "c_coef"), "2.9"),
-    "unknown parameter": (("design",), '{"\\u001b[2J": 1}'),
-}
-
-
-@each("case", CONTRADICTIONS)
-def test_a_loop_that_cannot_be_is_borne_or_refused(check: Check, originals: Originals, case: str) -> None:
-    check(with_value(originals.loop, *CONTRADICTIONS[case]), ANY)
-
-
 @each("case", [*DOCUMENTS, *accidents(12, 6), *(f"is-{name}" for name in WHOLE)])
 def test_what_is_no_loop_is_refused(check: Check, originals: Originals, case: str) -> None:
     spoils: dict[str, Spoil] = DOCUMENTS | accidents(12, 6)

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 from support.each import each
 from support.mutations import DOCUMENTS, NESTED, NO_NUMBERS, NUMBERS, Spoil, accidents
-from support.sandbox import ANY, Sandbox, lay_odd
+from support.sandbox import ANY, Sandbox
 
 from hostile.conftest import ENGINES, Originals
 
@@ -186,13 +186,3 @@ def test_an_entity_does_not_read_a_file(sandbox: Sandbox, originals: Originals) 
     originals.lay_urdf(sandbox, text.replace(b'value="0.', b'value="&x;0.', 1))
     done = sandbox.run("simulate", "robot.urdf", "--json")
     assert "s3cr3t" not in done.out + done.err
-
-
-@each("kind", ["folder", "pipe", "loop", "dangling", "device", "no-loop-file", "loop-file-pipe"])
-def test_what_is_no_file_is_refused(sandbox: Sandbox, originals: Originals, kind: str) -> None:
-    originals.lay_urdf(sandbox, originals.urdf)
-    path = sandbox.work / ("robot.loop.json" if "loop-file" in kind else "robot.urdf")
-    path.unlink()
-    if kind != "no-loop-file":
-        lay_odd(path, kind.removeprefix("loop-file-"))
-    sandbox.run("simulate", "robot.urdf", "--json", exits=(2,))
