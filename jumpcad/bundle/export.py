@@ -9,19 +9,11 @@ from typing import Any, NamedTuple
 
 from jumpcad.beside import beside
 from jumpcad.building.bom import bill_of_materials, mass_facts, write_bom
+from jumpcad.bundle import facts
 from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
-from jumpcad.bundle.facts import (
-    cage_facts,
-    electronics_facts,
-    flight_facts,
-    joint_facts,
-    release_facts,
-    spring_facts,
-    stop_facts,
-)
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.bundle.guide.page import write_page
@@ -164,12 +156,12 @@ def _facts(robot: Robot, jump: Jump) -> dict[str, Any]:
             }
             for name, body in robot.bodies.items()
         },
-        "drive": {"springs": spring_facts(robot), "release": release_facts(robot.release)},
-        "electronics": electronics_facts(robot),
-        "stop": stop_facts(robot),
-        "joints": joint_facts(robot),
-        "cage": cage_facts(robot),
-        "flight": flight_facts(jump),
+        "drive": {"springs": facts.spring_facts(robot), "release": facts.release_facts(robot.release)},
+        "electronics": facts.electronics_facts(robot),
+        "stop": facts.stop_facts(robot),
+        "joints": facts.joint_facts(robot),
+        "cage": facts.cage_facts(robot),
+        "flight": facts.flight_facts(jump),
         "rights_itself": {"static": round(share_on_feet(robot), 3)},
         "ground": {
             "friction": robot.workshop.ground.foot_friction,

@@ -13,15 +13,7 @@ WORKSHOP = "workshop.toml"
 
 
 def kept_robot(bundle: Bundle) -> Robot:
-    """Return the robot of a bundle, built again from its design and workshop.
-
-    Raises
-    ------
-    JumpcadError
-        If one of the two cannot be read.
-    CannotBuildError
-        If the design cannot be built.
-    """
+    """Return the robot of a bundle, built again; raise what `kept_design`, `kept_workshop` and `build` raise."""
     return build(kept_design(bundle), kept_workshop(bundle), bundle.name)
 
 
