@@ -249,7 +249,7 @@ def _findings(
     return (
         at_least(
             "release_energy", 100.0 * ratio, 100.0 * limits.energy_ratio_min, "%",
-            f"{100.0 * ratio:.1f} % of the springs' energy is left after the release; "
+            f"at least {100.0 * ratio:.1f} % of the springs' energy is left after the release; "
             f"{100.0 * limits.energy_ratio_min:g} % are needed (dog's play {play:.0f}°, roll-over {over:.0f}°)",
             more_play,
         ),
