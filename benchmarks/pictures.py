@@ -45,7 +45,7 @@ COLOURS = {BODY: "#4a4f57", MAIN_LEG: "#1f6fb2", FRONT_LINK: "#c8641a", FOOT: "#
 STILLS = {
     "calibration": ("calibrate kenan-1.0 --plots .", "parameters.png"),
     "coupon": ("coupon -o made", "made/print/plate-1-PETG.3mf"),
-    "front": ("optimize pareto --plots .", "front.png"),
+    "front": ("optimize pareto --plots .", "pareto.png"),
     "history": ("optimize --plots .", "history.png"),
     "plate": ("build kenan-2.0 --no-pictures -o made", "made/print/plate-1-PLA.3mf"),
     "report": ("report kenan-2.0 -o report.html", "screenshot.png"),
