@@ -17,6 +17,7 @@ from support.built import built
 from support.places import ROOT
 
 from jumpcad import export
+from jumpcad.search.study import code_hash
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
 PARSING = {"typer", "rich"}
@@ -88,6 +89,10 @@ def test_the_wheel_writes_what_the_source_tree_writes(installed: Path, tmp_path:
         for folder in (tmp_path / "wheel", tmp_path / "tree")
     ]
     assert wrote[0] == wrote[1]
+    said = run(
+        installed / "python", "-c", f"import {code_hash.__name__} as code; print(code.code_digest())", folder=tmp_path
+    )
+    assert said.strip() == code_hash.code_digest()  # a study goes on with either
 
 
 @needs.without("ruff")

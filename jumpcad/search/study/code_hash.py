@@ -15,8 +15,8 @@ import numpy as np
 
 from jumpcad.files import templates_folder
 
-PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio")
-"""The packages of jumpcad that do not affect the trials of a study."""
+PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio", "templates")
+"""The packages of jumpcad that do not affect the trials of a study; templates lie in an installed package alone."""
 FORKS = {"pybullet": "pybullet-arm64"}
 """What is installed in place of a package where that has no wheel."""
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
