@@ -106,6 +106,13 @@ WORDS = {
     # jumps
     "robots[].name": "the robot as it was named",
     "metres_per_charge": "way of a jump times a full battery's jumps; of one that comes to lie, its way till then",
+    "series.stood": "jumps that began on its feet",
+    "series.distance_m": "from where it began to where it rests after the last jump",
+    "heading_drift_deg": "median turn from a jump to the next, with landing, winding and rolling up",
+    "heading_deg": "where it faces at the release; 0 is where it first faced, left positive",
+    "faces_deg": "where it faces, wound after the last jump",
+    "unaided": "jumps until it lies; null if it always stands",
+    "jumps.time_s": "winding, waiting, flight and landing",
     "spring_stiffness_nm_per_rad": "of both springs, as they are made or bought",
     "electrical_energy_j": "electrical energy of a jump",
     "winding_time_s": "time to wind",

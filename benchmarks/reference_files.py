@@ -48,6 +48,7 @@ def files_and_json() -> str:
             f"jumpcad simulate {EXAMPLE} --uncertain --json": _uncertain_document(),
             f"jumpcad simulate {EXAMPLE} --engine both --json": _json("simulate", EXAMPLE, "--engine", "both"),
             f"jumpcad simulate {EXAMPLE} --published --json": _json("simulate", EXAMPLE, "--published"),
+            "jumpcad simulate best-jumper --jumps 2 --json": _json("simulate", "best-jumper", "--jumps", "2"),
             "jumpcad reproduce --json": _json("reproduce"),
             f"jumpcad check {EXAMPLE} --json": _json("check", EXAMPLE),
             "jumpcad compare A B --json": _json("compare", EXAMPLE, "kenan-1.0", "-o", f"{folder}/c.html"),
