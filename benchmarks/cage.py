@@ -10,7 +10,6 @@ import numpy as np
 
 from jumpcad.building import build
 from jumpcad.checks import quick_findings
-from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names
@@ -33,9 +32,9 @@ CAGES: dict[str, dict[str, str | bool]] = {
 }
 DROPS, LANDINGS, JUMPS, SEEDS = 60, 20, 10, 3
 HEAD = (
-    "| robot | cage | mass | range, rise | pitch at touchdown | metres per charge | stable poses: as computed, least | "
+    "| robot | cage | mass | range, rise | pitch at touchdown | stable poses: as computed, least | "
     f"stands of {DROPS} drops | of {LANDINGS} own landings | jumps of {SEEDS} × {JUMPS} |\n"
-    f"|---|---|{'--:|' * 8}"
+    f"|---|---|{'--:|' * 7}"
 )
 
 
@@ -55,7 +54,6 @@ def row(name: str, cage: str) -> str:
         f"{1000.0 * robot.mass_kg:.1f} g",
         f"{1000.0 * (jump.ballistic_range_m or 0.0):.0f}, {1000.0 * (jump.com_rise_m or 0.0):.0f} mm",
         f"{jump.touchdown_pitch_deg:.0f}°".replace("-", "−"),
-        f"{(jump.ballistic_range_m or 0.0) * jumps_per_charge(robot):.0f}",
         f"{share_on_feet(robot):.2f}, {least_share_on_feet(robot):.2f}",
         f"{DROPS * drops:.0f}",
         f"{LANDINGS * land(robot, LANDINGS, 0).share_righted:.0f}",

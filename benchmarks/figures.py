@@ -300,11 +300,10 @@ def _of_jumper() -> dict[str, str]:
     walks = [jumps(robot, 10, seed) for seed in range(3)]
     turns, away = ([getattr(one, name) for one in walks] for name in ("heading_drift_deg", "distance_m"))
     pitches = [simulate(robot, one).touchdown_pitch_deg for one in (Settings(), *floors(robot, Settings()))]
-    usual, slippery, rough = (f"{pitch:.0f}°".replace("-", "−") for pitch in pitches)
     return {
         "charge": f"{walks[0].jumps_per_charge} jumps, {walks[0].metres_per_charge:.0f} m along its way",
         "walk": f"{min(turns):.0f} to {max(turns):.0f}°, and ends {min(away):.1f} to {max(away):.1f} m from its start",
-        "pitches": f"{usual}; {slippery}, {rough}",
+        "pitches": "{:.0f}°; {:.0f}°, {:.0f}°".format(*pitches).replace("-", "−"),
     }
 
 
