@@ -299,7 +299,7 @@ def _of_jumper() -> dict[str, str]:
     robot = build(load_design(JUMPER), load_workshop(own_workshop(JUMPER)), JUMPER)  # its name is engraved
     walks = [jumps(robot, 10, seed) for seed in range(3)]
     turns, away = ([getattr(one, name) for one in walks] for name in ("heading_drift_deg", "distance_m"))
-    pitches = [simulate(robot, one).touchdown_pitch_deg for one in (Settings(), *floors(robot, Settings()))]
+    pitches = [simulate(robot, one).touchdown_pitch_deg or 0.0 for one in (Settings(), *floors(robot, Settings()))]
     return {
         "charge": f"{walks[0].jumps_per_charge} jumps, {walks[0].metres_per_charge:.0f} m along its way",
         "walk": f"{min(turns):.0f} to {max(turns):.0f}°, and ends {min(away):.1f} to {max(away):.1f} m from its start",
