@@ -89,10 +89,7 @@ def mechanism_svg(robot: Robot, data: dict[str, Any]) -> str:
             *_energy(robot, frames, clock, width),
             f'<g transform="{at}"><line x1="{left:.1f}" y1="2" x2="{left + width:.1f}" y2="2" stroke="{GHOST}"/>',
             f'<polyline points="{com}" fill="none" stroke="#d1495b" stroke-width="1" stroke-dasharray="3 4"/>',
-            *(
-                _moving(frames[name], clock, shapes)
-                for name, shapes in _shapes(robot, data, clock).items()
-            ),
+            *(_moving(frames[name], clock, shapes) for name, shapes in _shapes(robot, data, clock).items()),
             "</g></svg>",
             "",
         ]
@@ -106,16 +103,13 @@ def _shapes(robot: Robot, data: dict[str, Any], clock: str) -> dict[str, str]:
     hub, front = (-design.l1_mm / 2.0, 0.0), (design.l1_mm / 2.0, 0.0)
     turned = complex(*geometry.roller_mm(0.0)) * np.exp(1j * math.radians(design.rest_angle_deg))
     lever = (turned.real, turned.imag)
-    outline = " ".join(_point(*point) for point in cam.profile_mm)
+    outline = " ".join(f"{PX_PER_MM * x:.1f},{-PX_PER_MM * z:.1f}" for x, z in cam.profile_mm)
     axis, stages = layout.cam_axis_mm, drive.train.stages
     turn = _animated("rotate", [[math.degrees(one)] for one in data["cam_rad"]], clock)
     wheels = "".join(
-        f'<circle cx="{PX_PER_MM * x:.1f}" cy="{-PX_PER_MM * z:.1f}" r="{PX_PER_MM * radius:.1f}" fill="none" '
-        f'stroke="{GHOST}" stroke-dasharray="2 2"/>'
-        for (x, z), radius in (
-            (axis, stages[-1].wheel.pitch_radius_mm),
-            (layout.motor_mm, stages[0].pinion.pitch_radius_mm),
-        )
+        f'<circle cx="{PX_PER_MM * x:.1f}" cy="{-PX_PER_MM * z:.1f}" r="{PX_PER_MM * wheel.pitch_radius_mm:.1f}" '
+        f'fill="none" stroke="{GHOST}" stroke-dasharray="2 2"/>'
+        for (x, z), wheel in ((axis, stages[-1].wheel), (layout.motor_mm, stages[0].pinion))
     )
     return {
         FOOT: _bar((0.0, 0.0), (design.l4_mm, 0.0), COLOURS[FOOT], 7)
@@ -193,10 +187,6 @@ def _spiral() -> str:
     turns = [(6.0 + 0.2 * step, 0.3 * step) for step in range(64)]
     path = " ".join(f"{radius * math.cos(angle):.1f},{radius * math.sin(angle):.1f}" for radius, angle in turns)
     return f'<polyline points="{path}" fill="none" stroke="{INK}" stroke-width="1"/>'
-
-
-def _point(x: float, z: float) -> str:
-    return f"{PX_PER_MM * x:.1f},{-PX_PER_MM * z:.1f}"
 
 
 def _list(values: Iterable[float], digits: int) -> str:
