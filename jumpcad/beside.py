@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 from jumpcad.interrupts import deferred_interrupts
 
-LEAST = 3
+LEAST = 6
 A = TypeVar("A")
 T = TypeVar("T")
 Shared = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]

@@ -49,8 +49,8 @@ def test_what_fails_there_fails_here() -> None:
 
 def test_work_is_shared_in_order_among_as_many_processes_as_are_asked_for() -> None:
     for most in (1, 2, 5):
-        found = shared(lambda number: (number, os.getpid()), range(7), most)
-        assert [number for number, _ in found] == [*range(7)], most
+        found = shared(lambda number: (number, os.getpid()), range(13), most)
+        assert [number for number, _ in found] == [*range(13)], most
         assert len({process for _, process in found}) == min(most, 2)
     assert shared(abs, [], 2) == []
 
