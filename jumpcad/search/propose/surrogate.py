@@ -1,8 +1,9 @@
 """A Gaussian process over the unit cube, of numbers and of names."""
 
 import math
-from collections.abc import Sequence
-from typing import Self
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any, Self
 
 import numpy as np
 from scipy.linalg import cho_solve, cholesky
@@ -16,8 +17,6 @@ JITTER = 1e-8
 """Added to the variance of every measurement, besides its noise, in units of that of the values."""
 ALL_EQUAL = 10.0 * float(np.finfo(float).eps)
 """Standard deviation of values below which they are equal."""
-_VARIANCE, _LENGTH, _NOISE = (1e-2, 1e3), (0.05, 10.0), (1e-6, 1e-1)
-"""Least and greatest hyperparameters; a length scale at its greatest: the axis has no effect."""
 _FIT_STEPS = 30
 
 
@@ -127,31 +126,28 @@ def _likeliest(x: Array, y: Array, start: Sequence[float] | None) -> list[float]
 
     Few steps are made; the next fit starts where this one ends.
     """
-    lengths = x.shape[1]
-    first = [0.0, *[math.log(0.5)] * lengths, math.log(1e-4)] if start is None else start
-    bounds = np.log([_VARIANCE, *[_LENGTH] * lengths, _NOISE])
-    found = minimize(
-        lambda theta: _unlikeliness(theta, x, y), first, method="L-BFGS-B", jac=True, bounds=bounds,
-        options={"maxiter": _FIT_STEPS},
-    )  # fmt: skip
-    theta: list[float] = found.x.tolist()
+    from sklearn.exceptions import ConvergenceWarning
+    from sklearn.gaussian_process import GaussianProcessRegressor
+
+    regressor = GaussianProcessRegressor(_kernel(x.shape[1], start), alpha=JITTER, optimizer=_improve)
+    with warnings.catch_warnings():
+        # a length scale at its upper bound: the axis has no effect
+        warnings.simplefilter("ignore", ConvergenceWarning)
+        regressor.fit(x, y)
+    theta: list[float] = regressor.kernel_.theta.tolist()
     return theta
 
 
-def _unlikeliness(theta: Array, x: Array, y: Array) -> tuple[float, Array]:
-    """Return minus the logarithm of the likelihood of values (n,) at points (n, k), and its slopes (k + 2,).
+def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:
+    from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
 
-    Rasmussen and Williams 2006, eq. 5.8 and 5.9; sums over pairs of points are products of matrices.
-    """
-    variance, *lengths, noise = np.exp(theta).tolist()
-    scaled = x / np.array(lengths)
-    distance = math.sqrt(5.0) * squareform(pdist(scaled))
-    smooth = variance * _matern(distance)
-    factor = cholesky(smooth + (noise + JITTER) * np.eye(len(x)), lower=True, check_finite=False)
-    alpha = cho_solve((factor, True), y, check_finite=False)
-    weights = np.outer(alpha, alpha) - cho_solve((factor, True), np.eye(len(x)), check_finite=False)
-    pairs = 5.0 / 3.0 * variance * weights * (1.0 + distance) * np.exp(-distance)
-    of_lengths = pairs.sum(axis=1) @ scaled**2 - ((pairs @ scaled) * scaled).sum(axis=0)
-    slopes = [0.5 * (weights * smooth).sum(), *of_lengths, 0.5 * noise * np.trace(weights)]
-    value = 0.5 * y @ alpha + np.log(factor.diagonal()).sum() + 0.5 * len(x) * math.log(2.0 * math.pi)
-    return float(value), -np.array(slopes)
+    kernel = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * dimension, (0.05, 10.0), nu=2.5) + WhiteKernel(
+        1e-4, (1e-6, 1e-1)
+    )
+    return kernel if theta is None else kernel.clone_with_theta(np.array(theta))
+
+
+def _improve(objective: Callable[..., Any], start: Array, bounds: Array) -> tuple[Array, float]:
+    limits = list(map(tuple, bounds))
+    found = minimize(objective, start, method="L-BFGS-B", jac=True, bounds=limits, options={"maxiter": _FIT_STEPS})
+    return found.x, found.fun

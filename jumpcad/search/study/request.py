@@ -37,7 +37,7 @@ MOST_EVALUATIONS = 1_000_000
 """About a day of one core, at 80 ms an evaluation (docs/speed.md)."""
 MOST_FIRST = 50
 """Most evaluations of the first of two methods: with 190 of 240, the second found the best design in 10 (measured)."""
-LEARNING_VERSIONS = ("scipy", "pygad")
+LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 """Packages that decide what is proposed next, in addition to those that decide an evaluation."""
 
 

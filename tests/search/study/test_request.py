@@ -99,7 +99,7 @@ def test_all_that_decides_the_trials_of_a_study_makes_another_one_and_another_na
     assert all(one not in identities[:place] for place, one in enumerate(identities))
     prior = [trial for trial in trials(4) if trial.score is not None]
     assert PLAIN.identity(prior)["prior"] != PLAIN.identity(prior[1:])["prior"] != PLAIN.identity([])["prior"] is None
-    assert set(PLAIN.identity([])["versions"]) == {"hill", "scipy", "pygad"}
+    assert set(PLAIN.identity([])["versions"]) == {"hill", "scipy", "scikit-learn", "pygad"}
     for method, same in (("bo", True), ("ga", True), ("ga+bo", False), ("paper", False)):
         one = replace(PLAIN, method=method)
         assert (replace(one, evaluations=80).default_name() == one.default_name()) == same
