@@ -38,8 +38,9 @@ def test_it_keeps_all_limits_with_both_kits(robot: Robot) -> None:
 
 
 def test_it_touches_down_upright_on_all_floors_of_its_workshop(robot: Robot) -> None:
-    pitches = [simulate(robot, one, "planar").touchdown_pitch_deg for one in (Settings(), *floors(robot, Settings()))]
-    assert all(pitch is not None and abs(pitch) <= 30.5 for pitch in pitches), pitches
+    for engine in ("planar", "pybullet"):
+        pitches = [simulate(robot, one, engine).touchdown_pitch_deg for one in (Settings(), *floors(robot, Settings()))]
+        assert all(pitch is not None and abs(pitch) <= 30.0 for pitch in pitches), (engine, pitches)
 
 
 def test_it_jumps_ten_times_from_its_feet(robot: Robot) -> None:
@@ -78,9 +79,16 @@ def test_upside_down_its_hoops_land_first_and_softly(robot: Robot) -> None:
 
 @pytest.mark.thorough
 def test_it_rights_itself(robot: Robot) -> None:
-    """Of 200 drops in any attitude 98 %, of 40 own landings 95 %, and in ten jumps on each of three floors."""
+    """Of 200 drops in any attitude 98 %, of 40 own landings 95 %, and in ten jumps on each of three floors.
+
+    There it keeps its direction: from jump to jump it turns by less than 30° in the median.
+    """
     pytest.importorskip("mujoco")
     assert not errors(check(robot))
     assert share_righted(robot, 200, np.random.default_rng(0)) >= 0.98
     assert land(robot, 40).share_righted >= 0.95
-    assert [jumps(robot, 10, seed).stood for seed in (0, 1, 2)] == [10, 10, 10]
+    for seed in (0, 1, 2):
+        series = jumps(robot, 10, seed)
+        assert series.stood == 10, seed
+        assert series.heading_drift_deg is not None, seed
+        assert series.heading_drift_deg < 30.0, seed
