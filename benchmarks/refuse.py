@@ -62,7 +62,7 @@ def robots(count: int, seed: int) -> Iterator[tuple[str, str, float]]:
             continue
         found += 1
         settings = Settings(spring_efficiency=float(rng.uniform(0.3, 1.0)))
-        refused = [finding.name for finding in statics_refusal(design, made, settings, tips=True)]
+        refused = [finding.name for finding in statics_refusal(design, made, settings)]
         yield simulate(robot, settings).verdict, "".join(refused), robot.bodies[BODY].mass_kg
 
 

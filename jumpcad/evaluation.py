@@ -114,7 +114,7 @@ class EvaluationResult:
 
 
 class _Refused(EvaluationResult):
-    """A design that surely is too weak or tips over: what else is asked of it than its verdict is computed then."""
+    """A design whose springs are surely too weak: what else is asked of it than its verdict is computed then."""
 
     _gate: tuple[Finding, ...]
     _build: Callable[[], EvaluationResult]
@@ -155,8 +155,8 @@ def evaluate(
 ) -> EvaluationResult:
     """Build a design in a workshop, simulate its jump with the mass and inertia of its parts, and check its limits.
 
-    The robot has no name, so none is engraved. Where the springs cannot raise a body alone, or a light robot tips
-    over by far, the verdict stands before anything is drawn; robot, jump and metrics are computed when asked for.
+    The robot has no name, so none is engraved. Where the springs cannot raise a body alone, the verdict is `too_weak`
+    before anything is drawn; the robot, its jump and its metrics are computed when they are asked for.
 
     Raises
     ------
@@ -169,7 +169,7 @@ def evaluate(
     require_engine(engine)
     whole = partial(_evaluated, design, workshop, settings, engine)
     geometry = geometry_findings(design)
-    refused = () if errors(geometry) else statics_refusal(design, workshop, settings, tips=True)
+    refused = () if errors(geometry) else statics_refusal(design, workshop, settings)
     return _Refused((*geometry, *refused), whole) if refused else whole()
 
 
