@@ -165,11 +165,16 @@ class Stack:
         return pocketed(CrossSections(outlines, which[slabs], insets[slabs], pockets))
 
     def solid(self) -> Manifold:
-        """Return the stack as one closed solid whose corners 32-bit floats hold exactly (on a grid of 1 µm)."""
+        """Return the stack as one closed solid whose corners 32-bit floats hold exactly (on a grid of 1 µm).
+
+        It is empty where all regions are slivers.
+        """
         heights = [(slab.z0_mm, slab.z1_mm) for slab in self.slabs]
         cases = [(slab.number, slab.pocket_number, slab.inset_mm) for slab in self.slabs]
         regions = {case: slab.region for case, slab in zip(cases, self.slabs, strict=True)}
         clean = {case: without_slivers(region).to_polygons() for case, region in regions.items()}
+        if not any(clean.values()):
+            return Manifold()
         vertices, faces = skin(heights, [clean[case] for case in cases])
         return Manifold(Mesh64(vertices, faces.astype(np.uint64)))
 

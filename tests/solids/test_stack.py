@@ -16,6 +16,13 @@ def stl(stack):
     return trimesh.exchange.stl.export_stl(to_trimesh(stack.solid()))
 
 
+def test_a_stack_of_slivers_alone_is_an_empty_solid() -> None:
+    """A box may cut off less of a part than a file can hold."""
+    solid = Stack.of([(0, 4, rectangle((10, 1e-4)))]).solid()
+    assert solid.is_empty()
+    assert solid.volume() == 0.0
+
+
 def test_overlapping_slabs_count_once():
     stack = Stack.of([(0, 4, rectangle((10, 10))), (2, 6, rectangle((10, 10), (5, 0)))])
     assert stack.volume_mm3 == pytest.approx(400 + 400 - 2 * 50)
