@@ -118,9 +118,7 @@ class Winder:
             self._freed_ms = now_ms
         if self._freed_ms is not None and now_ms - self._freed_ms >= numbers.AFTER_RELEASE_MS:
             if self._freed_ms - self._since_ms < numbers.RELEASE_MIN_MS:
-                return self._enter(
-                    FAULT, now_ms, "the sensor let go before the drop: the springs may be loaded; wind again"
-                )
+                return self._enter(FAULT, now_ms, "the sensor let go too early: the springs may be loaded; wind again")
             self.jumps += 1
             self._released, self._begun = True, False
             self._landed_ms = now_ms + numbers.LANDING_MS  # before that the landing may close switch and button
