@@ -24,7 +24,7 @@ ENGINES = {
 GENERAL = ("pybullet", "mujoco")
 """Rigid-body simulators independent of this project, of packages of these names: `--engine both` compares them, and the
 first of them that is installed is the default."""
-SHOWN = "mujoco"
+BUNDLE_ENGINE = "mujoco"
 """The engine of a bundle, its page and what `build` says, whatever is installed: it has a wheel on every platform, so
 that the bundle of a robot is the same everywhere."""
 ENGINE_HELP = "pybullet, mujoco, both or planar (fast); else the first installed."

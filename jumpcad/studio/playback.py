@@ -10,7 +10,7 @@ from jumpcad.bundle.motion import motion, speed_in_words
 from jumpcad.bundle.viewer import turning_parts
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.engines import SHOWN
+from jumpcad.simulation.engines import BUNDLE_ENGINE
 from jumpcad.transforms import Array
 
 CAM = "cam"
@@ -108,5 +108,5 @@ def playback(robot: Robot) -> Playback:
     JumpcadError
         If no engine is installed.
     """
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True), SHOWN)
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True), BUNDLE_ENGINE)
     return Playback(motion(robot, jump.trajectory, jump.takeoff_time_s), turning_parts(robot))
