@@ -16,7 +16,7 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Jump, simulate
 from jumpcad.workshop import Workshop
 
-BUNDLE_ENGINE = 5
+SHOWN = 5
 """Number of limits that are shown, and more where more are violated."""
 
 
@@ -57,7 +57,7 @@ class Printed:
             "figures": [(name, value, unit, value - old.get(name, (value, ""))[0])
                         for name, (value, unit) in self.figures().items()],
             "limits": [(finding, used(finding).removesuffix(" used").removeprefix("margin "))
-                       for finding in self.findings[: max(BUNDLE_ENGINE, violated)]],
+                       for finding in self.findings[: max(SHOWN, violated)]],
         }  # fmt: skip
         return fill("texts/studio.md.j2", values)
 

@@ -29,7 +29,7 @@ from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary, kept_righting, summary
 from jumpcad.search.study.trial import Trial, count_rejections
 
-BUNDLE_ENGINE = 10
+SHOWN = 10
 """Number of best designs that are shown if no neighbours were examined and no front was searched."""
 MOST_SHOWN = 100
 """Largest number of a front's designs that are shown, evenly chosen along it: each has 5 kB."""
@@ -137,7 +137,7 @@ def _shown(found: StudySummary, of_front: Cost | None) -> list[Trial]:
     if of_front is not None:
         best = front(found.trials, of_front)
         return [best[place] for place in evenly(len(best), MOST_SHOWN)]
-    return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, BUNDLE_ENGINE)
+    return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
 
 
 def _pictures(store: StudyStore) -> dict[str, tuple[str, str]]:
