@@ -34,8 +34,8 @@ study s.db --export s.csv
 
 def environment() -> dict[str, str]:
     """Return the variables of such a process: text is in the code page of Western Europe unless it says otherwise."""
-    hidden = {"PYTHONPATH": str(LIKE_WINDOWS), "PYTHONWARNDEFAULTENCODING": "1", "PYTHONIOENCODING": "cp1252", "PYTHONUNBUFFERED": "1"}
-    return {**os.environ, **hidden}
+    texts = {"PYTHONWARNDEFAULTENCODING": "1", "PYTHONIOENCODING": "cp1252", "PYTHONUNBUFFERED": "1"}
+    return {**os.environ, **texts, "PYTHONPATH": str(LIKE_WINDOWS)}
 
 
 def hidden_from(module: str, code: str) -> str:
