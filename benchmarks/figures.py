@@ -41,6 +41,7 @@ from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.variant import Variant
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.simulation.engines import BUNDLE_ENGINE
 from jumpcad.simulation.prior import floors
 from jumpcad.workshop import load_workshop, own_workshop
 
@@ -75,7 +76,7 @@ class Outcome:
 def built(name: str) -> tuple[Robot, Jump, Jump]:
     """Return a template's printed robot, its jump, and that of the capsule robot, as `jumpcad build` does."""
     robot, flight = build(load_design(name), name=name), Settings(flight="simulated")
-    return robot, simulate(robot, flight), simulate(capsule_robot(robot.design), flight)
+    return robot, simulate(robot, flight, BUNDLE_ENGINE), simulate(capsule_robot(robot.design), flight, BUNDLE_ENGINE)
 
 
 def mm(length_m: float | None) -> str:

@@ -1,11 +1,11 @@
-"""The public functions on robots. Where they take a robot, they take a design too, which is then built first."""
+"""The public functions on robots. Where they take a robot, they take what `build` takes too, and build it first."""
 
 from pathlib import Path
 
 from jumpcad import notebook
 from jumpcad.arguments import check_arguments
-from jumpcad.building import build
 from jumpcad.bundle.export import export as export_robot
+from jumpcad.bundle.inputs import robot_of
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.checks import check as check_robot
 from jumpcad.design import Design
@@ -18,6 +18,7 @@ from jumpcad.settings import Settings
 from jumpcad.simulation import Jump
 from jumpcad.simulation import simulate as simulate_mechanism
 from jumpcad.simulation.chain import Chain
+from jumpcad.workshop import Workshop
 
 __all__ = ["build", "capsule_robot", "check", "evaluate", "export", "simulate"]
 
@@ -25,13 +26,39 @@ notebook.attach()
 
 
 @check_arguments
-def simulate(robot: Mechanism | Chain | Design, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
+def build(design: Design | str | Path, workshop: Workshop | None = None, name: str | None = None) -> Robot:
+    """Build the printed robot of a design, a template, a design file or a bundle, as the command line does.
+
+    Parameters
+    ----------
+    design
+        What to build. A template's name brings its own workshop, a bundle what it was built from.
+    workshop
+        In which it is built; by default the design's own, `design.workshop_name`.
+    name
+        Engraved on its plates unless it is empty: by default that of template, file or bundle, `robot` for a design.
+
+    Raises
+    ------
+    JumpcadError
+        If an argument has a wrong type or cannot be read; if design or workshop were changed to invalid values, or has
+        the weight of a part that no robot has; if the name cannot be a file's name.
+    CannotBuildError
+        If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
+    """
+    return robot_of(design, workshop, name)
+
+
+@check_arguments
+def simulate(
+    robot: Mechanism | Chain | Design | str | Path, settings: Settings | None = None, engine: str | None = None
+) -> Jump:
     """Simulate the jump of a robot; see `jumpcad.simulation.simulate`.
 
     Parameters
     ----------
     robot
-        A printed or a capsule robot, or that of `load_robot`; a design is built in the default workshop.
+        A printed or a capsule robot, that of `load_robot`, or what `build` takes.
     settings, engine
         As for `jumpcad.simulation.simulate`.
 
@@ -42,11 +69,11 @@ def simulate(robot: Mechanism | Chain | Design, settings: Settings | None = None
     CannotBuildError
         If a design cannot be built.
     """
-    return simulate_mechanism(build(robot) if isinstance(robot, Design) else robot, settings, engine)
+    return simulate_mechanism(robot_of(robot) if isinstance(robot, Design | str | Path) else robot, settings, engine)
 
 
 @check_arguments
-def check(robot: Mechanism | Design) -> list[Finding]:
+def check(robot: Mechanism | Design | str | Path) -> list[Finding]:
     """Return the findings of every check on a robot, also of limits that are kept; see `jumpcad.checks.check`.
 
     Raises
@@ -56,12 +83,12 @@ def check(robot: Mechanism | Design) -> list[Finding]:
     CannotBuildError
         If a design cannot be built.
     """
-    return check_robot(build(robot) if isinstance(robot, Design) else robot)
+    return check_robot(robot_of(robot) if isinstance(robot, Design | str | Path) else robot)
 
 
 @check_arguments
 def export(
-    robot: Robot | Design,
+    robot: Robot | Design | str | Path,
     folder: str | Path,
     pictures: bool = True,
     step: bool = False,
@@ -77,4 +104,5 @@ def export(
     CannotBuildError
         If a design cannot be built.
     """
-    return export_robot(build(robot) if isinstance(robot, Design) else robot, folder, pictures, step, force, ros2)
+    made = robot_of(robot) if isinstance(robot, Design | str | Path) else robot
+    return export_robot(made, folder, pictures, step, force, ros2)

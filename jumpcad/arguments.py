@@ -20,8 +20,8 @@ R = TypeVar("R")
 
 MADE_BY = {
     "Design": "jumpcad.load_design('kenan-2.0')",
-    "Mechanism": "jumpcad.build(jumpcad.load_design('kenan-2.0'))",
-    "Robot": "jumpcad.build(jumpcad.load_design('kenan-2.0'))",
+    "Mechanism": "jumpcad.build('kenan-2.0')",
+    "Robot": "jumpcad.build('kenan-2.0')",
     "Settings": "jumpcad.load_settings('default')",
     "Workshop": "jumpcad.load_workshop('default')",
 }

@@ -41,7 +41,8 @@ def beside(function: Callable[..., T], *arguments: object) -> Callable[[], T]:
     if cores() < 2 or not may_copy():
         return here
     ours, theirs = multiprocessing.Pipe(duplex=False)
-    copy = multiprocessing.get_context("fork").Process(target=_answer, args=(theirs, here), daemon=True)
+    context: Any = multiprocessing.get_context("fork")
+    copy = context.Process(target=_answer, args=(theirs, here), daemon=True)
     try:
         with deferred_interrupts():
             copy.start()

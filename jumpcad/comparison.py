@@ -11,11 +11,10 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
-from jumpcad.bundle.inputs import kept_robot
+from jumpcad.bundle.inputs import robot_of
 from jumpcad.bundle.lanes import lane, lanes_values
 from jumpcad.bundle.limits import limits_of, tightest, used, with_verdict
-from jumpcad.bundle.manifest import open_bundle
-from jumpcad.design import Design, load_design
+from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import template_names
 from jumpcad.files.rendering import fill
@@ -25,10 +24,9 @@ from jumpcad.landing.series import jumps
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump, simulate
-from jumpcad.simulation.engines import default_engine
 from jumpcad.studio.points import Points
 from jumpcad.version import __version__
-from jumpcad.workshop import Workshop, load_workshop, own_workshop
+from jumpcad.workshop import Workshop
 from jumpcad.workshop.varied import leaves
 
 HOPS = 10
@@ -161,7 +159,7 @@ def compare(robots: Sequence[Robot | Design | str | Path], workshop: Workshop | 
     robots
         Robots, designs, templates' names, files of designs, bundles, and trials of a study as `F.db#28`.
     workshop
-        In which designs are built; the default without. Bundles and trials have their own.
+        In which designs are built; their own without. Bundles and trials have their own.
 
     Raises
     ------
@@ -182,7 +180,7 @@ def compare(robots: Sequence[Robot | Design | str | Path], workshop: Workshop | 
         except CannotBuildError as refusal:
             refused[label] = str(refusal)
             continue
-        jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
+        jump = simulate(robot, Settings(flight="simulated", trajectory=True))
         found[label] = ComparedRobot(label, robot, jump)
     if not found:
         raise CannotBuildError("; ".join(f"{label}: {why}" for label, why in refused.items()))
@@ -192,8 +190,6 @@ def compare(robots: Sequence[Robot | Design | str | Path], workshop: Workshop | 
 def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot:
     if isinstance(one, Robot):
         return one
-    if isinstance(one, Design):
-        return build(one, workshop)
     file, mark, number = str(one).rpartition("#")
     if mark and file.endswith(".db"):
         if not number.isdecimal():
@@ -203,7 +199,5 @@ def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot
         return build(trial.design, points.workshop_of(trial), f"{Path(file).stem}-{number}")
     if str(one).endswith(".db"):
         raise JumpcadError(f"{one}: is a study; a trial of it is named by its number, as in {one}#28")
-    if os.path.isdir(one) and str(one) not in template_names("robots"):
-        return kept_robot(open_bundle(one))
-    shop = workshop or load_workshop(own_workshop(str(one)))
-    return build(load_design(one), shop, Path(one).name.removesuffix(".toml"))
+    is_bundle = not isinstance(one, Design) and os.path.isdir(one) and str(one) not in template_names("robots")
+    return robot_of(one, None if is_bundle else workshop)

@@ -10,15 +10,18 @@ import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, ClassVar, Self
 
 from pydantic import Field
 
 from jumpcad.arguments import check_arguments
 from jumpcad.dimensions import unit_of_key
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.files import Record, find_template, read_toml, to_toml
+from jumpcad.files import Record, find_template, read_toml, template_names, to_toml
 from jumpcad.files.complaints import described
+
+DEFAULT = "default"
+"""The workshop of designs that have none of their own."""
 
 
 class Design(Record):
@@ -27,6 +30,9 @@ class Design(Record):
     A search uses narrower limits, `SEARCH_BOUNDS`.
     """
 
+    workshop_name: ClassVar[str] = DEFAULT
+    """The workshop in which it is built unless another is given; a template that has its own brings it. Copies keep it,
+    and it is none of the values by which designs are compared and written."""
     carrying_link_mm: Annotated[float, Field(ge=20, le=400, description="length of the main leg, l2")]
     c_coef: Annotated[float, Field(ge=0.3, le=3, description="front link over main leg, l3 / l2")]
     d_coef: Annotated[float, Field(ge=0.1, le=3, description="foot link over main leg, l4 / l2")]
@@ -68,6 +74,14 @@ class Design(Record):
             raise JumpcadError(f"{described(wrong[0])} in a design vector is no number: {wanted}")
         plain = [value if isinstance(value, int) else float(value) for value in values]  # float() fails for huge ints
         return cls(**dict(zip(PARAMETERS, plain, strict=True)))
+
+    def revalidated(self) -> Self:
+        """Return the same design, validated again; see `Record.revalidated`."""
+        return super().revalidated()._built_in(self.workshop_name)
+
+    def _built_in(self, workshop: str) -> Self:
+        self.__dict__["workshop_name"] = workshop  # pydantic compares, hashes and writes fields alone
+        return self
 
     def to_vector(self) -> list[float]:
         """Return the 8 parameters as floats, in the order of `PARAMETERS`."""
@@ -189,9 +203,18 @@ SEARCH_BOUNDS: dict[str, Bounds] = {
 """The ranges that the published study searched (both prototypes lie outside it, with a rest angle of 88.2°)."""
 
 
+def own_workshop(design: str) -> str:
+    """Return the name of the workshop that a design is built in unless another is asked for.
+
+    That of a shipped design is the shipped workshop of its name, if there is one; else `DEFAULT`.
+    """
+    own = design in template_names("robots") and design in template_names("workshops")
+    return design if own else DEFAULT
+
+
 @check_arguments
 def load_design(name_or_path: str | Path) -> Design:
-    """Return the design of a template (`kenan-2.0`) or of a TOML file.
+    """Return the design of a template (`kenan-2.0`), which knows its own workshop if it has one, or of a TOML file.
 
     Raises
     ------
@@ -204,4 +227,4 @@ def load_design(name_or_path: str | Path) -> Design:
             f"{path}: is no design, for it has none of its keys, {', '.join(Design.model_fields)}: a workshop is given "
             "with --workshop, and a robot of bodies to jumpcad simulate alone"
         )
-    return Design.from_toml(path)
+    return Design.from_toml(path)._built_in(own_workshop(str(name_or_path)))

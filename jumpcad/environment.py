@@ -11,9 +11,9 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from jumpcad.arguments import check_arguments
-from jumpcad.building import build
+from jumpcad.bundle.inputs import robot_of
 from jumpcad.bundle.renders import JUMP_VIEW, corners_of
-from jumpcad.design import Design, load_design
+from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import described
 from jumpcad.landing.arena import STILL_M_S, STILL_RAD_S, Arena, Floor
@@ -26,7 +26,7 @@ from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import Array, chained, pose_at
 from jumpcad.variation import variants
-from jumpcad.workshop import Workshop, load_workshop, own_workshop
+from jumpcad.workshop import Workshop
 
 try:
     import gymnasium
@@ -267,11 +267,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
 
 
 def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot:
-    if isinstance(one, Robot):
-        return one
-    design = one if isinstance(one, Design) else load_design(one)
-    name = "robot" if isinstance(one, Design) else Path(one).name.removesuffix(".toml")
-    return build(design, workshop or load_workshop(own_workshop(str(one))), name)
+    return one if isinstance(one, Robot) else robot_of(one, workshop)
 
 
 if gymnasium is not None:

@@ -3,12 +3,14 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
+from pathlib import Path
 from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.building.refusal import statics_refusal
+from jumpcad.bundle.inputs import inputs_of
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
@@ -18,7 +20,7 @@ from jumpcad.robot import Robot
 from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import require_engine
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import Workshop
 
 JUMP_FIGURES = {
     "ballistic_range_m": "range",
@@ -151,12 +153,16 @@ class _Refused(EvaluationResult):
 
 @check_arguments
 def evaluate(
-    design: Design, workshop: Workshop | None = None, settings: Settings | None = None, engine: str = "pybullet"
+    design: Design | str | Path,
+    workshop: Workshop | None = None,
+    settings: Settings | None = None,
+    engine: str | None = None,
 ) -> EvaluationResult:
     """Build a design in a workshop, simulate its jump with the mass and inertia of its parts, and check its limits.
 
-    The robot has no name, so none is engraved. Where the springs cannot raise a body alone, the verdict is `too_weak`
-    before anything is drawn; the robot, its jump and its metrics are computed when they are asked for.
+    Design and workshop are as for `jumpcad.build`, settings and engine as for `jumpcad.simulate`. The robot
+    has no name, so none is engraved. Where the springs cannot raise a body alone, the verdict is `too_weak` before
+    anything is drawn; the robot, its jump and its metrics are computed when they are asked for.
 
     Raises
     ------
@@ -164,16 +170,18 @@ def evaluate(
         If the mechanism cannot work, or there is no room for its parts; of a robot that is too weak when it is asked
         for.
     """
-    design, workshop = design.revalidated(), (workshop or load_workshop("default")).revalidated()
+    design, workshop, _ = inputs_of(design, workshop)
+    design, workshop = design.revalidated(), workshop.revalidated()
     settings = (settings or Settings()).revalidated()
-    require_engine(engine)
+    if engine is not None:
+        require_engine(engine)
     whole = partial(_evaluated, design, workshop, settings, engine)
     geometry = geometry_findings(design)
     refused = () if errors(geometry) else statics_refusal(design, workshop, settings)
     return _Refused((*geometry, *refused), whole) if refused else whole()
 
 
-def _evaluated(design: Design, workshop: Workshop, settings: Settings, engine: str) -> EvaluationResult:
+def _evaluated(design: Design, workshop: Workshop, settings: Settings, engine: str | None) -> EvaluationResult:
     robot, findings = built_and_checked(design, workshop, name="")
     jump = simulate(robot, settings, engine)
     return EvaluationResult(robot, jump, (*jump.findings, *findings), _metrics(robot, jump))
@@ -181,7 +189,7 @@ def _evaluated(design: Design, workshop: Workshop, settings: Settings, engine: s
 
 def evaluate_made(
     design: Design,
-    workshop: Workshop | None,
+    workshop: Workshop,
     settings: Settings | None,
     engine: str,
     made: Callable[[Robot, Settings], tuple[Robot, Settings]],
@@ -201,7 +209,7 @@ class _BuildKey:
     """What a robot is built from; a workshop has no hash."""
 
     design: Design
-    workshop: Workshop | None
+    workshop: Workshop
 
     def __hash__(self) -> int:
         return hash(self.design)
@@ -209,8 +217,7 @@ class _BuildKey:
 
 @lru_cache(maxsize=1)
 def _designed(order: _BuildKey) -> tuple[Robot, tuple[Finding, ...]]:
-    workshop = (order.workshop or load_workshop("default")).revalidated()
-    robot, findings = built_and_checked(order.design.revalidated(), workshop, name="")
+    robot, findings = built_and_checked(order.design.revalidated(), order.workshop.revalidated(), name="")
     return robot, tuple(findings)
 
 

@@ -7,6 +7,7 @@ import signal
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 seen: list[int] = []
 """Interrupts of the command so far, by the numbers of their signals."""
@@ -28,9 +29,10 @@ def deferred_interrupts() -> Iterator[None]:
     Ctrl-C is sent to the whole process group, and a process inherits which signals are blocked: one that has just
     started would otherwise print a traceback before it can ignore the signal.
     """
-    masks = hasattr(signal, "pthread_sigmask")  # not on Windows
+    system: Any = signal  # Windows has no masks
+    masks = hasattr(system, "pthread_sigmask")
     deferring.append(None)  # another thread may get the signal, and its handler runs in spite of the mask
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if masks else set()
+    before = system.pthread_sigmask(system.SIG_BLOCK, {signal.SIGINT}) if masks else set()
     try:
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "This process", DeprecationWarning)
@@ -38,5 +40,5 @@ def deferred_interrupts() -> Iterator[None]:
     finally:
         deferring.pop()
         if masks:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+            system.pthread_sigmask(system.SIG_SETMASK, before)
     raise_if_seen()

@@ -13,7 +13,6 @@ from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
 from jumpcad.findings import Finding
-from jumpcad.simulation.engines import default_engine
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.tables import PRELOAD_MAX_DEG
 from jumpcad.workshop.varied import varied, workshop_value
@@ -143,7 +142,7 @@ class Remedies:
                 design = Design(**design.model_dump() | {key: value})
             else:
                 workshop = varied(workshop, {key: value})
-            result = evaluate(design, workshop, engine=default_engine())
+            result = evaluate(design, workshop)
             found = [*result.findings, *(one for check in self._costly for one in check.find(result.robot))]
         except CannotBuildError as refusal:
             return frozenset([FAILS]), {FAILS: _margin(refusal)}

@@ -12,7 +12,8 @@ from typing import Any
 
 import pytest
 import support.threads  # noqa: F401  # before numpy
-from support.alone import alone, compiled_by_one
+from filelock import FileLock
+from support.alone import compiled_by_one
 from support.built import built
 from support.costs import Costs
 from support.kept import once as once_of
@@ -154,7 +155,7 @@ def bundle_of(tmp_path_factory: pytest.TempPathFactory, of_all_workers: Path) ->
     def made(name: str, pictures: bool = False) -> Path:
         folder = f"{name} with pictures" if pictures else name
         bundle = of_all_workers / folder
-        with alone(of_all_workers / f"{folder}.lock"):
+        with FileLock(of_all_workers / f"{folder}.lock"):
             if not bundle.exists():
                 export(built(name), own / folder, pictures=pictures)
                 (own / folder).rename(bundle)

@@ -25,13 +25,13 @@ CAPSULE = jumpcad.capsule_robot(DESIGN)
 CALLS = {
     "build design": jumpcad.build,
     "build workshop": lambda odd: jumpcad.build(DESIGN, 0 if odd is None else odd),
-    "build name": lambda odd: jumpcad.build(DESIGN, None, odd if not isinstance(odd, str) else 0),
+    "build name": lambda odd: jumpcad.build(DESIGN, None, 0 if odd is None or isinstance(odd, str) else odd),
     "capsule_robot": jumpcad.capsule_robot,
     "check": jumpcad.check,
     "evaluate design": jumpcad.evaluate,
     "evaluate workshop": lambda odd: jumpcad.evaluate(DESIGN, 0 if odd is None else odd),
     "evaluate settings": lambda odd: jumpcad.evaluate(DESIGN, None, 0 if odd is None else odd),
-    "evaluate engine": lambda odd: jumpcad.evaluate(DESIGN, None, None, odd),
+    "evaluate engine": lambda odd: jumpcad.evaluate(DESIGN, None, None, 0 if odd is None else odd),
     "export robot": lambda odd: jumpcad.export(odd, "out"),
     "export folder": lambda odd: jumpcad.export(CAPSULE, odd),
     "load_design": jumpcad.load_design,
@@ -40,7 +40,7 @@ CALLS = {
     "published": jumpcad.published.simulate,
     "simulate robot": jumpcad.simulate,
     "simulate settings": lambda odd: jumpcad.simulate(CAPSULE, 0 if odd is None else odd),
-    "simulate engine": lambda odd: jumpcad.simulate(CAPSULE, None, odd),
+    "simulate engine": lambda odd: jumpcad.simulate(CAPSULE, None, 0 if odd is None else odd),
     "Design": jumpcad.Design,
     "Design alone": lambda odd: jumpcad.Design(c_coef=odd),
     "Design value": lambda odd: jumpcad.Design(**{**DESIGN.model_dump(), "c_coef": odd}),
@@ -67,9 +67,9 @@ def test_nonsense_is_refused(call: str, monkeypatch: pytest.MonkeyPatch, tmp_pat
 
 def test_a_name_in_place_of_a_design_says_how_to_load_it() -> None:
     with pytest.raises(JumpcadError) as caught:
-        jumpcad.build("kenan-2.0")
+        jumpcad.capsule_robot("kenan-2.0")
     assert str(caught.value) == (
-        "build() takes a Design, not 'kenan-2.0' (str): jumpcad.load_design('kenan-2.0') makes one"
+        "capsule_robot() takes a Design, not 'kenan-2.0' (str): jumpcad.load_design('kenan-2.0') makes one"
     )
 
 
@@ -160,8 +160,8 @@ def test_all_else_is_refused_in_words_that_say_what_is_taken() -> None:
         lambda: Leg("long"): "Leg() takes a number as length_mm, not 'long' (str)",
         lambda: Leg(): "Leg(self, length_mm): missing a required argument: 'length_mm'",
         lambda: Bar(3.0, 2): "Bar() takes a text as name, not 2 (int)",
-        lambda: jumpcad.build(): "build(design, workshop=None, name='robot'): missing a required argument: 'design'",
-        lambda: jumpcad.simulate(CAPSULE, colour="red"): "engine='pybullet'): got an unexpected keyword argument 'col",
+        lambda: jumpcad.build(): "build(design, workshop=None, name=None): missing a required argument: 'design'",
+        lambda: jumpcad.simulate(CAPSULE, colour="red"): "engine=None): got an unexpected keyword argument 'col",
         lambda: jumpcad.Design(100.0, 1.0): "Design takes its values by name, Design(carrying_link_mm=…), not 100",
     }.items():
         with pytest.raises(JumpcadError) as caught:
@@ -187,7 +187,7 @@ def test_a_vector_may_be_of_any_numbers() -> None:
 
 
 def test_a_robot_without_parts_is_not_exported(tmp_path: Path) -> None:
-    with pytest.raises(JumpcadError, match=r"takes a Robot or a Design, not <Mechanism"):
+    with pytest.raises(JumpcadError, match=r"takes a Robot or a Design or a text or a path, not <Mechanism"):
         jumpcad.export(CAPSULE, tmp_path / "out")
 
 

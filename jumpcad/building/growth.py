@@ -21,7 +21,7 @@ GROWTH_ROUNDS = 10
 
 @check_arguments
 def build(design: Design, workshop: Workshop | None = None, name: str = "robot") -> Robot:
-    """Build the printed robot of a design in a workshop; its name, if it has one, is engraved on its plates.
+    """Build the printed robot of a design in a workshop, or in its own; its name, if any, is engraved on its plates.
 
     Sections grow until the checks that name them pass (`Finding.grows`), or until there is no room for more.
 
@@ -33,7 +33,7 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
     """
-    workshop = (workshop or load_workshop("default")).revalidated()
+    workshop = (workshop or load_workshop(design.workshop_name)).revalidated()
     return built_and_checked(design.revalidated(), workshop, name)[0]
 
 

@@ -35,7 +35,7 @@ from jumpcad.landing.series import Series
 from jumpcad.robot import Robot, require_name
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.simulation import Jump, Settings, simulate
-from jumpcad.simulation.engines import default_engine
+from jumpcad.simulation.engines import BUNDLE_ENGINE
 from jumpcad.simulation.uncertain import Uncertainty
 
 
@@ -129,7 +129,7 @@ def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None =
 
 
 def _jump(robot: Robot, trajectory: bool) -> Jump:
-    return simulate(robot, Settings(flight="simulated", trajectory=trajectory), default_engine())
+    return simulate(robot, Settings(flight="simulated", trajectory=trajectory), BUNDLE_ENGINE)
 
 
 def _page(

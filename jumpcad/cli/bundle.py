@@ -60,7 +60,7 @@ def build(
     from jumpcad.files.outputs import require_apart, require_writable
     from jumpcad.mechanism.capsule import capsule_robot
     from jumpcad.simulation import simulate
-    from jumpcad.simulation.engines import default_engine
+    from jumpcad.simulation.engines import BUNDLE_ENGINE
 
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
     if output is None:
@@ -74,8 +74,7 @@ def build(
     if not force:
         _require_same_design_file(robot, design_file(design), folder)
     with status(f"simulating {robot.name} …"):
-        engine = default_engine()
-        printed, capsule = (simulate(one, engine=engine) for one in (robot, capsule_robot(robot.design)))
+        printed, capsule = (simulate(one, engine=BUNDLE_ENGINE) for one in (robot, capsule_robot(robot.design)))
     if printed.verdict != "jump" and not anyway:
         raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
     with status(f"writing {robot.name} …"):
@@ -106,7 +105,7 @@ def render(
     from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
     from jumpcad.landing.series import jumps
     from jumpcad.simulation import Settings, simulate
-    from jumpcad.simulation.engines import default_engine
+    from jumpcad.simulation.engines import BUNDLE_ENGINE
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     note_template(subject)
@@ -123,7 +122,7 @@ def render(
         robot = printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True), BUNDLE_ENGINE)
     if row and jump.trajectory is not None:
         with status(f"drawing {counted(row, 'jump')} of {robot.name} …"):
             files[GIF] = motion_gif(robot, viewer_data(robot, jump, jumps(robot, row, record=True)))

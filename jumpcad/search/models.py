@@ -65,7 +65,7 @@ class RobotModel:
     """Packages whose versions decide an evaluation, besides numpy and the engine."""
     workshop: Workshop | None = None
     settings: Settings | None = None
-    engine: str = "pybullet"
+    engine: str = field(default_factory=default_engine)
     requirements: tuple[Requirement, ...] = ()
 
     def __post_init__(self) -> None:
@@ -170,6 +170,7 @@ class RobotModel:
 class PublishedModel(RobotModel):
     """The published simulation, after the geometric checks, which its study did not have."""
 
+    engine: str = "pybullet"
     name = "published"
 
     def _evaluated(self, design: Design) -> Evaluation:
@@ -239,9 +240,8 @@ class PrintedModel(RobotModel):
     def _built(self, design: Design) -> Evaluation:
         from jumpcad.evaluation import evaluate_made
 
-        result = evaluate_made(
-            design, self.workshop, self.settings, self.engine, partial(perturbed, values=self.perturbation)
-        )
+        shop, made = self.workshop or load_workshop(), partial(perturbed, values=self.perturbation)
+        result = evaluate_made(design, shop, self.settings, self.engine, made)
         robot = result.robot
         findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
         if self.perturbation:  # what the design keeps stands in its own row

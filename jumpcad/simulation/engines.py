@@ -1,8 +1,8 @@
 """The registry of engines, and messages where one is not installed. An engine's library loads when it is first used."""
 
 import importlib
-import importlib.util
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -24,12 +24,21 @@ ENGINES = {
 GENERAL = ("pybullet", "mujoco")
 """Rigid-body simulators independent of this project, of packages of these names: `--engine both` compares them, and the
 first of them that is installed is the default."""
+BUNDLE_ENGINE = "mujoco"
+"""The engine of a bundle, its page and what `build` says, whatever is installed: it has a wheel on every platform, so
+that the bundle of a robot is the same everywhere."""
 ENGINE_HELP = "pybullet, mujoco, both or planar (fast); else the first installed."
 
 
 def is_installed(name: str) -> bool:
-    """Tell whether the package of an engine is there, if it needs one."""
-    return name not in GENERAL or importlib.util.find_spec(name) is not None
+    """Tell whether the package of an engine is there and loads, if it needs one."""
+    if name not in GENERAL or sys.modules.get(name):
+        return True
+    try:
+        (import_pybullet if name == "pybullet" else import_mujoco)()
+    except JumpcadError:
+        return False
+    return True
 
 
 @cache

@@ -8,7 +8,7 @@ from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings as Settings
 from jumpcad.settings import load_settings as load_settings
 from jumpcad.simulation.chain import Chain, simulate_chain
-from jumpcad.simulation.engines import engine_named
+from jumpcad.simulation.engines import default_engine, engine_named
 from jumpcad.simulation.jump import Jump
 from jumpcad.simulation.run import Run
 
@@ -16,7 +16,7 @@ LEAST_STEP_S = 1e-6
 """Least time step that settings may have."""
 
 
-def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
+def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, engine: str | None = None) -> Jump:
     """Let a robot jump.
 
     Parameters
@@ -29,7 +29,7 @@ def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, eng
         is what they give.
     engine
         A name of `jumpcad.simulation.ENGINES`: `pybullet`, `mujoco` for an independent result to compare, or `planar`,
-        the push-off in the plane in a fraction of their time.
+        the push-off in the plane in a fraction of their time. None: PyBullet where it is installed, else MuJoCo.
 
     Returns
     -------
@@ -45,7 +45,8 @@ def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, eng
     """
     settings = (settings or Settings()).revalidated()
     if isinstance(mechanism, Chain):
-        return simulate_chain(mechanism, settings, engine)
+        return simulate_chain(mechanism, settings, "mujoco" if engine is None else engine)
+    engine = default_engine() if engine is None else engine
     mechanism = with_spring_factor(mechanism, settings.spring_efficiency)
     maker = engine_named(engine)
     findings = geometry_findings(mechanism.design)

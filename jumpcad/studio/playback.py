@@ -10,7 +10,7 @@ from jumpcad.bundle.motion import motion, speed_in_words
 from jumpcad.bundle.viewer import turning_parts
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.engines import default_engine
+from jumpcad.simulation.engines import BUNDLE_ENGINE
 from jumpcad.transforms import Array
 
 CAM = "cam"
@@ -101,12 +101,12 @@ def _posed(first: Array, second: Array, share: float) -> Array:
 
 
 def playback(robot: Robot) -> Playback:
-    """Return the motion of a robot, by the first engine that is installed, as in its report.
+    """Return the motion of a robot, by the engine of its report.
 
     Raises
     ------
     JumpcadError
         If no engine is installed.
     """
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True), BUNDLE_ENGINE)
     return Playback(motion(robot, jump.trajectory, jump.takeoff_time_s), turning_parts(robot))

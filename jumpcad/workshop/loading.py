@@ -7,6 +7,7 @@ from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.catalogue import Article, load_catalogue
+from jumpcad.design import DEFAULT
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean, find_template, read_toml, template_names
 from jumpcad.files.complaints import place, shown
@@ -14,7 +15,6 @@ from jumpcad.files.names import NAME, NAME_RULE, composed
 from jumpcad.workshop.tables import Roles
 from jumpcad.workshop.workshop import OWN_PARTS, Workshop
 
-DEFAULT = "default"
 MOST_BASES = 20
 """Files of a workshop that may build on each other."""
 TELLS = {
@@ -24,15 +24,6 @@ TELLS = {
     "boards": ("description", ("length_mm", "width_mm", "height_mm")),
 }  # fmt: skip
 """What is ordered for a part, and figures that it stands for: with others it is not that article."""
-
-
-def own_workshop(design: str) -> str:
-    """Return the name of the workshop that a design is built in unless another is asked for.
-
-    That of a shipped design is the shipped workshop of its name, if there is one; else `DEFAULT`.
-    """
-    own = design in template_names("robots") and design in template_names("workshops")
-    return design if own else DEFAULT
 
 
 @check_arguments

@@ -1,10 +1,13 @@
 """The template best-jumper does what its name says: it lands upright, rights itself, and jumps again."""
 
+import copy
+
 import numpy as np
 import pytest
 
 import jumpcad
 from jumpcad.checks import check
+from jumpcad.cli.subjects import printed_robot
 from jumpcad.evaluation import evaluate
 from jumpcad.findings import errors
 from jumpcad.landing.arena import Arena
@@ -22,11 +25,27 @@ NAME = "best-jumper"
 
 @pytest.fixture(scope="module")
 def robot() -> Robot:
-    return jumpcad.build(jumpcad.load_design(NAME), load_workshop(own_workshop(NAME)))
+    return jumpcad.build(NAME)
 
 
 def test_only_a_template_with_a_workshop_of_its_name_has_one() -> None:
     assert [own_workshop(name) for name in (NAME, "kenan-2.0", "light", "no-such.toml")] == [NAME, *[DEFAULT] * 3]
+
+
+def test_in_python_it_is_the_robot_that_the_command_line_builds(robot: Robot) -> None:
+    design, shop = jumpcad.load_design(NAME), load_workshop(NAME)
+    assert (robot.workshop, robot.name) == (shop, NAME)
+    assert printed_robot(NAME, None).mass_kg == robot.mass_kg
+    for one in (
+        design,
+        design.revalidated(),
+        design.model_copy(update={"e_coef": design.e_coef}),
+        copy.deepcopy(design),
+    ):
+        assert jumpcad.build(one).workshop == shop
+    told = jumpcad.Design(**design.model_dump())
+    assert (told == design, told.workshop_name) == (True, DEFAULT)
+    assert jumpcad.evaluate(NAME).robot.workshop == shop
 
 
 def test_it_keeps_all_limits_with_both_kits(robot: Robot) -> None:

@@ -119,9 +119,10 @@ def test_a_missing_engine_is_said_with_the_way_out(kenan: Robot, monkeypatch: py
     engine_named.cache_clear()
     monkeypatch.setitem(sys.modules, "pybullet", None)
     with pytest.raises(JumpcadError, match=r"pip install pybullet-arm64.*--engine mujoco works"):
-        simulate(kenan)
-    assert default_engine() == "mujoco"
+        simulate(kenan, engine="pybullet")
+    assert default_engine() == simulate(kenan).engine == "mujoco"
     monkeypatch.setitem(sys.modules, "mujoco", None)
+    engine_named.cache_clear()
     with pytest.raises(JumpcadError, match=r"pip install mujoco; --engine pybullet works without it"):
         simulate(kenan, engine="mujoco")
     with pytest.raises(JumpcadError, match="no physics engine is installed"):

@@ -1,25 +1,12 @@
 """What one worker of pytest does while the others that need it too wait for it."""
 
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-
-@contextmanager
-def alone(lock: Path) -> Iterator[None]:
-    """Let one process at a time in; where files cannot be locked so, all of them."""
-    try:
-        import fcntl
-    except ImportError:
-        yield
-        return
-    with lock.open("w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        yield
+from filelock import FileLock
 
 
 def compiled_by_one(patch: pytest.MonkeyPatch, folder: Path) -> None:
@@ -38,7 +25,7 @@ def compiled_by_one(patch: pytest.MonkeyPatch, folder: Path) -> None:
             nonlocal done
             if done:
                 return function(*arguments, **named)
-            with alone(folder / f"{function.__name__}.lock"):
+            with FileLock(folder / f"{function.__name__}.lock"):
                 done = True
                 return function(*arguments, **named)
 

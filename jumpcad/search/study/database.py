@@ -3,8 +3,10 @@
 import os
 import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+
+from filelock import FileLock, Timeout
 
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_folder, require_path, require_writable
@@ -63,20 +65,9 @@ def require_study(study: Path | None) -> None:
         require_writable(study.parent)
 
 
-def _let_go() -> None:
-    for descriptor in _locks:
-        os.close(descriptor)
-
-
-_locks: set[int] = set()
-"""Descriptors of locks; copies of this process let go of them, else a study whose search was killed stays locked."""
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_let_go)
-
-
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Lock a study file for this process.
+    """Lock a study file for this process, by a file beside it, which goes with the lock.
 
     SQLite's own locks, for readers and a writer, are independent of this one.
 
@@ -85,41 +76,38 @@ def locked(path: Path) -> Iterator[None]:
     JumpcadError
         If the file cannot be written, or is locked by another process.
     """
-    import fcntl
-
     require_path(path)
+    lock = _lock(path)
     try:
-        descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+        os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o644))
+        lock.acquire()
+    except Timeout:
+        raise JumpcadError(f"{path}: is being written by another run; wait for it, or name another file") from None
     except OSError as error:
         raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        os.close(descriptor)
-        raise JumpcadError(f"{path}: is being written by another run; wait for it, or name another file") from None
-    _locks.add(descriptor)
-    try:
         yield
     finally:
-        _locks.remove(descriptor)
-        os.close(descriptor)
+        with suppress(OSError):  # Windows removes no open file; the library does it there
+            if not os.path.getsize(lock.lock_file):
+                os.unlink(lock.lock_file)
+        lock.release()
 
 
 def is_written(path: Path) -> bool:
     """Tell whether a running search has locked a study file."""
-    import fcntl
-
+    lock = _lock(path)
     try:
-        descriptor = os.open(path, os.O_RDONLY)
-    except OSError:
-        return False
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        if os.path.lexists(lock.lock_file):  # left by a search that was killed, or held
+            with lock:
+                pass
     except OSError:
         return True
-    finally:
-        os.close(descriptor)
     return False
+
+
+def _lock(path: Path) -> FileLock:
+    return FileLock(path.absolute().with_name(f"{path.name}.lock"), timeout=0, thread_local=False)
 
 
 @contextmanager

@@ -115,11 +115,12 @@ def _unpacked(sent: bytes) -> RobotModel:
 @contextlib.contextmanager
 def _alarm(limit_s: float) -> Iterator[None]:
     """End this process by a signal if the block takes longer than the limit, also inside compiled code."""
-    if limit_s <= 0 or not hasattr(signal, "setitimer"):
+    system: Any = signal  # Windows has no such timer
+    if limit_s <= 0 or not hasattr(system, "setitimer"):
         yield
         return
-    signal.setitimer(signal.ITIMER_REAL, limit_s)
+    system.setitimer(system.ITIMER_REAL, limit_s)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        system.setitimer(system.ITIMER_REAL, 0.0)

@@ -56,6 +56,7 @@ def test_a_study_is_written_while_its_lock_is_held(tmp_path, monkeypatch):
         copy = beside.beside(lambda: (os.write(start, b"1"), os.read(ending, 1)))  # lives on
         os.read(started, 1)
     assert not is_written(tmp_path / "s.db")
+    assert [one.name for one in tmp_path.iterdir()] == ["s.db"]
     os.write(end, b"2")
     assert copy() == (1, b"2")
 
