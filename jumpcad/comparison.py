@@ -2,7 +2,7 @@
 
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -34,7 +34,8 @@ from jumpcad.workshop.varied import leaves
 HOPS = 10
 """Jumps in a row from which the metres of a charge are computed."""
 FIGURES = {
-    "ballistic_range_m": ("range", "mm", 1000.0, 0),
+    "touchdown_distance_m": ("touchdown", "mm", 1000.0, 0),
+    "ballistic_range_m": ("range, floor or not", "mm", 1000.0, 0),
     "com_rise_m": ("rise", "mm", 1000.0, 0),
     "turn_deg": ("turn forwards", "°", 1.0, 0),
     "mass_kg": ("mass", "g", 1000.0, 1),
@@ -46,6 +47,8 @@ FIGURES = {
     "cost_eur": ("cost with estimates", "€", 1.0, 2),
 }
 """Label, unit, factor from SI and digits of each figure that is compared."""
+PRICE = ("spring_energy_j", "winding_time_s", "mass_kg", "cost_eur")
+"""Figures that a longer jump may have cost: what changed of them is said."""
 
 
 @dataclass(frozen=True)
@@ -130,6 +133,15 @@ class Comparison:
             ("tightest that differs", self.differing),
         ):
             yield [label, *(f"{limit.name}, {used(limit)}" for limit in limits)]
+        first = self.robots[0].figures
+        spent = [
+            {label: after / before - 1.0 for label, before, after in changes(first, one.figures)} for one in self.robots
+        ]
+        for name in spent[0] if len(spent) > 1 else ():
+            yield [
+                f"{name}, against the first",
+                *("–" if one is spent[0] else f"{100.0 * one[name]:+.0f} %" for one in spent),
+            ]
         yield ["violated limits", *(str(len(one.violated)) for one in self.robots)]
         for name, values in self.differs.items():
             yield [name, *("–" if value in (None, "") else f"{value:g}" if isinstance(value, float) else str(value)
@@ -150,6 +162,27 @@ class Comparison:
         style = (templates_folder() / "report" / "style.css").read_text(encoding="ascii")
         values = {"comparison": self, "style": style, "version": __version__} | lanes_values(lanes)
         return fill("report/comparison.html.j2", values)
+
+
+def changes(
+    before: Mapping[str, float | None], after: Mapping[str, float | None]
+) -> Iterator[tuple[str, float, float]]:
+    """Yield label and both values of each figure of `PRICE` that two robots have."""
+    for name in PRICE:
+        old, new = before.get(name), after.get(name)
+        if old and new:
+            yield FIGURES[name][0], old, new
+
+
+def changes_in_words(before: Mapping[str, float | None], after: Mapping[str, float | None]) -> str:
+    """Return what a robot costs more or less than the one that a search began with."""
+    units = {label: (unit, factor, digits) for label, unit, factor, digits in FIGURES.values()}
+    parts = []
+    for label, old, new in changes(before, after):
+        unit, factor, digits = units[label]
+        values = f"{factor * old:.{digits}f} → {factor * new:.{digits}f} {unit}"
+        parts.append(f"{label} {values} ({100.0 * (new / old - 1.0):+.0f} %)")
+    return ", ".join(parts)
 
 
 @check_arguments

@@ -138,7 +138,9 @@ class Mechanics:
             index = BODY_NAMES.index(name)
             x, y, z = self.com_in_body_m[index]
             up = state.rotation[index, 2]
-            heights.append(state.com_m[index, 2] + np.min((at.real - x) * up[0] + (at.imag - z) * up[2] - radius_m) - y * up[1])
+            heights.append(
+                state.com_m[index, 2] + np.min((at.real - x) * up[0] + (at.imag - z) * up[2] - radius_m) - y * up[1]
+            )
         return float(min(heights))
 
     def frame_positions_m(self, state: State) -> Array:
