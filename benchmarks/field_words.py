@@ -166,7 +166,7 @@ WORDS = {
     "lands_on_mm": "highest step that it lands on; 0 without",
     "step_distance_mm": "where the edge of that step is, in front of the standing robot",
     "lateral_offset_mm": "centre of mass of the standing robot beside the leg's plane, to the left",
-    "touchdown_distance_m": "way of the centre of mass from the loaded pose to the first touch of the floor by any part",
+    "touchdown_distance_m": "way of the centre of mass from the loaded pose until any part touches the floor",
     "touchdown_gap_m": "what the ballistic range counts after it; negative where it lands lower than it stood",
     "as_made.touchdown_distance_m": "10, 50, 90 % of robots as they may be made, by the planar engine",
     "as_made.com_rise_m": "the same of the rise",

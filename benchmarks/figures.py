@@ -117,11 +117,13 @@ def of_robots() -> dict[str, str]:
         real = measured.get(name)
         rows.append(
             (f"`{name}`", mm(jump.touchdown_distance_m), as_made(robot), mm(jump.ballistic_range_m),
-             mm(jump.com_rise_m), grams([robot.mass_kg]), f"{robot.spring.energy_j:.3f} J", f"{robot.layout.drive.train.electrical_j:.2f} J",
-             mm(capsules.touchdown_distance_m), f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
+             mm(jump.com_rise_m), grams([robot.mass_kg]), f"{robot.spring.energy_j:.3f} J",
+             f"{robot.layout.drive.train.electrical_j:.2f} J", mm(capsules.touchdown_distance_m),
+             f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
         )  # fmt: skip
     head = ("design", "touchdown", "as made, median", "range, floor or not", "rise", "mass", "energy in the springs",
-            "winding energy (electrical)", "touchdown with the study's masses", "real robot: distance, height")  # fmt: skip
+            "winding energy (electrical)", "touchdown with the study's masses",
+            "real robot: distance, height")  # fmt: skip
     return {"robots": table(head, rows)}
 
 

@@ -133,15 +133,10 @@ class Comparison:
             ("tightest that differs", self.differing),
         ):
             yield [label, *(f"{limit.name}, {used(limit)}" for limit in limits)]
-        first = self.robots[0].figures
-        spent = [
-            {label: after / before - 1.0 for label, before, after in changes(first, one.figures)} for one in self.robots
-        ]
-        for name in spent[0] if len(spent) > 1 else ():
-            yield [
-                f"{name}, against the first",
-                *("–" if one is spent[0] else f"{100.0 * one[name]:+.0f} %" for one in spent),
-            ]
+        first, *others = (one.figures for one in self.robots)
+        for name in PRICE if others else ():
+            shares = (_more(first[name], figures[name]) for figures in others)
+            yield [f"{FIGURES[name][0]}, against the first", "–", *shares]
         yield ["violated limits", *(str(len(one.violated)) for one in self.robots)]
         for name, values in self.differs.items():
             yield [name, *("–" if value in (None, "") else f"{value:g}" if isinstance(value, float) else str(value)
@@ -164,25 +159,19 @@ class Comparison:
         return fill("report/comparison.html.j2", values)
 
 
-def changes(
-    before: Mapping[str, float | None], after: Mapping[str, float | None]
-) -> Iterator[tuple[str, float, float]]:
-    """Yield label and both values of each figure of `PRICE` that two robots have."""
-    for name in PRICE:
-        old, new = before.get(name), after.get(name)
-        if old and new:
-            yield FIGURES[name][0], old, new
-
-
 def changes_in_words(before: Mapping[str, float | None], after: Mapping[str, float | None]) -> str:
-    """Return what a robot costs more or less than the one that a search began with."""
-    units = {label: (unit, factor, digits) for label, unit, factor, digits in FIGURES.values()}
+    """Return what a robot takes more or less of `PRICE` than the one that a search began with."""
     parts = []
-    for label, old, new in changes(before, after):
-        unit, factor, digits = units[label]
-        values = f"{factor * old:.{digits}f} → {factor * new:.{digits}f} {unit}"
-        parts.append(f"{label} {values} ({100.0 * (new / old - 1.0):+.0f} %)")
+    for name in PRICE:
+        (label, unit, factor, digits), old, new = FIGURES[name], before.get(name), after.get(name)
+        if old and new:
+            values = f"{factor * old:.{digits}f} → {factor * new:.{digits}f} {unit}"
+            parts.append(f"{label} {values} ({_more(old, new)})")
     return ", ".join(parts)
+
+
+def _more(before: float | None, after: float | None) -> str:
+    return f"{round(100.0 * (after / before - 1.0)):+d} %" if before and after else "–"
 
 
 @check_arguments

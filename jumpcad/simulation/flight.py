@@ -33,7 +33,7 @@ class Flight:
     `touchdown_distance_m` is the way of the centre of mass from where the robot stood with loaded springs to the first
     touch of the ground by any part, along x; `touchdown_pitch_deg` the body's pitch there against its standing loaded
     pose, from -180 to 180; `turn_deg` its turn from take-off to touchdown, not wrapped; `turn_rate_deg_s` its rate once
-    the leg is at its stop; `air_time_s` the time between both. `clears_bar_mm` is the highest thin bar that it passes over,
+    the leg is at its stop; `air_time_s` the time between both. `clears_bar_mm` is the highest thin bar that it passes,
     `lands_on_mm` the highest step that it lands on, with their distances from its nose where it stands; 0 without.
     """
 
