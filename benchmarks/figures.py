@@ -43,6 +43,7 @@ from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import BUNDLE_ENGINE
 from jumpcad.simulation.prior import floors
+from jumpcad.simulation.uncertain import uncertainty_of
 from jumpcad.workshop import load_workshop, own_workshop
 
 HERE = Path(__file__).parent
@@ -101,6 +102,12 @@ def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
+def as_made(robot: Robot) -> str:
+    """Return the median way to the touchdown of robots as they may be made of a design."""
+    found = uncertainty_of(robot)
+    return mm(found.quantiles["touchdown_distance_m"][1]) if found else "–"
+
+
 def of_robots() -> dict[str, str]:
     """Return the table of all templates."""
     measured = {row.template: row.measured for row in PROTOTYPES}
@@ -110,12 +117,14 @@ def of_robots() -> dict[str, str]:
         assert robot.layout is not None
         real = measured.get(name)
         rows.append(
-            (f"`{name}`", mm(jump.ballistic_range_m), mm(jump.com_rise_m), grams([robot.mass_kg]),
-             f"{robot.spring.energy_j:.3f} J", f"{robot.layout.drive.train.electrical_j:.2f} J",
-             mm(capsules.ballistic_range_m), f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
+            (f"`{name}`", mm(jump.touchdown_distance_m), as_made(robot), mm(jump.ballistic_range_m),
+             mm(jump.com_rise_m), grams([robot.mass_kg]), f"{robot.spring.energy_j:.3f} J",
+             f"{robot.layout.drive.train.electrical_j:.2f} J", mm(capsules.touchdown_distance_m),
+             f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
         )  # fmt: skip
-    head = ("design", "range", "rise", "mass", "energy in the springs", "winding energy (electrical)",
-            "range with the study's masses", "real robot: distance, height")  # fmt: skip
+    head = ("design", "touchdown", "as made, median", "range, floor or not", "rise", "mass", "energy in the springs",
+            "winding energy (electrical)", "touchdown with the study's masses",
+            "real robot: distance, height")  # fmt: skip
     return {"robots": table(head, rows)}
 
 
@@ -142,10 +151,10 @@ def of_results() -> dict[str, str]:
         robot, jump, _ = built(name)
         real = measured.get(name)
         rows.append(
-            (f"`{name}`", mm(jump.ballistic_range_m), mm(jump.com_rise_m), grams([robot.mass_kg]),
+            (f"`{name}`", mm(jump.touchdown_distance_m), as_made(robot), mm(jump.com_rise_m), grams([robot.mass_kg]),
              f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
         )  # fmt: skip
-    head = ("design", "simulated range", "rise", "mass", "real robot: distance, height")
+    head = ("design", "simulated touchdown", "as made, median", "rise", "mass", "real robot: distance, height")
     return {"results": table(head, rows)}
 
 
@@ -195,9 +204,9 @@ def _prototype(row: PublishedResult) -> dict[str, tuple[str, str]]:
     return {
         "the real robot, measured by the study": (mm(row.measured.distance_m), mm(row.measured.height_m)),
         "the study's simulation (`--published`)": (mm(again.distance_m), mm(again.base_height_m)),
-        "jumpcad, printed robot": (mm(jump.ballistic_range_m), mm(jump.com_rise_m)),
+        "jumpcad, printed robot": (mm(jump.touchdown_distance_m), mm(jump.com_rise_m)),
         "jumpcad, printed robot, where it comes to rest (`--landing`)": (_rests(row.template), ""),
-        "jumpcad, the study's masses (`--capsule`)": (mm(capsules.ballistic_range_m), mm(capsules.com_rise_m)),
+        "jumpcad, the study's masses (`--capsule`)": (mm(capsules.touchdown_distance_m), mm(capsules.com_rise_m)),
     }
 
 

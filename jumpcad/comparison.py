@@ -2,7 +2,7 @@
 
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -32,7 +32,8 @@ from jumpcad.workshop.varied import leaves
 HOPS = 10
 """Jumps in a row from which the metres of a charge are computed."""
 FIGURES = {
-    "ballistic_range_m": ("range", "mm", 1000.0, 0),
+    "touchdown_distance_m": ("touchdown", "mm", 1000.0, 0),
+    "ballistic_range_m": ("range, floor or not", "mm", 1000.0, 0),
     "com_rise_m": ("rise", "mm", 1000.0, 0),
     "turn_deg": ("turn forwards", "°", 1.0, 0),
     "mass_kg": ("mass", "g", 1000.0, 1),
@@ -44,6 +45,8 @@ FIGURES = {
     "cost_eur": ("cost with estimates", "€", 1.0, 2),
 }
 """Label, unit, factor from SI and digits of each figure that is compared."""
+PRICE = ("spring_energy_j", "winding_time_s", "mass_kg", "cost_eur")
+"""Figures that a longer jump may have cost: what changed of them is said."""
 
 
 @dataclass(frozen=True)
@@ -128,6 +131,10 @@ class Comparison:
             ("tightest that differs", self.differing),
         ):
             yield [label, *(f"{limit.name}, {used(limit)}" for limit in limits)]
+        first, *others = (one.figures for one in self.robots)
+        for name in PRICE if others else ():
+            shares = (_more(first[name], figures[name]) for figures in others)
+            yield [f"{FIGURES[name][0]}, against the first", "–", *shares]
         yield ["violated limits", *(str(len(one.violated)) for one in self.robots)]
         for name, values in self.differs.items():
             yield [name, *("–" if value in (None, "") else f"{value:g}" if isinstance(value, float) else str(value)
@@ -148,6 +155,21 @@ class Comparison:
         style = (templates_folder() / "report" / "style.css").read_text(encoding="ascii")
         values = {"comparison": self, "style": style, "version": __version__} | lanes_values(lanes)
         return fill("report/comparison.html.j2", values)
+
+
+def changes_in_words(before: Mapping[str, float | None], after: Mapping[str, float | None]) -> str:
+    """Return what a robot takes more or less of `PRICE` than the one that a search began with."""
+    parts = []
+    for name in PRICE:
+        (label, unit, factor, digits), old, new = FIGURES[name], before.get(name), after.get(name)
+        if old and new:
+            values = f"{factor * old:.{digits}f} → {factor * new:.{digits}f} {unit}"
+            parts.append(f"{label} {values} ({_more(old, new)})")
+    return ", ".join(parts)
+
+
+def _more(before: float | None, after: float | None) -> str:
+    return f"{round(100.0 * (after / before - 1.0)):+d} %" if before and after else "–"
 
 
 @check_arguments

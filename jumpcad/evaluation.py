@@ -23,8 +23,10 @@ from jumpcad.simulation.engines import require_engine
 from jumpcad.workshop import Workshop
 
 JUMP_FIGURES = {
-    "ballistic_range_m": "range",
+    "touchdown_distance_m": "way of the centre of mass to the first touch of the floor by any part",
     "com_rise_m": "rise of the centre of mass",
+    "ballistic_range_m": "range: its way until it falls below the height at which it started, floor or not",
+    "touchdown_gap_m": "… of it, what lies after the touchdown",
     "fitness": "range over the longest link",
     "spring_energy_j": "energy in the springs",
     "release_energy_ratio": "springs' energy left after the release, share",
@@ -45,7 +47,7 @@ JUMP_FIGURES = {
 }
 """Figures of a jump, and what they are."""
 FIGURES = JUMP_FIGURES | {
-    "body_lengths": "range over the robot's size",
+    "body_lengths": "touchdown distance over the robot's size",
     "size_m": "size, the longest side of the robot at rest",
     "electrical_energy_j": "electrical energy of a jump",
     "motor_energy_j": "… of it, the motor's",
@@ -53,7 +55,8 @@ FIGURES = JUMP_FIGURES | {
     "winding_time_s": "time to wind",
     "cost_eur": "parts and filament, partly estimated, in euros",
     "jumps_per_charge": "jumps of a full battery",
-    "rights_itself": "share of attitudes from which it rolls onto its feet (stable poses); where required",
+    "rest_distance_m": "median way to where it comes to rest, of simulated landings; where asked for",
+    "rights_itself": "share of attitudes from which it rolls onto its feet (stable poses); where asked for",
     "body_mass_kg": "mass of the body",
     "main_leg_mass_kg": "mass of the main leg",
     "front_link_mass_kg": "mass of the front link",
@@ -88,7 +91,7 @@ class EvaluationResult:
 
     @property
     def body_lengths(self) -> float:
-        """Ballistic range over the robot's size; 0 for everything but a jump.
+        """Touchdown distance over the robot's size; 0 for everything but a jump.
 
         Unlike `fitness` it does not grow when the links are shortened about a battery that stays as large.
         """
@@ -222,12 +225,12 @@ def _designed(order: _BuildKey) -> tuple[Robot, tuple[Finding, ...]]:
 
 
 def _metrics(robot: Robot, jump: Jump) -> dict[str, float]:
-    """Return size and range over size, energy and time of winding, and the masses."""
+    """Return size and touchdown distance over size, energy and time of winding, and the masses."""
     train = robot.layout.drive.train
     size_m = max(robot.design.l_max_mm / 1000.0, float(extent_m(robot).max()))
     masses = {f"{name}_mass_kg": body.mass_kg for name, body in robot.bodies.items()}
     return {
-        "body_lengths": (jump.ballistic_range_m or 0.0) / size_m,
+        "body_lengths": (jump.touchdown_distance_m or 0.0) / size_m,
         "size_m": size_m,
         "mass_kg": robot.mass_kg,
         "electrical_energy_j": train.electrical_j,

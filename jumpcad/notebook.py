@@ -111,6 +111,7 @@ def evaluation_html(result: EvaluationResult) -> str:
 
 def _jump_lines(jump: Jump) -> list[Line]:
     figures = (
+        ("touchdown distance", jump.touchdown_distance_m, "{:.3f} m"),
         ("ballistic range", jump.ballistic_range_m, "{:.3f} m"),
         ("rise of the centre of mass", jump.com_rise_m, "{:.3f} m"),
         ("fitness (range / longest link)", jump.fitness, "{:.2f}"),

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.built import built
+from support.flights import com_x_m
 from support.studies import IDENTITY, trials
 
 import jumpcad
@@ -22,13 +23,12 @@ def test_lanes_have_one_scale_and_robots_start_on_the_ground_and_end_on_it() -> 
     robots = [built(name) for name in ("kenan-2.0", "best-printable")]
     tracks = [simulate(robot, settings, "planar").trajectory for robot in robots]
     lanes = [lane("a", robot, track) for robot, track in zip(robots, tracks, strict=True)]
-    for drawn, track in zip(lanes, tracks, strict=True):
+    for robot, drawn, track in zip(robots, lanes, tracks, strict=True):
         assert track is not None
         assert drawn.high[1] == pytest.approx(0.0, abs=1.1)  # y points down: nothing lies below the ground
-        middle = 1000.0 * track.position_m[:, track.body_names.index("body")]
-        assert drawn.path[0] == pytest.approx([middle[0, 0], -middle[0, 2]], abs=0.06)
-        assert min(y for _, y in drawn.path) == pytest.approx(-middle[:, 2].max(), abs=0.1)
-        assert 0.8 * track.time_s[-1] < drawn.time_s[-1] <= track.time_s[-1]
+        ends_mm = 1000.0 * com_x_m(robot, track)[[0, -1]]  # that of the table, between start and touchdown
+        assert [drawn.path[0][0], drawn.path[-1][0]] == pytest.approx(ends_mm, abs=0.06)
+        assert drawn.time_s[-1] == pytest.approx(track.time_s[-1], abs=1e-5)
     values = lanes_values(lanes)
     assert values["left"] < min(one.low[0] for one in lanes)
     assert values["left"] + values["width"] > max(one.high[0] for one in lanes)

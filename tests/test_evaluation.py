@@ -76,7 +76,7 @@ def test_its_body_length_is_that_of_the_standing_robot() -> None:
         extent = corners[:, 3:].max(axis=0) - corners[:, :3].min(axis=0)
         assert extent_m(robot) == pytest.approx(extent, abs=1e-5)
         assert found.metrics["size_m"] == pytest.approx(max(extent.max(), robot.design.l_max_mm / 1000.0), abs=1e-5)
-        assert found.body_lengths == pytest.approx(found.jump.ballistic_range_m / found.metrics["size_m"])
+        assert found.body_lengths == pytest.approx(found.jump.touchdown_distance_m / found.metrics["size_m"])
         assert found.body_lengths <= found.fitness
 
 

@@ -23,7 +23,6 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
-from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.coupon.contents import coupon_files, coupon_pieces
 from jumpcad.errors import CannotBuildError
@@ -36,7 +35,7 @@ from jumpcad.robot import Robot, require_name
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import BUNDLE_ENGINE
-from jumpcad.simulation.uncertain import Uncertainty
+from jumpcad.simulation.uncertain import Uncertainty, uncertainty_of
 
 
 def export(
@@ -57,7 +56,7 @@ def export(
         Is made, with its parents; may be empty or hold an older bundle of the robot, whose files are replaced; files
         that a user added stay.
     pictures
-        Whether to draw the robot, to animate its jump in the GLB file, and to state the uncertainty of range and rise
+        Whether to draw the robot, to animate its jump in the GLB file, and to say how sure touchdown and rise are
         in the report; half of the time.
     step
         Whether to write STEP files too; needs the extra `step`.

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -19,8 +18,6 @@ from jumpcad.transforms import Array
 SHOWN_S, TICK_MM, EDGE_MM, RULER_MM = 4.0, 100, 12.0, 36
 """Time in which the shortest jump is shown, distance of the ruler's marks, room about what is drawn, and below the
 ground; judgement."""
-SINKS_MM = 1.0
-"""Depth in the ground from which a part is taken to have landed; judgement: pads give by half of it at push-off."""
 MOST_FRAMES = 160
 """Largest number of poses that are kept of a motion; judgement: more are not seen."""
 
@@ -30,21 +27,17 @@ class Lane:
     """A robot's lane: its parts' outlines by body, and its poses in time, seen from the right (mm, y down).
 
     `outlines` are paths and colours by body, the farthest first. `poses` (n, b, 3) are x, y and the turn (°, clockwise)
-    of each body's frame at `time_s` (n,), `low` and `high` (2,) the corners of all that is drawn.
+    of each body's frame at `time_s` (n,), `path` the way of the centre of mass (n, 2), `low` and `high` (2,) the
+    corners of all that is drawn.
     """
 
     label: str
     outlines: dict[str, list[tuple[str, str]]]
     time_s: list[float]
     poses: Array
+    path: list[list[float]]
     low: Array
     high: Array
-
-    @property
-    def path(self) -> list[list[float]]:
-        """The way of the body's frame (n, 2)."""
-        way: list[list[float]] = np.round(self.poses[:, list(self.outlines).index(BODY), :2], 1).tolist()
-        return way
 
 
 def lane(label: str, robot: Robot, trajectory: Trajectory | None) -> Lane:
@@ -57,24 +50,25 @@ def lane(label: str, robot: Robot, trajectory: Trajectory | None) -> Lane:
         turns = np.arctan2(matrices[:, :, 0, 2], matrices[:, :, 0, 0])
     else:
         names = trajectory.body_names
-        every = slice(None, None, math.ceil(len(trajectory.time_s) / MOST_FRAMES))
+        every = np.arange(len(trajectory.time_s))[:: -math.ceil(len(trajectory.time_s) / MOST_FRAMES)][::-1]
         times = np.round(trajectory.time_s[every], 5).tolist()
         places, quaternions = trajectory.position_m[every], trajectory.quaternion_xyzw[every]
         turns = 2.0 * np.arctan2(quaternions[:, :, 1], quaternions[:, :, 3])
     poses = np.stack([1000.0 * places[:, :, 0], -1000.0 * places[:, :, 2], np.degrees(turns)], axis=2)
     drawn = _outlines(robot)
-    corners = []
+    corners, centres = [], []
     for index, name in enumerate(names):
-        every_mm, turn = np.concatenate([outline for _, outline, _ in drawn[name]]), turns[:, index, None]
+        com_mm = 1000.0 * robot.bodies[name].com_m[[0, 2]] * (1.0, -1.0)
+        every_mm, turn = np.concatenate([com_mm[None], *(part for _, part, _ in drawn[name])]), turns[:, index, None]
         x = np.cos(turn) * every_mm[:, 0] - np.sin(turn) * every_mm[:, 1] + poses[:, index, :1]
         y = np.sin(turn) * every_mm[:, 0] + np.cos(turn) * every_mm[:, 1] + poses[:, index, 1:2]
         corners.append(np.stack([x, y], axis=2))
-    reached = np.concatenate(corners, axis=1)
-    sunk = np.flatnonzero(reached[:, :, 1].max(axis=1) > SINKS_MM)  # engines let some parts pass through the ground
-    end = int(sunk[0]) if len(sunk) and sunk[0] > 0 else len(times)
+        centres.append(corners[-1][:, 0])
+    path = np.average(centres, axis=0, weights=[robot.bodies[name].mass_kg for name in names])
     outlines = {name: [(_path(outline), colour) for _, outline, colour in drawn[name]] for name in names}
-    corner = reached[:end].reshape(-1, 2)
-    return Lane(label, outlines, times[:end], poses[:end], corner.min(axis=0), corner.max(axis=0))
+    corner = np.concatenate(corners, axis=1).reshape(-1, 2)
+    way = np.round(path, 1).tolist()
+    return Lane(label, outlines, times, poses, way, corner.min(axis=0), corner.max(axis=0))
 
 
 def lanes_values(lanes: Sequence[Lane]) -> dict[str, Any]:

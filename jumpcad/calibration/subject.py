@@ -73,11 +73,8 @@ class Subject:
     @cached_property
     def beyond_m(self) -> tuple[float, float]:
         """Distance at first touchdown less ballistic range: mean and standard deviation over `LANDINGS` (m)."""
-        flight, further = Settings(flight="simulated"), []
-        for energy in LANDINGS:
-            jump = simulate(with_spring_factor(self.robot, energy), flight, "planar")
-            if jump.touchdown_distance_m is not None and jump.ballistic_range_m is not None:
-                further.append(jump.touchdown_distance_m - jump.ballistic_range_m)
+        jumps = (simulate(with_spring_factor(self.robot, energy), engine="planar") for energy in LANDINGS)
+        further = [-jump.touchdown_gap_m for jump in jumps if jump.touchdown_gap_m is not None]
         return (float(np.mean(further)), float(np.std(further))) if further else (0.0, 0.02)
 
     def remeasured(self, measured: Measurements, seen: tuple[TakeoffSeen, ...] = ()) -> "Subject":

@@ -194,8 +194,9 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
     """Return the figures that `build` prints."""
     from jumpcad.bundle.limits import limits_of, ordered, violation, with_verdict
     from jumpcad.checks.engraving import engraving_findings
+    from jumpcad.simulation.uncertain import uncertainty_of
 
-    train = robot.layout.drive.train
+    train, sure = robot.layout.drive.train, uncertainty_of(robot) if printed.verdict == "jump" else None
     energy, findings = robot.spring.energy_j, with_verdict(limits_of(robot), printed)
     return {
         "name": robot.name,
@@ -217,6 +218,7 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
         "violated": [finding.to_dict() for finding in ordered(findings) if finding.severity != "info"],
         "violation": violation(findings),
         "jump": printed.to_dict(),
+        "as_made": None if sure is None else sure.quantiles,
         "capsule_jump": capsule.to_dict(),
     }
 
@@ -241,7 +243,7 @@ def _print_facts(facts: dict[str, Any], parts: bool) -> None:
     text = text_of(
         "build",
         **facts,
-        printed=jump_in_words(facts["jump"]),
+        printed=jump_in_words(facts["jump"], facts["as_made"] and facts["as_made"]["touchdown_distance_m"][1]),
         capsule=jump_in_words(facts["capsule_jump"]),
         pictured=any(path.startswith(f"{PICTURES}/") for path in facts["files"]),
     )

@@ -85,7 +85,8 @@ def check(
         findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]
     if as_json:
         data = [finding.to_dict() | {"use": finding.use} for finding in findings]
-        said = {"verdict": jump.verdict, "ballistic_range_m": jump.ballistic_range_m, "com_rise_m": jump.com_rise_m,
+        said = {"verdict": jump.verdict, "touchdown_distance_m": jump.touchdown_distance_m,
+                "ballistic_range_m": jump.ballistic_range_m, "com_rise_m": jump.com_rise_m,
                 "mass_kg": robot.mass_kg, "limits": count, "grown": [vars(one) for one in robot.grown]}  # fmt: skip
         print_json({"design": design, "workshop": workshop or own_workshop(design), **said, "findings": data})
     elif explain:

@@ -98,7 +98,7 @@ def explore(
     robot = options.robot_model()
     space = Space.parse(options.fix or (), options.bound or (), options.choose or (), workshop=robot.workshop)
     request = Request.make(space, robot, "ga", options.objective)
-    objective = request.aim
+    robot, objective = request.model, request.aim
     centre = load_design(AROUND if around is None else around)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),

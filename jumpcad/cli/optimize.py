@@ -15,6 +15,7 @@ from jumpcad.plural import counted
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
+    from jumpcad.design import Design
     from jumpcad.findings import Finding
     from jumpcad.search.models import RobotModel
     from jumpcad.search.study.evaluator import Watch
@@ -111,6 +112,7 @@ def optimize(
     --seeds runs a search for each seed, of one method or of several that
     are compared; the design is the most robust winner of all.
     """
+    from jumpcad.comparison import changes_in_words
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.search.space import Space
@@ -167,7 +169,7 @@ def optimize(
     if result.winner is not None:
         result.save(design_file, force)
     pictures = _plot(path, plots, results if asked else [])
-    violated = _violated(result, robot)
+    violated, before = _violated(result, robot), _before(result, robot, centre)
     if as_json:
         written = None if result.winner is None else str(design_file)
         data: dict[str, Any] = {"study": str(path), "pictures": pictures, "design_file": written}
@@ -175,6 +177,7 @@ def optimize(
             data["workshop_file"] = None if result.winner is None else str(workshop_file(design_file))
         if facts:
             data["seeds"] = facts
+        data["began_with"] = before
         data["violated"] = [finding.to_dict() for finding in violated]
         print_json(data | result.to_dict())
     else:
@@ -183,11 +186,21 @@ def optimize(
             print_seeds(facts, chosen, result.request.objective)
         used = str(workshop_file(design_file)) if of_winner else options.workshop
         made = shell_quoted(str(design_file)) + (f" --workshop {shell_quoted(used)}" if used else "")
+        changed = changes_in_words(before, result.winner.evaluation.metrics) if before and result.winner else ""
         print_text(
-            "optimize", result=result, design_file=str(design_file), violated=violated, made=made, counted=counted
-        )
+            "optimize", result=result, design_file=str(design_file), violated=violated, made=made, counted=counted,
+            changed=changed, around=around,
+        )  # fmt: skip
     if result.winner is None:
         raise typer.Exit(1)
+
+
+def _before(result: "Result", robot: "RobotModel", centre: "Design | None") -> dict[str, float]:
+    """Return the figures of the printed robot that the search began with, whose winner may need stronger springs."""
+    if centre is None or result.winner is None or robot.name != "printed":
+        return {}
+    with status("building the robot that it began with …"):
+        return dict(robot(centre).metrics)
 
 
 def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":

@@ -32,8 +32,8 @@ class SearchOptions:
     objective: Annotated[
         str | None,
         typer.Option(
-            help="body_lengths, fitness, range, rise, range-per-joule, range-per-spring-joule, jumps-per-joule, "
-            "metres-per-charge, or an own function of a jump's figures.",
+            help="body_lengths, touchdown, rest, fitness, range, rise, range-per-joule, range-per-spring-joule, "
+            "jumps-per-joule, metres-per-charge, or an own function of a jump's figures.",
             metavar="NAME|FILE.py:FUNCTION",
             show_default="body_lengths; fitness of robots that are not printed",
         ),

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from jumpcad.robot import Robot
     from jumpcad.simulation import Jump, Settings
     from jumpcad.simulation.jump import Trajectory
+    from jumpcad.simulation.uncertain import Uncertainty
 
 DEFAULT_SETTINGS = "default"
 TRIES = 20
@@ -43,7 +44,9 @@ def simulate(
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
     uncertain: Annotated[
         bool,
-        typer.Option("--uncertain", help="Also the uncertainty: 10, 50, 90 % quantiles of range and rise, by source."),
+        typer.Option(
+            "--uncertain", help="Also the uncertainty: 10, 50, 90 % quantiles of touchdown and rise, by source."
+        ),
     ] = False,
     landing: Annotated[
         bool, typer.Option("--landing", help="How it lands, on what it rests, whether winding rights it (MuJoCo).")
@@ -71,6 +74,7 @@ def simulate(
     from jumpcad.simulation import load_settings, uncertain_jump
     from jumpcad.simulation import simulate as simulate_jump
     from jumpcad.simulation.chain import Chain
+    from jumpcad.simulation.uncertain import uncertainty_of
 
     landings = "--landing" if landing else f"--jumps {row}"
     alone = f"{{}} and {landings} exclude each other: {landings} is of a printed robot in MuJoCo; leave one out"
@@ -127,7 +131,7 @@ def simulate(
     if landed and isinstance(robot, Robot):
         alone_jump = simulate_jump(robot, asked, "mujoco")
         if alone_jump.verdict != "jump":
-            _report(heading, [alone_jump], as_json, None)
+            _report(heading, [alone_jump], as_json)
             raise typer.Exit(1)
         if row is None:
             _land(robot, heading, asked, tries, seed, as_json)
@@ -135,18 +139,19 @@ def simulate(
             _jump_on(robot, heading, asked, row, seed, as_json, trajectory)
         return
     jumps = [simulate_jump(robot, asked, one) for one in engines]
+    made = None
+    if isinstance(robot, Robot) and not written and jumps[0].verdict == "jump":
+        made = uncertainty_of(robot, load_settings(settings))
     if trajectory and (path := jumps[0].trajectory):
         _write_trajectory(trajectory, path)
     elif trajectory:
         reason = f"{jumps[0].verdict}: a robot that is rejected before its release does not move"
         print(f"jumpcad: {without_controls(str(trajectory))}: not written; {reason}", file=sys.stderr)
-    spread = None
-    if uncertain:
+    spread = made if uncertain and not (engine or seed) else None
+    if uncertain and not spread:
         with status("simulating samples of the uncertain inputs …"):
-            spread = uncertain_jump(
-                printed_robot(design, workshop), load_settings(settings), engines[0], seed
-            ).to_dict()
-    _report(heading, jumps, as_json, spread)
+            spread = uncertain_jump(printed_robot(design, workshop), load_settings(settings), engines[0], seed)
+    _report(heading, jumps, as_json, spread, made)
     if any(jump.verdict != "jump" for jump in jumps):
         raise typer.Exit(1)
 
@@ -215,11 +220,15 @@ def _jump_on(
         _write_trajectory(trajectory, series.trajectory)
 
 
-def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread: dict[str, Any] | None) -> None:
+def _report(
+    heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread: "Uncertainty | None" = None,
+    made: "Uncertainty | None" = None,
+) -> None:  # fmt: skip
     if as_json:
         results = [jump.to_dict() for jump in jumps]
         if len(jumps) == 1:
-            print_json(heading | results[0] | ({"uncertain": spread} if spread else {}))
+            more = {"as_made": made and made.quantiles, "uncertain": spread and spread.to_dict()}
+            print_json(heading | results[0] | {name: value for name, value in more.items() if value})
         else:
             engines = {jump.engine: result for jump, result in zip(jumps, results, strict=True)}
             print_json({**heading, "engines": engines, "range_difference_percent": _difference_percent(jumps)})
@@ -232,6 +241,7 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread:
     print_text(
         "simulate", **heading, jumps=jumps, account=ACCOUNT, spread=spread, figures=FIGURES,
         difference=difference, counted=counted, band=efficiency_band(),
+        made_m=made and made.quantiles["touchdown_distance_m"][1],
     )  # fmt: skip
 
 

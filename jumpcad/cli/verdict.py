@@ -10,12 +10,13 @@ if TYPE_CHECKING:
     from jumpcad.strength.growth import Grown
 
 
-def jump_in_words(jump: dict[str, Any]) -> str:
-    """Return range, rise and mass of a jump, or why there is none."""
+def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
+    """Return touchdown, also in the median of robots as made, rise and mass of a jump, or why there is none."""
     if jump["verdict"] == "jump":
+        made = f" ({1000.0 * made_m:.0f} as made, in the median)" if made_m else ""
         return (
-            f"jumps {1000.0 * jump['ballistic_range_m']:.0f} mm far and {1000.0 * jump['com_rise_m']:.0f} mm high "
-            f"with {1000.0 * jump['mass_kg']:.1f} g"
+            f"jumps {1000.0 * (jump.get('touchdown_distance_m') or jump['ballistic_range_m']):.0f} mm far{made} and "
+            f"{1000.0 * jump['com_rise_m']:.0f} mm high with {1000.0 * jump['mass_kg']:.1f} g"
         )
     why = [
         f": {finding['message']}; {finding['remedy']}" for finding in jump["findings"] if finding["severity"] == "error"

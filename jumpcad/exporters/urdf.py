@@ -98,9 +98,13 @@ def cage_cylinders(mechanism: Mechanism) -> "dict[str, Capsule]":
 
 
 def write_loop(mechanism: Mechanism) -> str:
-    """Return the JSON document beside the URDF: loop closure, spring, pose at release, surfaces of the spheres."""
+    """Return the JSON document beside the URDF: loop, spring, pose at release, outlines, surfaces of the spheres."""
     release = release_pose(mechanism)
     loop, spring = mechanism.loop, mechanism.spring
+    outline = {
+        name: [[round(one.real, 6), round(one.imag, 6)] for one in corners.tolist()]
+        for name, corners in mechanism.outline_m.items()
+    }
     data = {
         "design": mechanism.design.model_dump(),
         "loop": {
@@ -125,6 +129,7 @@ def write_loop(mechanism: Mechanism) -> str:
             "body_pitch_rad": release.body_pitch_rad,
         },
         "foot_depth_m": mechanism.foot_depth_m,
+        **({"outline_m": outline} if outline else {}),
         "surfaces": {contact.name: contact.surface for body in mechanism.bodies.values() for contact in body.contacts},
     }
     return json.dumps(data, indent=2, allow_nan=False) + "\n"

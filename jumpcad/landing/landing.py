@@ -27,6 +27,8 @@ HOLD_S = 1.0
 DROP_M, DROP_M_S, DROP_RAD_S = (0.05, 0.35), (0.3, 1.8), 5.0
 """Heights, speeds along the floor and spins of robots that are dropped in any attitude."""
 
+RESTS = 12
+"""Landings whose median is where a robot comes to rest; judgement."""
 GROUNDED = "the robot does not leave the floor, so that it does not land: jumpcad simulate says why"
 
 
@@ -123,7 +125,14 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
     return Landings(found, righted, tuple(forces), landing_strength(robot, forces), share_on_feet(robot))
 
 
-def distances_m(robot: Robot, tries: int, rng: np.random.Generator) -> list[tuple[float, float]]:
+def rest_distance_m(robot: Robot, settings: Settings | None = None) -> float:
+    """Return the median way to where a robot comes to rest, of `RESTS` of its own jumps; see `distances_m`."""
+    return float(np.median([rest for _, rest in distances_m(robot, RESTS, np.random.default_rng(0), settings)]))
+
+
+def distances_m(
+    robot: Robot, tries: int, rng: np.random.Generator, settings: Settings | None = None
+) -> list[tuple[float, float]]:
     """Return how far away the robot touches down and comes to rest, in as many of its own jumps (m).
 
     Raises
@@ -133,7 +142,7 @@ def distances_m(robot: Robot, tries: int, rng: np.random.Generator) -> list[tupl
     JumpcadError
         If MuJoCo is not installed.
     """
-    arena = Arena(robot)
+    arena = Arena(robot, settings)
     return [_fly_and_rest(arena, rng) for _ in range(tries)]
 
 

@@ -35,9 +35,9 @@ from jumpcad.workshop.varied import Value
 MODELS = ("printed", "capsule", "published")
 PUBLISHED_FIGURES = ("fitness", "base_distance_m", "base_height_m", "spring_energy_j")
 """Figures of a jump of the published robot."""
-FULL_FLIGHT = "touchdown_distance_m"
-"""A figure that settings with the whole flight add."""
-RIGHTS_ITSELF = "rights_itself"
+RIGHTS_ITSELF, RESTS = "rights_itself", "rest_distance_m"
+COSTLY = (RIGHTS_ITSELF, RESTS)
+"""Figures of a printed robot that are computed where a requirement or the objective asks for them alone."""
 ESTIMATE_STEP_S = 0.002
 """Time step of the planar engine for an estimate: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
 LENGTH_MM = 0.2
@@ -188,7 +188,7 @@ class CapsuleModel(RobotModel):
     """The published masses as uniform capsules, simulated with some settings (the default ones if None)."""
 
     name = "capsule"
-    figure_names = (*JUMP_FIGURES, FULL_FLIGHT)
+    figure_names = tuple(JUMP_FIGURES)
 
     def admits(self, design: Design) -> bool:
         """Whether the robot stands and its springs are strong enough, too."""
@@ -214,12 +214,15 @@ class PrintedModel(RobotModel):
         Whether the evaluation has the figures from which other robots are estimated.
     perturbation
         What is made otherwise than designed, by the keys of `tolerances`.
+    scored
+        Figures of `COSTLY` that the objective needs.
     """
 
     stand_in: bool = False
+    scored: tuple[str, ...] = ()
     perturbation: Mapping[str, Value] = field(default_factory=dict)
     name = "printed"
-    figure_names = (*FIGURES, FULL_FLIGHT)
+    figure_names = tuple(FIGURES)
     default_objective = "body_lengths"
     packages = ("manifold3d", "trimesh")
 
@@ -247,8 +250,14 @@ class PrintedModel(RobotModel):
         if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
         figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
-        if not self.perturbation and self.requires(RIGHTS_ITSELF):
+        asked = {name for name in COSTLY if name in self.scored or (self.requires(name) and not self.perturbation)}
+        if RIGHTS_ITSELF in asked:
             figures[RIGHTS_ITSELF] = result.rights_itself  # a fifth of an evaluation more
+        if RESTS in asked:
+            from jumpcad.landing.landing import rest_distance_m
+
+            made, settings = perturbed(robot, self.settings or Settings(), self.perturbation)
+            figures[RESTS] = rest_distance_m(made, settings) if result.verdict == "jump" else 0.0
         others: list[dict[str, float]] = []
         if not self.perturbation:  # of what is made otherwise the floor is one
             others = self.on_floors(robot, self.settings or Settings(), self.estimate_engine)
@@ -324,7 +333,8 @@ class PrintedModel(RobotModel):
 
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""
-        return super().describe() | ({"stand_in": True} if self.stand_in else {})
+        more = {"stand_in": self.stand_in, "scored": list(self.scored)}
+        return super().describe() | {name: value for name, value in more.items() if value}
 
 
 @check_arguments

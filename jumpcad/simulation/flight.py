@@ -6,7 +6,6 @@ friction in the pins is left out. Points in x-z are complex numbers x + iz.
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,27 +15,29 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, Mechanism
 from jumpcad.mechanism.planar import about_common_centre, frames, points, seen_from_body
 from jumpcad.mechanism.reflected import flying_inertias
 from jumpcad.simulation.ballistics import Ballistics
-from jumpcad.simulation.mechanics import Mechanics, State
+from jumpcad.simulation.mechanics import Mechanics, Points, State, surface
 from jumpcad.transforms import Array
 
 SWING_POINTS = 9
 """Leg angles between take-off and stop; with 33, turns of the templates change by less than 0.1°."""
-MOMENTS = 400
-"""Moments of the flight at which the contacts' height is looked up, with linear interpolation between them."""
+MOMENTS = 200
+"""Moments of the flight at which the lowest part's height is looked up, with linear interpolation between them."""
 SLOWEST = 0.05
 """Least share of the leg's rate at take-off that is left before the stop, where friction would let it creep."""
 
 
 @dataclass(frozen=True)
 class Flight:
-    """How a robot turns in flight: forwards is positive.
+    """How far a robot flies, and how it turns: forwards is positive.
 
-    `touchdown_pitch_deg` is the body's pitch at the first touch of the ground against its standing loaded pose, from
-    -180 to 180; `turn_deg` its turn from take-off to touchdown, not wrapped; `turn_rate_deg_s` its rate once the leg
-    is at its stop; `air_time_s` the time between both. `clears_bar_mm` is the highest thin bar that it passes over,
+    `touchdown_distance_m` is the way of the centre of mass from where the robot stood with loaded springs to the first
+    touch of the ground by any part, along x; `touchdown_pitch_deg` the body's pitch there against its standing loaded
+    pose, from -180 to 180; `turn_deg` its turn from take-off to touchdown, not wrapped; `turn_rate_deg_s` its rate once
+    the leg is at its stop; `air_time_s` the time between both. `clears_bar_mm` is the highest thin bar that it passes,
     `lands_on_mm` the highest step that it lands on, with their distances from its nose where it stands; 0 without.
     """
 
+    touchdown_distance_m: float
     touchdown_pitch_deg: float
     turn_deg: float
     turn_rate_deg_s: float
@@ -68,21 +69,18 @@ def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: S
     pitch = _pitch_rad(takeoff)
     time = np.linspace(swing.time_s, max(path.deepest_s, swing.time_s), MOMENTS)
     turn = swing.turn_rad + swing.rate_rad_s * (time - swing.time_s)
-    centre = path.place_m(time)
-    contacts, outline = _contacts(mechanism), mechanism.outline_m
-    arms = _arms_m(mechanism, mechanics, contacts, swing.leg_rad, pitch + turn)
-    clearance = (centre[:, None] + arms).imag.min(axis=1)
-    air = _first_touch_s(time, clearance)
+    centre, around = path.place_m(time), surface(mechanism)
+    bottoms = centre[:, None] + _arms_m(mechanism, mechanics, around, swing.leg_rad, pitch + turn)
+    air = _first_touch_s(time, bottoms.imag.min(axis=1))
     turned = swing.turn_rad + swing.rate_rad_s * (air - swing.time_s)
     arrived = math.degrees(pitch + turned - _pitch_rad(loaded))
     stood = complex(*mechanics.centre_of_mass_m(loaded)[[0, 2]])
-    around = {name: (corners, np.zeros(len(corners))) for name, corners in outline.items()} or contacts
     standing = _arms_m(mechanism, mechanics, around, loaded.leg_rad, np.array([_pitch_rad(loaded)]))
     flown = time <= air
-    bottoms = centre[flown, None] + _arms_m(mechanism, mechanics, around, swing.leg_rad, (pitch + turn)[flown])
+    away_m = float(path.place_m(np.array([air]))[0].real) - stood.real
     return Flight(
-        (arrived + 180.0) % 360.0 - 180.0, math.degrees(turned), math.degrees(swing.rate_rad_s), air,
-        *obstacles(bottoms, centre[flown].real, float((stood + standing).real.max())),
+        away_m, (arrived + 180.0) % 360.0 - 180.0, math.degrees(turned), math.degrees(swing.rate_rad_s), air,
+        *obstacles(bottoms[flown], centre[flown].real, float((stood + standing).real.max())),
     )  # fmt: skip
 
 
@@ -162,22 +160,6 @@ def _swing(mechanism: Mechanism, leg_rad: float, leg_rad_s: float, momentum: flo
         time, end_rad = time + give_s, end_rad + give
         *_, whole = flying_inertias(mechanism, np.array([end_rad]))
     return _Swing(time, turn, momentum / float(whole[-1]), end_rad)
-
-
-Points = Mapping[str, tuple[Complex, Array]]
-"""Points of bodies, x + iz (k,) in their frames, with the radii (k,) of what is round about them."""
-
-
-def _contacts(mechanism: Mechanism) -> Points:
-    """Return the contact spheres."""
-    touching = {name: body.contacts for name, body in mechanism.bodies.items() if body.contacts}
-    return {
-        name: (
-            points(np.array([sphere.centre_m[[0, 2]] for sphere in spheres])),
-            np.array([sphere.radius_m for sphere in spheres]),
-        )
-        for name, spheres in touching.items()
-    }
 
 
 def _arms_m(mechanism: Mechanism, mechanics: Mechanics, around: Points, leg_rad: float, pitch_rad: Array) -> Complex:

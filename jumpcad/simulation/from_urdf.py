@@ -33,6 +33,7 @@ from jumpcad.mechanism.model import (
     Stop,
     five_bar,
 )
+from jumpcad.mechanism.planar import points
 from jumpcad.scene.hulls import CAGE
 from jumpcad.transforms import Array
 
@@ -40,6 +41,7 @@ Length = Annotated[float, Field(ge=-10, le=10)]
 Angle = Annotated[float, Field(ge=-20, le=20)]
 Radius = Annotated[float, Field(ge=0, le=0.1)]
 Point = Annotated[tuple[Length, Length, Length], Field(strict=False)]
+Corner = Annotated[tuple[Length, Length], Field(strict=False)]
 JointName = Literal["leg", "front", "ankle"]
 BodyName = Literal["body", "main_leg", "front_link", "foot"]
 
@@ -125,6 +127,9 @@ class LoopFile(Record):
     roller_off: RollerOffSection | None = None
     friction: FrictionSection | None = None
     foot_depth_m: Annotated[float, Field(ge=1e-5, le=1)]
+    outline_m: dict[BodyName, Annotated[list[Corner], Field(min_length=3, max_length=1000)]] = Field(
+        default_factory=dict
+    )
     surfaces: dict[str, Literal["foot", "body"]]
 
 
@@ -159,6 +164,7 @@ def robot_from_urdf(path: Path) -> Mechanism:
             stop=Stop(**extra.stop.model_dump()) if extra.stop else None,
             roller_off=RollerOff(**extra.roller_off.model_dump()) if extra.roller_off else None,
             friction=Friction(**extra.friction.model_dump()) if extra.friction else None,
+            outline_m={name: points(np.array(corners)) for name, corners in extra.outline_m.items()},
         )
         _require_mechanism(mechanism)
     return mechanism

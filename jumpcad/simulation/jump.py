@@ -93,9 +93,11 @@ class Jump:
     that of the audit's (`audit_energy`, `audit_loop`). What only a jump has is None under any other verdict; `fitness`
     (ballistic range over the longest link) is then 0. `release_energy_ratio` is what the springs still hold, with the
     motion of the robot, where the roller has left the cam, over what was loaded: 1 without a cam. Range, rise and
-    distances count from where the robot stood with loaded springs. Turn, pitch and air time up to touchdown are
-    those of `jumpcad.simulation.flight`, in closed form; `lateral_offset_mm` is how far the standing robot's centre of
-    mass lies beside the leg's plane, to the left. `findings` holds the gate's and the audit's margins.
+    distances count from where the robot stood with loaded springs. `touchdown_distance_m`, turn, pitch and air time up
+    to the first touch of any part are those of `jumpcad.simulation.flight`, in closed form, the distance of a simulated
+    flight its own; `touchdown_gap_m` is what the ballistic range, down to the height of the start, counts after it.
+    `lateral_offset_mm` is how far the standing robot's centre of mass lies beside the leg's plane, to the left.
+    `findings` holds the gate's and the audit's margins.
     """
 
     verdict: str
@@ -103,6 +105,7 @@ class Jump:
     mass_kg: float
     spring_energy_j: float
     fitness: float = 0.0
+    touchdown_distance_m: float | None = None
     ballistic_range_m: float | None = None
     com_rise_m: float | None = None
     release_energy_ratio: float | None = None
@@ -110,7 +113,7 @@ class Jump:
     takeoff_speed_m_s: float | None = None
     takeoff_angle_deg: float | None = None
     takeoff_time_s: float | None = None
-    touchdown_distance_m: float | None = None
+    touchdown_gap_m: float | None = None
     touchdown_pitch_deg: float | None = None
     turn_deg: float | None = None
     turn_rate_deg_s: float | None = None
@@ -125,7 +128,7 @@ class Jump:
     findings: tuple[Finding, ...] = ()
 
     def __repr__(self) -> str:
-        figures = (("range", self.ballistic_range_m), ("rise", self.com_rise_m))
+        figures = (("touchdown at", self.touchdown_distance_m), ("rise", self.com_rise_m))
         shown = "".join(f", {name} {value:.3f} m" for name, value in figures if value is not None)
         return f"<Jump {self.verdict}{shown}, fitness {self.fitness:.3f}, {1000.0 * self.mass_kg:.1f} g, {self.engine}>"
 

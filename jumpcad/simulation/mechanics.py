@@ -1,11 +1,14 @@
 """What all engines have in common: a robot at its release, its energies, the ballistic flight, the pad of its stop."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
+from jumpcad.mechanism.planar import points
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.transforms import Array
@@ -41,6 +44,24 @@ def loaded_state(mechanism: Mechanism) -> State:
     )
 
 
+Points = Mapping[str, tuple[Complex, Array]]
+"""Points of bodies, x + iz (k,) in their frames, with the radii (k,) of what is round about them."""
+
+
+def surface(mechanism: Mechanism) -> Points:
+    """Return the corners of the parts' outlines; of a robot without parts its contact spheres."""
+    if mechanism.outline_m:
+        return {name: (corners, np.zeros(len(corners))) for name, corners in mechanism.outline_m.items()}
+    touching = {name: body.contacts for name, body in mechanism.bodies.items() if body.contacts}
+    return {
+        name: (
+            points(np.array([sphere.centre_m[[0, 2]] for sphere in spheres])),
+            np.array([sphere.radius_m for sphere in spheres]),
+        )
+        for name, spheres in touching.items()
+    }
+
+
 @dataclass(frozen=True)
 class Energies:
     """Mechanical energy (J): potential is that of height above z = 0, `spring_j` that above the springs' at rest."""
@@ -67,6 +88,7 @@ class Mechanics:
         self.com_in_body_m = np.stack([body.com_m for body in bodies])
         self.spring = mechanism.spring
         loop = mechanism.loop
+        self._surface = surface(mechanism)
         self._ends = BODY_NAMES.index(loop.body_a), BODY_NAMES.index(loop.body_b)
         self._arms_m = np.stack([loop.point_a_m, loop.point_b_m]) - self.com_in_body_m[list(self._ends)]
         self._spheres = [
@@ -108,6 +130,18 @@ class Mechanics:
             float(state.com_m[index, 2] + state.rotation[index, 2] @ arm_m) - radius_m
             for index, arm_m, radius_m in self._spheres
         )
+
+    def lowest_m(self, state: State) -> float:
+        """Return the height of the lowest point of all parts, taken to lie in the leg's plane."""
+        heights = []
+        for name, (at, radius_m) in self._surface.items():
+            index = BODY_NAMES.index(name)
+            x, y, z = self.com_in_body_m[index]
+            up = state.rotation[index, 2]
+            heights.append(
+                state.com_m[index, 2] + np.min((at.real - x) * up[0] + (at.imag - z) * up[2] - radius_m) - y * up[1]
+            )
+        return float(min(heights))
 
     def frame_positions_m(self, state: State) -> Array:
         """Return the origins (4, 3) of the bodies' frames."""

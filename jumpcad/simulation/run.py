@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.findings import Basis, Finding, at_most, limit
-from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.settings import Settings, takeoff_clearance_m
 from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_m_s2, drag_per_m
 from jumpcad.simulation.flight import Flight, flight
@@ -44,7 +44,6 @@ BASIS = {
         "Froude number 1, as in walking",
     ),
 }
-BODY_INDEX = BODY_NAMES.index(BODY)
 
 
 class World(Protocol):
@@ -227,16 +226,19 @@ class Run:
         return float(self.mechanics.velocity_m_s(state)[2]) > 0.0
 
     def _fly(self) -> None:
-        """Advance to the first touchdown."""
+        """Advance to the first touch of any part."""
+        mechanics, off = self.mechanics, False
         while self.time_s < self.settings.max_time_s and self.sound:
             if self.drag_per_m:
                 self._brake()
             self._advance(1)
-            if self.world.loaded():
-                states = self.world.state(), self.loaded
-                here, start = (self.mechanics.frame_positions_m(state)[BODY_INDEX, 0] for state in states)
+            state = self.world.state()
+            above = mechanics.lowest_m(state) > 0.0
+            if self.world.loaded() or (off and not above):
+                here, start = (mechanics.centre_of_mass_m(one)[0] for one in (state, self.loaded))
                 self.touchdown_distance_m = float(here - start)
                 return
+            off = off or above
 
     def _brake(self) -> None:
         """Let air act on all bodies alike, as a part of gravity: it turns nothing."""

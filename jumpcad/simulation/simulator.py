@@ -94,6 +94,9 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
             findings=findings if failed else (*findings, *refused),
         )
     path, offset_m = takeoff.ballistics, float(run.mechanics.centre_of_mass_m(run.loaded)[1])
+    flown = vars(takeoff.flight)
+    if run.touchdown_distance_m is not None:
+        flown = flown | {"touchdown_distance_m": run.touchdown_distance_m}
     return Jump(
         "jump",
         engine,
@@ -107,9 +110,9 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
         takeoff_speed_m_s=path.speed_m_s,
         takeoff_angle_deg=path.angle_deg,
         takeoff_time_s=takeoff.time_s,
-        **vars(takeoff.flight),
+        **flown,
+        touchdown_gap_m=path.range_m - flown["touchdown_distance_m"],
         lateral_offset_mm=1000.0 * offset_m,
-        touchdown_distance_m=run.touchdown_distance_m,
         energy=takeoff.energy,
         trajectory=run.trajectory(),
         findings=findings,

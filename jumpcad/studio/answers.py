@@ -66,7 +66,7 @@ class Printed:
         if self.robot is None or self.jump is None:
             return {}
         return {
-            "range": (1000.0 * (self.jump.ballistic_range_m or 0.0), "mm"),
+            "touchdown": (1000.0 * (self.jump.touchdown_distance_m or 0.0), "mm"),
             "rise": (1000.0 * (self.jump.com_rise_m or 0.0), "mm"),
             "mass": (1000.0 * self.robot.mass_kg, "g"),
             "spring energy": (1000.0 * self.robot.spring.energy_j, "mJ"),
@@ -76,13 +76,12 @@ class Printed:
 
 @lru_cache(maxsize=64)
 def capsule_answer(design: Design) -> str:
-    """Return range and rise of the capsule robot (the study's masses), by the planar engine, as Markdown."""
+    """Return touchdown and rise of the capsule robot (the study's masses), by the planar engine, as Markdown."""
     jump = simulate(capsule_robot(design), engine="planar")
-    if jump.ballistic_range_m is None:
+    if jump.touchdown_distance_m is None:
         return f"study's masses: **{jump.verdict}**"
-    return (
-        f"study's masses: **{1000.0 * jump.ballistic_range_m:.0f} mm**, rise {1000.0 * (jump.com_rise_m or 0):.0f} mm"
-    )
+    way_mm, rise_mm = 1000.0 * jump.touchdown_distance_m, 1000.0 * (jump.com_rise_m or 0.0)
+    return f"study's masses: **{way_mm:.0f} mm**, rise {rise_mm:.0f} mm"
 
 
 def printed_answer(design: Design, workshop: Workshop, name: str = "robot") -> Printed:

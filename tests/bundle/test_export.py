@@ -15,11 +15,11 @@ from support.places import ROOT, TESTS
 from support.workshops import workshop_with
 
 from jumpcad.bundle import export as bundle_module
-from jumpcad.bundle import uncertainty
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import Bundle, verify
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
+from jumpcad.simulation import uncertain
 
 
 def exported(robot: Robot, folder: Path) -> Bundle:
@@ -55,12 +55,12 @@ def test_the_manifest_says_on_which_ground_the_robot_stands_and_with_which_frict
 def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With few pictures of jump and steps, and few jumps for its uncertainty."""
     with_few_pictures(monkeypatch)
-    monkeypatch.setattr(uncertainty, "JUMPS", 16)
-    monkeypatch.setattr(bundle_module, "uncertainty_of", uncertainty.uncertainty_of)  # not one that is known
+    monkeypatch.setattr(uncertain, "AS_MADE", 16)
+    monkeypatch.setattr(bundle_module, "uncertainty_of", uncertain.uncertainty_of)  # not one that is known
     export(small_robot, tmp_path / "here")
     code = (
         "from support.robots import make_small_robot; from jumpcad.bundle.export import export; import sys;"
-        "from jumpcad.bundle import uncertainty; uncertainty.JUMPS = 16;"
+        "from jumpcad.simulation import uncertain; uncertain.AS_MADE = 16;"
         "from support.pictures import with_few_pictures; import pytest; with_few_pictures(pytest.MonkeyPatch());"
         "export(make_small_robot(), sys.argv[1])"
     )

@@ -14,6 +14,7 @@ import jumpcad
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.uncertain import uncertainty_of
 
 
 @pytest.fixture
@@ -30,6 +31,18 @@ def test_one_document_with_what_python_says(command: Run) -> None:
     assert (document["model"], document["verdict"], document["engine"]) == ("capsule", "jump", "pybullet")
     assert document["ballistic_range_m"] == jump.ballistic_range_m
     assert document["energy"]["joint_damping_j"] == jump.energy.joint_damping_j
+
+
+def test_command_and_page_tell_one_median_of_robots_as_made(command: Run) -> None:
+    """Beside the headline, in the uncertainty, and on the page that `build` writes."""
+    robot = built("kenan-2.0")
+    said = json.loads(command("kenan-2.0", "--uncertain", "--json")[1])
+    page = uncertainty_of(robot)
+    assert page is not None
+    assert said["as_made"] == said["uncertain"]["quantiles"] == page.quantiles
+    low, middle, high = said["as_made"]["touchdown_distance_m"]
+    assert low < middle < said["touchdown_distance_m"] < high
+    assert f"as made {middle:.4f} m in the median" in command("kenan-2.0")[1].splitlines()[2]
 
 
 def test_both_engines_and_their_difference(command: Run) -> None:

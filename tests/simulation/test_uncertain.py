@@ -22,19 +22,19 @@ def robot() -> Robot:
 
 
 def test_interval_holds_the_jump_and_shrinks_with_a_calibration(robot: Robot) -> None:
-    nominal = simulate(robot, Settings(), "planar").ballistic_range_m
+    nominal = simulate(robot, Settings(), "planar").touchdown_distance_m
     vague = uncertain_jump(robot, Settings(), "planar", samples=64)
     draws = Draws(spring_efficiency=(0.99, 1.0, 1.01) * 10, pin_friction=(0.24, 0.25, 0.26) * 10)
     sharp = uncertain_jump(robot, Settings(draws=draws), "planar", samples=64)
     widths = []
     for found in (vague, sharp):
-        low, _, high = found.quantiles["ballistic_range_m"]
+        low, _, high = found.quantiles["touchdown_distance_m"]
         assert low < nominal < high
         widths.append(high - low)
         assert (found.jumps, found.jumps_share) == (64, 1.0)
     assert widths[1] < widths[0]
     assert (vague.calibrated, sharp.calibrated) == (False, True)
-    share = [found.first_order["calibration"]["ballistic_range_m"] for found in (vague, sharp)]
+    share = [found.first_order["calibration"]["touchdown_distance_m"] for found in (vague, sharp)]
     assert share[1] < share[0]
 
 
@@ -55,7 +55,7 @@ def test_jumps_and_their_resampling_follow_from_the_seed(robot: Robot, monkeypat
 def test_the_workshop_says_how_much_springs_scatter(robot: Robot) -> None:
     exact = replace(robot, workshop=workshop_with(robot.workshop, safety={"spring_rate_scatter": 0.0}))
     found = uncertain_jump(exact, Settings(), "planar", samples=32)
-    assert found.first_order["springs"]["ballistic_range_m"] == pytest.approx(0.0, abs=1e-9)
+    assert found.first_order["springs"]["touchdown_distance_m"] == pytest.approx(0.0, abs=1e-9)
 
 
 def at(robot: Robot, settings: Settings, share: float) -> tuple[Robot, Settings]:

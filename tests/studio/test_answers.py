@@ -14,7 +14,7 @@ NAME = "kenan-2.0"
 
 
 def printed(reach_m: float | None = 0.2, findings: list[Finding] | None = None) -> Printed:
-    jump: Any = SimpleNamespace(verdict="jump", ballistic_range_m=reach_m, com_rise_m=0.08)
+    jump: Any = SimpleNamespace(verdict="jump", touchdown_distance_m=reach_m, com_rise_m=0.08)
     found = Printed(built(NAME).design, built(NAME), jump)
     vars(found)["findings"] = findings or []
     return found
@@ -23,12 +23,12 @@ def printed(reach_m: float | None = 0.2, findings: list[Finding] | None = None) 
 def test_figures_are_in_millimetres_grams_and_millijoules() -> None:
     """Kenan 2.0's springs hold 133 mJ, as the study says."""
     found = printed().figures()
-    assert found["range"] == (pytest.approx(200.0), "mm")
+    assert found["touchdown"] == (pytest.approx(200.0), "mm")
     assert found["rise"] == (pytest.approx(80.0), "mm")
     assert found["mass"] == (pytest.approx(1000.0 * built(NAME).mass_kg), "g")
     assert found["spring energy"] == (pytest.approx(133.0, abs=1.0), "mJ")
     assert found["winding"] == (built(NAME).layout.drive.train.winding_s, "s")
-    assert printed(None).figures()["range"] == (0.0, "mm")
+    assert printed(None).figures()["touchdown"] == (0.0, "mm")
     assert replace(printed(), robot=None).figures() == {}
 
 

@@ -33,9 +33,9 @@ def test_it_shows_every_part_and_says_what_evaluate_says(studio: Studio) -> None
     assert found.robot is not None
     assert {name.rpartition("/")[2] for name in studio.stage.meshes} == {one.name for one in visuals(found.robot)}
     jump = evaluate(studio.design).jump
-    assert jump.ballistic_range_m is not None
-    told = found.figures()["range"][0]
-    assert told == pytest.approx(1000.0 * jump.ballistic_range_m, rel=0.005)  # planar against PyBullet
+    assert jump.touchdown_distance_m is not None
+    told = found.figures()["touchdown"][0]
+    assert told == pytest.approx(1000.0 * jump.touchdown_distance_m, rel=0.005)  # planar against PyBullet
     assert f"{told:.1f} mm" in studio.figures.content
 
 
@@ -100,7 +100,7 @@ def test_a_saved_design_is_read_again_and_a_users_file_is_kept(studio: Studio, t
 
 def test_the_answer_at_once_is_the_capsule_robots() -> None:
     words = capsule_answer(load_design("kenan-2.0"))
-    assert "190 mm" in words  # the README's range with the study's masses
+    assert "151 mm" in words  # the touchdown with the study's masses in docs/results.md
 
 
 def test_the_workshop_can_be_changed(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,7 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.robot import Robot
+from jumpcad.simulation import Jump
+from jumpcad.simulation.jump import Trajectory
+from jumpcad.transforms import Array
 
 
 @dataclass(frozen=True)
@@ -16,6 +20,23 @@ class Flight:
     verdict: str
     robot: Robot
     values: dict[str, float]
+
+
+def base_distance_m(jump: Jump) -> float:
+    """Return how far the body's frame is from where it stood at the end of a recorded flight, as the table has it."""
+    assert jump.trajectory is not None
+    way = jump.trajectory.position_m[:, jump.trajectory.body_names.index(BODY), 0]
+    return float(way[-1] - way[0])
+
+
+def com_x_m(robot: Mechanism, path: Trajectory) -> Array:
+    """Return where the centre of mass is along the way (n,)."""
+    bodies = [robot.bodies[name] for name in path.body_names]
+    places = [
+        path.position_m[:, index, 0] + Rotation.from_quat(path.quaternion_xyzw[:, index]).apply(body.com_m)[:, 0]
+        for index, body in enumerate(bodies)
+    ]
+    return np.average(places, axis=0, weights=[body.mass_kg for body in bodies])
 
 
 def make_lopsided(robot: Robot) -> Robot:

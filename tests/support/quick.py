@@ -27,7 +27,7 @@ class Quick(PrintedModel):
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
         size = max(0.1, design.l_max_mm / 1000.0)
         figures |= dict.fromkeys(EXTENTS, 0.1)
-        metrics = figures | found | {"size_m": size, "body_lengths": (jump.ballistic_range_m or 0.0) / size}
+        metrics = figures | found | {"size_m": size, "body_lengths": (jump.touchdown_distance_m or 0.0) / size}
         return Evaluation(jump.verdict, metrics, jump.findings)
 
 

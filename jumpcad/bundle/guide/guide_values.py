@@ -161,13 +161,13 @@ def _prong_mm(robot: Robot) -> float:
 
 
 def _jump(robot: Robot) -> dict[str, Any]:
-    """Return range and rise as computed, to 10 mm, and the free room (m): no engine's last digits reach the guide."""
+    """Return touchdown and rise as computed, to 10 mm, and the free room (m): no engine's last digits."""
     unknown = {"range_mm": None, "rise_mm": None, "far_m": 3.0, "high_m": 2.0}
     try:
         jump = simulate(robot, engine=BUNDLE_ENGINE)
     except JumpcadError:
         return unknown
-    reach, rise = jump.ballistic_range_m, jump.com_rise_m
+    reach, rise = jump.touchdown_distance_m, jump.com_rise_m
     if jump.verdict != "jump" or reach is None or rise is None:
         return unknown
     far, high = (max(1.0, math.ceil(2.0 * ROOM_AHEAD * metres) / 2.0) for metres in (reach, rise))

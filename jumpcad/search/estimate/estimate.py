@@ -128,7 +128,7 @@ class Estimator:
             return Estimate(None, margins)
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
         size = max(design.l_max_mm / 1000.0, *(figures[name] for name in EXTENTS))
-        found = {**figures, **found, "size_m": size, "body_lengths": found["ballistic_range_m"] / size}
+        found = {**figures, **found, "size_m": size, "body_lengths": found["touchdown_distance_m"] / size}
         others = self._model.on_floors(robot, self._model.estimate_settings, self._model.estimate_engine)
         asked = self._model.required(Evaluation("jump", found), others)
         if asked.reasons:

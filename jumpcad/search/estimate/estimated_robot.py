@@ -14,6 +14,7 @@ from jumpcad.design import Design
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
 from jumpcad.robot import Robot
 from jumpcad.scene.extent import extent_m
@@ -43,6 +44,8 @@ def robot_figures(robot: Robot) -> dict[str, float]:
         found |= {f"{name}_com_x_m": float(body.com_m[0]), f"{name}_com_z_m": float(body.com_m[2])}
         found[f"{name}_inertia_kg_m2"] = float(body.inertia_kg_m2[1, 1])
     found |= layout_figures(robot.layout) | dict(zip(EXTENTS, extent_m(robot).tolist(), strict=True))
+    for name, corners in robot.outline_m.items():
+        found |= dict(zip(_bounds(name), _box(corners), strict=True))
     found |= {
         "foot_depth_m": robot.foot_depth_m,
         "toe_radius_m": robot.bodies[FOOT].contacts[-1].radius_m,
@@ -71,10 +74,27 @@ def estimated_robot(design: Design, figures: Mapping[str, float], like: Robot) -
         stop=Stop(spring.joint, figures["stop_rad"], figures["stop_nm_per_rad"]),
         roller_off=release,
         friction=like.friction,
+        outline_m={name: _outline(name, figures, corners) for name, corners in like.outline_m.items()},
     )
 
 
 _plain = lru_cache(maxsize=512)(capsule_robot)  # of designs that are estimated anew with other figures
+
+
+def _outline(name: str, figures: Mapping[str, float], like: Complex) -> Complex:
+    """Return another body's outline stretched to the bounds that the figures say."""
+    (left, right, low, high), (x0, x1, z0, z1) = _box(like), (figures[key] for key in _bounds(name))
+    x = x0 + (like.real - left) * (x1 - x0) / (right - left)
+    return np.asarray(x + 1j * (z0 + (like.imag - low) * (z1 - z0) / (high - low)))
+
+
+def _bounds(name: str) -> list[str]:
+    return [f"{name}_{side}_m" for side in ("left", "right", "bottom", "top")]
+
+
+def _box(corners: Complex) -> list[float]:
+    """Return least and largest x, then z, of corners x + iz."""
+    return [float(limit(axis)) for axis in (corners.real, corners.imag) for limit in (np.min, np.max)]
 
 
 def _body(plain: Body, figures: Mapping[str, float], like: Body) -> Body:

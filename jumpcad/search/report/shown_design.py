@@ -24,7 +24,7 @@ from jumpcad.search.report.drawings import MOST_DOTS, Axes, evenly, scale
 from jumpcad.search.report.words import figure_words, value_words, with_unit
 from jumpcad.search.study.trial import Trial
 
-HEADLINES = ("ballistic_range_m", "com_rise_m", "mass_kg", "winding_time_s")
+HEADLINES = ("touchdown_distance_m", "ballistic_range_m", "com_rise_m", "mass_kg", "winding_time_s")
 """Figures that are shown at once; the others open on a click."""
 RADIUS, LEAST_RADIUS = 6.0, 3.5
 """Of a point, and of one that has others near it."""

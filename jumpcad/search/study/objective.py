@@ -135,6 +135,13 @@ class Objective:
             why = "divides by 0" if isinstance(error, ZeroDivisionError) else f"lacks {error.args[0]}"
             raise JumpcadError(f"the objective {self.name} of an evaluation {why}: its figures are wrong") from None
 
+    def uses(self, name: str, names: Iterable[str]) -> bool:
+        """Whether it asks for one of these figures of a jump."""
+        tried = TriedFigures([one for one in names if one != name], 1.0)
+        with suppress(JumpcadError, ZeroDivisionError):
+            self.figure(tried)
+        return name in tried.lacking
+
     def require(self, names: Iterable[str], what: str = "the objective") -> None:
         """Require that it needs no other figures than these; an own function is tried on figures of 1 and of 0.
 
@@ -171,7 +178,9 @@ def _range_m(metrics: Mapping[str, float]) -> float:
 OBJECTIVES: dict[str, Objective] = {
     objective.name: objective
     for objective in (
-        Objective("body_lengths", "range over the robot's size", "body lengths", lambda m: m["body_lengths"]),
+        Objective("body_lengths", "touchdown over the robot's size", "body lengths", lambda m: m["body_lengths"]),
+        Objective("touchdown", "way to the touchdown", "m", lambda m: m["touchdown_distance_m"]),
+        Objective("rest", "way to where it comes to rest", "m", lambda m: m["rest_distance_m"]),
         Objective("fitness", "range over the longest link", "link lengths", lambda m: m["fitness"]),
         Objective("range", "range of the jump", "m", _range_m),
         Objective("rise", "rise of the centre of mass", "m", lambda m: m["com_rise_m"]),

@@ -14,7 +14,7 @@ from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.plural import counted
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
-from jumpcad.search.models import PrintedModel, RobotModel
+from jumpcad.search.models import COSTLY, PrintedModel, RobotModel
 from jumpcad.search.phases import (
     DEFAULT,
     EVALUATIONS,
@@ -96,6 +96,8 @@ class Request:
         own = aim if aim.code else None
         if isinstance(model, PrintedModel) and (others.get("screen") or method not in ("ga", "nsga2")):
             model = replace(model, stand_in=True)
+        if isinstance(model, PrintedModel):
+            model = replace(model, scored=tuple(name for name in COSTLY if aim.uses(name, model.figure_names)))
         return cls(space, model, aim.name, method or DEFAULT, own=own, against=against, **others)
 
     def __post_init__(self) -> None:

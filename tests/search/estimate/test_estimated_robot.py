@@ -16,13 +16,16 @@ MADE_UP = {
 } | {
     "foot_depth_m": 0.0175, "toe_radius_m": 0.0045, "stop_rad": 0.0625, "stop_nm_per_rad": 7.0,
     "release_turn_rad": 0.03, "release_rad_s": 4.0, "release_ratio": 0.875,
+    **{f"{body}_{side}_m": at for body in BODY_NAMES
+       for side, at in (("left", -0.01), ("right", 0.05), ("bottom", -0.02), ("top", 0.03))},
 }  # fmt: skip
 
 
 def test_figures_are_those_of_the_robot_to_six_digits() -> None:
     found = robot_figures(LIKE)
     named = {f"{name}_{figure}" for name in BODY_NAMES for figure in ("com_x_m", "com_z_m", "inertia_kg_m2")}
-    others = {"foot_depth_m", "toe_radius_m", "stop_rad", "stop_nm_per_rad"}
+    sides = {f"{name}_{side}_m" for name in BODY_NAMES for side in ("left", "right", "bottom", "top")}
+    others = sides | {"foot_depth_m", "toe_radius_m", "stop_rad", "stop_nm_per_rad"}
     release = {"release_turn_rad", "release_rad_s", "release_ratio"}
     assert set(found) == named | others | release | set(LAID) | set(EXTENTS)
     for name, body in LIKE.bodies.items():
@@ -68,6 +71,9 @@ def test_each_figure_is_found_again_in_the_robot() -> None:
         assert one.centre_m[:2].tolist() == old.centre_m[:2].tolist()
         lowest = one.centre_m[2] - one.radius_m
         assert lowest == pytest.approx(old.centre_m[2] - 0.0175)
+    for corners in made.outline_m.values():
+        assert (corners.real.min(), corners.real.max()) == pytest.approx((-0.01, 0.05))
+        assert (corners.imag.min(), corners.imag.max()) == pytest.approx((-0.02, 0.03))
     assert {one.radius_m for one in made.bodies[BODY].contacts} == {LIKE.bodies[BODY].contacts[0].radius_m}
     assert made.stop is not None
     assert (made.stop.joint, made.stop.angle_rad, made.stop.stiffness_nm_per_rad) == ("leg", 0.0625, 7.0)

@@ -120,6 +120,8 @@ def test_what_is_not_asked_for_follows_from_method_and_robot():
     stand_ins = {key for key, one in made.items() if one.model.describe().get("stand_in")}
     assert stand_ins == {("printed", None), ("printed", "ga+bo"), ("printed", "pareto")}
     assert Request.make(SMALL, printed, "ga", screen=True).model.stand_in
+    assert Request.make(SMALL, printed, "ga", "rest").model.scored == ("rest_distance_m",)
+    assert not made["printed", "ga"].model.scored  # two seconds a design are for who asks for them
     own = Request.make(SMALL, capsule, "ga", lambda figures: 1.0)
     assert own.own is own.aim
     assert own.identity([])["objective_code"] == own.aim.code != ""
