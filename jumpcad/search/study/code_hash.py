@@ -92,9 +92,9 @@ def _value(value: Any, depth: int = 0) -> str:
 
 def _is_own(file: str) -> bool:
     """Tell whether a file is the user's: no part of Python, of an installed package, or of jumpcad."""
-    libraries = [str(Path(__file__).parents[2])]
-    libraries += [str(sysconfig.get_path(kind)) for kind in ("stdlib", "platstdlib", "purelib", "platlib")]
-    return not any(Path(file).is_relative_to(library) for library in libraries)
+    libraries = [str(Path(__file__).parents[2]), *map(sysconfig.get_path, ("stdlib", "platstdlib"))]
+    installed = {"site-packages", "dist-packages"} & {*Path(file).parts}  # also of a system that an environment extends
+    return not installed and not any(Path(file).is_relative_to(library) for library in libraries)
 
 
 @cache

@@ -1,17 +1,29 @@
 """The SQLite file of a study: opening it, locking it, and messages for its errors."""
 
+import errno
 import os
+import shutil
 import sqlite3
+import stat
+import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
+from typing import BinaryIO
 
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_folder, require_path, require_writable
 
 SUFFIX = ".db"
 PATIENCE_S = 5.0
-"""Time for which a reader or writer waits for another one."""
+"""Time for which a writer waits for another program."""
+JOURNAL = "-journal"
+SIDES = (JOURNAL, "-wal", "-shm")
+"""Ends of the names of SQLite's files beside a database."""
+LOG_BEGINS, LOG_HEADER, LOG_FRAME, LARGEST = b"\x37\x7f\x06", 32, 24, 24 + 65536
+"""First bytes of a log; bytes of its header, of a frame's, and of the largest frame (SQLite's file format, 4.1)."""
+COPIES = 10
+"""How often a database that changes meanwhile is copied."""
 
 
 def connect(target: str) -> sqlite3.Connection:
@@ -21,26 +33,93 @@ def connect(target: str) -> sqlite3.Connection:
     return connection
 
 
-def open_to_read(path: Path) -> sqlite3.Connection:
-    """Return a connection to a file that may be read.
+def open_to_read(path: Path, closing: ExitStack) -> sqlite3.Connection:
+    """Return a connection to what a file holds, which a stack closes; nothing is written beside the file.
 
-    It is opened for writing if that is permitted: the last program to close it then merges the log beside the file into
-    it. A file without this permission is read with its log, or, without a log, as a file that does not change.
+    SQLite itself would play back a journal that lies there, which deletes the file that it names, and write to whatever
+    has the names of its own files. Without a log, the file alone is read; with one, as of a search that runs or was
+    killed, a copy of both in a private folder.
+
+    Raises
+    ------
+    JumpcadError
+        If it is empty, or cannot be copied.
     """
-    log = path.with_name(f"{path.name}-wal")
-    ways = ["mode=rw", "mode=ro"]
-    if not (log.exists() and log.stat().st_size):
-        ways.append("mode=ro&immutable=1")
-    for way in ways:
-        connection = connect(f"{path.absolute().as_uri()}?{way}")
+    real = Path(os.path.realpath(path))
+    try:
+        if not os.path.getsize(real):  # nor are what the kernel shows as files, which may never end
+            raise JumpcadError(f"{path}: is not a study file")
+        with _log_of(real) or nullcontext() as log:
+            target = f"{real.as_uri()}?mode=ro&immutable=1" if log is None else _copied(real, log, closing)
+    except OSError as error:
+        raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
+    connection = connect(target)
+    closing.callback(connection.close)
+    return connection
+
+
+def _log_of(path: Path) -> BinaryIO | None:
+    """Return the open log beside a database; None where there is no plain file of the database's owner that is one."""
+    how = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))
+    try:
+        stream = open(os.open(f"{path}-wal", how), "rb")  # noqa: SIM115
+    except OSError:
+        return None
+    there = os.fstat(stream.fileno())
+    ours = stat.S_ISREG(there.st_mode) and there.st_uid == os.stat(path).st_uid
+    if ours and stream.read(LOG_HEADER)[:3] == LOG_BEGINS:
+        return stream
+    stream.close()
+    return None
+
+
+def _copied(path: Path, log: BinaryIO, closing: ExitStack) -> str:
+    """Copy a database, then its log, into a folder that a stack removes; return the copy's URI.
+
+    What a checkpoint writes to the database meanwhile is in the log too, unless the log began anew.
+    """
+    folder = Path(closing.enter_context(tempfile.TemporaryDirectory(prefix="jumpcad-")))
+    if shutil.disk_usage(folder).free < os.path.getsize(path):
+        raise OSError(errno.ENOSPC, f"{folder} has no room for a copy")
+    copy, began = folder / "study.db", b""
+    for _ in range(COPIES):
+        log.seek(0)
+        before = log.read(LOG_HEADER)
+        shutil.copyfile(path, copy)
+        log.seek(0)
+        with open(f"{copy}-wal", "wb") as target:
+            began = log.read(LOG_HEADER)
+            target.write(began)
+            frame = LOG_FRAME + int.from_bytes(began[8:12], "big")
+            # A frame has its page's number, and the log's salt: what follows is older, or empty.
+            while len(one := log.read(frame)) == frame <= LARGEST and one[8:16] == began[16:24] and any(one[:4]):
+                target.write(one)
+        if began == before:
+            return f"{copy.as_uri()}?mode=rw"
+    raise OSError(errno.EBUSY, "it changes all the time; repeat the command")
+
+
+def require_own_sides(path: Path) -> None:
+    """Require, before a study is written, that SQLite's files beside it are plain files of this user.
+
+    SQLite writes to whatever has their names. A journal is none of a study's, which has a log.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the one that is not.
+    """
+    real = os.path.realpath(path)
+    for end in SIDES:
         try:
-            connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
-            return connection
-        except sqlite3.OperationalError as error:
-            connection.close()
-            if way == ways[-1] or not _name(error).startswith(("SQLITE_CANTOPEN", "SQLITE_READONLY")):
-                raise
-    raise AssertionError
+            there = os.lstat(f"{real}{end}")
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        owner = os.geteuid() if hasattr(os, "geteuid") else there.st_uid
+        own = stat.S_ISREG(there.st_mode) and there.st_nlink == 1 and there.st_uid == owner
+        if end == JOURNAL or not own:
+            what = "the journal of another program" if own else "no plain file of yours, or has another name too"
+            raise JumpcadError(f"{path}{end}: is {what}; move it away, or name another study")
 
 
 def require_study(study: Path | None) -> None:

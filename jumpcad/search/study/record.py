@@ -59,7 +59,7 @@ def _require_proposal(trial: Trial, free: int) -> None:
     """Require that what a method predicted fits a space of so many free numbers and names."""
     thetas, tried = trial.proposal.get("theta", {}), trial.proposal.get("tried", [])
     others = [value for name, value in trial.proposal.items() if name not in ("theta", "tried")]
-    if trial.phase in LEARNING_PHASES and trial.step and not thetas:
+    if trial.phase in LEARNING_PHASES and trial.step and "theta" not in trial.proposal:
         raise JumpcadError("proposal.theta: missing")
     if not (
         (isinstance(thetas, dict) and all(3 <= len(theta) <= free + 2 for theta in thetas.values()))

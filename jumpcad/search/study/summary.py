@@ -13,7 +13,7 @@ from jumpcad.search.models import RIGHTS_ITSELF, PrintedModel, RobotModel
 from jumpcad.search.phases import EXPLORED, FRONTS, NAMES
 from jumpcad.search.pick.robust import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import Figure, Objective, Word, described_objective
+from jumpcad.search.study.objective import Figure, Objective, Reason, described_objective
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import (
     Count,
@@ -38,7 +38,7 @@ class _Candidate(TomlTable):
     trial: Position
     parameters_score: Figure
     print_score: Figure
-    rejections: dict[Word, Count]
+    rejections: dict[Reason, Count]
     neighbours: Count
     fails: bool = False
 
