@@ -16,7 +16,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
 from jumpcad.files.names import Name, Text
-from jumpcad.search.phases import LEARNING_PHASES, METHODS
+from jumpcad.search.phases import LEARNING_PHASES, STAGES
 from jumpcad.search.pick.tolerances import MADE, Tolerances
 from jumpcad.search.study.trial import Count, Trial, one_of
 
@@ -69,10 +69,11 @@ def _require_proposal(trial: Trial, free: int) -> None:
         raise JumpcadError(f"proposal: is none of a search with {free} free numbers and names")
 
 
-class _Named(TomlTable):
+class _Model(TomlTable):
     model_config = ConfigDict(extra="allow")
 
     name: Name
+    workshop: dict[str, Any] | None = None
 
 
 class _Range(TomlTable):
@@ -103,16 +104,19 @@ class _Identity(TomlTable):
 
     model_config = ConfigDict(extra="allow")
 
-    model: _Named
+    model: _Model
     objective: Name
     method: Name
     seed: Count
     space: _Space
     making: Tolerances | None = None
+    against: Name | None = None
+    objective_code: str = ""
+    versions: dict[str, str] | None = None
 
 
 class _Stage(TomlTable):
-    method: Annotated[str, AfterValidator(one_of(METHODS))]
+    method: Annotated[str, AfterValidator(one_of(STAGES))]
     evaluations: Count
     initial: Count = 0
 
