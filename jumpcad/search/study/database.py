@@ -1,6 +1,7 @@
 """The SQLite file of a study: opening it, locking it, and messages for its errors."""
 
 import errno
+import io
 import os
 import shutil
 import sqlite3
@@ -9,7 +10,6 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
-from typing import BinaryIO
 
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_folder, require_path, require_writable
@@ -58,11 +58,11 @@ def open_to_read(path: Path, closing: ExitStack) -> sqlite3.Connection:
     return connection
 
 
-def _log_of(path: Path) -> BinaryIO | None:
+def _log_of(path: Path) -> io.FileIO | None:
     """Return the open log beside a database; None where there is no plain file of the database's owner that is one."""
     how = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))
     try:
-        stream = open(os.open(f"{path}-wal", how), "rb")  # noqa: SIM115
+        stream = open(os.open(f"{path}-wal", how), "rb", buffering=0)  # noqa: SIM115  # it changes meanwhile
     except OSError:
         return None
     there = os.fstat(stream.fileno())
@@ -73,7 +73,7 @@ def _log_of(path: Path) -> BinaryIO | None:
     return None
 
 
-def _copied(path: Path, log: BinaryIO, closing: ExitStack) -> str:
+def _copied(path: Path, log: io.FileIO, closing: ExitStack) -> str:
     """Copy a database, then its log, into a folder that a stack removes; return the copy's URI.
 
     What a checkpoint writes to the database meanwhile is in the log too, unless the log began anew.
