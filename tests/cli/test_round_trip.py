@@ -24,7 +24,7 @@ FIGURES = ("com_rise_m>=0.01", "-1.5e2<=touchdown_pitch_deg<=123.4567891", "mass
 EVALUATED = ("0.001<=com_rise_m", "-170<=touchdown_pitch_deg<=170", "leg_strength>=0.5", "rights_itself>=0.2")
 PRINTED = ["--workers", "0", "--engine", "planar", "--evaluations", "6"]
 EXAMPLES = settings(
-    max_examples=12,
+    max_examples=6,
     deadline=None,
     derandomize=True,
     database=None,
@@ -134,7 +134,7 @@ def test_any_search_is_read_again(here: Path, words: list[str], keep: int) -> No
 
 
 @pytest.mark.thorough
-@settings(EXAMPLES, max_examples=5)
+@settings(EXAMPLES, max_examples=3)
 @given(
     method=st.sampled_from([["ga", "--screen"], ["ga"], ["bo"]]),
     require=st.sets(st.sampled_from(EVALUATED)),

@@ -39,11 +39,6 @@ def open_to_read(path: Path, closing: ExitStack) -> sqlite3.Connection:
     SQLite itself would play back a journal that lies there, which deletes the file that it names, and write to whatever
     has the names of its own files. Without a log, the file alone is read; with one, as of a search that runs or was
     killed, a copy of both in a private folder.
-
-    Raises
-    ------
-    JumpcadError
-        If it is empty, or cannot be copied.
     """
     real = Path(os.path.realpath(path))
     try:
@@ -103,11 +98,6 @@ def require_own_sides(path: Path) -> None:
     """Require, before a study is written, that SQLite's files beside it are plain files of this user.
 
     SQLite writes to whatever has their names. A journal is none of a study's, which has a log.
-
-    Raises
-    ------
-    JumpcadError
-        Naming the one that is not.
     """
     real = os.path.realpath(path)
     for end in SIDES:
@@ -123,13 +113,7 @@ def require_own_sides(path: Path) -> None:
 
 
 def require_study(study: Path | None) -> None:
-    """Require, before a search, that a file can be its study.
-
-    Raises
-    ------
-    JumpcadError
-        If it does not end in .db, its folder is missing or cannot be written, or it is no file.
-    """
+    """Require, before a search, that a file can be its study."""
     if study is None:
         return
     if study.suffix != SUFFIX:

@@ -35,13 +35,7 @@ def to_row(trial: Trial) -> tuple[Any, ...]:
 
 
 def read_trial(row: Sequence[Any], free: int, keys: Sequence[str]) -> Trial:
-    """Return the trial of a row of a search with so many `free` numbers and names, and these keys of the workshop.
-
-    Raises
-    ------
-    JumpcadError
-        Naming the row, if no search wrote it.
-    """
+    """Return the trial of a row of a search with so many `free` numbers and names, and these keys of the workshop."""
     try:
         trial: Trial = validated(_TRIAL.validate_json, "record", row[-1])
         if tuple(row[:4]) != trial.position:

@@ -82,13 +82,7 @@ def keep_pick(store: StudyStore, run: int, candidates: Sequence[Candidate], boun
 
 
 def read_pick(store: StudyStore, trials: Sequence[Trial], designs: int) -> tuple[list[Candidate], list[ActiveBound]]:
-    """Return what the last pick of a search of so many designs found; nothing where none has ended.
-
-    Raises
-    ------
-    JumpcadError
-        If a candidate is none of the study's trials.
-    """
+    """Return what the last pick of a search of so many designs found; nothing where none has ended."""
     ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick["designs"] == designs and pick.get("candidates")]
     if not ended:
         return [], []
