@@ -59,6 +59,11 @@ def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
     """Write a figure as `folder/name.svg` and `folder/name.png`, with a seal; return the first path.
 
     A picture of `PICTURES` has its explanation below it.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder cannot be written.
     """
     pixels = io.BytesIO()
     if name in PICTURES:

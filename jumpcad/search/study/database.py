@@ -7,7 +7,7 @@ import shutil
 import sqlite3
 import stat
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
 
@@ -20,10 +20,14 @@ PATIENCE_S = 5.0
 JOURNAL = "-journal"
 SIDES = (JOURNAL, "-wal", "-shm")
 """Ends of the names of SQLite's files beside a database."""
-LOG_BEGINS, LOG_HEADER, LOG_FRAME, LARGEST = b"\x37\x7f\x06", 32, 24, 24 + 65536
-"""First bytes of a log; bytes of its header, of a frame's, and of the largest frame (SQLite's file format, 4.1)."""
+LOG_BEGINS, LOG_HEADER, FRAME_HEADER = b"\x37\x7f\x06", 32, 24
+"""First bytes of a log; bytes of its header, and of a frame's (SQLite's file format, 4.1)."""
 COPIES = 10
 """How often a database that changes meanwhile is copied."""
+
+
+own_id: Callable[[], int] = getattr(os, "geteuid", int)
+"""Returns the number of the user; 0 where files have none."""
 
 
 def connect(target: str) -> sqlite3.Connection:
@@ -54,16 +58,17 @@ def open_to_read(path: Path, closing: ExitStack) -> sqlite3.Connection:
 
 
 def _log_of(path: Path) -> io.FileIO | None:
-    """Return the open log beside a database; None where there is no plain file of the database's owner that is one."""
+    """Return the open log beside a database; None where there is no plain file of its owner, yours or root's."""
     how = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))
     try:
         stream = open(os.open(f"{path}-wal", how), "rb", buffering=0)  # noqa: SIM115  # it changes meanwhile
     except OSError:
         return None
     there = os.fstat(stream.fileno())
-    ours = stat.S_ISREG(there.st_mode) and there.st_uid == os.stat(path).st_uid
-    if ours and stream.read(LOG_HEADER)[:3] == LOG_BEGINS:
-        return stream
+    if stat.S_ISREG(there.st_mode) and there.st_uid in (os.stat(path).st_uid, own_id(), 0):
+        header = stream.read(LOG_HEADER)
+        if header[:3] == LOG_BEGINS and 512 <= int.from_bytes(header[8:12], "big") <= 65536:
+            return stream
     stream.close()
     return None
 
@@ -85,9 +90,9 @@ def _copied(path: Path, log: io.FileIO, closing: ExitStack) -> str:
         with open(f"{copy}-wal", "wb") as target:
             began = log.read(LOG_HEADER)
             target.write(began)
-            frame = LOG_FRAME + int.from_bytes(began[8:12], "big")
+            frame = FRAME_HEADER + int.from_bytes(began[8:12], "big")
             # A frame has its page's number, and the log's salt: what follows is older, or empty.
-            while len(one := log.read(frame)) == frame <= LARGEST and one[8:16] == began[16:24] and any(one[:4]):
+            while len(one := log.read(frame)) == frame and one[8:16] == began[16:24] and any(one[:4]):
                 target.write(one)
         if began == before:
             return f"{copy.as_uri()}?mode=rw"
@@ -105,11 +110,10 @@ def require_own_sides(path: Path) -> None:
             there = os.lstat(f"{real}{end}")
         except (FileNotFoundError, NotADirectoryError):
             continue
-        owner = os.geteuid() if hasattr(os, "geteuid") else there.st_uid
-        own = stat.S_ISREG(there.st_mode) and there.st_nlink == 1 and there.st_uid == owner
+        own = stat.S_ISREG(there.st_mode) and there.st_nlink == 1 and there.st_uid == own_id()
         if end == JOURNAL or not own:
             what = "the journal of another program" if own else "no plain file of yours, or has another name too"
-            raise JumpcadError(f"{path}{end}: is {what}; move it away, or name another study")
+            raise JumpcadError(f"{real}{end}: is {what}; move it away, or name another study")
 
 
 def require_study(study: Path | None) -> None:

@@ -10,7 +10,7 @@ import os
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -154,16 +154,16 @@ class StudyStore:
 
     def trials(self) -> list[Trial]:
         """Return all trials in the order of their study."""
-        read = self._reader()
         with plain_errors(self.path):
             rows = self._connection.execute(f"SELECT {', '.join(COLUMNS)} FROM trials")
             try:
-                return in_order(map(read, rows))
+                return in_order(map(self._reader, rows))
             except JumpcadError as error:
                 raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
+    @cached_property
     def _reader(self) -> Callable[[Sequence[Any]], Trial]:
-        """Return what makes a trial of a row, in the space of this study."""
+        """What makes a trial of a row, in the space of this study."""
         space = self.identity.get("space", {})
         choices = [part.get("choices", ()) for part in space.values() if "fixed" not in part]
         free = sum(sum(isinstance(one, str) for one in some) or 1 for some in choices)
@@ -180,7 +180,7 @@ class StudyStore:
         """Add trials, all or none; return them as they are read again."""
         rows = [to_row(trial) for trial in trials]
         with _readable():
-            kept = list(map(self._reader(), rows))
+            kept = list(map(self._reader, rows))
         with self._transaction():
             self._connection.executemany("INSERT INTO trials VALUES (?, ?, ?, ?, ?, ?)", rows)
         return kept
