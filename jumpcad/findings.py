@@ -120,6 +120,15 @@ def limit(
     return Finding(name, severity, float(margin), unit, message, remedy, _number(value), _number(allowed), grows)
 
 
+def least(findings: Iterable[Finding]) -> dict[str, Finding]:
+    """Return, by name, the finding with the least margin: a limit may be checked on several parts or floors."""
+    found: dict[str, Finding] = {}
+    for one in findings:
+        if one.name not in found or one.margin < found[one.name].margin:
+            found[one.name] = one
+    return found
+
+
 def errors(findings: Iterable[Finding]) -> list[Finding]:
     """Return the findings that forbid the robot."""
     return [finding for finding in findings if finding.severity == "error"]

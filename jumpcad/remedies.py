@@ -12,7 +12,7 @@ from jumpcad.checks.printability import printability_findings
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, least
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.tables import PRELOAD_MAX_DEG
 from jumpcad.workshop.varied import varied, workshop_value
@@ -148,7 +148,8 @@ class Remedies:
             return frozenset([FAILS]), {FAILS: _margin(refusal)}
         except JumpcadError:
             return frozenset([FAILS]), {}
-        return frozenset(one.name for one in found if one.severity != "info"), {one.name: one.margin for one in found}
+        margins = {name: one.margin for name, one in least(found).items()}
+        return frozenset(one.name for one in found if one.severity != "info"), margins
 
 
 def asked(remedy: str) -> Iterator[tuple[str, str]]:

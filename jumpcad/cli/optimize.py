@@ -35,7 +35,11 @@ MethodArgument = Annotated[
 ]
 EvaluationsOption = Annotated[int, typer.Option(help="Most designs to evaluate, those of the robust pick included.")]
 AroundOption = Annotated[
-    str | None, typer.Option(help="The design from which --only and --within start.", metavar="DESIGN")
+    str | None,
+    typer.Option(help="The design from which --only and --within start; it is evaluated first.", metavar="DESIGN"),
+]
+StartOption = Annotated[
+    list[str] | None, typer.Option(help="A design to begin with; may be repeated.", metavar="DESIGN")
 ]
 OnlyOption = Annotated[
     str | None, typer.Option(help="Search these parameters only; the others as in --around.", metavar="NAME,…")
@@ -90,6 +94,7 @@ def optimize(
     options: SearchOptions,
     seeds: SeedsOption = None,
     around: AroundOption = None,
+    start: StartOption = None,
     only: OnlyOption = None,
     within: WithinOption = None,
     preset: PresetOption = "recommended",
@@ -122,6 +127,7 @@ def optimize(
     from jumpcad.search.study.run import run_study
 
     centre = None if around is None else load_design(around)
+    begun = [load_design(one) for one in start or ()]
     names = [] if only is None else [name.strip() for name in only.split(",")]
     robot = options.robot_model().requiring(require or ())
     changes = (options.fix or (), options.bound or (), options.choose or ())
@@ -133,6 +139,7 @@ def optimize(
             space, robot, method, options.objective,
             evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=from_study,
             until_percent=until, hours=hours, screen=screen, against=against,
+            start=begun, around=centre,
         )
         for method in methods or (None,)
         for seed in asked or (options.seed,)
@@ -149,7 +156,12 @@ def optimize(
         require_target(workshop_file(design_file), (".toml",), force)
     require_apart(
         outputs,
-        {"--from-study": from_study, "--around": around, **options.inputs()},
+        {
+            "--from-study": from_study,
+            "--around": around,
+            **{f"--start {one}": one for one in start or ()},
+            **options.inputs(),
+        },
     )
     require_target(design_file, (".toml",), force)
     require_plots(plots, force)

@@ -62,13 +62,6 @@ class Output:
     """Standard output for a command, which escapes control characters, except line breaks and tabs.
 
     So no file name controls the terminal. The colours of tables and of the help are kept if `coloured`.
-
-    Raises
-    ------
-    OutputClosed
-        When written to, if the reader has closed it.
-    JumpcadError
-        If it cannot be written, for example to a full disk.
     """
 
     def __init__(self, stream: TextIO, coloured: bool) -> None:
@@ -106,13 +99,7 @@ class Output:
 
 @contextlib.contextmanager
 def standard_output(coloured: bool) -> Iterator[None]:
-    """Redirect standard output to `Output`; characters that the terminal's encoding lacks are escaped.
-
-    Raises
-    ------
-    OutputClosed, JumpcadError
-        As `Output`, at the latest at the end.
-    """
+    """Redirect standard output to `Output`; characters that the terminal's encoding lacks are escaped."""
     _open_streams()
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):

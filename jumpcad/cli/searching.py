@@ -120,14 +120,7 @@ def require_plots(folder: Path | None, force: bool) -> None:
 
 
 def require_pictures(folder: Path, names: Iterable[str], force: bool) -> None:
-    """Require that pictures can be written to a folder without replacing a user's files.
-
-    Raises
-    ------
-    JumpcadError
-        If it is no folder, cannot be written, or has a file of a picture's name that jumpcad did not write (unless
-        `force`).
-    """
+    """Require that pictures can be written to a folder without replacing a user's files."""
     from jumpcad.files.outputs import require_free, require_writable
 
     if os.path.lexists(folder) and not os.path.isdir(folder):

@@ -26,13 +26,7 @@ MOST_SEEDS = 1000
 
 
 def seeds_of(text: str | None, methods: Sequence[str], seed_given: bool) -> range | None:
-    """Return the seeds that are asked for; None for one search.
-
-    Raises
-    ------
-    JumpcadError
-        If they are no range of seeds, or do not go together with `--seed` or the methods.
-    """
+    """Return the seeds that are asked for; None for one search."""
     if text is None:
         if len(methods) > 1:
             raise JumpcadError(f"{' '.join(methods)}: methods are compared by several searches; add --seeds 0:5")

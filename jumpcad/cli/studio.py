@@ -55,13 +55,7 @@ def studio(
 
 
 def _point(file: Path, trial: int | None, workshop: str | None) -> "tuple[Design, str, Points, int]":
-    """Return a trial's design, the name of its workshop in the studio, the study's points and the trial's number.
-
-    Raises
-    ------
-    JumpcadError
-        If there is no such trial, or its robot cannot be built.
-    """
+    """Return a trial's design, the name of its workshop in the studio, the study's points and the trial's number."""
     from jumpcad.studio.points import STUDYS, Points
 
     points = Points(file)

@@ -68,13 +68,7 @@ def note_template(subject: str) -> None:
 
 
 def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
-    """Return the bundle that a subject names: a folder, unless it is a template's bare name; else None.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder is not a bundle, or a workshop is given for one: a bundle has its own.
-    """
+    """Return the bundle that a subject names: a folder, unless it is a template's bare name; else None."""
     from jumpcad.bundle.manifest import open_bundle
 
     if _is_template(subject) or not os.path.isdir(subject):
@@ -91,15 +85,7 @@ def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
 def printed_robot(
     subject: str, workshop: str | None, printer: str | None = None, material: str | None = None
 ) -> "Robot":
-    """Return the printed robot of a bundle (built again from its inputs), of a template, or of a design file.
-
-    Raises
-    ------
-    JumpcadError
-        If it cannot be read, or a workshop, printer or material is given for a bundle.
-    CannotBuildError
-        If the design cannot be built.
-    """
+    """Return the printed robot of a bundle (built again from its inputs), of a template, or of a design file."""
     from jumpcad.building import build as build_robot
     from jumpcad.bundle.inputs import kept_robot
     from jumpcad.design import load_design

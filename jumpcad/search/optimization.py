@@ -48,6 +48,7 @@ def optimize(
     screen: bool = False,
     against: str | None = None,
     require: Mapping[str, tuple[float | None, float | None]] = NOTHING,
+    start: Sequence[Design | str | Path] = (),
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -74,7 +75,9 @@ def optimize(
         By parameter: a value, a pair of limits in place of `SEARCH_BOUNDS`, allowed values. A key of the workshop is
         a parameter too: ``bounds={"body.plate_mm": (1.6, 2.4)}``, ``choices={"bought.spring": ["", "9271K619"]}``.
     around, only, within_percent
-        Free only some parameters, or search near a design; see `Space.make`.
+        Free only some parameters, or search near a design; see `Space.make`. That design is evaluated first.
+    start
+        Designs in the space, templates' names or files: they are evaluated first, and the search begins with them.
     workshop, settings, engine
         Where `printed` is built and how it is simulated; see `robot_model`, which refuses what the model does not use.
     workers, dask, limit_s
@@ -110,12 +113,14 @@ def optimize(
     path = None if study is None else Path(study)
     require_study(path)
     centre = load_design(around) if isinstance(around, str | Path) else around
+    begun = [load_design(one) if isinstance(one, str | Path) else one for one in start]
     robot = robot_model(model, workshop, settings, engine).requiring(require)
     space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop)
     request = Request.make(
         space, robot, method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
         until_percent=until_percent, hours=hours, screen=screen, against=against,
+        start=begun, around=centre,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, path, pool)

@@ -123,13 +123,7 @@ def physical_limits(name: str) -> tuple[float, float]:
 
 
 def read_changes(kind: Kind, texts: Iterable[str]) -> dict[str, tuple[Any, ...]]:
-    """Return the values by parameter of texts such as `NAME=VALUE` from the command line.
-
-    Raises
-    ------
-    JumpcadError
-        If a text has another form, or a parameter several texts.
-    """
+    """Return the values by parameter of texts such as `NAME=VALUE` from the command line."""
     form, separator = FORMS[kind]
     found: dict[str, tuple[Any, ...]] = {}
     for text in texts:
@@ -164,11 +158,6 @@ def changed_parameter(kind: Kind, name: str, asked: Sequence[Any], workshop: Wor
     """Return a parameter with a user's value, two bounds, or choices; values of the workshop are checked by it.
 
     If the workshop's own value is a whole number, the choices are the whole numbers of a range.
-
-    Raises
-    ------
-    JumpcadError
-        If the name is unknown, or a value is impossible.
     """
     if name in PARAMETERS:
         return _parameter(kind, name, [_possible(name, value) for value in asked])
@@ -238,13 +227,7 @@ def several(name: str, values: Any) -> tuple[Any, ...]:
 
 
 def _possible(name: str, value: Any) -> float:
-    """Return a value that a design can have.
-
-    Raises
-    ------
-    JumpcadError
-        If it is not a number, or no design can have it.
-    """
+    """Return a value that a design can have."""
     if not isinstance(value, int | float | np.integer | np.floating):
         raise JumpcadError(f"{name} = {described(value)} is not a number")
     lower, upper = physical_limits(name)

@@ -1,6 +1,7 @@
 """Names that all of a search shares: its methods, and the phases of a study, which say what proposed a trial."""
 
 import importlib
+from collections import ChainMap
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -86,7 +87,10 @@ EXPLORED = ("sample", "sweep")
 """Phases of a view; the random designs of `paper` are samples too."""
 AROUND = ("bounds", "robust")
 """Phases that examine designs near the best."""
-SEARCH_PHASES = (*EXPLORED, *METHODS)
+START = "start"
+STAGES = ChainMap({START: Method(START, "initial_designs.run_start", "the designs to begin with")}, METHODS)
+"""What a study is planned as."""
+SEARCH_PHASES = (*EXPLORED, START, *METHODS)
 PHASES = (*SEARCH_PHASES, *AROUND)
 """All phases in the order of a study."""
 LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learns)

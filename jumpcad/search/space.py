@@ -29,7 +29,7 @@ from jumpcad.search.parameter import (
 from jumpcad.search.study.variant import NOTHING, Key, Variant
 from jumpcad.sobol import sobol
 from jumpcad.transforms import Array
-from jumpcad.workshop import Workshop
+from jumpcad.workshop import Workshop, workshop_value
 from jumpcad.workshop.varied import Value
 
 
@@ -203,18 +203,30 @@ class Space:
         """Points of variants that were asked for: every step of a search asks for all of its trials."""
         return {}
 
+    def begun(self, design: Design, workshop: Workshop | None) -> Variant:
+        """Return a design with the workshop's own values, or the nearest ones that the space has."""
+        values = {}
+        for one in self.of_workshop:
+            number = one.number(workshop_value(workshop, one.name)) if workshop else math.nan
+            unit = (number - one.lower) / one.width if one.free and math.isfinite(number) else 0.0
+            values[one.name] = one.value(float(one.at([min(max(unit, 0.0), 1.0)])[0]))
+        return Variant(design, values)
+
     def contains(self, one: Design | Variant) -> bool:
         """Tell whether a design or variant has the fixed values and is within all ranges and choices (to 1e-9)."""
         variant = Variant.of(one)
-        if list(variant.workshop) != [parameter.name for parameter in self.of_workshop]:
-            return False
+        names = [parameter.name for parameter in self.of_workshop]
+        return list(variant.workshop) == names and not self.outside(variant)
+
+    def outside(self, variant: Variant) -> str:
+        """Return the first parameter whose value the space does not have, and the value; mostly nothing."""
         for parameter in self.parameters:
             value = parameter.number(variant.value(parameter.name))
             slack = 1e-9 * max(parameter.width, abs(parameter.upper))
             allowed = parameter.choices or (min(max(value, parameter.lower), parameter.upper),)
             if not any(abs(value - near) <= slack for near in allowed):  # nor is NaN
-                return False
-        return True
+                return f"{parameter.name} = {variant.value(parameter.name)}"
+        return ""
 
     def snap(self, units: Array) -> Array:
         """Return points (n, dimension) of the unit cube with every choice moved to its nearest level."""

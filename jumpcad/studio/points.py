@@ -19,13 +19,7 @@ BEST = 10
 
 
 class Points:
-    """The trials of a study file, numbered from 1 in the order of the study, as `jumpcad study --export` lists them.
-
-    Raises
-    ------
-    JumpcadError
-        If the file cannot be read, or has no trial.
-    """
+    """The trials of a study file, numbered from 1 in the order of the study, as `jumpcad study --export` lists them."""
 
     def __init__(self, file: Path) -> None:
         self.file = file
@@ -39,13 +33,7 @@ class Points:
 
     @cached_property
     def workshop(self) -> Workshop:
-        """The workshop of the study; the default for robots that are made in none.
-
-        Raises
-        ------
-        JumpcadError
-            If it was written by another version, and is none any more.
-        """
+        """The workshop of the study; the default for robots that are made in none."""
         if self._held is None:
             return load_workshop()
         try:
@@ -74,13 +62,7 @@ class Points:
 
     @property
     def best(self) -> int:
-        """The number of the best trial.
-
-        Raises
-        ------
-        JumpcadError
-            If no design jumps.
-        """
+        """The number of the best trial."""
         if not self.listed:
             raise JumpcadError(f"{self.file}: no design of this study jumps; --trial N opens one that does not")
         return next(iter(self.listed.values()))
@@ -90,31 +72,19 @@ class Points:
         return self._numbers[trial.position]
 
     def trial(self, number: int) -> Trial:
-        """Return the trial of a number.
-
-        Raises
-        ------
-        JumpcadError
-            If there is none.
-        """
+        """Return the trial of a number."""
         if not 1 <= number <= len(self.trials):
             raise JumpcadError(f"{self.file}: has no trial {number}: its trials are 1 to {len(self.trials)}")
         return self.trials[number - 1]
 
     def workshop_of(self, trial: Trial) -> Workshop:
-        """Return the workshop in which a trial's robot was made; raises as `workshop`."""
+        """Return the workshop in which a trial's robot was made."""
         if not trial.workshop:
             return self.workshop
         return PrintedModel(workshop=self.workshop).varied(trial.workshop).workshop or self.workshop
 
     def require_built(self, number: int) -> None:
-        """Reject a trial whose robot cannot be built.
-
-        Raises
-        ------
-        JumpcadError
-            With the reason; also as `trial` and `workshop`.
-        """
+        """Reject a trial whose robot cannot be built."""
         trial = self.trial(number)
         try:
             build(trial.design, self.workshop_of(trial), self.file.stem)

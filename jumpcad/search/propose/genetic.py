@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 
 from jumpcad.search.models import PrintedModel
-from jumpcad.search.propose.initial_designs import first_points, ranked_points
+from jumpcad.search.propose.initial_designs import begun, first_points, ranked_points
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.study.own_objective import LARGEST
 from jumpcad.search.study.request import Stage
-from jumpcad.search.study.trial import Trial, best_trial, feasible_trials, searched
+from jumpcad.search.study.trial import Trial, best_trial, feasible_trials
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
@@ -59,7 +59,7 @@ SETTINGS: dict[str, GeneticSettings] = {
 def run_genetic(evaluator: Evaluator, stage: Stage) -> None:
     """Search for the highest score; a rejected design has less than any other.
 
-    With a prior study, its best designs make half of the first population.
+    The best designs of a prior study, and of those to begin with, make half of the first population.
     """
     request = stage.request
     settings = SETTINGS[request.preset]
@@ -190,7 +190,7 @@ def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
     space = evaluator.space
     generator = np.random.default_rng([seed, 0])
     spread = first_points(evaluator.space, count, generator, ranked_points(evaluator, generator))
-    return begun_with(space, feasible_trials(searched(evaluator.prior)), spread, count)
+    return begun_with(space, feasible_trials(begun(evaluator)), spread, count)
 
 
 def begun_with(space: Space, best: Sequence[Trial], spread: Array, count: int) -> Array:

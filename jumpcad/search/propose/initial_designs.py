@@ -10,8 +10,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from jumpcad.search.phases import START
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
+from jumpcad.search.study.request import Stage
+from jumpcad.search.study.trial import Trial, searched
 from jumpcad.search.study.variant import Variant
 from jumpcad.sobol import sobol
 from jumpcad.transforms import Array
@@ -44,6 +47,16 @@ def first_points(
     admitted = (point for point in spread if admits(space.to_variant(point)))
     even = list(itertools.islice(admitted, count - len(chosen)))
     return np.array([*even, *chosen]).reshape(-1, space.dimension)
+
+
+def run_start(evaluator: Evaluator, stage: Stage) -> None:
+    """Evaluate the designs that a search begins with; its methods learn from them."""
+    evaluator.evaluate(stage.request.first, START, 0)
+
+
+def begun(evaluator: Evaluator) -> list[Trial]:
+    """Return the designs of a prior study, and those that the search began with."""
+    return [*searched(evaluator.prior), *(trial for trial in evaluator.trials if trial.phase == START)]
 
 
 def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[Array]:

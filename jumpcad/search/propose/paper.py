@@ -74,7 +74,7 @@ def _efficiency(trial: Trial) -> float:
 def _inside(evaluator: Evaluator, inner: Space | None) -> Iterator[Space | None]:
     """Let methods search a part of the evaluator's space."""
     whole = evaluator.request
-    evaluator.request = replace(whole, space=inner or whole.space)
+    evaluator.request = replace(whole, space=inner or whole.space, start=(), around=None)
     try:
         yield inner
     finally:

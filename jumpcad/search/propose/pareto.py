@@ -17,13 +17,14 @@ from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, front
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.bayesian import incumbent, learned_trials, run_steps, unproposed
 from jumpcad.search.propose.genetic import Fitness, begun_with, evolve
+from jumpcad.search.propose.initial_designs import begun
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.own_objective import LARGEST
 from jumpcad.search.study.request import Stage
-from jumpcad.search.study.trial import Trial, searched
+from jumpcad.search.study.trial import Trial
 from jumpcad.transforms import Array
 
 CAPS = 8
@@ -126,7 +127,8 @@ class ParetoFitness(Fitness):
 def run_nsga2(evaluator: Evaluator, stage: Stage) -> None:
     """Search the front by PyGAD's NSGA-II; a rejected design is dominated by every other one.
 
-    With a prior study, designs of its front make half of the first population, evenly chosen if there are more.
+    Designs of the front of a prior study, and of those to begin with, make half of the first population, evenly chosen
+    if there are more.
     """
     half = POPULATION // 2
     operators = {
@@ -135,7 +137,7 @@ def run_nsga2(evaluator: Evaluator, stage: Stage) -> None:
         "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
     }  # fmt: skip
     fitness = ParetoFitness(evaluator, "nsga2", stage.evaluations, stage.request.cost)
-    space, best = evaluator.space, front(searched(evaluator.prior), fitness.cost)
+    space, best = evaluator.space, front(begun(evaluator), fitness.cost)
     best = [best[round(place)] for place in np.linspace(0, len(best) - 1, min(len(best), half)).tolist()]
     spread = space.spread(POPULATION, np.random.default_rng([stage.request.seed, 0]))
     evolve(fitness, begun_with(space, best, spread, POPULATION), operators, stage.request.seed)

@@ -129,11 +129,6 @@ def joints_mm(design: Design) -> dict[str, dict[str, tuple[float, float]]]:
     """Return the joints of each pose, with the foot flat, in mm: x forward from the ankle, z up from the ground.
 
     Toes spread sideways, so that from the side they look shorter.
-
-    Raises
-    ------
-    CannotBuildError
-        If the design has no assembled pose, or its loop does not close when loaded.
     """
     found, linkage = {}, Linkage(design)
     for name, leg_rad in zip(POSES, (-design.compression_rad, 0.0), strict=True):

@@ -15,8 +15,15 @@ import numpy as np
 
 from jumpcad.files import templates_folder
 
-PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio", "templates")
-"""The packages of jumpcad that do not affect the trials of a study; templates lie in an installed package alone."""
+PRESENTATION = (
+    "api.", "bundle/", "calibration/", "cli/", "comparison.", "coupon/", "environment.", "exporters/animation.",
+    "exporters/curves.", "exporters/dxf.", "exporters/glb.", "exporters/registry.", "exporters/ros2.", "exporters/sdf.",
+    "exporters/step.", "exporters/stl.", "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.",
+    "printing/plates.", "printing/project.", "printing/prusaslicer.", "remedies.", "scene/camera.", "scene/labels.",
+    "scene/raster.", "scene/renderer.", "scene/shading.", "scene/step_", "search/report/", "studio/", "templates/",
+    "validation/", "variation.",
+)  # fmt: skip
+"""Modules and packages that do not affect the trials of a study; templates lie in an installed package alone."""
 FORKS = {"pybullet": "pybullet-arm64"}
 """What is installed in place of a package where that has no wheel."""
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
@@ -92,9 +99,9 @@ def _value(value: Any, depth: int = 0) -> str:
 
 def _is_own(file: str) -> bool:
     """Tell whether a file is the user's: no part of Python, of an installed package, or of jumpcad."""
-    libraries = [str(Path(__file__).parents[2])]
-    libraries += [str(sysconfig.get_path(kind)) for kind in ("stdlib", "platstdlib", "purelib", "platlib")]
-    return not any(Path(file).is_relative_to(library) for library in libraries)
+    libraries = [str(Path(__file__).parents[2]), *map(sysconfig.get_path, ("stdlib", "platstdlib"))]
+    installed = {"site-packages", "dist-packages"} & {*Path(file).parts}  # also of a system that an environment extends
+    return not installed and not any(Path(file).is_relative_to(library) for library in libraries)
 
 
 @cache
@@ -108,7 +115,7 @@ def code_digest() -> str:
     files |= {f"hardware/{path.name}": path for path in (templates_folder() / "hardware").glob("*.toml")}
     found = hashlib.sha256()
     for name in sorted(files):
-        if name.split("/")[0] not in PRESENTATION:
+        if not name.startswith(PRESENTATION):
             content = files[name].read_bytes()
             found.update(f"{name} {len(content)}\n".encode() + content)
     return found.hexdigest()[:16]

@@ -1,9 +1,14 @@
 """The SQLite file of a study: opening it, locking it, and messages for its errors."""
 
+import errno
+import io
 import os
+import shutil
 import sqlite3
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+import stat
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, nullcontext, suppress
 from pathlib import Path
 
 from filelock import FileLock, Timeout
@@ -13,7 +18,19 @@ from jumpcad.files.outputs import require_folder, require_path, require_writable
 
 SUFFIX = ".db"
 PATIENCE_S = 5.0
-"""Time for which a reader or writer waits for another one."""
+"""Time for which a writer waits for another program."""
+JOURNAL = "-journal"
+LOCK = ".lock"
+SIDES = (JOURNAL, "-wal", "-shm", LOCK)
+"""Ends of the names of files beside a database: SQLite's, and the lock."""
+LOG_BEGINS, LOG_HEADER, FRAME_HEADER = b"\x37\x7f\x06", 32, 24
+"""First bytes of a log; bytes of its header, and of a frame's (SQLite's file format, 4.1)."""
+COPIES = 10
+"""How often a database that changes meanwhile is copied."""
+
+
+own_id: Callable[[], int] = getattr(os, "geteuid", int)
+"""Returns the number of the user; 0 where files have none."""
 
 
 def connect(target: str) -> sqlite3.Connection:
@@ -23,36 +40,87 @@ def connect(target: str) -> sqlite3.Connection:
     return connection
 
 
-def open_to_read(path: Path) -> sqlite3.Connection:
-    """Return a connection to a file that may be read.
+def open_to_read(path: Path, closing: ExitStack) -> sqlite3.Connection:
+    """Return a connection to what a file holds, which a stack closes; nothing is written beside the file.
 
-    It is opened for writing if that is permitted: the last program to close it then merges the log beside the file into
-    it. A file without this permission is read with its log, or, without a log, as a file that does not change.
+    SQLite itself would play back a journal that lies there, which deletes the file that it names, and write to whatever
+    has the names of its own files. Without a log, the file alone is read; with one, as of a search that runs or was
+    killed, a copy of both in a private folder.
     """
-    log = path.with_name(f"{path.name}-wal")
-    ways = ["mode=rw", "mode=ro"]
-    if not (log.exists() and log.stat().st_size):
-        ways.append("mode=ro&immutable=1")
-    for way in ways:
-        connection = connect(f"{path.absolute().as_uri()}?{way}")
+    real = Path(os.path.realpath(path))
+    try:
+        if not os.path.getsize(real):  # nor are what the kernel shows as files, which may never end
+            raise JumpcadError(f"{path}: is not a study file")
+        with _log_of(real) or nullcontext() as log:
+            target = f"{real.as_uri()}?mode=ro&immutable=1" if log is None else _copied(real, log, closing)
+    except OSError as error:
+        raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
+    connection = connect(target)
+    closing.callback(connection.close)
+    return connection
+
+
+def _log_of(path: Path) -> io.FileIO | None:
+    """Return the open log beside a database; None where there is no plain file of its owner, yours or root's."""
+    how = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))
+    try:
+        stream = open(os.open(f"{path}-wal", how), "rb", buffering=0)  # noqa: SIM115  # it changes meanwhile
+    except OSError:
+        return None
+    there = os.fstat(stream.fileno())
+    if stat.S_ISREG(there.st_mode) and there.st_uid in (os.stat(path).st_uid, own_id(), 0):
+        header = stream.read(LOG_HEADER)
+        if header[:3] == LOG_BEGINS and 512 <= int.from_bytes(header[8:12], "big") <= 65536:
+            return stream
+    stream.close()
+    return None
+
+
+def _copied(path: Path, log: io.FileIO, closing: ExitStack) -> str:
+    """Copy a database, then its log, into a folder that a stack removes; return the copy's URI.
+
+    What a checkpoint writes to the database meanwhile is in the log too, unless the log began anew.
+    """
+    folder = Path(closing.enter_context(tempfile.TemporaryDirectory(prefix="jumpcad-")))
+    if shutil.disk_usage(folder).free < os.path.getsize(path):
+        raise OSError(errno.ENOSPC, f"{folder} has no room for a copy")
+    copy, began = folder / "study.db", b""
+    for _ in range(COPIES):
+        log.seek(0)
+        before = log.read(LOG_HEADER)
+        shutil.copyfile(path, copy)
+        log.seek(0)
+        with open(f"{copy}-wal", "wb") as target:
+            began = log.read(LOG_HEADER)
+            target.write(began)
+            frame = FRAME_HEADER + int.from_bytes(began[8:12], "big")
+            # A frame has its page's number, and the log's salt: what follows is older, or empty.
+            while len(one := log.read(frame)) == frame and one[8:16] == began[16:24] and any(one[:4]):
+                target.write(one)
+        if began == before:
+            return f"{copy.as_uri()}?mode=rw"
+    raise OSError(errno.EBUSY, "it changes all the time; repeat the command")
+
+
+def require_own_sides(path: Path) -> None:
+    """Require, before a study is written, that SQLite's files beside it are plain files of this user.
+
+    SQLite, and who locks, write to whatever has their names. A journal is none of a study's, which has a log.
+    """
+    real = os.path.realpath(path)
+    for end in SIDES:
         try:
-            connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
-            return connection
-        except sqlite3.OperationalError as error:
-            connection.close()
-            if way == ways[-1] or not _name(error).startswith(("SQLITE_CANTOPEN", "SQLITE_READONLY")):
-                raise
-    raise AssertionError
+            there = os.lstat(f"{real}{end}")
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        own = stat.S_ISREG(there.st_mode) and there.st_nlink == 1 and there.st_uid == own_id()
+        if end == JOURNAL or not own:
+            what = "the journal of another program" if own else "no plain file of yours, or has another name too"
+            raise JumpcadError(f"{real}{end}: is {what}; move it away, or name another study")
 
 
 def require_study(study: Path | None) -> None:
-    """Require, before a search, that a file can be its study.
-
-    Raises
-    ------
-    JumpcadError
-        If it does not end in .db, its folder is missing or cannot be written, or it is no file.
-    """
+    """Require, before a search, that a file can be its study."""
     if study is None:
         return
     if study.suffix != SUFFIX:
@@ -98,16 +166,19 @@ def is_written(path: Path) -> bool:
     """Tell whether a running search has locked a study file."""
     lock = _lock(path)
     try:
-        if os.path.lexists(lock.lock_file):  # left by a search that was killed, or held
+        there = os.lstat(lock.lock_file)  # left by a search that was killed, or held
+        if stat.S_ISREG(there.st_mode) and there.st_nlink == 1 and not there.st_size:  # who locks a file empties it
             with lock:
                 pass
+    except FileNotFoundError:
+        return False
     except OSError:
         return True
     return False
 
 
 def _lock(path: Path) -> FileLock:
-    return FileLock(path.absolute().with_name(f"{path.name}.lock"), timeout=0, thread_local=False)
+    return FileLock(path.absolute().with_name(path.name + LOCK), timeout=0, thread_local=False)
 
 
 @contextmanager

@@ -166,9 +166,7 @@ class Evaluator:
         )  # fmt: skip
 
     def _commit(self, trials: list[Trial]) -> None:
-        if trials:
-            self.store.append(in_order(trials))
-        for trial in trials:
+        for trial in self.store.append(in_order(trials)) if trials else ():  # as a search that goes on reads them
             self._finished[trial.key] = trial
             self._taken[trial.position] = trial.key
 

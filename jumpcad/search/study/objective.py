@@ -1,5 +1,6 @@
 """The outcome of one evaluation, and the score that an objective gives it."""
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -11,18 +12,20 @@ from pydantic import AfterValidator, ConfigDict, Field, PlainSerializer
 from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import did_you_mean
-from jumpcad.findings import Finding, Severity, bare, errors
+from jumpcad.findings import Finding, Severity, bare, errors, least
 from jumpcad.search.study.own_objective import LARGEST, SUFFIX, TriedFigures, own_function
 
 Word = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,79}$")]
-"""A name of a verdict, finding or figure."""
+"""A name of a verdict or figure."""
+Reason = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,79}([<>]=-?[0-9][0-9.e+-]{0,24})?$")]
+"""A name of a finding: a word, or a requirement as `Requirement.findings` names it."""
 Figure = Annotated[float, Field(ge=-LARGEST, le=LARGEST)]
 Margin = Annotated[float, Field(ge=float("-inf"))]  # not NaN; infinite is that of a run that diverged
 if TYPE_CHECKING:
     Findings = tuple[Finding, ...]
 else:  # a study keeps name, severity, margin and unit of each
     Findings = Annotated[
-        list[tuple[Word, Severity, Margin, str]],
+        list[tuple[Reason, Severity, Margin, str]],
         AfterValidator(lambda rows: tuple(bare(*row) for row in rows)),
         PlainSerializer(lambda findings: [(one.name, one.severity, one.margin, one.unit) for one in findings]),
     ]
@@ -64,10 +67,7 @@ class Evaluation:
     @cached_property
     def margins(self) -> Mapping[str, float]:
         """The least margin of each limit, by name."""
-        found: dict[str, float] = {}
-        for one in self.findings:
-            found[one.name] = min(found.get(one.name, one.margin), one.margin)
-        return found
+        return {name: one.margin for name, one in least(self.findings).items()}
 
     @cached_property
     def met(self) -> frozenset[str]:
@@ -81,12 +81,18 @@ class Evaluation:
 
     @property
     def bare(self) -> "Evaluation":
-        """The same with findings of name, severity, unit and six digits of margin only: what studies keep.
+        """The same with findings of name, severity, unit and six digits of margin only, without what is no number.
+
+        It is what studies keep.
 
         Ninety findings with their texts are 30 kB; who wants to read them evaluates the design again.
         """
-        findings = tuple(bare(one.name, one.severity, float(f"{one.margin:.6g}"), one.unit) for one in self.findings)
-        return replace(self, findings=findings)
+        margins = (-math.inf if math.isnan(one.margin) else float(f"{one.margin:.6g}") for one in self.findings)
+        kept = (
+            bare(one.name, one.severity, margin, one.unit) for one, margin in zip(self.findings, margins, strict=True)
+        )
+        figures = {name: value for name, value in self.metrics.items() if -LARGEST <= value <= LARGEST}  # nor is NaN
+        return replace(self, findings=tuple(kept), metrics=figures)
 
     def __repr__(self) -> str:
         outcome = "feasible" if self.feasible else f"rejected by {' '.join(self.reasons)[:80]}"

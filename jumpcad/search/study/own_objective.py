@@ -47,11 +47,6 @@ def own_function(asked: Any) -> tuple[str, Callable[[Mapping[str, float]], float
 
     It is a function made by `def` or `lambda`, or `FILE.py:FUNCTION`. The returned function raises `JumpcadError` if
     the user's raises anything or returns no finite number.
-
-    Raises
-    ------
-    JumpcadError
-        If there is no such file or function, or the file does not run.
     """
     function: Any = _loaded(asked) if isinstance(asked, str) else asked
     if not isinstance(function, FunctionType):

@@ -16,7 +16,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
 from jumpcad.files.names import Name, Text
-from jumpcad.search.phases import LEARNING_PHASES, METHODS
+from jumpcad.search.phases import LEARNING_PHASES, STAGES
 from jumpcad.search.pick.tolerances import MADE, Tolerances
 from jumpcad.search.study.trial import Count, Trial, one_of
 
@@ -35,13 +35,7 @@ def to_row(trial: Trial) -> tuple[Any, ...]:
 
 
 def read_trial(row: Sequence[Any], free: int, keys: Sequence[str]) -> Trial:
-    """Return the trial of a row of a search with so many `free` numbers and names, and these keys of the workshop.
-
-    Raises
-    ------
-    JumpcadError
-        Naming the row, if no search wrote it.
-    """
+    """Return the trial of a row of a search with so many `free` numbers and names, and these keys of the workshop."""
     try:
         trial: Trial = validated(_TRIAL.validate_json, "record", row[-1])
         if tuple(row[:4]) != trial.position:
@@ -59,7 +53,7 @@ def _require_proposal(trial: Trial, free: int) -> None:
     """Require that what a method predicted fits a space of so many free numbers and names."""
     thetas, tried = trial.proposal.get("theta", {}), trial.proposal.get("tried", [])
     others = [value for name, value in trial.proposal.items() if name not in ("theta", "tried")]
-    if trial.phase in LEARNING_PHASES and trial.step and not thetas:
+    if trial.phase in LEARNING_PHASES and trial.step and "theta" not in trial.proposal:
         raise JumpcadError("proposal.theta: missing")
     if not (
         (isinstance(thetas, dict) and all(3 <= len(theta) <= free + 2 for theta in thetas.values()))
@@ -69,10 +63,11 @@ def _require_proposal(trial: Trial, free: int) -> None:
         raise JumpcadError(f"proposal: is none of a search with {free} free numbers and names")
 
 
-class _Named(TomlTable):
+class _Model(TomlTable):
     model_config = ConfigDict(extra="allow")
 
     name: Name
+    workshop: dict[str, Any] | None = None
 
 
 class _Range(TomlTable):
@@ -103,16 +98,19 @@ class _Identity(TomlTable):
 
     model_config = ConfigDict(extra="allow")
 
-    model: _Named
+    model: _Model
     objective: Name
     method: Name
     seed: Count
     space: _Space
     making: Tolerances | None = None
+    against: Name | None = None
+    objective_code: str = ""
+    versions: dict[str, str] | None = None
 
 
 class _Stage(TomlTable):
-    method: Annotated[str, AfterValidator(one_of(METHODS))]
+    method: Annotated[str, AfterValidator(one_of(STAGES))]
     evaluations: Count
     initial: Count = 0
 

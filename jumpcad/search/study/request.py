@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from jumpcad.arguments import check_fields
+from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
@@ -25,6 +26,8 @@ from jumpcad.search.phases import (
     NAMES,
     PRESETS,
     SEQUENCES,
+    STAGES,
+    START,
     UNTIL_PERCENT,
     Method,
 )
@@ -32,6 +35,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.objective import Objective, find_objective
 from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.variant import Variant
 
 MOST_EVALUATIONS = 1_000_000
 """About a day of one core, at 80 ms an evaluation (docs/speed.md)."""
@@ -51,7 +55,7 @@ class Request:
         The space that is searched, the robot's model, and the name of the objective.
     own
         An own objective, which has the name `objective`; none if None.
-    method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against
+    method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against, start, around
         See `jumpcad.optimize`.
     """
 
@@ -69,6 +73,8 @@ class Request:
     hours: float = 0.0
     screen: bool = False
     against: str = SPRING_ENERGY.name
+    start: tuple[Variant, ...] = ()
+    around: Variant | None = None
 
     @classmethod
     def make(
@@ -78,6 +84,8 @@ class Request:
         method: str | None = None,
         objective: str | Callable[..., Any] | None = None,
         against: str | None = None,
+        start: Sequence[Design] = (),
+        around: Design | None = None,
         **others: Any,
     ) -> Self:
         """Return a request with defaults that follow from method and model.
@@ -98,7 +106,11 @@ class Request:
             model = replace(model, stand_in=True)
         if isinstance(model, PrintedModel):
             model = replace(model, scored=tuple(name for name in COSTLY if aim.uses(name, model.figure_names)))
-        return cls(space, model, aim.name, method or DEFAULT, own=own, against=against, **others)
+        begun = tuple(space.begun(one, model.workshop) for one in start)
+        centre = None if around is None else space.begun(around, model.workshop)
+        return cls(
+            space, model, aim.name, method or DEFAULT, own=own, against=against, start=begun, around=centre, **others
+        )
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -138,8 +150,18 @@ class Request:
                 raise JumpcadError("screen: applies to the printed robot; leave it out")
             if self.space.of_workshop or (self.model.workshop and self.model.workshop.bought.spring):
                 raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
+        for one in self.start:
+            if outside := self.space.outside(one):
+                raise JumpcadError(
+                    f"start: {outside} is outside of the search: widen it by a bound, or leave the design out"
+                )
+        if len(self.first) > self.searched:
+            raise JumpcadError(
+                f"evaluations = {self.evaluations} leave {self.searched} for the search, which begins with "
+                f"{len(self.first)} designs: ask for more"
+            )
         for stage in plan_stages(self):
-            if stage.evaluations < (least := METHODS[stage.method].least):
+            if stage.evaluations < (least := STAGES[stage.method].least):
                 raise JumpcadError(
                     f"evaluations = {self.evaluations} leave {stage.evaluations} for {stage.method}, whose parts take "
                     f"{least} at least: ask for more"
@@ -163,6 +185,18 @@ class Request:
         """
         share = min(self.evaluations // 4, MOST_PICK)
         return share if share >= LEAST_PICK else 0
+
+    @property
+    def first(self) -> tuple[Variant, ...]:
+        """What is evaluated first: the design that the space is around, if it lies in it, and those to begin with."""
+        around = () if self.around is None or self.left_out else (self.around,)
+        return tuple({one.key: one for one in (*around, *self.start)}.values())
+
+    @property
+    def left_out(self) -> str:
+        """Why the design that the space is around is not evaluated; mostly nothing."""
+        outside = "" if self.around is None else self.space.outside(self.around)
+        return outside and f"around: {outside} is outside of the search, so that design is not evaluated"
 
     @property
     def searched(self) -> int:
@@ -203,6 +237,7 @@ class Request:
             "batch": self.batch,
             **({"screen": self.model.estimate_engine} if self.screen and isinstance(self.model, PrintedModel) else {}),
             "making": asdict(self.model.making),
+            **({"start": [one.key for one in self.first]} if self.first else {}),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
         }
@@ -274,11 +309,13 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     from them as from evenly spread designs, and more of them are wasted. Only the last stage ends where little is
     gained: what came before would have led it elsewhere.
     """
-    total, methods = request.searched, _methods(request.method)
+    first, methods = len(request.first), _methods(request.method)
+    total = request.searched - first
     shares = [min(total // 3, MOST_FIRST)] if len(methods) > 1 else []
     shares.append(total - sum(shares))
     learns = len(methods) == 1 and methods[0].learns
     initial = default_initial(request.space, total, prior, request.estimated) if learns else 0
     stages = [Stage(request, method.name, share, initial) for method, share in zip(methods, shares, strict=True)]
     least_gain = request.until_percent / 100.0 if methods[-1].ends else 0.0
-    return [*stages[:-1], replace(stages[-1], least_gain=least_gain)]
+    begin = [Stage(request, START, first)] if first else []
+    return [*begin, *stages[:-1], replace(stages[-1], least_gain=least_gain)]

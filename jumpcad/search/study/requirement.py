@@ -29,13 +29,7 @@ class Requirement:
 
     @classmethod
     def parse(cls, text: str) -> "Requirement":
-        """Return the requirement that a text says.
-
-        Raises
-        ------
-        JumpcadError
-            If it says none.
-        """
+        """Return the requirement that a text says."""
         found = FORM.fullmatch(text)
         low, name, sign, number = found.groups() if found else (None, "", None, None)
         if not name or (low is None and number is None) or (low is not None and sign == ">="):
@@ -50,13 +44,7 @@ class Requirement:
     @classmethod
     @check_arguments
     def of(cls, name: str, least: float | None, most: float | None) -> "Requirement":
-        """Return a requirement on a figure.
-
-        Raises
-        ------
-        JumpcadError
-            If nothing can keep it.
-        """
+        """Return a requirement on a figure."""
         if not (limits := [one for one in (least, most) if one is not None]) or not all(map(math.isfinite, limits)):
             raise JumpcadError(
                 f"{name} = ({least}, {most}): give a number as least or largest value, None for no limit"
@@ -93,13 +81,7 @@ Required = Mapping[str, tuple[float | None, float | None]]
 
 
 def requirements_of(asked: Iterable[str] | Required, known: Iterable[str]) -> tuple[Requirement, ...]:
-    """Return requirements, one of each figure, sorted by name, of texts or of pairs by name.
-
-    Raises
-    ------
-    JumpcadError
-        If one is none, names no figure that is `known`, or contradicts another.
-    """
+    """Return requirements, one of each figure, sorted by name, of texts or of pairs by name."""
     if isinstance(asked, Mapping):
         for name, limits in asked.items():
             if not isinstance(limits, tuple | list) or len(limits) != 2:

@@ -14,7 +14,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError
 from jumpcad.plural import counted
 from jumpcad.search.fronts import front
-from jumpcad.search.phases import METHODS, SEARCH_PHASES
+from jumpcad.search.phases import METHODS, SEARCH_PHASES, STAGES
 from jumpcad.search.pick.robust import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.evaluator import Evaluator, Watch
@@ -82,8 +82,8 @@ def run_study(
     """
     prior, remark = _read_prior(request)
     with StudyStore.write(path, request.identity(prior)) as store:
-        if remark:
-            store.note_once(remark)
+        for one in filter(None, (remark, request.left_out)):
+            store.note_once(one)
         stages = _stages(request, store, len(prior))
         if store.recall(ENDED) is not None:
             store.remember(ENDED, None)  # until this run ends
@@ -108,7 +108,7 @@ def run_study(
         for stage in stages:
             allowance += stage.evaluations
             if not expired():
-                converged = METHODS[stage.method].run(evaluator, stage)
+                converged = STAGES[stage.method].run(evaluator, stage)
         trials = evaluator.trials
         timed = clock.is_over(request.pick) and not converged and len(trials) < request.searched
         picking, best = True, best_trial(trials)

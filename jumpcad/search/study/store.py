@@ -8,9 +8,9 @@ same search fills the same rows, whatever computes them and however often it is 
 import json
 import os
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from functools import cache
+from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_path
 from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.phases import SEARCH_PHASES
-from jumpcad.search.study.database import connect, locked, open_to_read, plain_errors
+from jumpcad.search.study.database import connect, locked, open_to_read, plain_errors, require_own_sides
 from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
 from jumpcad.search.study.trial import Trial, in_order
 
@@ -68,22 +68,27 @@ class StudyStore:
             If the file holds another study, is not a study, is damaged, or is being written by another run.
         """
         path = None if path is None else Path(path)
-        made = path is not None and not os.path.lexists(path)
-        store = cls(path, made)
+        store = cls(path, path is not None and not os.path.lexists(path))
         if path is not None:
             store._closing.enter_context(locked(path))
-        with ExitStack() as on_error:
+        with ExitStack() as on_error, plain_errors(path):
             on_error.push(store)
-            with plain_errors(path):
-                store._connect(connect(":memory:" if path is None else os.path.abspath(path)))
-                store._prepare(identity)
+            if path is not None:
+                require_own_sides(path)
+                if os.path.getsize(path):  # what is refused stays as it is
+                    with cls(path) as there:
+                        there._connection = open_to_read(path, there._closing)
+                        there._require_same(identity)
+            store._connection = connect(":memory:" if path is None else os.path.abspath(path))
+            store._closing.callback(store._connection.close)
+            store._prepare(identity)
             on_error.pop_all()
         return store
 
     @classmethod
     @check_arguments
     def read(cls, path: str | Path) -> "StudyStore":
-        """Open a study for reading, also while it is being written, and in a folder that may not be written to.
+        """Open a study for reading, as it is now: also while it is being written, and in a folder that is not.
 
         Raises
         ------
@@ -97,19 +102,14 @@ class StudyStore:
             reason = "is a folder, a pipe or a device, not a study file" if there else "no such study file"
             raise JumpcadError(f"{path}: {reason}")
         store = cls(path)
-        with ExitStack() as on_error:
+        with ExitStack() as on_error, plain_errors(path):
             on_error.push(store)
-            with plain_errors(path):
-                store._connect(open_to_read(path))
-                store._check_format()
-                _ = store.identity
-                store._connection.execute("PRAGMA query_only = ON")
+            store._connection = open_to_read(path, store._closing)
+            store._check_format()
+            _ = store.identity
+            store._connection.execute("PRAGMA query_only = ON")
             on_error.pop_all()
         return store
-
-    def _connect(self, connection: sqlite3.Connection) -> None:
-        self._connection = connection
-        self._closing.callback(connection.close)
 
     def close(self) -> None:
         """Close the file."""
@@ -140,31 +140,34 @@ class StudyStore:
             found = self._connection.execute("SELECT value FROM study WHERE key = ?", (key,)).fetchone()
         if found is None and key != "identity":
             return default
-        text = found[0] if found else ""
         try:
-            if self.path is not None and (kind or key in REMEMBERED):  # in memory it is this process's
-                validated((kind or REMEMBERED[key]).validate_json, key, text)
-            return json.loads(text)
+            return json.loads(_checked(key, found[0] if found else "", kind))
         except (JumpcadError, ValueError) as error:
             raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
-    def remember(self, key: str, value: Any) -> None:
-        """Keep plain data under a key."""
+    def remember(self, key: str, value: Any, kind: TypeAdapter[Any] | None = None) -> None:
+        """Keep plain data under a key; its kind as in `recall`, which reads it."""
+        with _readable():
+            text = _checked(key, json.dumps(value), kind)
         with self._transaction():
-            self._connection.execute("INSERT OR REPLACE INTO study VALUES (?, ?)", (key, json.dumps(value)))
+            self._connection.execute("INSERT OR REPLACE INTO study VALUES (?, ?)", (key, text))
 
     def trials(self) -> list[Trial]:
         """Return all trials in the order of their study."""
-        space = self.identity.get("space", {})
-        choices = [part.get("choices", ()) for part in space.values() if "fixed" not in part]
-        free = sum(sum(isinstance(one, str) for one in some) or 1 for some in choices)
-        keys = [name for name in space if "." in name]
         with plain_errors(self.path):
             rows = self._connection.execute(f"SELECT {', '.join(COLUMNS)} FROM trials")
             try:
-                return in_order(read_trial(row, free, keys) for row in rows)
+                return in_order(map(self._reader, rows))
             except JumpcadError as error:
                 raise JumpcadError(f"{self.path}: is damaged: {error}") from None
+
+    @cached_property
+    def _reader(self) -> Callable[[Sequence[Any]], Trial]:
+        """What makes a trial of a row, in the space of this study."""
+        space = self.identity.get("space", {})
+        choices = [part.get("choices", ()) for part in space.values() if "fixed" not in part]
+        free = sum(sum(isinstance(one, str) for one in some) or 1 for some in choices)
+        return partial(read_trial, free=free, keys=[name for name in space if "." in name])
 
     def progress(self) -> tuple[dict[str, int], float | None]:
         """Return the number of trials by phase, and the best score; quick, whatever the number of rows."""
@@ -173,10 +176,14 @@ class StudyStore:
         scores = [best for phase, _, best in rows if best is not None and phase in SEARCH_PHASES]
         return {phase: count for phase, count, _ in rows}, max(scores, default=None)
 
-    def append(self, trials: Iterable[Trial]) -> None:
-        """Add trials, all or none."""
+    def append(self, trials: Iterable[Trial]) -> list[Trial]:
+        """Add trials, all or none; return them as they are read again."""
+        rows = [to_row(trial) for trial in trials]
+        with _readable():
+            kept = list(map(self._reader, rows))
         with self._transaction():
-            self._connection.executemany("INSERT INTO trials VALUES (?, ?, ?, ?, ?, ?)", map(to_row, trials))
+            self._connection.executemany("INSERT INTO trials VALUES (?, ?, ?, ?, ?, ?)", rows)
+        return kept
 
     def _has_no_score(self) -> bool:
         try:
@@ -220,16 +227,27 @@ class StudyStore:
                     self._connection.execute("ROLLBACK")
                 raise
 
+    @property
+    def _is_new(self) -> bool:
+        return not self._connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+
     def _prepare(self, identity: Mapping[str, Any]) -> None:
-        if self._connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0] == 0:
+        if self._is_new:
+            with _readable():
+                text = _checked("identity", json.dumps(identity))
             self._connection.execute("PRAGMA journal_mode = WAL")
             with self._transaction():
                 for statement in filter(str.strip, SCHEMA.split(";")):
                     self._connection.execute(statement)
-                self._connection.execute("INSERT INTO study VALUES ('identity', ?)", (json.dumps(identity),))
-        self._check_format()
+                self._connection.execute("INSERT INTO study VALUES ('identity', ?)", (text,))
         # A commit does not wait for the disk: the file stays valid, and only a power cut can lose the last batches.
         self._connection.execute("PRAGMA synchronous = NORMAL")
+
+    def _require_same(self, identity: Mapping[str, Any]) -> None:
+        """Require that the file holds the study of an identity, or nothing yet."""
+        if self._is_new:
+            return
+        self._check_format()
         held = self.identity
         differs = difference(held, json.loads(json.dumps(identity)))
         said = f"holds another study ({differs}); repeat its own request or name another file"
@@ -264,6 +282,22 @@ class StudyStore:
             raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
+
+
+@contextmanager
+def _readable() -> Iterator[None]:
+    """Stop before something is written that could not be read again: a fault of the program, not of a request."""
+    try:
+        yield
+    except JumpcadError as error:
+        raise AssertionError(f"what is to be written could not be read again: {error}") from error
+
+
+def _checked(key: str, text: Any, kind: TypeAdapter[Any] | None = None) -> Any:
+    """Return the text of what a study remembers under a key, if it is of its kind; raises `JumpcadError` else."""
+    if kind or key in REMEMBERED:
+        validated((kind or REMEMBERED[key]).validate_json, key, text)
+    return text
 
 
 def _tables(connection: sqlite3.Connection) -> list[tuple[str, str, str]]:

@@ -13,7 +13,7 @@ from jumpcad.search.models import RIGHTS_ITSELF, PrintedModel, RobotModel
 from jumpcad.search.phases import EXPLORED, FRONTS, NAMES
 from jumpcad.search.pick.robust import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import Figure, Objective, Word, described_objective
+from jumpcad.search.study.objective import Figure, Objective, Reason, described_objective
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import (
     Count,
@@ -38,7 +38,7 @@ class _Candidate(TomlTable):
     trial: Position
     parameters_score: Figure
     print_score: Figure
-    rejections: dict[Word, Count]
+    rejections: dict[Reason, Count]
     neighbours: Count
     fails: bool = False
 
@@ -82,13 +82,7 @@ def keep_pick(store: StudyStore, run: int, candidates: Sequence[Candidate], boun
 
 
 def read_pick(store: StudyStore, trials: Sequence[Trial], designs: int) -> tuple[list[Candidate], list[ActiveBound]]:
-    """Return what the last pick of a search of so many designs found; nothing where none has ended.
-
-    Raises
-    ------
-    JumpcadError
-        If a candidate is none of the study's trials.
-    """
+    """Return what the last pick of a search of so many designs found; nothing where none has ended."""
     ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick["designs"] == designs and pick.get("candidates")]
     if not ended:
         return [], []

@@ -17,8 +17,9 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files.csv_text import to_csv
 from jumpcad.files.names import Text
 from jumpcad.files.outputs import require_target, write_atomically
+from jumpcad.findings import least
 from jumpcad.search.phases import PHASES, SEARCH_PHASES
-from jumpcad.search.study.objective import Evaluation, Figure
+from jumpcad.search.study.objective import Evaluation, Figure, Margin
 from jumpcad.search.study.variant import Key, Variant
 
 TABLES = (".csv", ".parquet")
@@ -46,7 +47,7 @@ Position = tuple[Phase, Count, Count, Count]
 if TYPE_CHECKING:
     Proposed = Any
 else:  # a prediction, hyperparameters by name, points that were tried
-    Proposed = Finite | dict[str, list[Logarithm]] | list[list[Share]]
+    Proposed = Margin | dict[str, list[Logarithm]] | list[list[Share]]
 
 
 @dataclass(frozen=True, repr=False)
@@ -105,7 +106,7 @@ class Trial:
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
         evaluation = self.evaluation
-        margins = {one.name: {"margin": one.margin, "unit": one.unit} for one in evaluation.findings}
+        margins = {name: {"margin": one.margin, "unit": one.unit} for name, one in least(evaluation.findings).items()}
         return {
             "phase": self.phase,
             "score": self.score,

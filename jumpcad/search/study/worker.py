@@ -78,11 +78,6 @@ def evaluate_one(sent: bytes, one: Variant, limit_s: float) -> bytes:
 
     They are pickled here because the executor's pickler, which also supports functions and classes, takes four times as
     long.
-
-    Raises
-    ------
-    JumpcadError
-        If the model cannot work at all, or this machine has other versions of packages.
     """
     model: Any = _unpacked(sent)
     start = time.perf_counter()
@@ -94,13 +89,7 @@ def evaluate_one(sent: bytes, one: Variant, limit_s: float) -> bytes:
 
 @lru_cache(maxsize=1)
 def _unpacked(sent: bytes) -> RobotModel:
-    """Return a pickled model; the same object for all tasks of a search.
-
-    Raises
-    ------
-    JumpcadError
-        If this machine has other versions than the one that asks.
-    """
+    """Return a pickled model; the same object for all tasks of a search."""
     model: RobotModel
     model, asked = cloudpickle.loads(sent)
     for name, version in model.versions().items():

@@ -2,12 +2,14 @@
 
 import errno
 import os
+import shutil
 import sqlite3
 import subprocess
 import sys
 import textwrap
 
 import pytest
+from support.each import each
 from support.studies import IDENTITY, trials
 
 from jumpcad import beside
@@ -89,3 +91,85 @@ def test_before_a_search_it_is_tried_whether_its_folder_takes_a_new_study(tmp_pa
     require_study(tmp_path / "old.db")
     with pytest.raises(JumpcadError, match="no file can be made in"):
         require_study(tmp_path / "new.db")
+
+
+def contents(folder):
+    """Return what a folder holds: bytes of files, kinds of all else."""
+    return {one.name: one.read_bytes() if one.is_file() else one.lstat().st_mode for one in folder.iterdir()}
+
+
+def lay(path, kind, victim):
+    """Lay something of a kind at a path."""
+    if kind == "journal":  # a hot one: SQLite plays it back, and deletes it
+        path.write_bytes(bytes.fromhex("d9d505f920a163d7") + bytes(504) + b"more")
+    elif kind == "another's":
+        path.write_bytes(b"theirs")
+        os.chown(path, 12345, 12345)
+    else:
+        {"link": path.hardlink_to, "symlink": path.symlink_to, "pipe": lambda _: os.mkfifo(path),
+         "folder": lambda _: path.mkdir()}[kind](victim)  # fmt: skip
+
+
+KINDS = ["link", "symlink", "pipe", "folder", *(["another's"] if hasattr(os, "getuid") and os.getuid() == 0 else [])]
+
+
+@each("end, kind", [("-journal", "journal"), *((end, kind) for end in ("-journal", "-wal", "-shm") for kind in KINDS)])
+def test_nothing_beside_a_study_is_trusted_or_written(tmp_path_factory, end, kind):
+    """Nor is it by a writer, who refuses it, also beside what a link of another name leads to."""
+    folder, found = tmp_path_factory.mktemp("study"), trials(1)
+    (folder / "victim").write_text("precious")
+    with StudyStore.write(folder / "s.db", IDENTITY) as store:
+        store.append(found)
+    lay(folder / f"s.db{end}", kind, folder / "victim")
+    (folder / "other.db").symlink_to("s.db")
+    before = contents(folder)
+    for name in ("s.db", "other.db"):
+        with StudyStore.read(folder / name) as store:
+            assert store.trials() == found
+        with pytest.raises(JumpcadError, match=f"{end}: is .*; move it away"):
+            StudyStore.write(folder / name, IDENTITY)
+    assert contents(folder) == before
+
+
+def test_a_log_is_read_with_its_study_also_where_it_begins_anew_meanwhile(tmp_path, monkeypatch):
+    path, copy, more = tmp_path / "s.db", shutil.copyfile, [trials(4, step=step) for step in (1, 2)]
+    with StudyStore.write(path, IDENTITY) as writer:
+        writer.append(trials(3))
+
+        def copied_while_written(source, target):
+            if more:  # what was in the log goes to the study, half of it after it was copied
+                copy(source, target)
+                writer.append(more.pop())
+                writer._connection.execute("PRAGMA wal_checkpoint(RESTART)")
+                writer.append(more.pop())
+            else:
+                before.update(contents(tmp_path))
+                copy(source, target)
+
+        before = {}
+        monkeypatch.setattr(shutil, "copyfile", copied_while_written)
+        with StudyStore.read(path) as reader:
+            found = reader.trials()
+        assert contents(tmp_path) == before
+        assert len(found) == 11
+        assert found == writer.trials()
+
+
+def test_a_study_that_is_refused_is_left_as_it_is(tmp_path):
+    """With the log of a search that was killed; what may have no end, or no room for a copy, is refused too."""
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        store.append(trials(3))
+        for name in ("s.db", "s.db-wal"):
+            shutil.copy(tmp_path / name, tmp_path / name.replace("s.", "killed."))
+    with pytest.raises(JumpcadError, match="holds another study"):
+        StudyStore.write(tmp_path / "killed.db", IDENTITY | {"seed": 9})
+    assert sorted(contents(tmp_path)) == ["killed.db", "killed.db-wal", "s.db"]
+    with StudyStore.read(tmp_path / "killed.db") as store:
+        assert len(store.trials()) == 3
+    with open(tmp_path / "killed.db", "ab") as stream:
+        stream.truncate(10**13)  # of holes
+    with pytest.raises(JumpcadError, match=r"killed\.db: cannot be read: .* has no room for a copy"):
+        StudyStore.read(tmp_path / "killed.db")
+    if os.path.exists("/proc/kmsg"):
+        with pytest.raises(JumpcadError, match="is not a study file"):
+            StudyStore.read("/proc/kmsg")

@@ -106,9 +106,9 @@ def test_what_is_left_out_is_a_row_with_its_outcome_and_is_not_evaluated(evaluat
     notes = [{"log_feasible": float(number)} for number in range(3)]
     seen = []
     one._watch = lambda trial, computed: seen.append((trial.place, computed))
-    trials = one.evaluate([first, second, third], "bo", 4, proposals=notes, left_out=out)
+    trials = one.evaluate([first, second, third], "ga", 4, proposals=notes, left_out=out)
     assert len(log.read_text().splitlines()) == 2
-    assert [(trial.phase, trial.step, trial.place) for trial in trials] == [("bo", 4, place) for place in range(3)]
+    assert [(trial.phase, trial.step, trial.place) for trial in trials] == [("ga", 4, place) for place in range(3)]
     assert [trial.design for trial in trials] == [first, second, third]
     assert (trials[1].evaluation, trials[1].score) == (Evaluation("screened", {"guessed": 0.5}), None)
     assert [dict(trial.proposal) for trial in trials] == [notes[0], {}, notes[2]]

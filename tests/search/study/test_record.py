@@ -115,7 +115,8 @@ def test_what_a_study_remembers_is_what_a_search_remembered() -> None:
         "picks": [[], [{"designs": 9, "evaluations": 6}], [pick]],
     }  # fmt: skip
     wrong: dict[str, list[Any]] = {
-        "identity": [[], {}, IDENTITY | {"seed": -1}, *(IDENTITY | {"space": some} for some in (
+        "identity": [[], {}, IDENTITY | {"seed": -1}, IDENTITY | {"model": {"name": "a", "workshop": "shop"}},
+                     IDENTITY | {"versions": []}, IDENTITY | {"against": 5}, *(IDENTITY | {"space": some} for some in (
             dict(list(space.items())[:7]), dict(reversed(space.items())), space | {"c_coef": {"lower": 1.0}},
             space | {"c_coef": {"lower": 1.0, "upper": 2.0, "fixed": 1.0}}, space | {"c_coef": {"choices": []}},
             space | {"c_coef": {"fixed": "one"}}, space | {"c_coef": {"choices": ["one"]}},

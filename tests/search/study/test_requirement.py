@@ -5,6 +5,7 @@ import re
 
 import pytest
 from support.built import built
+from support.studies import IDENTITY
 
 import jumpcad
 from jumpcad.design import load_design
@@ -104,7 +105,7 @@ def test_the_righting_of_a_winner_is_simulated_once(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(summary, "TRIES", 2)
     model = robot_model("printed").requiring(["rights_itself>=0.1"])
     winner = Trial("bo", 0, 0, load_design("best-bo"), Evaluation("jump"), 1.0, "", 0.0, {})
-    with StudyStore.write(None, {}) as store:
+    with StudyStore.write(None, IDENTITY) as store:
         assert summary.simulated_righting(robot_model("printed"), store, winner) == {}
         shares = summary.simulated_righting(model, store, winner)
         own = land(built("best-bo"), 2)
