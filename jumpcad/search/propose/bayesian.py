@@ -22,7 +22,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED
 from jumpcad.search.study.request import Stage
-from jumpcad.search.study.trial import Trial, feasible_trials, is_flat
+from jumpcad.search.study.trial import Trial, feasible_trials, is_flat, nearest_to_required
 from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
@@ -146,7 +146,8 @@ def run_steps(
                 refit = always or step % REFIT_EVERY == 1
                 if dry_run:
                     dry_run.learn(known)
-                loop = ProposalLoop(space, learned_trials(space, known), dry_run, thetas, refit)
+                learned = learned_trials(space, known)
+                loop = ProposalLoop(space, learned, dry_run, thetas, refit, evaluator.unrequired)
                 proposals = proposer(loop, known, count, np.random.default_rng([seed, 2, RUN_SEED * stage.run + step]))
             thetas = loop.thetas
             notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
@@ -204,5 +205,6 @@ def learned_trials(space: Space, trials: Sequence[Trial]) -> list[Trial]:
 def incumbent(space: Space, trials: Sequence[Trial]) -> tuple[float, Array]:
     """Return the best score so far (0 where there is none) and the points (k, d) of the best few designs."""
     feasible = feasible_trials(trials)
-    elite = np.array([space.to_unit(trial.variant) for trial in feasible[:ELITE]]).reshape(-1, space.dimension)
+    near = feasible or nearest_to_required(trials)
+    elite = np.array([space.to_unit(trial.variant) for trial in near[:ELITE]]).reshape(-1, space.dimension)
     return (feasible[0].score or 0.0) if feasible else 0.0, np.clip(elite, 0.0, 1.0)

@@ -31,6 +31,8 @@ SCREENED, GUESSED = "screened", "guessed_score"
 """Verdict of a candidate that a screen left out, and the figure that it had for its score."""
 CANNOT_BUILD = "cannot_build"
 """Verdict of a design that has no robot."""
+EQUALS = "="
+"""In the name of a finding that a requirement has, and in no other."""
 QUARANTINED = "quarantined"
 """Verdict of a design whose evaluation failed twice: ended its worker, or ran past its limit."""
 
@@ -60,6 +62,11 @@ class Evaluation:
         """Names of the findings that reject the design; the verdict if there is none."""
         names = tuple(dict.fromkeys(finding.name for finding in errors(self.findings)))
         return names or (() if self.feasible else (self.verdict,))
+
+    @cached_property
+    def only_misses_required(self) -> bool:
+        """Whether it jumps and keeps all limits, but misses what is required."""
+        return self.verdict == "jump" and not self.feasible and all(EQUALS in reason for reason in self.reasons)
 
     @cached_property
     def margins(self) -> Mapping[str, float]:
@@ -127,7 +134,11 @@ class Objective:
             If the model behind the evaluation does not give the figures that the objective needs, one of them is 0
             where it divides, or an own objective fails.
         """
-        if not evaluation.feasible:
+        return self.unrequired(evaluation) if evaluation.feasible else None
+
+    def unrequired(self, evaluation: Evaluation) -> float | None:
+        """Return the score as if nothing was required; None of what is rejected otherwise. Raises as `score`."""
+        if not (evaluation.feasible or evaluation.only_misses_required):
             return None
         try:
             return float(self.figure(evaluation.metrics))

@@ -14,8 +14,8 @@ from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.study.request import Request
-from jumpcad.search.study.requirement import Requirement
 from jumpcad.search.study.trial import Trial, count_rejections, is_flat
+from jumpcad.search.study.why_none import why_required
 from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
@@ -91,17 +91,7 @@ class Result:
     @property
     def why_required(self) -> str:
         """What to relax where no design has a score, but some would without what is required; else empty."""
-        found = [one.evaluation for one in self.trials if one.evaluation.verdict == "jump"]
-        near = [one for one in found if all("=" in reason for reason in one.reasons)]
-        if self.best is not None or not near:
-            return ""
-        nearest = max(near, key=lambda one: sum(one.margins[name] for name in one.reasons))
-        missed = {name: Requirement.parse(name) for name in nearest.reasons}
-        reached = ", ".join(f"{one.name} = {one.at(nearest.margins[name]):.4g}" for name, one in missed.items())
-        return (
-            f"no design keeps what is required, but {len(near)} of {counted(len(self.trials), 'design')} would jump "
-            f"and keep all other limits; the nearest has {reached}: relax {', '.join(missed)}, or evaluate more designs"
-        )
+        return why_required(self.trials)
 
     @property
     def overlap(self) -> str:

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
@@ -18,8 +19,9 @@ from jumpcad.files.csv_text import to_csv
 from jumpcad.files.names import Text
 from jumpcad.files.outputs import require_target, write_atomically
 from jumpcad.search.phases import PHASES, SEARCH_PHASES
-from jumpcad.search.study.objective import Evaluation, Figure
+from jumpcad.search.study.objective import EQUALS, Evaluation, Figure
 from jumpcad.search.study.variant import Key, Variant
+from jumpcad.transforms import Array
 
 TABLES = (".csv", ".parquet")
 """Endings of tables: CSV, or Parquet for very many trials."""
@@ -142,6 +144,33 @@ def is_flat(trials: Sequence[Trial]) -> bool:
     """Whether all scores are alike, and so say nothing: those of several trials, or a single one of 0."""
     scores = [trial.score for trial in trials if trial.score is not None]
     return len(set(scores)) == 1 and (len(scores) > 1 or scores == [0.0])
+
+
+def typical_size(margins: Sequence[float] | Array) -> float:
+    """Return the median of absolute margins, 1 if that is 0: what counts as 1 where several limits are compared."""
+    return float(np.median(np.abs(margins))) or 1.0
+
+
+def required_sizes(trials: Iterable[Trial]) -> dict[str, float]:
+    """Return the typical margin of each requirement, by its name, among trials that jump."""
+    found: dict[str, list[float]] = {}
+    for trial in trials:
+        for name, margin in trial.evaluation.margins.items():
+            if EQUALS in name:
+                found.setdefault(name, []).append(margin)
+    return {name: typical_size(margins) for name, margins in found.items()}
+
+
+def lacking(trial: Trial, sizes: Mapping[str, float]) -> float:
+    """Return what a trial lacks of all that is required, in typical margins: no unit counts more than another."""
+    return sum(max(-margin, 0.0) / sizes[name] for name, margin in trial.evaluation.margins.items() if EQUALS in name)
+
+
+def nearest_to_required(trials: Sequence[Trial]) -> list[Trial]:
+    """Return the trials that only miss what is required, the nearest to it first."""
+    near = [trial for trial in trials if trial.evaluation.only_misses_required]
+    sizes = required_sizes(trials) if near else {}
+    return sorted(near, key=lambda trial: lacking(trial, sizes))
 
 
 def trial_numbers(trials: Sequence[Trial]) -> dict[Position, int]:
