@@ -105,6 +105,7 @@ class _Identity(TomlTable):
 
     model: _Named
     objective: Name
+    objective_unit: Text = ""
     method: Name
     seed: Count
     space: _Space

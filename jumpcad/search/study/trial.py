@@ -199,15 +199,34 @@ def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) 
     """
     path = Path(path)
     require_target(path, TABLES, force)
-    metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
-    margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
-    keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
-    records = [_record(trial, keys, metrics, margins) for trial in trials]
+    records = _records(trials)
     if path.suffix == ".csv":
         head = list(records[0]) if records else ["phase"]
         write_atomically(path, to_csv([head, *(list(record.values()) for record in records)]))
     else:
         write_atomically(path, _parquet(records))
+
+
+def to_frame(trials: Sequence[Trial]) -> Any:
+    """Return trials as a `pandas.DataFrame` with the columns of `write_table`.
+
+    Raises
+    ------
+    JumpcadError
+        If pandas is not installed.
+    """
+    try:
+        import pandas
+    except ImportError:
+        raise JumpcadError("pandas is not installed: pip install pandas, or write a table to .csv") from None
+    return pandas.DataFrame.from_records(_records(trials))
+
+
+def _records(trials: Sequence[Trial]) -> list[dict[str, Any]]:
+    metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
+    margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
+    keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
+    return [_record(trial, keys, metrics, margins) for trial in trials]
 
 
 def _parquet(records: list[dict[str, Any]]) -> bytes:
