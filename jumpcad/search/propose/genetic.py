@@ -120,12 +120,8 @@ class Fitness:
         """Return the fitness of a trial; what only misses requirements is between all rejected and all others."""
         if trial.score is None and trial.evaluation.only_misses_required:
             lack = lacking(trial, self._sizes)
-            return self.missing(-LARGEST * (1.0 + lack / (1.0 + lack)))
+            return np.multiply(self.rejected, 0.5 + 0.5 * lack / (1.0 + lack)).tolist()
         return self.rejected if trial.score is None else self.objectives(trial)
-
-    def missing(self, value: float) -> Any:
-        """Return the fitness of what misses requirements: a value that is larger the less is missing."""
-        return value
 
     def left_out(self, _variants: Sequence[Variant]) -> Mapping[Key, Evaluation]:
         """Return the outcome of variants that need no evaluation."""

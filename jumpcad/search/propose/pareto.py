@@ -118,10 +118,6 @@ class ParetoFitness(Fitness):
         super().__init__(evaluator, phase, evaluations, rejected=[-2.0 * LARGEST, -cost.worst])
         self.cost = cost
 
-    def missing(self, value: float) -> list[float]:
-        """Return both objectives of what misses requirements."""
-        return [value, -self.cost.worst]
-
     def objectives(self, trial: Trial) -> list[float]:
         """Return both objectives of a feasible trial."""
         return [trial.score or 0.0, -self.cost.of(trial)]

@@ -6,7 +6,7 @@ The same request ends with the same trials, whether or not it was interrupted.
 import json
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,7 @@ from jumpcad.search.study.result import Result
 from jumpcad.search.study.store import ENDED, StudyStore, difference
 from jumpcad.search.study.summary import keep_pick, pick_run, simulated_righting
 from jumpcad.search.study.trial import Trial, best_trial, is_flat
-from jumpcad.search.study.why_none import FIRST, none_jumps, why_rejected, why_required
+from jumpcad.search.study.why_none import FIRST, why_hopeless, why_rejected, why_required
 
 PICK_SHARE = 0.25
 """Share of a limited time that is kept for the robust pick, at most: that of its evaluations."""
@@ -90,13 +90,8 @@ def run_study(
             if trial.phase in SEARCH_PHASES and len(first) < FIRST:
                 first.append(trial)
                 if len(first) == FIRST and computed and best_trial(first) is None:
-                    for line in why(first):
+                    for line in why_hopeless(first, request.space, request.model):
                         tell(line)
-
-        def why(found: Sequence[Trial]) -> list[str]:
-            if lacking := why_required(found):
-                return [lacking]
-            return [none_jumps(found), *why_rejected(found, request.space, request.model)]
 
         def expired() -> bool:
             nonlocal cut

@@ -46,44 +46,41 @@ def _outward(one: Requirement, margin: float) -> str:
 
 
 def why_rejected(trials: Sequence[Trial], space: Space, model: RobotModel) -> list[str]:
-    """Return a line for each of the reasons that reject most of some trials, of which none has a score.
+    """Return a line for each of the few reasons that reject most of some trials, of which none has a score.
 
     Each has the remedy of the design that lacks least, with a number where one cures it, and the bounds of the search
     that the remedy meets.
     """
-    causes = Counter(cause for trial in trials for cause in _causes(trial))
-    return [_line(cause, count, trials, space, model) for cause, count in causes.most_common(MOST)]
+    lines = []
+    for (name, text), count in Counter(cause for trial in trials for cause in _causes(trial)).most_common(MOST):
+        its = [trial for trial in trials if (name, text) in _causes(trial)]
+        message, remedy = _told(name, max(its, key=lambda one: one.evaluation.margins.get(name, 0.0)), model)
+        met = ", ".join(_bounds(remedy, space))
+        parts = (message, remedy, f"move what keeps it from that: {met}" if met else "")
+        lines.append(f"{name}, {count} of {len(trials)}: {'; '.join(filter(None, parts))}")
+    return lines
 
 
-def none_jumps(trials: Sequence[Trial]) -> str:
-    """Return that none of the first trials jumps, and how many each reason rejects."""
+def why_hopeless(trials: Sequence[Trial], space: Space, model: RobotModel) -> list[str]:
+    """Return lines that say why none of the first trials has a score."""
+    if lacking := why_required(trials):
+        return [lacking]
     reasons = ", ".join(f"{name} {count}" for name, count in list(count_rejections(trials).items())[:5])
-    return f"none of the first {len(trials)} designs jumps ({reasons}): there may be no robot within these bounds"
+    first = f"none of the first {len(trials)} designs jumps ({reasons}): there may be no robot within these bounds"
+    return [first, *why_rejected(trials, space, model)]
 
 
-def _causes(trial: Trial) -> Iterator[tuple[str, str]]:
-    """Yield the reasons of a trial; a refused layout without a margin by what it says, whatever the numbers."""
-    for name in trial.evaluation.reasons:
-        yield name, NUMBERS.sub("#", trial.evaluation.detail) if name == CANNOT_BUILD else ""
-
-
-def _line(cause: tuple[str, str], count: int, trials: Sequence[Trial], space: Space, model: RobotModel) -> str:
-    name, _ = cause
-    its = [trial for trial in trials if cause in _causes(trial)]
-    nearest = max(its, key=lambda trial: trial.evaluation.margins.get(name, 0.0))
-    message, remedy = _told(name, nearest, model)
-    met = ", ".join(_bounds(remedy, space))
-    parts = (
-        f"{name}, {count} of {len(trials)}: {message}",
-        remedy,
-        f"move what keeps it from that: {met}" if met else "",
-    )
-    return "; ".join(filter(None, parts))
+def _causes(trial: Trial) -> list[tuple[str, str]]:
+    """Return the reasons of a trial; a refused layout without a margin by what it says, whatever the numbers."""
+    said = NUMBERS.sub("#", trial.evaluation.detail)
+    return [(name, said if name == CANNOT_BUILD else "") for name in trial.evaluation.reasons]
 
 
 def _told(name: str, trial: Trial, model: RobotModel) -> tuple[str, str]:
     """Return what a design's refusal says, and its remedy, with a number where one is found for a printed robot."""
     evaluation, remedies = trial.evaluation, None
+    if evaluation.detail and evaluation.verdict != CANNOT_BUILD:  # it may have ended its worker
+        return evaluation.detail, ""
     if isinstance(model, PrintedModel):
         model = model.varied(trial.workshop) if trial.workshop else model
         remedies = Remedies(trial.design, model.workshop or load_workshop())
@@ -101,14 +98,11 @@ def _bounds(remedy: str, space: Space) -> Iterator[str]:
     parameters = {one.name: one for one in space.parameters if not one.names}
     for word, key in asked(remedy):
         if (direction := DIRECTIONS[word]) and (one := parameters.pop(key, None)):
-            end, what = (one.upper, "at most") if direction > 0 else (one.lower, "at least")
-            said, usual = re.search(rf"{re.escape(key)}(?: to| =) ({NUMBERS.pattern})", remedy), SEARCH_BOUNDS.get(key)
-            value = (
-                float(said[1].rstrip("."))
-                if said
-                else (usual.upper if direction > 0 else usual.lower)
-                if usual
-                else end
+            usual = SEARCH_BOUNDS.get(key, one)
+            end, value, what = (
+                (one.upper, usual.upper, "at most") if direction > 0 else (one.lower, usual.lower, "at least")
             )
+            if said := re.search(rf"{re.escape(key)}(?: to| =) ({NUMBERS.pattern})", remedy):
+                value = float(said[1].rstrip("."))
             if direction * (value - end) > 0.0:
                 yield f"{key} {what if one.free else 'fixed at'} {end:g}"
