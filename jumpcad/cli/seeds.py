@@ -118,19 +118,21 @@ def _same(scores: Sequence[float], others: Sequence[float], comparisons: int) ->
 def print_seeds(facts: Mapping[str, Any], chosen: int, objective: str) -> None:
     """Print a table of all searches, one of the methods, and whose winner is the best."""
     each = table("method", ">seed", ">designs", ">best", ">winner", ">neighbours", "study", wraps="study")
-    names = (">searches", ">median", ">from", ">to", ">best", ">least", ">spread", ">p")
-    whole = table("method", *names)
-    for shown, rows in ((each, facts["searches"]), (whole, facts["methods"])):
-        for row in rows:
-            shown.add_row(*map(_cell, row.values()))
+    whole = table("method", ">searches", ">median", ">from", ">to", ">best", ">least", ">p")
+    for row in facts["searches"]:
+        each.add_row(*map(_cell, row.values()))
+    for row in facts["methods"]:
+        p = "–" if row["p"] is None else f"{row['p']:.2g}"
+        whole.add_row(*(_cell(value) for name, value in row.items() if name not in ("spread", "p")), p)
     print(f"\n{objective}: best of each search, its winner, what nine of ten of the winner's neighbours reach")
     console().print(each, "", whole, sep="\n")
     seeds = facts["methods"][0]["searches"]
-    print(f"from, to: 95 % confidence interval of the median, by {counted(seeds, 'seed')}; it takes 6 seeds")
+    least = "" if seeds >= 6 else "; it takes 6"
+    print(f"from, to: 95 % confidence interval of the median, by {counted(seeds, 'seed')}{least}")
     if len(facts["methods"]) > 1:
         print(
             f"p: chance that a method as good as the one with the highest median falls so far behind it with {seeds} "
-            "seeds each (Mann–Whitney rank test, two-sided, times the comparisons); below 0.05 it is worse"
+            "seeds each (Mann–Whitney rank test, two-sided, times the comparisons); below 0.05 it is probably worse"
         )
     best = facts["searches"][chosen]
     if best["winner"] is not None:
