@@ -34,9 +34,9 @@ LEARNED, LEARNED_BEST = 400, 100
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
 RUN_SEED = 1_000_000
 """Above any number of steps: added to the seed of the steps of each further run."""
-IDLE, IDLE_ALONE = 10, 25
-"""The search ends after so many steps in a row that gain too little: where robots are estimated, where not; judgement.
-"""
+IDLE, IDLE_ALONE, IDLE_REQUIRED = 10, 25, 20
+"""The search ends after so many steps in a row that gain too little: where robots are estimated, where not, and where
+they are with requirements, which part the good designs; judgement."""
 HOPELESS, FARTHEST = 1e-8, 6.25
 """Of the best score: what a proposal promises that promises nothing. Neighbours are then up to so many times as far
 away, an eighth of the unit cube along an axis; judgement."""
@@ -88,7 +88,8 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
     estimated = isinstance(evaluator.model, PrintedModel) and not evaluator.space.varies_workshop
 
     def ended() -> bool:  # scores that are all alike have not converged
-        enough = idle() >= (IDLE if estimated else IDLE_ALONE)
+        usual = IDLE_REQUIRED if evaluator.model.requirements else IDLE
+        enough = idle() >= (usual if estimated else IDLE_ALONE)
         return stage.least_gain > 0.0 and enough and not is_flat(evaluator.trials)
 
     return run_steps(evaluator, "bo", stage, proposer, ended)
@@ -193,7 +194,7 @@ def learned_trials(space: Space, trials: Sequence[Trial]) -> list[Trial]:
     """Return at most `LEARNED` of some trials, in their order: the best ones, and the nearest to the very best."""
     if len(trials) <= LEARNED:
         return list(trials)
-    ranked = feasible_trials(trials)
+    ranked = feasible_trials(trials) or nearest_to_required(trials)
     centre = space.to_unit(ranked[0].variant) if ranked else np.full(space.dimension, 0.5)
     chosen = {trial.key for trial in ranked[:LEARNED_BEST]}
     distances = [float(np.abs(space.to_unit(trial.variant) - centre).max()) for trial in trials]
