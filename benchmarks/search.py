@@ -6,6 +6,7 @@ published settings of the genetic algorithm are run too, and CMA-ES (pycma) and 
 projects. "GP-EI, spread start" has no designs ranked by the capsule robot first; on the capsule robot it is "GP-EI".
 Run `python benchmarks/search.py [--seeds N] [--methods a,b] [--model printed] [--evaluations N] [--json]`; in a
 method's name, write `;` for a comma. All of it takes about a quarter of an hour on the capsule robot.
+`--required --seeds 8 --evaluations 45` shows what requirements cost a search of the printed robot.
 
 Searches of the printed robot in docs/speed.md and docs/decisions/default-search.md have seeds 0 to 7, the extra `fast`
 and a machine with nothing else to do, on which a published simulation takes 35 to 43 ms.
@@ -124,6 +125,19 @@ METHODS: dict[str, tuple[Callable[..., None], int]] = {
 }
 
 
+PITCH = "-30<=touchdown_pitch_deg<=30"
+REQUIRED = {
+    "nothing required": (),
+    "one": (PITCH,),
+    "two": (PITCH, "com_rise_m>=0.2"),
+    "three": (PITCH, "com_rise_m>=0.1", "spring_energy_j<=0.4"),
+    "five, four of them idle": (PITCH, "com_rise_m>=0.2", "mass_kg<=0.17", "cost_eur<=130", "takeoff_time_s<=0.06"),
+    "five": (PITCH, "com_rise_m>=0.1", "spring_energy_j<=0.4", "leg_strength>=2", "electrical_energy_j<=5"),
+}
+"""Sets of requirements on the printed robot, on figures of very different size: what `two` and `five, four of them
+idle` add to `one` its best designs keep."""
+
+
 def climb(method: Callable[..., None], seed: int, evaluations: int, model: RobotModel) -> Scores:
     """Return the best score so far after each evaluation."""
     with StudyStore.write(None, {}) as store, local_pool(0) as pool:
@@ -139,14 +153,16 @@ def main() -> None:
     parser.add_argument("--methods", default=",".join(METHODS).replace(", ", "; "))
     parser.add_argument("--model", default="capsule")
     parser.add_argument("--evaluations", type=int, default=1000, help="at most, of every method")
+    parser.add_argument("--required", action="store_true", help="GP-EI on the printed robot with requirements instead")
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
     chosen = [name.replace(";", ",") for name in arguments.methods.split(",")]
     table = {}
-    for name in chosen:
-        method, evaluations = METHODS[name][0], min(METHODS[name][1], arguments.evaluations)
-        model = robot_model(arguments.model)
+    for name in REQUIRED if arguments.required else chosen:
+        method, evaluations = METHODS["GP-EI" if arguments.required else name]
+        evaluations = min(evaluations, arguments.evaluations)
+        model = robot_model("printed" if arguments.required else arguments.model).requiring(REQUIRED.get(name, ()))
         if isinstance(model, PrintedModel):  # as a search by `bo` asks for
             model = replace(model, stand_in=True)
         if "spread" in name:

@@ -1,6 +1,7 @@
 """`jumpcad optimize`: search for the best printable robot."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -170,8 +171,9 @@ def optimize(
         for request, path in zip(requests, paths, strict=True):
             with watching(evaluations, as_json) as watch:
                 headed = watch if as_json else _headed(_heading(request, path), watch)
+                tell = str if as_json else partial(complain, exit_code=1)  # str: to nobody
                 try:
-                    results.append(run_study(request, path, pool, headed))
+                    results.append(run_study(request, path, pool, headed, tell))
                 except KeyboardInterrupt:
                     if path.exists():
                         complain(f"{path} keeps all evaluations that ended; the same command goes on", 1)

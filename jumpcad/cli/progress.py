@@ -1,6 +1,5 @@
 """Progress of a search on standard error: always on a terminal, otherwise one line per minute."""
 
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -54,22 +53,10 @@ def duration(seconds: float) -> str:
 
 @contextmanager
 def watching(total: int, quiet: bool) -> Iterator["Watch"]:
-    """Show the progress of a search while it runs; `total` is the number of evaluations.
-
-    If none of its first designs jumps, print a warning with the numbers of reasons.
-    """
-    from jumpcad.search.study.run import hopeless
-
+    """Show the progress of a search while it runs; `total` is the number of evaluations."""
     if quiet:
         yield lambda trial, computed: None
         return
     tally = Tally(total)
-    first: list[Trial] = []
     with status("search …") as tell:
-
-        def watch(trial: "Trial", computed: bool) -> None:
-            tell(tally.add(trial, computed))
-            if warning := hopeless(first, trial):
-                print(f"jumpcad: {warning}", file=sys.stderr, flush=True)
-
-        yield watch
+        yield lambda trial, computed: tell(tally.add(trial, computed))

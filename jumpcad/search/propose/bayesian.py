@@ -22,7 +22,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED
 from jumpcad.search.study.request import Stage
-from jumpcad.search.study.trial import Trial, feasible_trials, is_flat
+from jumpcad.search.study.trial import Trial, feasible_trials, is_flat, nearest_to_required
 from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
@@ -34,9 +34,9 @@ LEARNED, LEARNED_BEST = 400, 100
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
 RUN_SEED = 1_000_000
 """Above any number of steps: added to the seed of the steps of each further run."""
-IDLE, IDLE_ALONE = 10, 25
-"""The search ends after so many steps in a row that gain too little: where robots are estimated, where not; judgement.
-"""
+IDLE, IDLE_ALONE, IDLE_REQUIRED = 10, 25, 20
+"""The search ends after so many steps in a row that gain too little: where robots are estimated, where not, and where
+they are with requirements, which part the good designs; judgement."""
 HOPELESS, FARTHEST = 1e-8, 6.25
 """Of the best score: what a proposal promises that promises nothing. Neighbours are then up to so many times as far
 away, an eighth of the unit cube along an axis; judgement."""
@@ -88,7 +88,8 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
     estimated = isinstance(evaluator.model, PrintedModel) and not evaluator.space.varies_workshop
 
     def ended() -> bool:  # scores that are all alike have not converged
-        enough = idle() >= (IDLE if estimated else IDLE_ALONE)
+        usual = IDLE_REQUIRED if evaluator.model.requirements else IDLE
+        enough = idle() >= (usual if estimated else IDLE_ALONE)
         return stage.least_gain > 0.0 and enough and not is_flat(evaluator.trials)
 
     return run_steps(evaluator, "bo", stage, proposer, ended)
@@ -146,7 +147,8 @@ def run_steps(
                 refit = always or step % REFIT_EVERY == 1
                 if dry_run:
                     dry_run.learn(known)
-                loop = ProposalLoop(space, learned_trials(space, known), dry_run, thetas, refit)
+                learned = learned_trials(space, known)
+                loop = ProposalLoop(space, learned, dry_run, thetas, refit, evaluator.unrequired)
                 proposals = proposer(loop, known, count, np.random.default_rng([seed, 2, RUN_SEED * stage.run + step]))
             thetas = loop.thetas
             notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
@@ -192,7 +194,7 @@ def learned_trials(space: Space, trials: Sequence[Trial]) -> list[Trial]:
     """Return at most `LEARNED` of some trials, in their order: the best ones, and the nearest to the very best."""
     if len(trials) <= LEARNED:
         return list(trials)
-    ranked = feasible_trials(trials)
+    ranked = feasible_trials(trials) or nearest_to_required(trials)
     centre = space.to_unit(ranked[0].variant) if ranked else np.full(space.dimension, 0.5)
     chosen = {trial.key for trial in ranked[:LEARNED_BEST]}
     distances = [float(np.abs(space.to_unit(trial.variant) - centre).max()) for trial in trials]
@@ -204,5 +206,6 @@ def learned_trials(space: Space, trials: Sequence[Trial]) -> list[Trial]:
 def incumbent(space: Space, trials: Sequence[Trial]) -> tuple[float, Array]:
     """Return the best score so far (0 where there is none) and the points (k, d) of the best few designs."""
     feasible = feasible_trials(trials)
-    elite = np.array([space.to_unit(trial.variant) for trial in feasible[:ELITE]]).reshape(-1, space.dimension)
+    near = feasible or nearest_to_required(trials)
+    elite = np.array([space.to_unit(trial.variant) for trial in near[:ELITE]]).reshape(-1, space.dimension)
     return (feasible[0].score or 0.0) if feasible else 0.0, np.clip(elite, 0.0, 1.0)

@@ -16,7 +16,7 @@ from jumpcad.search.estimate.estimate import Estimator
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.initial_designs import ranked_points
 from jumpcad.search.study.evaluator import Evaluator
-from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.objective import SCREENED, Evaluation
 from jumpcad.search.study.trial import Trial
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
@@ -76,7 +76,7 @@ class DryRun:
         self.estimator.learn(trials)
         self._failures.clear()
         if self.estimator.ready:
-            jumped = [trial.variant for trial in trials if trial.score is not None]
+            jumped = [trial.variant for trial in trials if self._evaluator.unrequired(trial) is not None]
             self.look_at([*map(self._variant, self.ranked[:FIRST]), *tried, *jumped])
 
     def look_at(self, variants: Iterable[Variant]) -> None:
@@ -87,15 +87,18 @@ class DryRun:
         """Return the keys of what was tried for `trials` and since then."""
         return {variant.key for variant in self._tried(trials, tried)}
 
-    def score(self, variant: Variant) -> float | None:
-        """Return the estimated score of a variant; None where it has no room or does not jump."""
+    def score(self, variant: Variant, required: bool = True) -> float | None:
+        """Return the estimated score of a variant; None where it has no room, does not jump or misses a requirement.
+
+        Without what is `required`, also of one that misses it.
+        """
         estimate = self.estimator(variant)
-        return None if estimate is None else estimate.score
+        return None if estimate is None or (required and not estimate.kept) else estimate.score
 
     def failure(self, variant: Variant) -> Trial | None:
-        """Return what a variant is learned as that has no room or stays on the ground; None of one that may jump.
+        """Return what a variant is learned as that has no room, stays on the ground or misses what is required.
 
-        What stays on the ground has the margins of its statics.
+        None of another one. Whether what misses it keeps all limits is not known.
         """
         if variant.key not in self._failures:
             self._failures[variant.key] = self._failure(variant)
@@ -105,11 +108,11 @@ class DryRun:
         laid, estimate = self.estimator.layout(variant), self.estimator(variant)
         if isinstance(laid, Evaluation):
             return _stayed(variant, laid)
-        if estimate is None or estimate.score is not None:
+        if estimate is None or (estimate.kept and estimate.score is not None):
             return None
         margins = estimate.margins.items()
         findings = [bare(name, "error" if margin < 0.0 else "info", margin, "") for name, margin in margins]
-        return _stayed(variant, Evaluation("no_takeoff", findings=tuple(findings)))
+        return _stayed(variant, Evaluation("no_takeoff" if estimate.score is None else SCREENED, {}, tuple(findings)))
 
     def failures(self, trials: Sequence[Trial], tried: Sequence[Array]) -> list[Trial]:
         """Return the last that were tried for `trials` and since then and did not hold, as if they were trials."""
@@ -121,10 +124,11 @@ class DryRun:
         if not self.estimator.ready:
             return {}
         first = [self._variant(point) for point in self.ranked[:FIRST]]
-        held = [one for one in self._tried(trials, tried) if self.failure(one) is None]
-        jumped = [trial.variant for trial in trials if trial.score is not None]
+        failures = ((one, self.failure(one)) for one in self._tried(trials, tried))
+        held = [one for one, failure in failures if failure is None or failure.evaluation.verdict == SCREENED]
+        jumped = [trial.variant for trial in trials if self._evaluator.unrequired(trial) is not None]
         variants = [*[*first, *held][-ESTIMATED:], *jumped]
-        scores = ((one, self.score(one)) for one in variants)
+        scores = ((one, self.score(one, required=False)) for one in variants)
         return {one.key: (self._space.to_unit(one), score) for one, score in scores if score is not None}
 
     def _tried(self, trials: Sequence[Trial], tried: Sequence[Array]) -> Iterator[Variant]:

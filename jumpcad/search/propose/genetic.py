@@ -19,7 +19,7 @@ from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.study.own_objective import LARGEST
 from jumpcad.search.study.request import Stage
-from jumpcad.search.study.trial import Trial, best_trial, feasible_trials
+from jumpcad.search.study.trial import Trial, best_trial, feasible_trials, lacking, required_sizes
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
@@ -85,6 +85,7 @@ class Fitness:
         self.rejected = rejected
         self.run = run
         self._idle = 0
+        self._sizes: Mapping[str, float] = {}
         self._prior = {one.key: one for one in evaluator.prior if one.evaluation.verdict != SCREENED}
 
     def objectives(self, trial: Any) -> Any:
@@ -105,10 +106,14 @@ class Fitness:
         new = len(self.evaluator.trials) - before
         self.left -= new
         self._idle = 0 if new else self._idle + 1
+        self._sizes = required_sizes(self.evaluator.trials) if self.evaluator.model.requirements else {}
         return [self.rejected if trial is None else self.fitness(trial) for trial in trials]
 
     def fitness(self, trial: Trial) -> Any:
-        """Return the fitness of a trial."""
+        """Return the fitness of a trial; what only misses requirements is between all rejected and all others."""
+        if trial.score is None and trial.evaluation.only_misses_required:
+            lack = lacking(trial, self._sizes)
+            return np.multiply(self.rejected, 0.5 + 0.5 * lack / (1.0 + lack)).tolist()
         return self.rejected if trial.score is None else self.objectives(trial)
 
     def left_out(self, _variants: Sequence[Variant]) -> Mapping[Key, Evaluation]:

@@ -4,8 +4,9 @@ One process for the score, fitted to feasible designs only (a rejected design ha
 would put a step into a smooth function), and one for the margin of each constraint, fitted wherever it is known.
 """
 
+import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, Self
@@ -16,7 +17,8 @@ from scipy.special import erfcx, log_ndtr
 
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
-from jumpcad.search.study.trial import Trial
+from jumpcad.search.study.objective import EQUALS, SCREENED, Evaluation
+from jumpcad.search.study.trial import Trial, typical_size
 from jumpcad.search.study.variant import Key
 from jumpcad.transforms import Array
 
@@ -26,8 +28,12 @@ LEAST_GUESSED = 3
 """Least trials whose score was guessed too, before guesses are learned from."""
 NO_GUESSES: Mapping[Key, tuple[Array, float]] = MappingProxyType({})
 VERDICT = "verdict"
-"""A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
+"""A constraint for all rejections together, also those without a margin: +1 for a jump, else -1.
+
+But for those by requirements, whose margins all jumps have: where none keeps them yet, it would tell nothing apart.
+"""
 MAX_CONSTRAINTS = 8
+"""Requirements not counted."""
 THETA_DIGITS = 3
 """Decimals of the logarithms with which the next fit starts: a row of a study is half as long."""
 
@@ -52,6 +58,7 @@ class SearchPosterior:
         thetas: Mapping[str, Any],
         fit: bool,
         guesses: Mapping[Key, tuple[Array, float]] = NO_GUESSES,
+        score_of: Callable[[Trial], float | None] = lambda trial: trial.score,
     ) -> Self:
         """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
 
@@ -65,6 +72,8 @@ class SearchPosterior:
             Whether they are fitted anew. What has no hyperparameters yet is always fitted.
         guesses
             Points (d,) and guessed scores of variants, by their keys; of trials too.
+        score_of
+            The score of a trial that is learned, also of one that only misses what is required.
         """
         x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension)
 
@@ -75,9 +84,10 @@ class SearchPosterior:
         for name, margins in constraint_margins(trials).items():
             known = np.isfinite(margins)
             constraints[name] = learn(name, x[known], _scaled(margins[known]))
-        jumps = [(point, trial) for point, trial in zip(x, trials, strict=True) if trial.score is not None]
+        found = [(point, trial, score_of(trial)) for point, trial in zip(x, trials, strict=True)]
+        jumps = [(point, trial) for point, trial, score in found if score is not None]
         points = np.array([point for point, _ in jumps]).reshape(-1, space.dimension)
-        scores = np.array([trial.score for _, trial in jumps])
+        scores = np.array([score for _, _, score in found if score is not None])
         if sum(trial.key in guesses for _, trial in jumps) >= LEAST_GUESSED:
             places = np.array([place for place, _ in guesses.values()])
             values = warped(forwards(np.array([value for _, value in guesses.values()]), scores))
@@ -159,18 +169,24 @@ def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
     """
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
     met = set[str]().union(*(trial.evaluation.met for trial in trials))
-    missed = set[str]().union(*(trial.evaluation.missed for trial in trials)) & met
-    ranked = sorted(missed, key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
-    margins = {name: np.array([trial.evaluation.margins.get(name, np.nan) for trial in trials]) for name in ranked}
+    missed = sorted(set[str]().union(*(trial.evaluation.missed for trial in trials)))
+    ranked = sorted((name for name in missed if name in met and EQUALS not in name), key=lambda name: -rejections[name])
+    names = [*ranked[: MAX_CONSTRAINTS - 1], *(name for name in missed if EQUALS in name)]
+    margins = {name: np.array([trial.evaluation.margins.get(name, np.nan) for trial in trials]) for name in names}
     if rejections:
-        margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
+        margins[VERDICT] = np.array([_verdict(trial.evaluation) for trial in trials])
     return margins
+
+
+def _verdict(evaluation: Evaluation) -> float:
+    if evaluation.verdict == SCREENED:
+        return math.nan
+    return 1.0 if evaluation.feasible or evaluation.only_misses_required else -1.0
 
 
 def _scaled(margins: Array) -> Array:
     """Return margins in units of their typical size, large ones compressed; the sign is kept."""
-    size = float(np.median(np.abs(margins)))
-    return np.arcsinh(margins / (size if size > 0 else 1.0))
+    return np.arcsinh(margins / typical_size(margins))
 
 
 def _log_h(z: Array) -> Array:

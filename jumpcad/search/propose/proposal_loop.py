@@ -52,11 +52,15 @@ class ProposalLoop:
         Hyperparameters of the step before.
     refit
         Whether they are fitted anew.
+    score_of
+        The score of a trial that is learned, also of one that only misses what is required.
     """
 
     def __init__(
-        self, space: Space, trials: Sequence[Trial], dry_run: DryRun | None, thetas: Mapping[str, Any], refit: bool
-    ) -> None:
+        self, space: Space, trials: Sequence[Trial], dry_run: DryRun | None, thetas: Mapping[str, Any], refit: bool,
+        score_of: Callable[[Trial], float | None] = lambda trial: trial.score,
+    ) -> None:  # fmt: skip
+        self._score_of = score_of
         self._space, self._trials, self._dry_run = space, trials, dry_run
         self.thetas: Mapping[str, Any] = thetas
         self._refit = refit
@@ -128,7 +132,7 @@ class ProposalLoop:
             self.tried += [] if one.key in known else [point]
             offers.append((self._dry_run.score(one) or 0.0, Proposal(one, point, 0.0, 0.0)))
         score, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
-        if found is None or score < (1.0 - WITHIN) * (self._dry_run.score(best.variant) or math.inf):
+        if found is None or score < (1.0 - WITHIN) * (self._dry_run.score(best.variant, required=False) or math.inf):
             return None
         found = _best_of([found], self._learned(), best.score or 0.0)
         self._proposed.append(found.unit)
@@ -159,7 +163,7 @@ class ProposalLoop:
         if self._dry_run is not None:
             trials += self._dry_run.failures(self._trials, self.tried)
             guesses = self._dry_run.estimates(self._trials, self.tried)
-        posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._refit, guesses)
+        posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._refit, guesses, self._score_of)
         self.thetas, self._refit = {**self.thetas, **posterior.thetas}, False
         for point in self._proposed:
             posterior = posterior.condition_on(point)

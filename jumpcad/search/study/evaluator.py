@@ -84,6 +84,10 @@ class Evaluator:
         """All trials of this search so far, in order."""
         return list(self._seen.values())
 
+    def unrequired(self, trial: Trial) -> float | None:
+        """Return the score of a trial, whatever is required; None of what is rejected otherwise."""
+        return self.objective.unrequired(trial.evaluation) if trial.score is None else trial.score
+
     def shared(self, function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
         """Return what a function returns for each argument, on as many cores as there are workers."""
         return shared(function, arguments, self._pool.workers)

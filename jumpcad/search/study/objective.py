@@ -34,6 +34,10 @@ SCREENED, GUESSED = "screened", "guessed_score"
 """Verdict of a candidate that a screen left out, and the figure that it had for its score."""
 CANNOT_BUILD = "cannot_build"
 """Verdict of a design that has no robot."""
+OWN_UNIT = "own units"
+"""Of an own objective without a unit."""
+EQUALS = "="
+"""In the name of a finding that a requirement has, and in no other."""
 QUARANTINED = "quarantined"
 """Verdict of a design whose evaluation failed twice: ended its worker, or ran past its limit."""
 
@@ -63,6 +67,11 @@ class Evaluation:
         """Names of the findings that reject the design; the verdict if there is none."""
         names = tuple(dict.fromkeys(finding.name for finding in errors(self.findings)))
         return names or (() if self.feasible else (self.verdict,))
+
+    @cached_property
+    def only_misses_required(self) -> bool:
+        """Whether it jumps and keeps all limits, but misses what is required."""
+        return self.verdict == "jump" and not self.feasible and all(EQUALS in reason for reason in self.reasons)
 
     @cached_property
     def margins(self) -> Mapping[str, float]:
@@ -118,11 +127,12 @@ class Objective:
 
     def describe(self) -> dict[str, str]:
         """Return what a study remembers of it."""
-        return {"objective": self.name} | ({"objective_code": self.code} if self.code else {})
+        own = {"objective_code": self.code, "objective_unit": self.unit} if self.code else {}
+        return {"objective": self.name} | {key: value for key, value in own.items() if value != OWN_UNIT}
 
     def shown(self, score: float) -> str:
-        """Return a score with its unit; that of an own objective is not known."""
-        return f"{score:.4f}" if self.code else f"{score:.4f} {self.unit}"
+        """Return a score with its unit, if that is known."""
+        return f"{score:.6g}" if self.unit == OWN_UNIT else f"{score:.6g} {self.unit}"
 
     def score(self, evaluation: Evaluation) -> float | None:
         """Return the score of a feasible evaluation, None of a rejected one.
@@ -133,7 +143,11 @@ class Objective:
             If the model behind the evaluation does not give the figures that the objective needs, one of them is 0
             where it divides, or an own objective fails.
         """
-        if not evaluation.feasible:
+        return self.unrequired(evaluation) if evaluation.feasible else None
+
+    def unrequired(self, evaluation: Evaluation) -> float | None:
+        """Return the score as if nothing was required; None of what is rejected otherwise. Raises as `score`."""
+        if not (evaluation.feasible or evaluation.only_misses_required):
             return None
         try:
             return float(self.figure(evaluation.metrics))
@@ -227,15 +241,20 @@ def find_objective(objective: str | Callable[..., Any]) -> Objective:
                 f"{objective!r} is not one of the objectives {', '.join(OBJECTIVES)}"
                 f"{did_you_mean(objective, OBJECTIVES) or f'; an own one is FILE{SUFFIX}:FUNCTION'}"
             )
-    name, figure, code = own_function(objective)
-    return Objective(name, "own objective", "own units", figure, code)
+    name, figure, code, unit = own_function(objective)
+    return Objective(name, _meaning(name, unit), unit or OWN_UNIT, figure, code)
 
 
 def described_objective(identity: Mapping[str, Any]) -> Objective:
     """Return the objective of a study for its pictures; the function of an own one is not kept, and does not score."""
     if "objective_code" not in identity:
         return find_objective(identity["objective"])
-    return Objective(identity["objective"], "own objective", "own units", _unknown, identity["objective_code"])
+    name, unit = identity["objective"], identity.get("objective_unit", "")
+    return Objective(name, _meaning(name, unit), unit or OWN_UNIT, _unknown, identity["objective_code"])
+
+
+def _meaning(name: str, unit: str) -> str:
+    return name if unit else "own objective"
 
 
 def _unknown(_metrics: Mapping[str, float]) -> float:

@@ -6,6 +6,7 @@ hash of the function; another function is another study.
 
 import os
 import random
+import re
 import runpy
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -24,6 +25,7 @@ from jumpcad.files.outputs import require_path
 from jumpcad.search.study.code_hash import file_hash, function_hash
 
 SUFFIX = ".py"
+UNIT = re.compile(r"[\w %°·/^().²³-]{0,30}")
 LARGEST = 1e12
 """Largest absolute score; study files hold no larger figure."""
 REMEDY = "mend it; what a study file holds is kept, and `--from-study` takes it over into a new study"
@@ -42,16 +44,20 @@ class TriedFigures(dict[str, float]):
         return self.value
 
 
-def own_function(asked: Any) -> tuple[str, Callable[[Mapping[str, float]], float], str]:
-    """Return the name of an own objective, its function with errors of one line, and the hash of its code.
+def own_function(asked: Any) -> tuple[str, Callable[[Mapping[str, float]], float], str, str]:
+    """Return the name of an own objective, its function with errors of one line, the hash of its code, and its unit.
 
     It is a function made by `def` or `lambda`, or `FILE.py:FUNCTION`. The returned function raises `JumpcadError` if
-    the user's raises anything or returns no finite number.
+    the user's raises anything or returns no finite number. Name and unit are the function's attributes of these names.
     """
     function: Any = _loaded(asked) if isinstance(asked, str) else asked
     if not isinstance(function, FunctionType):
         raise JumpcadError(f"an own objective takes a function made by `def` or `lambda`, not {described(function)}")
-    title = function.__name__ if NAME.fullmatch(function.__name__) else "own"
+    usual = function.__name__ if NAME.fullmatch(function.__name__) else "own"
+    title, unit = getattr(function, "name", usual), getattr(function, "unit", "")
+    for key, value, form in (("name", title, NAME), ("unit", unit, UNIT)):
+        if not isinstance(value, str) or not form.fullmatch(value):
+            raise JumpcadError(f"the objective {usual} has as {key} {described(value)}: give {form.pattern} as a text")
     file, _, name = asked.rpartition(":") if isinstance(asked, str) else ("", "", "")
 
     def refused(reason: str) -> JumpcadError:
@@ -72,7 +78,7 @@ def own_function(asked: Any) -> tuple[str, Callable[[Mapping[str, float]], float
             raise refused(f"returns {shown(value)}, not a number within ±{LARGEST:g}")
         return float(value)
 
-    return title, figure, file_hash(Path(file), name) if file else function_hash(function)
+    return title, figure, file_hash(Path(file), name) if file else function_hash(function), unit
 
 
 def _loaded(place: str) -> Any:

@@ -100,6 +100,7 @@ class _Identity(TomlTable):
 
     model: _Model
     objective: Name
+    objective_unit: Text = ""
     method: Name
     seed: Count
     space: _Space

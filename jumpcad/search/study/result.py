@@ -14,8 +14,8 @@ from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.study.request import Request
-from jumpcad.search.study.requirement import Requirement
-from jumpcad.search.study.trial import Trial, count_rejections, is_flat
+from jumpcad.search.study.trial import Trial, count_rejections, is_flat, to_frame
+from jumpcad.search.study.why_none import why_required
 from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
@@ -91,17 +91,7 @@ class Result:
     @property
     def why_required(self) -> str:
         """What to relax where no design has a score, but some would without what is required; else empty."""
-        found = [one.evaluation for one in self.trials if one.evaluation.verdict == "jump"]
-        near = [one for one in found if all("=" in reason for reason in one.reasons)]
-        if self.best is not None or not near:
-            return ""
-        nearest = max(near, key=lambda one: sum(one.margins[name] for name in one.reasons))
-        missed = {name: Requirement.parse(name) for name in nearest.reasons}
-        reached = ", ".join(f"{one.name} = {one.at(nearest.margins[name]):.4g}" for name, one in missed.items())
-        return (
-            f"no design keeps what is required, but {len(near)} of {counted(len(self.trials), 'design')} would jump "
-            f"and keep all other limits; the nearest has {reached}: relax {', '.join(missed)}, or evaluate more designs"
-        )
+        return why_required(self.trials)
 
     @property
     def overlap(self) -> str:
@@ -151,9 +141,13 @@ class Result:
         """How many designs each reason rejected, most frequent first."""
         return count_rejections(self.trials)
 
+    def to_frame(self) -> Any:
+        """Return the designs of the search as a `pandas.DataFrame`, a row each; `JumpcadError` without pandas."""
+        return to_frame(self.trials)
+
     def to_toml(self) -> str:
         """Return the winner's design file. Raises as `design`."""
-        heading = f"{HEADING}: {self.request.title} {self.score:.4g}.\n"
+        heading = f"{HEADING}: {self.request.title} {self.score:.6g}.\n"
         if self._won().workshop:
             heading += f"# Its workshop was searched too: it is in the file that ends in {WORKSHOP_END}.\n"
         return sealed(heading + self.design.to_toml())
@@ -228,11 +222,11 @@ class Result:
             yield "hypervolume", f"{self.hypervolume:.4g}"
             for trial in self.front:
                 cost = self.request.cost
-                yield f"{cost.figure.meaning} {cost.shown(cost.of(trial)):.4g} {cost.figure.unit}", f"{trial.score:.4g}"
+                yield f"{cost.figure.meaning} {cost.shown(cost.of(trial)):.4g} {cost.figure.unit}", f"{trial.score:.6g}"
         elif self.winner is not None:
-            yield self.request.objective, f"{self.score:.4g} {self.request.aim.unit}"
+            yield self.request.objective, self.request.aim.shown(self.score)
         if self.candidates:
-            yield "score that nine of ten neighbours reach", f"{self.candidates[0].robust_score:.4g}"
+            yield "score that nine of ten neighbours reach", f"{self.candidates[0].robust_score:.6g}"
         if self.winner is not None:
             yield from ((name, f"{value:.5g}") for name, value in self.design.model_dump().items())
         yield from ((f"rejected: {reason}", str(count)) for reason, count in self.rejected.items())

@@ -6,6 +6,7 @@ The same request ends with the same trials, whether or not it was interrupted.
 import json
 import math
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -23,24 +24,11 @@ from jumpcad.search.study.request import LEARNING_VERSIONS, Request, Stage, plan
 from jumpcad.search.study.result import Result
 from jumpcad.search.study.store import ENDED, StudyStore, difference
 from jumpcad.search.study.summary import keep_pick, pick_run, simulated_righting
-from jumpcad.search.study.trial import Trial, best_trial, count_rejections, is_flat
-
-FIRST = 50
-"""Designs after which it is said that none jumps."""
+from jumpcad.search.study.trial import Trial, best_trial, is_flat
+from jumpcad.search.study.why_none import FIRST, why_hopeless, why_rejected, why_required
 
 PICK_SHARE = 0.25
 """Share of a limited time that is kept for the robust pick, at most: that of its evaluations."""
-
-
-def hopeless(first: list[Trial], trial: Trial) -> str:
-    """Add a trial to the first ones of a search; return what to tell when none of these jumps, mostly nothing."""
-    if trial.phase not in SEARCH_PHASES or len(first) == FIRST:
-        return ""
-    first.append(trial)
-    if len(first) < FIRST or best_trial(first) is not None:
-        return ""
-    reasons = ", ".join(f"{name} {count}" for name, count in count_rejections(first).items())
-    return f"none of the first {FIRST} designs jumps ({reasons}): there may be no robot within these bounds"
 
 
 class Clock:
@@ -71,9 +59,15 @@ class Clock:
 
 @check_arguments
 def run_study(
-    request: Request, path: str | Path | None, pool: Pool, watch: Watch = lambda trial, computed: None
+    request: Request,
+    path: str | Path | None,
+    pool: Pool,
+    watch: Watch = lambda trial, computed: None,
+    tell: Callable[[str], object] = str,
 ) -> Result:
     """Run a study, or continue the one in a file; None keeps it in memory.
+
+    `tell` is called with the reasons, a line each, where none of the first designs jumps.
 
     Raises
     ------
@@ -92,9 +86,12 @@ def run_study(
 
         def watched(trial: Trial, computed: bool) -> None:
             clock.see(computed)
-            if warning := hopeless(first, trial):
-                store.note_once(warning)
             watch(trial, computed)
+            if trial.phase in SEARCH_PHASES and len(first) < FIRST:
+                first.append(trial)
+                if len(first) == FIRST and computed and best_trial(first) is None:
+                    for line in why_hopeless(first, request.space, request.model):
+                        tell(line)
 
         def expired() -> bool:
             nonlocal cut
@@ -112,6 +109,9 @@ def run_study(
         trials = evaluator.trials
         timed = clock.is_over(request.pick) and not converged and len(trials) < request.searched
         picking, best = True, best_trial(trials)
+        if best is None and not why_required(trials):
+            for line in why_rejected(trials, request.space, request.model):
+                store.note_once(line)
         worth = request.pick and best is not None and (request.is_front or not is_flat(trials))
         candidates, bounds = _picked(request, evaluator) if worth else ([], [])
         result = Result(request, trials, best, candidates, bounds, [], len(evaluator.trials), converged)

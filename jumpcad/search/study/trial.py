@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
@@ -19,8 +20,9 @@ from jumpcad.files.names import Text
 from jumpcad.files.outputs import require_target, write_atomically
 from jumpcad.findings import least
 from jumpcad.search.phases import PHASES, SEARCH_PHASES
-from jumpcad.search.study.objective import Evaluation, Figure, Margin
+from jumpcad.search.study.objective import EQUALS, Evaluation, Figure, Margin
 from jumpcad.search.study.variant import Key, Variant
+from jumpcad.transforms import Array
 
 TABLES = (".csv", ".parquet")
 """Endings of tables: CSV, or Parquet for very many trials."""
@@ -145,6 +147,33 @@ def is_flat(trials: Sequence[Trial]) -> bool:
     return len(set(scores)) == 1 and (len(scores) > 1 or scores == [0.0])
 
 
+def typical_size(margins: Sequence[float] | Array) -> float:
+    """Return the median of absolute margins, 1 if that is 0: what counts as 1 where several limits are compared."""
+    return float(np.median(np.abs(margins))) or 1.0
+
+
+def required_sizes(trials: Iterable[Trial]) -> dict[str, float]:
+    """Return the typical margin of each requirement, by its name, among trials that jump."""
+    found: dict[str, list[float]] = {}
+    for trial in trials:
+        for name, margin in trial.evaluation.margins.items():
+            if EQUALS in name:
+                found.setdefault(name, []).append(margin)
+    return {name: typical_size(margins) for name, margins in found.items()}
+
+
+def lacking(trial: Trial, sizes: Mapping[str, float]) -> float:
+    """Return what a trial lacks of all that is required, in typical margins: no unit counts more than another."""
+    return sum(max(-margin, 0.0) / sizes[name] for name, margin in trial.evaluation.margins.items() if EQUALS in name)
+
+
+def nearest_to_required(trials: Sequence[Trial]) -> list[Trial]:
+    """Return the trials that only miss what is required, the nearest to it first."""
+    near = [trial for trial in trials if trial.evaluation.only_misses_required]
+    sizes = required_sizes(trials) if near else {}
+    return sorted(near, key=lambda trial: lacking(trial, sizes))
+
+
 def trial_numbers(trials: Sequence[Trial]) -> dict[Position, int]:
     """Return the numbers of all trials of a study, by position: from 1 in its order, as its exported table has them."""
     return {trial.position: number for number, trial in enumerate(trials, start=1)}
@@ -171,15 +200,34 @@ def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) 
     """
     path = Path(path)
     require_target(path, TABLES, force)
-    metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
-    margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
-    keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
-    records = [_record(trial, keys, metrics, margins) for trial in trials]
+    records = _records(trials)
     if path.suffix == ".csv":
         head = list(records[0]) if records else ["phase"]
         write_atomically(path, to_csv([head, *(list(record.values()) for record in records)]))
     else:
         write_atomically(path, _parquet(records))
+
+
+def to_frame(trials: Sequence[Trial]) -> Any:
+    """Return trials as a `pandas.DataFrame` with the columns of `write_table`.
+
+    Raises
+    ------
+    JumpcadError
+        If pandas is not installed.
+    """
+    try:
+        import pandas
+    except ImportError:
+        raise JumpcadError("pandas is not installed: pip install pandas, or write a table to .csv") from None
+    return pandas.DataFrame.from_records(_records(trials))
+
+
+def _records(trials: Sequence[Trial]) -> list[dict[str, Any]]:
+    metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
+    margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
+    keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
+    return [_record(trial, keys, metrics, margins) for trial in trials]
 
 
 def _parquet(records: list[dict[str, Any]]) -> bytes:

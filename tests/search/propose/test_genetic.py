@@ -8,6 +8,7 @@ import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 from support.stages import stage
 
+from jumpcad.findings import bare
 from jumpcad.search.propose.genetic import (
     PATIENCE,
     Fitness,
@@ -38,6 +39,25 @@ def test_it_climbs_where_chance_does_not(evaluator):
         run_genetic(one, stage(200, seed))
         assert best(one.trials) > 10.0 * np.exp(-2.0 * 0.05**2)
         assert all(trial.evaluation.verdict == "loop" for trial in one.trials if trial.score is None)
+
+
+def test_what_only_misses_requirements_is_between_the_rejected_and_all_others_and_the_nearer_the_better(evaluator):
+    """By shares of typical margins: 10° of 20° is less than 0.09 m of 0.1 m."""
+    one = evaluator()
+    run_genetic(one, stage(1, 0))
+    fitness = Fitness(one, "ga", 1, rejected=-2e12)
+    fitness._sizes = {"turn_deg<=30": 20.0, "com_rise_m>=0.2": 0.1}
+
+    def of(score, *missed):
+        findings = tuple(bare(name, "error", margin, "") for name, margin in missed)
+        evaluation = Evaluation("jump" if missed or score else "loop", {}, findings)
+        return fitness.fitness(replace(one.trials[0], evaluation=evaluation, score=score))
+
+    turned, low, limit = ("turn_deg<=30", -10.0), ("com_rise_m>=0.2", -0.09), ("leg_flex", -0.1)
+    values = [of(None), of(None, turned, low), of(None, low), of(None, turned), of(-1e12), of(0.0), of(1.0)]
+    assert values == sorted(values)
+    assert len(set(values)) == 7
+    assert of(None, limit, turned) == of(None)
 
 
 @pytest.mark.thorough

@@ -41,7 +41,7 @@ class DryRun:
     def look_at(self, variants):
         """What is done ahead changes nothing."""
 
-    def score(self, variant):
+    def score(self, variant, required=True):
         """The sum of its coordinates."""
         return float(SMALL.to_unit(variant).sum())
 

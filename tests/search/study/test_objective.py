@@ -77,5 +77,18 @@ def test_the_objective_of_a_study_is_told_and_an_own_one_does_not_score():
     own = described_objective({"objective": "mine", "objective_code": "abc"})
     assert (own.name, own.meaning, own.unit, own.code) == ("mine", "own objective", "own units", "abc")
     assert own.describe() == {"objective": "mine", "objective_code": "abc"}
+
+    def per_euro(figures):
+        return 0.00531234
+
+    assert find_objective(per_euro).shown(per_euro({})) == "0.00531234"
+    per_euro.unit, per_euro.name = "mm/EUR", "reach of a coin"
+    told = find_objective(per_euro)
+    assert (told.name, told.unit, told.shown(1234.5678)) == ("reach of a coin", "mm/EUR", "1234.57 mm/EUR")
+    assert described_objective(told.describe()).shown(2.0) == "2 mm/EUR"
+    for wrong in ("a\nb", 3, "<b>"):
+        per_euro.unit = wrong
+        with pytest.raises(JumpcadError, match="the objective per_euro has as unit "):
+            find_objective(per_euro)
     with pytest.raises(JumpcadError, match="keeps the scores"):
         own.score(Evaluation("jump", JUMP))

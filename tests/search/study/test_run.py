@@ -215,11 +215,13 @@ def test_a_study_remembers_what_ended_it_and_forgets_it_while_it_goes_on(tmp_pat
 
 
 def test_everything_refused_has_no_best():
-    space = Space.parse(fix=["compression_ratio=0.75"])
-    result = run(Request(space, Hill(), method="ga", evaluations=67))
-    assert result.notes == [
-        "none of the first 50 designs jumps (loop 50): there may be no robot within these bounds"
-    ]  # fmt: skip
+    space, told = Space.parse(fix=["compression_ratio=0.75"]), []
+    request = Request(space, Hill(), method="ga", evaluations=67)
+    with local_pool(0) as pool:
+        result = run_study(request, None, pool, tell=told.append)
+    first = "none of the first 40 designs jumps (loop 40): there may be no robot within these bounds"
+    assert told == [first, "loop, 40 of 40: ratio; lower it"]
+    assert result.notes == [f"loop, {len(result.trials)} of {len(result.trials)}: ratio; lower it"]
     assert result.best is None
     assert result.winner is None
     assert result.candidates == []

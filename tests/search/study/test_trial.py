@@ -1,6 +1,7 @@
 """Trials in order, the best of them, what rejected the others, and all of them as a table."""
 
 import csv
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from jumpcad.search.study.trial import (
     feasible_trials,
     in_order,
     searched,
+    to_frame,
     write_table,
 )
 
@@ -105,6 +107,20 @@ def test_parquet_says_the_same(trials, tmp_path):
     table = parquet.read_table(tmp_path / "t.parquet").to_pylist()
     assert [record["score"] for record in table] == [trial.score for trial in trials]
     assert [record["feasible"] for record in table] == [trial.evaluation.feasible for trial in trials]
+
+
+def test_a_frame_has_the_rows_of_the_table_or_says_what_is_lacking(trials, tmp_path, monkeypatch):
+    write_table(trials, tmp_path / "t.csv")
+    with (tmp_path / "t.csv").open() as stream:
+        head = next(csv.reader(stream))
+    with monkeypatch.context() as without:
+        without.setitem(sys.modules, "pandas", None)
+        with pytest.raises(JumpcadError, match="pip install pandas"):
+            to_frame(trials)
+    frame = needs.package("pandas") and to_frame(trials)
+    assert list(frame.columns) == head
+    assert frame[frame.feasible].score.max() == best_trial(trials).score
+    assert len(frame) == len(trials)
 
 
 def test_tables_that_cannot_be_written(trials, tmp_path):

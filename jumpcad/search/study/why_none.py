@@ -1,0 +1,108 @@
+"""Why a search found nothing: what rejects most of its designs, and the bounds that it meets; what to relax."""
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
+
+from jumpcad.design import SEARCH_BOUNDS
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding, errors
+from jumpcad.plural import counted
+from jumpcad.remedies import DIRECTIONS, Remedies, asked
+from jumpcad.search.models import PrintedModel, RobotModel
+from jumpcad.search.space import Space
+from jumpcad.search.study.objective import CANNOT_BUILD
+from jumpcad.search.study.requirement import Requirement
+from jumpcad.search.study.trial import Trial, count_rejections, nearest_to_required
+from jumpcad.workshop import load_workshop
+
+FIRST, MOST = 40, 3
+"""Designs after which it is said why none jumps; most reasons that are told."""
+NUMBERS = re.compile(r"-?\d[\d.]*")
+
+
+def why_required(trials: Sequence[Trial]) -> str:
+    """Return what to relax where no design has a score, but some would without what is required; else empty.
+
+    Relaxed to these numbers, the requirements admit the nearest design.
+    """
+    near = nearest_to_required(trials)
+    if not near or any(trial.score is not None for trial in trials):
+        return ""
+    margins = near[0].evaluation.margins
+    missed = {name: Requirement.parse(name) for name in near[0].evaluation.reasons}
+    reached = ", ".join(f"{one.name} = {one.at(margins[name]):.4g}" for name, one in missed.items())
+    relaxed = " and ".join(f"{name} to {_outward(one, margins[name])}" for name, one in missed.items())
+    return (
+        f"no design keeps what is required, but {len(near)} of {counted(len(trials), 'design')} would jump and keep "
+        f"all other limits; the nearest has {reached}: relax {relaxed}, or evaluate more designs"
+    )
+
+
+def _outward(one: Requirement, margin: float) -> str:
+    rounding = ROUND_CEILING if one.least is None else ROUND_FLOOR
+    return f"{float(Context(4, rounding).create_decimal_from_float(one.at(margin))):g}"
+
+
+def why_rejected(trials: Sequence[Trial], space: Space, model: RobotModel) -> list[str]:
+    """Return a line for each of the few reasons that reject most of some trials, of which none has a score.
+
+    Each has the remedy of the design that lacks least, with a number where one cures it, and the bounds of the search
+    that the remedy meets.
+    """
+    lines = []
+    for (name, text), count in Counter(cause for trial in trials for cause in _causes(trial)).most_common(MOST):
+        its = [trial for trial in trials if (name, text) in _causes(trial)]
+        message, remedy = _told(name, max(its, key=lambda one: one.evaluation.margins.get(name, 0.0)), model)
+        met = ", ".join(_bounds(remedy, space))
+        parts = (message, remedy, f"move what keeps it from that: {met}" if met else "")
+        lines.append(f"{name}, {count} of {len(trials)}: {'; '.join(filter(None, parts))}")
+    return lines
+
+
+def why_hopeless(trials: Sequence[Trial], space: Space, model: RobotModel) -> list[str]:
+    """Return lines that say why none of the first trials has a score."""
+    if lacking := why_required(trials):
+        return [lacking]
+    reasons = ", ".join(f"{name} {count}" for name, count in list(count_rejections(trials).items())[:5])
+    first = f"none of the first {len(trials)} designs jumps ({reasons}): there may be no robot within these bounds"
+    return [first, *why_rejected(trials, space, model)]
+
+
+def _causes(trial: Trial) -> list[tuple[str, str]]:
+    """Return the reasons of a trial; a refused layout without a margin by what it says, whatever the numbers."""
+    said = NUMBERS.sub("#", trial.evaluation.detail)
+    return [(name, said if name == CANNOT_BUILD else "") for name in trial.evaluation.reasons]
+
+
+def _told(name: str, trial: Trial, model: RobotModel) -> tuple[str, str]:
+    """Return what a design's refusal says, and its remedy, with a number where one is found for a printed robot."""
+    evaluation, remedies = trial.evaluation, None
+    if evaluation.detail and evaluation.verdict != CANNOT_BUILD:  # it may have ended its worker
+        return evaluation.detail, ""
+    if isinstance(model, PrintedModel):
+        model = model.varied(trial.workshop) if trial.workshop else model
+        remedies = Remedies(trial.design, model.workshop or load_workshop())
+    if evaluation.detail:
+        refusal = CannotBuildError(evaluation.detail, name, evaluation.margins.get(name))
+        message, _, remedy = str(remedies.of_refusal(refusal) if remedies else refusal).rpartition(": ")
+        return message or remedy, remedy if message else ""
+    found: Sequence[Finding] = errors(model(trial.design).findings)  # a study keeps no texts
+    found = remedies.of_findings(found) if remedies else found
+    return next(((one.message, one.remedy) for one in found if one.name == name), ("", ""))
+
+
+def _bounds(remedy: str, space: Space) -> Iterator[str]:
+    """Yield the bounds that a remedy's number lies beyond; where it has none, those narrower than the usual ones."""
+    parameters = {one.name: one for one in space.parameters if not one.names}
+    for word, key in asked(remedy):
+        if (direction := DIRECTIONS[word]) and (one := parameters.pop(key, None)):
+            usual = SEARCH_BOUNDS.get(key, one)
+            end, value, what = (
+                (one.upper, usual.upper, "at most") if direction > 0 else (one.lower, usual.lower, "at least")
+            )
+            if said := re.search(rf"{re.escape(key)}(?: to| =) ({NUMBERS.pattern})", remedy):
+                value = float(said[1].rstrip("."))
+            if direction * (value - end) > 0.0:
+                yield f"{key} {what if one.free else 'fixed at'} {end:g}"
