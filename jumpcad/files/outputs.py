@@ -25,30 +25,26 @@ PNG_END = 12
 """Bytes of the chunk that ends a PNG file."""
 
 
-def write_atomically(path: Path, data: str | bytes) -> None:
-    """Write a file so that `path` has either the new or the old content; text is written in UTF-8.
-
-    Raises
-    ------
-    JumpcadError
-        If it cannot be written.
-    """
-    write_files(path.parent, {path.name: data})
+def write_atomically(path: Path, data: str | bytes, force: bool = False) -> None:
+    """Write a file so that `path` has either the new or the old content; see `write_files`."""
+    write_files(path.parent, {path.name: data}, force)
 
 
-def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
+def write_files(folder: Path, files: Mapping[str, str | bytes], force: bool = False) -> list[Path]:
     """Write files into a folder, which is made with its parents; return them. All are written or none.
 
-    They get temporary names in the folder first, and are then renamed.
+    They get temporary names in the folder first. A new one is then put in its place by a hard link, which replaces
+    nothing that a user made meanwhile. Text is written in UTF-8.
 
     Raises
     ------
     JumpcadError
-        If the folder or a file cannot be written.
+        If the folder or a file cannot be written, or a file of the user's is there now (unless `force`).
     """
     require_path(folder)
-    made, at = not folder.is_dir(), folder
-    waiting = {folder / name: folder / f".jumpcad-{secrets.token_hex(8)}" for name in files}
+    made, at = [one for one in (folder, *folder.parents) if not os.path.lexists(one)], folder
+    waiting, old = ({folder / name: folder / f".jumpcad-{secrets.token_hex(8)}" for name in files} for _ in range(2))
+    done: list[Path] = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for (at, temporary), data in zip(waiting.items(), files.values(), strict=True):
@@ -57,18 +53,50 @@ def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
             if at.exists():
                 shutil.copymode(at, temporary)
         for at, temporary in waiting.items():
-            os.replace(temporary, at)
+            require_free(at, force)
+            if at.exists():
+                _keep(at, old[at])
+                done.append(at)
+                os.replace(temporary, at)
+            else:
+                _put(temporary, at, done)
     except BaseException as error:
-        for temporary in waiting.values():
+        for path in done:
             with suppress(OSError):
-                os.unlink(temporary)
-        if made:
+                os.replace(old[path], path) if old[path].exists() else os.unlink(path)
+        _unlink(*waiting.values(), *old.values())
+        for one in made:
             with suppress(OSError):
-                folder.rmdir()
+                one.rmdir()
         if isinstance(error, OSError):
             raise JumpcadError(f"{at}: cannot be written: {error.strerror}") from None
         raise
+    _unlink(*waiting.values(), *old.values())
     return list(waiting)
+
+
+def _keep(file: Path, aside: Path) -> None:
+    try:
+        os.link(file, aside)
+    except OSError:  # a file system without hard links, such as FAT
+        shutil.copy2(file, aside)
+
+
+def _put(temporary: Path, at: Path, done: list[Path]) -> None:
+    """Give a file its name, if that is free."""
+    try:
+        os.link(temporary, at)
+    except OSError:
+        at.open("xb").close()  # no links there, or the name is taken now
+        done.append(at)
+        os.replace(temporary, at)
+    done.append(at)
+
+
+def _unlink(*files: Path) -> None:
+    for file in files:
+        with suppress(OSError):
+            os.unlink(file)
 
 
 def require_path(path: Path) -> None:

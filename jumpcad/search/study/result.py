@@ -8,7 +8,7 @@ from typing import Any
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
-from jumpcad.files.outputs import require_target, sealed, write_atomically
+from jumpcad.files.outputs import require_target, sealed, write_files
 from jumpcad.plural import counted
 from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import PrintedModel
@@ -185,8 +185,7 @@ class Result:
         files = {file: text for file, text in texts.items() if text}
         for file in files:
             require_target(file, (".toml",), force)
-        for file, text in files.items():
-            write_atomically(file, text)
+        write_files(Path(path).parent, {file.name: text for file, text in files.items()}, force)
         return Path(path)
 
     def to_dict(self) -> dict[str, Any]:
