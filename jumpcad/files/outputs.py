@@ -21,6 +21,8 @@ from jumpcad.errors import JumpcadError
 SEAL = "Written by jumpcad; SHA-256 of the lines above: "
 FILES = ".toml", ".urdf"
 """Ends of inputs that are files: no templates' names, and no bundles, which their manifests protect."""
+LARGEST_SEALED = 1 << 28
+"""Bytes of a file beyond which jumpcad did not write it; the largest page has some megabytes."""
 PNG_END = 12
 """Bytes of the chunk that ends a PNG file."""
 
@@ -270,7 +272,7 @@ def _lies_below(path: Path, file: Path) -> bool:
 def is_sealed(path: Path) -> bool:
     """Whether a file is as jumpcad wrote it: see `sealed`."""
     try:
-        data = path.read_bytes()
+        data = path.read_bytes() if path.stat().st_size <= LARGEST_SEALED else b""
     except OSError:
         return False
     if path.suffix == ".png":

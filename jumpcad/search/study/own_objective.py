@@ -17,10 +17,9 @@ from typing import Any
 import numpy as np
 
 from jumpcad.errors import JumpcadError, without_controls
-from jumpcad.files import did_you_mean
+from jumpcad.files import did_you_mean, read_bytes
 from jumpcad.files.complaints import described, shown
 from jumpcad.files.names import NAME
-from jumpcad.files.outputs import require_path
 from jumpcad.search.study.code_hash import file_hash, function_hash
 
 SUFFIX = ".py"
@@ -85,9 +84,7 @@ def _loaded(place: str) -> Any:
     file, _, name = place.rpartition(":")
     if Path(file).suffix != SUFFIX or not name.isidentifier():
         raise JumpcadError(f"{shown(place)}: give an own objective as FILE{SUFFIX}:FUNCTION")
-    require_path(Path(file))
-    if not os.path.isfile(file):
-        raise JumpcadError(f"{shown(file)}: no such file, so there is no objective {name}")
+    read_bytes(Path(file), "a file of Python")
     beside = os.path.dirname(os.path.realpath(file))
     if beside not in sys.path:
         sys.path.append(beside)
