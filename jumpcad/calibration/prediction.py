@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from jumpcad.arguments import check_arguments
 from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, CalibrationModel, Datum, Predicted, predict
 from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import QUANTILES
@@ -65,6 +66,7 @@ class Prediction:
         }
 
 
+@check_arguments
 def predicted_jump(posterior: CalibrationPosterior, subject: Subject, seed: int = 0) -> Prediction:
     """Return the predicted jump of a robot that was not calibrated on; its own measured jumps are not used.
 

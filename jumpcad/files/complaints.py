@@ -139,7 +139,7 @@ def _reason(item: Any, location: tuple[str, ...], model: "type[BaseModel]") -> s
     if kind in OF_A_LIST:
         return "must be a list"
     if kind in ("too_long", "too_short"):
-        count = context.get("max_length", context.get("min_length"))
+        count = f"at most {context['max_length']}" if kind == "too_long" else f"at least {context['min_length']}"
         return f"must have {count} values, not {context['actual_length']}"
     if kind == "finite_number":
         return "must be a finite number"

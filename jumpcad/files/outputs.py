@@ -7,6 +7,7 @@ of their content; any other file counts as the user's own.
 
 import hashlib
 import os
+import re
 import secrets
 import shutil
 import stat
@@ -23,6 +24,10 @@ FILES = ".toml", ".urdf"
 """Ends of inputs that are files: no templates' names, and no bundles, which their manifests protect."""
 LARGEST_SEALED = 1 << 28
 """Bytes of a file beyond which jumpcad did not write it; the largest page has some megabytes."""
+DEVICE = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³])(\.|$)", re.IGNORECASE)
+"""Names that Windows keeps for devices, with any ending (Microsoft, Naming Files, Paths, and Namespaces)."""
+DEEPEST = 200
+"""Folders of a path."""
 PNG_END = 12
 """Bytes of the chunk that ends a PNG file."""
 
@@ -107,10 +112,15 @@ def require_path(path: Path) -> None:
     Raises
     ------
     JumpcadError
-        If it has a NUL, or a character that a file's name cannot have.
+        If it has a NUL, a character or a name that a file cannot have, also on Windows, or too many folders.
     """
     if "\0" in str(path):
         raise JumpcadError(f"{path}: cannot be a path: it has a NUL")
+    if len(path.parts) > DEEPEST:
+        raise JumpcadError(f"{path}: cannot be a path: it has more than {DEEPEST} folders")
+    for one in (path, *path.parents):
+        if DEVICE.match(one.name) and not os.path.lexists(one):
+            raise JumpcadError(f"{path}: cannot be a path: {one.name} is a device on Windows; choose another name")
     try:
         os.fsencode(path)
     except UnicodeEncodeError as error:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import stat
 import tomllib
 from pathlib import Path
@@ -18,6 +19,8 @@ DEEPEST = 20
 """Largest number of nested tables and lists; files of this program have four."""
 NESTED = f"nested deeper than {DEEPEST} levels"
 MOST_DOTS = 200
+DECIMAL = re.compile(r"(?<=[\[,\s])[-+]?\d+\.\d+(?=\s*[],])")
+"""A number in a list; in keys there are none before a comma or a bracket."""
 
 
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
@@ -31,8 +34,9 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     text = read_text(path, "a TOML file")
     for number, line in enumerate(text.split("\n"), start=1):
         # Parsing time grows with the square of the number of a key's parts; no useful line has so many dots.
-        if line.count(".") > MOST_DOTS and not line.lstrip().startswith("#"):
-            raise JumpcadError(f"{path}: line {number} has more than {MOST_DOTS} dots, more than any key or list has")
+        keys = DECIMAL.sub("", line) if line.count(".") > MOST_DOTS and not line.lstrip().startswith("#") else ""
+        if keys.count(".") > MOST_DOTS:
+            raise JumpcadError(f"{path}: line {number} has more than {MOST_DOTS} dots, more than any key has")
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ndtri
 
+from jumpcad.arguments import check_arguments
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
 from jumpcad.robot import Robot
@@ -56,6 +57,7 @@ class Uncertainty:
         return dict(vars(self))
 
 
+@check_arguments
 def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0, samples: int = SAMPLES) -> Uncertainty:
     """Return the uncertainty of a printed robot's jump.
 

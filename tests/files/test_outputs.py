@@ -194,6 +194,9 @@ def test_a_path_that_no_file_can_have_is_refused_in_words(tmp_path: Path) -> Non
         "\udfff/b.toml": "U+DFFF cannot be part of a file's name",
         "\0": "it has a NUL",
         "folder/\0.toml": "it has a NUL",
+        "f/" * 300: "it has more than 200 folders",
+        "CON": "CON is a device on Windows; choose another name",
+        "nul.x/robot.toml": "nul.x is a device on Windows; choose another name",
     }.items():
         with pytest.raises(JumpcadError, match=f"cannot be a path: {re.escape(words)}$"):
             require_path(Path(path))

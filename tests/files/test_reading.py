@@ -45,6 +45,12 @@ def test_toml_reads_back() -> None:
     assert tomllib.loads(to_toml(data)) == data
 
 
+def test_a_list_of_many_decimals_is_read(tmp_path: Path) -> None:
+    numbers = [n / 8 for n in range(1, 2400, 8)]
+    (tmp_path / "p.toml").write_text(f"a = {numbers}\n")
+    assert read_toml(tmp_path / "p.toml")[0] == {"a": numbers}
+
+
 def test_pipes_and_devices_are_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.toml")
     (tmp_path / "zero.toml").symlink_to("/dev/zero")

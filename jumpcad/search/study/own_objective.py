@@ -68,7 +68,7 @@ def own_function(asked: Any) -> tuple[str, Callable[[Mapping[str, float]], float
         except KeyError as error:
             key = shown(error.args[0] if error.args else "")
             raise refused(f"asks for {key}; a jump of this model has {', '.join(metrics)}") from None
-        except (Exception, SystemExit) as error:
+        except (Exception, SystemExit, GeneratorExit) as error:
             raise refused(f"fails for a design that jumps: {_told(error)}") from None
         if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
             raise refused(f"returns {described(value)}, not a number")
@@ -91,7 +91,7 @@ def _loaded(place: str) -> Any:
     try:
         with _undisturbed():
             defined = runpy.run_path(file, run_name="objective")
-    except (Exception, SystemExit) as error:
+    except (Exception, SystemExit, GeneratorExit) as error:
         raise JumpcadError(f"{shown(file)}: does not run: {_told(error)}") from None
     if name not in defined:
         raise JumpcadError(f"{shown(file)}: defines no {name}{did_you_mean(name, defined)}")
