@@ -27,6 +27,7 @@ from jumpcad.settings import Settings
 from jumpcad.simulation import Jump, simulate
 from jumpcad.simulation.engines import default_engine
 from jumpcad.studio.points import Points
+from jumpcad.transforms import ByValue
 from jumpcad.version import __version__
 from jumpcad.workshop import Workshop, load_workshop, own_workshop
 from jumpcad.workshop.varied import leaves
@@ -83,8 +84,8 @@ class ComparedRobot:
         return self.robot.design.model_dump(exclude=bought) | leaves(self.robot.workshop.model_dump())
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, eq=False)
+class Comparison(ByValue):
     """Robots side by side; `refused` says by label why others cannot be built."""
 
     robots: tuple[ComparedRobot, ...]

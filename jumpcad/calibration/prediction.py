@@ -11,11 +11,11 @@ from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, CalibrationModel, 
 from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import Subject
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 
-@dataclass(frozen=True, repr=False)
-class Prediction:
+@dataclass(frozen=True, repr=False, eq=False)
+class Prediction(ByValue):
     """A robot's jump at the draws of a calibration; the robot's own parameters are drawn from their priors.
 
     `values` has the parameters (draws,) by key, `generator` draws measurement errors.

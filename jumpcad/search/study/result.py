@@ -16,6 +16,7 @@ from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.requirement import Requirement
 from jumpcad.search.study.trial import Trial, count_rejections, is_flat
+from jumpcad.transforms import ByValue
 from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
@@ -27,8 +28,8 @@ def workshop_file(design_file: Path) -> Path:
     return design_file.with_name(f"{design_file.stem}{WORKSHOP_END}")
 
 
-@dataclass(frozen=True, repr=False)
-class Result:
+@dataclass(frozen=True, repr=False, eq=False)
+class Result(ByValue):
     """What a study found.
 
     Parameters
