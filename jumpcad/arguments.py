@@ -13,7 +13,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from typing import Any, ParamSpec, TypeVar, cast
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files.complaints import described
+from jumpcad.files.complaints import described, shown
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -29,6 +29,9 @@ WORDS = {
     "Mechanism": "a Robot", "str": "a text", "bool": "True or False", "Path": "a path", "int": "a whole number",
     "float": "a number", "Sequence": "a list", "Iterable": "a list", "Mapping": "a table", "Callable": "a function",
 }  # fmt: skip
+RANGES = {"seed": (0, 2**32 - 1), "count": (1, 100_000), "made": (0, 10_000), "points": (1, 1000),
+          "samples": (1, 100_000), "tries": (1, 10_000)}  # fmt: skip
+"""Least and largest whole number that arguments of these names may be; judgement: hours of work."""
 _hints = functools.cache(typing.get_type_hints)
 
 
@@ -81,8 +84,9 @@ def _checked(title: str, given: Mapping[str, Any], hints: Mapping[str, Any]) -> 
             place = "" if names[0] == name.capitalize() else f" as {name}"
             made = next((f": {MADE_BY[one]} makes one" for one in names if one in MADE_BY), "")
             raise JumpcadError(f"{title}() takes {wanted}{place}, not {wrong}{made}")
-        if name == "seed" and isinstance(value, int) and value < 0:
-            raise JumpcadError(f"{title}(): seed = {value}: must be at least 0")
+        if isinstance(value, int) and name in RANGES and not RANGES[name][0] <= value <= RANGES[name][1]:
+            low, high = RANGES[name]
+            raise JumpcadError(f"{title}(): {name} = {shown(value)}: must be at least {low} and at most {high}")
         found[name] = value
     return found
 

@@ -25,6 +25,7 @@ from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump, simulate
 from jumpcad.studio.points import Points
+from jumpcad.transforms import ByValue
 from jumpcad.version import __version__
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.varied import leaves
@@ -84,8 +85,8 @@ class ComparedRobot:
         return self.robot.design.model_dump(exclude=bought) | leaves(self.robot.workshop.model_dump())
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, eq=False)
+class Comparison(ByValue):
     """Robots side by side; `refused` says by label why others cannot be built."""
 
     robots: tuple[ComparedRobot, ...]

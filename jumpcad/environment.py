@@ -73,6 +73,8 @@ STEP_M = (1.5, 1.5, 0.5)
 """Half of the length, width and height of the step's box."""
 STEP_AHEAD_M = (0.15, 0.6)
 """Distances of a random step from the robot's centre of mass."""
+LONGEST_S = 86400.0
+"""Longest episode."""
 PICTURE, FRAME_M = (320, 240), np.array([[-0.2, -0.1, 0.0], [0.5, 0.1, 0.3]])
 """Size of a picture (pixels), and what it shows about the centre of mass, from the ground on."""
 
@@ -137,10 +139,10 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
                 raise JumpcadError(f"{name} = {value!r}: must be one of {', '.join(map(repr, known))}")
         if len(steps_mm) != 2 or not 0.0 <= steps_mm[0] <= steps_mm[1] <= 1000.0 * STEP_M[2]:
             raise JumpcadError(f"steps_mm = {steps_mm}: must be the least and the largest height, 0 to 500 mm")
-        if made < 0:
-            raise JumpcadError(f"made = {made}: must be 0 or more robots as they may be made")
-        if not 0.0 < step_s <= episode_s:
-            raise JumpcadError(f"step_s = {step_s:g}: must be above 0, and at most episode_s = {episode_s:g}")
+        if not 0.0 < step_s <= episode_s <= LONGEST_S:
+            raise JumpcadError(
+                f"step_s = {step_s:g}: must be above 0, and at most episode_s = {episode_s:g}, that {LONGEST_S:g}"
+            )
         self.robot = _robot(robot, workshop)
         self._robots = variants(self.robot, made) if made else (self.robot,)
         self._arenas: dict[int, Arena] = {}
@@ -154,6 +156,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         self._arena = self._arena_of(0)
         self._step_at, self._flies, self._begun_s = (0.0, 0.0), False, math.nan
 
+    @check_arguments
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[Array, dict[str, Any]]:

@@ -20,6 +20,7 @@ from jumpcad.robot import Robot
 from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import require_engine
+from jumpcad.transforms import ByValue
 from jumpcad.workshop import Workshop
 
 JUMP_FIGURES = {
@@ -65,8 +66,8 @@ FIGURES = JUMP_FIGURES | {
 """Figures of an evaluation of a printed robot, and what they are."""
 
 
-@dataclass(frozen=True, repr=False)
-class EvaluationResult:
+@dataclass(frozen=True, repr=False, eq=False)
+class EvaluationResult(ByValue):
     """A design built, simulated and checked.
 
     `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg),
@@ -122,10 +123,16 @@ class _Refused(EvaluationResult):
     """A design whose springs are surely too weak: what else is asked of it than its verdict is computed then."""
 
     _gate: tuple[Finding, ...]
-    _build: Callable[[], EvaluationResult]
+    _build: partial[EvaluationResult]
 
-    def __init__(self, gate: tuple[Finding, ...], build: Callable[[], EvaluationResult]) -> None:
+    def __init__(self, gate: tuple[Finding, ...], build: partial[EvaluationResult]) -> None:
         vars(self).update(_gate=gate, _build=build)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Refused) and self._build.args == other._build.args
+
+    def __hash__(self) -> int:
+        return hash(self._build.args[0])
 
     def __getattr__(self, name: str) -> Any:
         if name not in ("robot", "jump", "findings", "metrics"):

@@ -14,6 +14,7 @@ from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.electronics.supply import Supply, supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
+from jumpcad.files.outputs import DEVICE
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.parts.part import Part
@@ -24,8 +25,6 @@ from jumpcad.workshop import Workshop
 
 T = TypeVar("T")
 NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
-DEVICE = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³])(\.|$)", re.IGNORECASE)
-"""Names that Windows keeps for devices, with any ending (Microsoft, Naming Files, Paths, and Namespaces)."""
 LONGEST_NAME = 200
 """Longest name in bytes: file systems allow 255, with what file names add before and after it."""
 

@@ -22,11 +22,18 @@ class ByValue:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        compared: list[str] = [field.name for field in fields(self) if field.compare]  # type: ignore[arg-type]
-        return all(_equal(getattr(self, name), getattr(other, name)) for name in compared)
+        return all(_equal(one, two) for one, two in zip(self._compared(), other._compared(), strict=True))
+
+    def __hash__(self) -> int:
+        return hash((type(self).__name__, *(one for one in self._compared() if isinstance(one, str | int | float))))
+
+    def _compared(self) -> list[Any]:
+        return [getattr(self, field.name) for field in fields(self) if field.compare]  # type: ignore[arg-type]
 
 
 def _equal(one: Any, other: Any) -> bool:
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_equal(value, other[key]) for key, value in one.items())
     return np.array_equal(one, other) if isinstance(one, np.ndarray) else bool(one == other)
 
 

@@ -11,7 +11,6 @@ import numpy as np
 from jumpcad.arguments import check_arguments
 from jumpcad.bundle.atomic_write import require_place, write_folder
 from jumpcad.bundle.manifest import Bundle
-from jumpcad.errors import JumpcadError
 from jumpcad.exporters.mjcf_robot import mjcf_files, write_robot
 from jumpcad.exporters.urdf import urdf_files, write_loop, write_urdf
 from jumpcad.files.csv_text import to_csv
@@ -39,10 +38,8 @@ def variants(robot: Robot, count: int = 100, seed: int = 0) -> tuple[Robot, ...]
     Raises
     ------
     JumpcadError
-        If count is below 1.
+        If count is no whole number from 1 to 100,000.
     """
-    if count < 1:
-        raise JumpcadError(f"count = {count}: at least one variant is needed")
     rng = np.random.default_rng(seed)
     return tuple(_varied(robot, f"{robot.name or 'robot'}-{number:03d}", rng) for number in range(1, count + 1))
 
@@ -67,6 +64,7 @@ def _varied(robot: Robot, name: str, rng: np.random.Generator) -> Robot:
     return replace(made, name=name, bodies=bodies, friction=rubs)
 
 
+@check_arguments
 def export_variants(
     robot: Robot, made: Sequence[Robot], folder: str | Path, kind: Format = "mjcf", force: bool = False
 ) -> Bundle:

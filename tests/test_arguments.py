@@ -7,11 +7,16 @@ from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 import pytest
+from support.built import built
 
 import jumpcad
 from jumpcad import checks
 from jumpcad.arguments import MADE_BY, check_arguments, check_fields
+from jumpcad.calibration import predicted_jump, settings_toml
 from jumpcad.errors import JumpcadError
+from jumpcad.settings import load_settings
+from jumpcad.simulation import simulate, uncertain_jump
+from jumpcad.workshop import varied, workshop_value
 
 ODD: list[Any] = [
     None, "", "x\n[/red]y", "a\0b.toml", "x" * 5000, b"kenan-2.0", 0, -1, float("nan"), float("inf"), 10**400, True, [],
@@ -38,6 +43,16 @@ CALLS = {
     "load_settings": jumpcad.load_settings,
     "load_workshop": jumpcad.load_workshop,
     "published": jumpcad.published.simulate,
+    "land": jumpcad.land,
+    "jumps": jumpcad.jumps,
+    "variants": jumpcad.variants,
+    "load_robot": jumpcad.load_robot,
+    "predicted_jump": lambda odd: predicted_jump(odd, odd),
+    "settings_toml": settings_toml,
+    "simulation.simulate": simulate,
+    "uncertain_jump": lambda odd: uncertain_jump(odd, load_settings("default"), "planar"),
+    "varied": lambda odd: varied(odd, {}),
+    "workshop_value": lambda odd: workshop_value(odd, "fits.press_mm"),
     "simulate robot": jumpcad.simulate,
     "simulate settings": lambda odd: jumpcad.simulate(CAPSULE, 0 if odd is None else odd),
     "simulate engine": lambda odd: jumpcad.simulate(CAPSULE, None, 0 if odd is None else odd),
@@ -191,11 +206,12 @@ def test_a_robot_without_parts_is_not_exported(tmp_path: Path) -> None:
         jumpcad.export(CAPSULE, tmp_path / "out")
 
 
-def test_a_seed_is_not_below_zero() -> None:
-    @check_arguments
-    def sown(seed: int) -> int:
-        return seed
-
-    assert sown(0) == 0
-    with pytest.raises(JumpcadError, match="seed = -1: must be at least 0"):
-        sown(-1)
+def test_counts_and_seeds_have_limits() -> None:
+    for call, words in {
+        lambda: jumpcad.variants(built("kenan-2.0"), 10**6): "count = 1000000: must be at least 1 and at most 100000",
+        lambda: jumpcad.land(built("kenan-2.0"), 10**12): "tries = 1000000000000: must be at least 1 and at most 10000",
+        lambda: jumpcad.jumps(built("kenan-2.0"), 0): "count = 0: must be at least 1",
+        lambda: jumpcad.variants(built("kenan-2.0"), 1, seed=-1): "seed = -1: must be at least 0",
+    }.items():
+        with pytest.raises(JumpcadError, match=words):
+            call()

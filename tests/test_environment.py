@@ -137,5 +137,7 @@ def test_nothing_is_rewarded_or_shown_before_an_episode_begins() -> None:
     for ask in (lambda: env.step(WAIT), env.render):
         with pytest.raises(gymnasium.error.ResetNeeded, match=r"call reset\(\) first"):
             ask()
-    with pytest.raises(JumpcadError, match=r"^made = -1: must be 0 or more"):
+    with pytest.raises(JumpcadError, match=r"takes a table as options, not 5"):
+        env.reset(options=5)  # type: ignore[arg-type]
+    with pytest.raises(JumpcadError, match=r"made = -1: must be at least 0"):
         jumpcad.JumpEnv(built("kenan-2.0"), made=-1)

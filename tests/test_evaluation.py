@@ -147,6 +147,9 @@ def test_springs_that_cannot_raise_a_body_are_refused_before_anything_is_drawn(m
     assert [one.name for one in tight.findings] == ["loop", "below_ground", "too_weak"]
     with pytest.raises(CannotBuildError, match="no motor turns the cam"):
         _ = tight.metrics
+    for one, other in ((found, tight), (evaluate(KENAN), found)):  # refused or not, built or not
+        again = evaluate(KENAN if other is found else FEEBLE)
+        assert (one == again, hash(one) == hash(again), one == other) == (True, True, False)
     for wrong in ({"engine": "bullet"}, {"settings": Settings().model_copy(update={"dt_s": -1.0})}):
         with pytest.raises(JumpcadError):
             evaluate(FEEBLE, **wrong)

@@ -14,7 +14,7 @@ from jumpcad.calibration.likelihood import CalibrationModel, Datum, Predicted, e
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import load_subject, renamed, require_each_once, require_pairs
 from jumpcad.errors import JumpcadError
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 WALKERS_EACH = 6
 """Walkers for each parameter."""
@@ -30,8 +30,8 @@ CORRELATED = 0.5
 """Least correlation that is reported."""
 
 
-@dataclass(frozen=True, repr=False)
-class CalibrationPosterior:
+@dataclass(frozen=True, repr=False, eq=False)
+class CalibrationPosterior(ByValue):
     """Draws of a calibration's parameters.
 
     `z` (draws, parameters) are standard normals under the prior; `autocorrelation` is the longest autocorrelation time

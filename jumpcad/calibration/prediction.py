@@ -6,15 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from jumpcad.arguments import check_arguments
 from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, CalibrationModel, Datum, Predicted, predict
 from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import Subject
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 
-@dataclass(frozen=True, repr=False)
-class Prediction:
+@dataclass(frozen=True, repr=False, eq=False)
+class Prediction(ByValue):
     """A robot's jump at the draws of a calibration; the robot's own parameters are drawn from their priors.
 
     `values` has the parameters (draws,) by key, `generator` draws measurement errors.
@@ -65,6 +66,7 @@ class Prediction:
         }
 
 
+@check_arguments
 def predicted_jump(posterior: CalibrationPosterior, subject: Subject, seed: int = 0) -> Prediction:
     """Return the predicted jump of a robot that was not calibrated on; its own measured jumps are not used.
 

@@ -5,7 +5,6 @@ by tabs, semicolons, commas or spaces. Units are beside the names, `x (cm)`, `x 
 """
 
 import csv
-import math
 import re
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Sequence
@@ -40,6 +39,9 @@ METRES = {
 }  # fmt: skip
 SECONDS |= {f"{name}{end}": one for name, one in SECONDS.items() for end in "sn" if len(name) > 3}
 METRES |= {f"{name}s": one for name, one in METRES.items() if len(name) > 3}
+
+LARGEST = 1e15
+"""Largest number: microseconds since 1970 have 16 digits."""
 
 Column = tuple[int, float]
 """Place in a row, and the factor to seconds or metres."""
@@ -91,8 +93,8 @@ def _points(lines: Sequence[str], path: Path) -> Array:
             point = [float(cell.replace(",", ".").replace("−", "-")) for cell in row]
         except ValueError:
             raise JumpcadError(f"{path}:{number}: {shown(','.join(row))} must be three numbers t, x, z") from None
-        if not all(map(math.isfinite, point)):
-            raise JumpcadError(f"{path}:{number}: {shown(','.join(row))} must be finite numbers")
+        if not all(abs(value) <= LARGEST for value in point):  # nor is NaN
+            raise JumpcadError(f"{path}:{number}: {shown(','.join(row))} must be finite numbers within ±{LARGEST:g}")
         points.append(point)
     if len(decimals) > 1:
         raise JumpcadError(f"{path}: has decimal points and decimal commas: export it without separators of thousands")

@@ -132,7 +132,7 @@ def render(
     if bundle:
         change_files(bundle, {f"{PICTURES}/{name}": data for name, data in files.items()}, {}, force)
     else:
-        write_files(folder, files)
+        write_files(folder, files, force)
     if as_json:
         print_json({"folder": str(folder), "files": sorted(files), "verdict": jump.verdict})
         return

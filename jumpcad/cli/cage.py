@@ -52,7 +52,7 @@ def cage(
     beside = os.path.relpath(base, output.parent) if output is not None and os.path.isfile(base) else base
     text = found + to_toml({"base": beside, "cage": sizes})
     if output is not None:
-        write_atomically(output, text)
+        write_atomically(output, text, force)
     if as_json:
         figures = {"share": share, "least_share": least, "drops": drops, "landings": landings}
         print_json({"design": design, "workshop": base, "mass_kg": robot.mass_kg, **figures, "cage": sizes})

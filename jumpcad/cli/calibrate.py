@@ -69,9 +69,9 @@ def calibrate(
             document["hypotheses"] = compare_hypotheses(known, seed)
     if output:
         document |= {"settings": str(output), "elsewhere": list(elsewhere(posterior))}
-        write_atomically(output, settings_toml(posterior))
+        write_atomically(output, settings_toml(posterior), force)
     if plots:
-        document["pictures"] = _pictures(posterior, plots)
+        document["pictures"] = _pictures(posterior, plots, force)
     if as_json:
         print_json(document)
     else:
@@ -100,9 +100,9 @@ def _document(posterior: "CalibrationPosterior", seed: int) -> dict[str, Any]:
     }
 
 
-def _pictures(posterior: "CalibrationPosterior", folder: Path) -> list[str]:
+def _pictures(posterior: "CalibrationPosterior", folder: Path, force: bool) -> list[str]:
     from jumpcad.calibration import plots
     from jumpcad.search.report.figures import save_figure
 
     drawn = {"parameters": plots.parameters(posterior), "measurements": plots.measurements(posterior)}
-    return [str(save_figure(figure, folder, name)) for name, figure in drawn.items()]
+    return [str(save_figure(figure, folder, name, force)) for name, figure in drawn.items()]

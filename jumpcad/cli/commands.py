@@ -1,5 +1,6 @@
 """All commands, and how their errors are reported. Commands import most modules only when they run."""
 
+import errno
 import logging
 import os
 import sys
@@ -107,6 +108,10 @@ def run(arguments: Sequence[str]) -> int:
     """
     if os.path.expanduser("~") == "~":  # a user without a home, as in containers, of whom ezdxf asks for one
         os.environ["HOME"] = os.devnull
+    os.environ["MPLBACKEND"] = "agg"  # a user's may not be installed
+    for name in ("COLUMNS", "LINES", "TERMINAL_WIDTH"):  # Rich fills lines up to their ends
+        if len(os.environ.get(name, "")) > 3:
+            os.environ[name] = "999"
     for name in ("matplotlib", "ezdxf"):
         logging.getLogger(name).setLevel(logging.ERROR)  # they warn where they cannot write a cache
     try:
@@ -121,8 +126,10 @@ def run(arguments: Sequence[str]) -> int:
         return complain(str(error), error.exit_code)
     except KeyboardInterrupt:
         raise
-    except BaseException:  # exceptions of compiled libraries may not be derived from Exception
+    except BaseException as error:  # exceptions of compiled libraries may not be derived from Exception
         raise_if_seen()  # else it is no bug
+        if isinstance(error, OSError) and error.errno in (errno.EMFILE, errno.ENFILE):
+            return complain("too many files are open at once: raise the limit, as with ulimit -n 256", WRONG_REQUEST)
         print(traceback.format_exc(), end="", file=sys.stderr)
         return BUG
 

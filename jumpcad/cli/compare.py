@@ -42,7 +42,7 @@ def compare(
         note_template(one)
     with status(f"comparing {', '.join(robots)} …"):
         found = compare_robots(robots, load_workshop(workshop) if workshop else None)
-        write_atomically(output, sealed(found.to_html(), "<!-- {} -->"))
+        write_atomically(output, sealed(found.to_html(), "<!-- {} -->"), force)
     if as_json:
         print_json(found.to_dict() | {"page": str(output)})
     else:

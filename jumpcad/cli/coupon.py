@@ -65,7 +65,7 @@ def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[
     found = measured_workshop(Readings.from_toml(readings), base, str(readings))
     before, after = base.fits.model_dump(), found.fits.model_dump()
     changed = {key: value for key, value in after.items() if value != before[key]}
-    write_atomically(output, _with_comments(workshop, output, found, changed))
+    write_atomically(output, _with_comments(workshop, output, found, changed), force)
     return {
         "workshop": str(output),
         "fits": {key: {"before": before[key], "after": value} for key, value in changed.items()},

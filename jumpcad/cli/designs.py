@@ -45,32 +45,34 @@ def new(
     require_apart({"the new file": file}, {"--from": template, "--workshop": workshop, "--printer": printer})
     require_target(file, (".toml",), force)
     if for_workshop:
-        _new_workshop(file, workshop, printer, material, as_json)
+        _new_workshop(file, workshop, printer, material, force, as_json)
     else:
-        _new_design(file, TEMPLATE if template is None else template, as_json)
+        _new_design(file, TEMPLATE if template is None else template, force, as_json)
 
 
-def _new_design(file: Path, template: str, as_json: bool) -> None:
+def _new_design(file: Path, template: str, force: bool, as_json: bool) -> None:
     from jumpcad.cli.commented import commented_design
     from jumpcad.design import load_design
     from jumpcad.files.outputs import write_atomically
 
     design, name = load_design(template), without_controls(str(file))
-    write_atomically(file, commented_design(design, without_controls(template), name))
+    write_atomically(file, commented_design(design, without_controls(template), name), force)
     if as_json:
         print_json({"file": str(file), "design": design.model_dump()})
     else:
         print(f"{name}: a copy of {without_controls(template)}; try: jumpcad simulate {shell_quoted(str(file))}")
 
 
-def _new_workshop(file: Path, base: str | None, printer: str | None, material: str | None, as_json: bool) -> None:
+def _new_workshop(
+    file: Path, base: str | None, printer: str | None, material: str | None, force: bool, as_json: bool
+) -> None:
     from jumpcad.cli.commented import commented_workshop
     from jumpcad.files.outputs import write_atomically
     from jumpcad.workshop import DEFAULT, load_workshop, own_workshop
 
     base = DEFAULT if base is None else base
     workshop, name = load_workshop(base, printer, material), without_controls(str(file))
-    write_atomically(file, commented_workshop(workshop, without_controls(base)))
+    write_atomically(file, commented_workshop(workshop, without_controls(base)), force)
     if as_json:
         print_json({"file": str(file), "workshop": workshop.model_dump(exclude_none=True)})
     else:

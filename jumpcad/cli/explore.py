@@ -123,7 +123,7 @@ def explore(
     if plots is not None:
         from jumpcad.search.report.figures import save_figure
 
-        data["pictures"] = [str(save_figure(draw(), plots, name)) for name, draw in figures.items()]
+        data["pictures"] = [str(save_figure(draw(), plots, name, force)) for name, draw in figures.items()]
     if as_json:
         print_json({"view": view, "model": options.model, "objective": objective.name} | data)
     else:

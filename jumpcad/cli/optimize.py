@@ -182,7 +182,7 @@ def optimize(
     result, path, facts = results[chosen], paths[chosen], seeds_facts(results, paths) if asked else None
     if result.winner is not None:
         result.save(design_file, force)
-    pictures = _plot(path, plots, results if asked else [])
+    pictures = _plot(path, plots, results if asked else [], force)
     violated, before = _violated(result, robot), _before(result, robot, centre)
     if as_json:
         written = None if result.winner is None else str(design_file)
@@ -250,7 +250,7 @@ def _headed(heading: str, watch: "Watch") -> "Watch":
     return headed
 
 
-def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[Result]") -> list[str]:
+def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[Result]", force: bool) -> list[str]:
     if folder is None:
         return []
     from jumpcad.search.report.figures import save_figure
@@ -258,7 +258,7 @@ def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[Result]") -> list
     from jumpcad.search.study.store import StudyStore
 
     with StudyStore.read(path) as store:
-        pictures = plot_study(store, folder)
+        pictures = plot_study(store, folder, force)
     if of_seeds:
-        pictures.append(save_figure(best_so_far(of_seeds), folder, "seeds"))
+        pictures.append(save_figure(best_so_far(of_seeds), folder, "seeds", force))
     return [str(picture) for picture in pictures]

@@ -59,7 +59,7 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
     require_target(page, (".html",), force)
     with StudyStore.read(study) as store, status(f"drawing {study} …"):
         text = write_study_page(store, study.stem)
-    write_atomically(page, sealed(text, "<!-- {} -->"))
+    write_atomically(page, sealed(text, "<!-- {} -->"), force)
     return page
 
 
@@ -67,7 +67,7 @@ def _robot_page(subject: str, output: Path | None, workshop: str | None, row: in
     """Write the page of a robot; return its path."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
-    from jumpcad.files.outputs import require_apart, require_target, write_files
+    from jumpcad.files.outputs import require_apart, require_target, write_atomically
     from jumpcad.landing.series import jumps
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
@@ -86,6 +86,6 @@ def _robot_page(subject: str, output: Path | None, workshop: str | None, row: in
     if bundle:
         change_files(bundle, {PAGE: text}, {}, force)
     else:
-        write_files(page.parent, {page.name: text})
+        write_atomically(page, text, force)
     warn_of_no_jump(robot)
     return page

@@ -136,14 +136,14 @@ def simulate(
         if row is None:
             _land(robot, heading, asked, tries, seed, as_json)
         else:
-            _jump_on(robot, heading, asked, row, seed, as_json, trajectory)
+            _jump_on(robot, heading, asked, row, seed, as_json, trajectory, force)
         return
     jumps = [simulate_jump(robot, asked, one) for one in engines]
     made = None
     if isinstance(robot, Robot) and not written and jumps[0].verdict == "jump":
         made = uncertainty_of(robot, load_settings(settings))
     if trajectory and (path := jumps[0].trajectory):
-        _write_trajectory(trajectory, path)
+        _write_trajectory(trajectory, path, force)
     elif trajectory:
         reason = f"{jumps[0].verdict}: a robot that is rejected before its release does not move"
         print(f"jumpcad: {without_controls(str(trajectory))}: not written; {reason}", file=sys.stderr)
@@ -206,18 +206,18 @@ def _land(robot: "Robot", heading: dict[str, str], settings: "Settings", tries: 
 
 def _jump_on(
     robot: "Robot", heading: dict[str, str], settings: "Settings", count: int, seed: int, as_json: bool,
-    trajectory: Path | None,
+    trajectory: Path | None, force: bool,
 ) -> None:  # fmt: skip
     """Let a robot jump a number of times in a row, print a line each and the sums, and write its way if asked."""
     from jumpcad.landing.series import jumps
 
     series = jumps(robot, count, seed, settings, trajectory is not None)
+    if trajectory and series.trajectory:
+        _write_trajectory(trajectory, series.trajectory, force)
     if as_json:
         print_json(heading | {"series": series.to_dict()})
     else:
         print_text("jumps", design=heading["design"], count=count, series=series)
-    if trajectory and series.trajectory:
-        _write_trajectory(trajectory, series.trajectory)
 
 
 def _report(
@@ -253,7 +253,7 @@ def _difference_percent(jumps: "list[Jump]") -> float | None:
     return 100.0 * (ranges[1] / ranges[0] - 1.0)
 
 
-def _write_trajectory(path: Path, trajectory: "Trajectory") -> None:
+def _write_trajectory(path: Path, trajectory: "Trajectory", force: bool) -> None:
     """Write a trajectory, one row per moment, as CSV or JSON."""
     from jumpcad.files.outputs import write_atomically
 
@@ -263,4 +263,4 @@ def _write_trajectory(path: Path, trajectory: "Trajectory") -> None:
         text.write(json.dumps(columns, indent=1) + "\n")
     else:
         csv.writer(text, lineterminator="\n").writerows([columns, *zip(*columns.values(), strict=True)])
-    write_atomically(path, text.getvalue())
+    write_atomically(path, text.getvalue(), force)

@@ -43,8 +43,7 @@ def slice_command(
     with status("slicing …") as tell:
         found = slice_bundle(bundle, printed_by, lambda name: tell(f"slicing {name} …"))
     if write_masses is not None:
-        require_target(write_masses, (".toml",), force)  # once more: slicing takes a minute
-        write_atomically(write_masses, found.weighed.to_toml())
+        write_atomically(write_masses, found.weighed.to_toml(), force)
     if found.billed:
         write_times(found)
     if as_json:

@@ -60,7 +60,7 @@ def study(
             if plots is not None:
                 from jumpcad.search.report.study_plots import plot_study
 
-                summaries[-1]["pictures"] = [str(picture) for picture in plot_study(store, plots)]
+                summaries[-1]["pictures"] = [str(picture) for picture in plot_study(store, plots, force)]
     if as_json:
         print_json(summaries[0] if len(files) == 1 else {"studies": summaries})
     elif len(files) == 1:

@@ -37,7 +37,7 @@ def validate(
     with status("simulating robots of which dimensions are unknown …"):
         robots = compare(entered, seed)
     if plots:
-        save_figure(validation(robots), plots, *PICTURES)
+        save_figure(validation(robots), plots, *PICTURES, force)
     if as_json:
         print_json({"seed": seed, "entered": entered, "robots": robots})
     else:

@@ -2,8 +2,8 @@
 
 import difflib
 import re
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:  # for did_you_mean alone, pydantic takes too long
     from pydantic import BaseModel, ValidationError
@@ -22,7 +22,18 @@ OF_A_TABLE = ("model_type", "model_attributes_type", "dict_type")
 OF_A_LIST = ("tuple_type", "list_type")
 
 
-def complaints(error: "ValidationError", model: "type[BaseModel]", source: str = "", text: str = "") -> list[str]:
+class Origin(NamedTuple):
+    """A TOML file of which a record was made: its path, text and values, and the table that it is the content of."""
+
+    path: str
+    text: str
+    data: Mapping[str, Any]
+    table: str = ""
+
+
+def complaints(
+    error: "ValidationError", model: "type[BaseModel]", source: str = "", text: str = "", origins: Sequence[Origin] = ()
+) -> list[str]:
     """Return one clause per wrong key, `file:line: key = value: what is wrong`, for the first ten of them.
 
     Parameters
@@ -35,18 +46,34 @@ def complaints(error: "ValidationError", model: "type[BaseModel]", source: str =
         The file of the values, if any.
     text
         The TOML text of the file, in which the lines of the keys are looked up.
+    origins
+        All files of the values, if there are several: the first that has a wrong key is named for it.
     """
     items = error.errors(include_url=False)
-    lines = _lines(text)
+    files = origins or [Origin(source, text, {})]
+    lines = [_lines(one.text) for one in files]
     clauses = []
     for item in items[:MOST_NAMED]:
         location = tuple(str(step) for step in item["loc"] if step != "[key]")
-        line = lines.get(".".join(location[:-1] if item["type"] == "missing" else location))
-        place = "" if not source else f"{source}: " if line is None else f"{source}:{line}: "
+        keys = location[:-1] if item["type"] == "missing" else location
+        holds = (at for at, one in enumerate(files) if (_holds(one.data, keys) if keys else not one.table))
+        at = next(holds, 0)
+        line, file = lines[at].get(".".join(keys).removeprefix(f"{files[at].table}.")), files[at].path
+        place = "" if not file else f"{file}: " if line is None else f"{file}:{line}: "
         clauses.append(place + _clause(item, location, model))
     if len(items) > MOST_NAMED:
         clauses.append(f"and {len(items) - MOST_NAMED} more")
     return clauses
+
+
+def _holds(data: Any, keys: Sequence[str]) -> bool:
+    for key in keys:
+        if not isinstance(data, Mapping):  # in a list
+            return True
+        if key not in data:
+            return False
+        data = data[key]
+    return True
 
 
 def place(source: str, text: str, key: str) -> str:
@@ -112,7 +139,7 @@ def _reason(item: Any, location: tuple[str, ...], model: "type[BaseModel]") -> s
     if kind in OF_A_LIST:
         return "must be a list"
     if kind in ("too_long", "too_short"):
-        count = context.get("max_length", context.get("min_length"))
+        count = f"at most {context['max_length']}" if kind == "too_long" else f"at least {context['min_length']}"
         return f"must have {count} values, not {context['actual_length']}"
     if kind == "finite_number":
         return "must be a finite number"

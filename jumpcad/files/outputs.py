@@ -7,6 +7,7 @@ of their content; any other file counts as the user's own.
 
 import hashlib
 import os
+import re
 import secrets
 import shutil
 import stat
@@ -21,34 +22,36 @@ from jumpcad.errors import JumpcadError
 SEAL = "Written by jumpcad; SHA-256 of the lines above: "
 FILES = ".toml", ".urdf"
 """Ends of inputs that are files: no templates' names, and no bundles, which their manifests protect."""
+LARGEST_SEALED = 1 << 28
+"""Bytes of a file beyond which jumpcad did not write it; the largest page has some megabytes."""
+DEVICE = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³])(\.|$)", re.IGNORECASE)
+"""Names that Windows keeps for devices, with any ending (Microsoft, Naming Files, Paths, and Namespaces)."""
+DEEPEST = 200
+"""Folders of a path."""
 PNG_END = 12
 """Bytes of the chunk that ends a PNG file."""
 
 
-def write_atomically(path: Path, data: str | bytes) -> None:
-    """Write a file so that `path` has either the new or the old content; text is written in UTF-8.
-
-    Raises
-    ------
-    JumpcadError
-        If it cannot be written.
-    """
-    write_files(path.parent, {path.name: data})
+def write_atomically(path: Path, data: str | bytes, force: bool = False) -> None:
+    """Write a file so that `path` has either the new or the old content; see `write_files`."""
+    write_files(path.parent, {path.name: data}, force)
 
 
-def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
+def write_files(folder: Path, files: Mapping[str, str | bytes], force: bool = False) -> list[Path]:
     """Write files into a folder, which is made with its parents; return them. All are written or none.
 
-    They get temporary names in the folder first, and are then renamed.
+    They get temporary names in the folder first. A new one is then put in its place by a hard link, which replaces
+    nothing that a user made meanwhile. Text is written in UTF-8.
 
     Raises
     ------
     JumpcadError
-        If the folder or a file cannot be written.
+        If the folder or a file cannot be written, or a file of the user's is there now (unless `force`).
     """
     require_path(folder)
-    made, at = not folder.is_dir(), folder
-    waiting = {folder / name: folder / f".jumpcad-{secrets.token_hex(8)}" for name in files}
+    made, at = [one for one in (folder, *folder.parents) if not os.path.lexists(one)], folder
+    waiting, old = ({folder / name: folder / f".jumpcad-{secrets.token_hex(8)}" for name in files} for _ in range(2))
+    done: list[Path] = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for (at, temporary), data in zip(waiting.items(), files.values(), strict=True):
@@ -57,18 +60,50 @@ def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
             if at.exists():
                 shutil.copymode(at, temporary)
         for at, temporary in waiting.items():
-            os.replace(temporary, at)
+            require_free(at, force)
+            if at.exists():
+                _keep(at, old[at])
+                done.append(at)
+                os.replace(temporary, at)
+            else:
+                _put(temporary, at, done)
     except BaseException as error:
-        for temporary in waiting.values():
+        for path in done:
             with suppress(OSError):
-                os.unlink(temporary)
-        if made:
+                os.replace(old[path], path) if old[path].exists() else os.unlink(path)
+        _unlink(*waiting.values(), *old.values())
+        for one in made:
             with suppress(OSError):
-                folder.rmdir()
+                one.rmdir()
         if isinstance(error, OSError):
             raise JumpcadError(f"{at}: cannot be written: {error.strerror}") from None
         raise
+    _unlink(*waiting.values(), *old.values())
     return list(waiting)
+
+
+def _keep(file: Path, aside: Path) -> None:
+    try:
+        os.link(file, aside)
+    except OSError:  # a file system without hard links, such as FAT
+        shutil.copy2(file, aside)
+
+
+def _put(temporary: Path, at: Path, done: list[Path]) -> None:
+    """Give a file its name, if that is free."""
+    try:
+        os.link(temporary, at)
+    except OSError:
+        at.open("xb").close()  # no links there, or the name is taken now
+        done.append(at)
+        os.replace(temporary, at)
+    done.append(at)
+
+
+def _unlink(*files: Path) -> None:
+    for file in files:
+        with suppress(OSError):
+            os.unlink(file)
 
 
 def require_path(path: Path) -> None:
@@ -77,10 +112,15 @@ def require_path(path: Path) -> None:
     Raises
     ------
     JumpcadError
-        If it has a NUL, or a character that a file's name cannot have.
+        If it has a NUL, a character or a name that a file cannot have, also on Windows, or too many folders.
     """
     if "\0" in str(path):
         raise JumpcadError(f"{path}: cannot be a path: it has a NUL")
+    if len(path.parts) > DEEPEST:
+        raise JumpcadError(f"{path}: cannot be a path: it has more than {DEEPEST} folders")
+    for one in (path, *path.parents):
+        if DEVICE.match(one.name) and not os.path.lexists(one):
+            raise JumpcadError(f"{path}: cannot be a path: {one.name} is a device on Windows; choose another name")
     try:
         os.fsencode(path)
     except UnicodeEncodeError as error:
@@ -242,7 +282,7 @@ def _lies_below(path: Path, file: Path) -> bool:
 def is_sealed(path: Path) -> bool:
     """Whether a file is as jumpcad wrote it: see `sealed`."""
     try:
-        data = path.read_bytes()
+        data = path.read_bytes() if path.stat().st_size <= LARGEST_SEALED else b""
     except OSError:
         return False
     if path.suffix == ".png":

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import stat
 import tomllib
 from pathlib import Path
@@ -18,6 +19,8 @@ DEEPEST = 20
 """Largest number of nested tables and lists; files of this program have four."""
 NESTED = f"nested deeper than {DEEPEST} levels"
 MOST_DOTS = 200
+DECIMAL = re.compile(r"(?<=[\[,\s])[-+]?\d+\.\d+(?=\s*[],])")
+"""A number in a list; in keys there are none before a comma or a bracket."""
 
 
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
@@ -31,8 +34,9 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     text = read_text(path, "a TOML file")
     for number, line in enumerate(text.split("\n"), start=1):
         # Parsing time grows with the square of the number of a key's parts; no useful line has so many dots.
-        if line.count(".") > MOST_DOTS and not line.lstrip().startswith("#"):
-            raise JumpcadError(f"{path}: line {number} has more than {MOST_DOTS} dots, more than any key or list has")
+        keys = DECIMAL.sub("", line) if line.count(".") > MOST_DOTS and not line.lstrip().startswith("#") else ""
+        if keys.count(".") > MOST_DOTS:
+            raise JumpcadError(f"{path}: line {number} has more than {MOST_DOTS} dots, more than any key has")
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -88,14 +92,19 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
         If it is no regular file, is too large, or cannot be read.
     """
     try:
-        status = os.stat(path)
-        if stat.S_ISDIR(status.st_mode):
+        mode = os.stat(path).st_mode  # before it is opened, since some devices act then
+        if stat.S_ISDIR(mode):
             raise JumpcadError(f"{path}: is a folder, not {kind}")
-        if not stat.S_ISREG(status.st_mode):
+        if not stat.S_ISREG(mode):
             raise JumpcadError(f"{path}: is a pipe or a device, not {kind}")
-        if status.st_size > LARGEST_BYTES:
+        with open(path, "rb", opener=_open_at_once) as stream:
+            data: bytes | None = stream.read(LARGEST_BYTES + 1)  # None: it waits for more
+            size = os.fstat(stream.fileno()).st_size
+        if data is not None and len(data) > LARGEST_BYTES:
             raise JumpcadError(f"{path}: is larger than {LARGEST_BYTES >> 20} MiB, too large for {kind}")
-        return path.read_bytes()
+        if data is None or len(data) != size:  # as in /proc and /sys, which have no sizes
+            raise JumpcadError(f"{path}: is made by the system as it is read, or still being written: not {kind}")
+        return data
     except FileNotFoundError:
         raise JumpcadError(f"{path}: no such file") from None
     except PermissionError:
@@ -104,6 +113,10 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
         raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError:
         raise JumpcadError(f"{shown(str(path))} cannot be the name of a file") from None
+
+
+def _open_at_once(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def _no_constant(name: str) -> None:

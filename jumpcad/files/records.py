@@ -1,6 +1,6 @@
 """Validated values that users give by keyword, in Python or in a TOML file."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files.complaints import complaints, described
+from jumpcad.files.complaints import Origin, complaints, described
 from jumpcad.files.reading import read_toml
 
 Contradiction = tuple[tuple[str, ...], Any, str]
@@ -71,8 +71,8 @@ class Record(TomlTable):
         return cls.from_data(data, source=str(path), text=text)
 
     @classmethod
-    def from_data(cls, data: dict[str, Any], source: str, text: str = "") -> Self:
-        """Validate data parsed from the file `source`; `text` is its content, for the line numbers of wrong keys.
+    def from_data(cls, data: dict[str, Any], source: str, text: str = "", origins: Sequence[Origin] = ()) -> Self:
+        """Validate data parsed from the file `source`; see `complaints` for `text` and `origins`.
 
         Raises
         ------
@@ -83,7 +83,7 @@ class Record(TomlTable):
             return cls(**data)
         except JumpcadError as error:
             if isinstance(error.__cause__, ValidationError):
-                raise JumpcadError("; ".join(complaints(error.__cause__, cls, source, text))) from None
+                raise JumpcadError("; ".join(complaints(error.__cause__, cls, source, text, origins))) from None
             raise
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.arguments import check_arguments
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import Blow, Blows, PartForce, landing_strength, part_forces
@@ -116,8 +116,6 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
     JumpcadError
         If MuJoCo is not installed.
     """
-    if tries < 1:
-        raise JumpcadError(f"tries = {tries}: a landing must be tried at least once")
     arena, rng = Arena(robot, settings), np.random.default_rng(seed)
     found = tuple(_land(arena, rng) for _ in range(tries))
     forces = part_forces(robot, (blow for one in found for blow in one.blows))

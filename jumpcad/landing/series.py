@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.arguments import check_arguments
 from jumpcad.checks.electronics import jumps_per_charge
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import CannotBuildError
 from jumpcad.landing.arena import QUIET_STEP_S, Arena
 from jumpcad.landing.landing import GROUNDED, disturb, scattered_floor
 from jumpcad.mechanism.model import BODY_NAMES
@@ -195,8 +195,6 @@ def jumps(
     JumpcadError
         If MuJoCo is not installed.
     """
-    if count < 1:
-        raise JumpcadError(f"count = {count}: at least one jump is needed")
     arena, train = Arena(robot, settings), robot.layout.drive.train
     rng = np.random.default_rng(seed)
     arena.stand_on(scattered_floor(rng))

@@ -17,7 +17,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.trial import Trial, feasible_trials
 from jumpcad.search.study.variant import Variant
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 from jumpcad.workshop import load_workshop, workshop_value
 
 ELITE_SHARE = 0.1
@@ -36,8 +36,8 @@ UNIFORM_NOTE = (
 )
 
 
-@dataclass(frozen=True)
-class Sweep:
+@dataclass(frozen=True, eq=False)
+class Sweep(ByValue):
     """One parameter varied alone, with one trial for each of its values; for names, ``values`` are their indices."""
 
     parameter: str
@@ -46,8 +46,8 @@ class Sweep:
     names: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Components:
+@dataclass(frozen=True, eq=False)
+class Components(ByValue):
     """Principal components of standardised parameters.
 
     ``shares`` (k,) of the variance, largest first; ``directions`` (k, k), one component per row, over ``names``.
@@ -59,8 +59,8 @@ class Components:
     designs: int
 
 
-@dataclass(frozen=True)
-class Importance:
+@dataclass(frozen=True, eq=False)
+class Importance(ByValue):
     """Decrease of R² on held-out designs when a parameter is permuted: mean and standard deviation.
 
     ``r_squared`` is the R² before; ``designs`` the number of designs that jump.
@@ -73,8 +73,8 @@ class Importance:
     designs: int
 
 
-@dataclass(frozen=True)
-class FeasibilityMap:
+@dataclass(frozen=True, eq=False)
+class FeasibilityMap(ByValue):
     """Trials over a grid of two parameters, the others as in a design: trials[j][i] is at ``y[j]``, ``x[i]``."""
 
     x_name: str

@@ -15,6 +15,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
+from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
@@ -57,6 +58,10 @@ Degrees = Annotated[float, Field(ge=-360, le=360)]
 Stiffness = Annotated[float, Field(gt=0, le=1e5)]
 
 
+MOST = 100
+"""Bodies, hinges, loops and springs, and rods and contacts of a body; judgement: far more than a jumping robot has."""
+
+
 class Rod(TomlTable):
     """A uniform rod with round ends, from point to point of its body's frame."""
 
@@ -79,9 +84,10 @@ class OwnBody(TomlTable):
     mass_g: Annotated[float, Field(gt=0, le=1e6)] | None = None
     centre_mm: Point = (0.0, 0.0)
     inertia_gmm2: Annotated[float, Field(gt=0, le=1e12)] | None = None
-    rods: Annotated[tuple[Rod, ...], Field(strict=False)] = ()
+    rods: Annotated[tuple[Rod, ...], Field(strict=False, max_length=MOST)] = ()
     contacts_mm: Annotated[
-        tuple[Annotated[tuple[Millimetres, Millimetres, Radius], Field(strict=False)], ...], Field(strict=False)
+        tuple[Annotated[tuple[Millimetres, Millimetres, Radius], Field(strict=False)], ...],
+        Field(strict=False, max_length=MOST),
     ] = ()
 
     def body(self, name: str, contacts: tuple[ContactSphere, ...]) -> Body:
@@ -164,14 +170,14 @@ class RobotFile(Record):
     name: Name
     mass_g: Annotated[float, Field(ge=TOTAL_G[0], le=TOTAL_G[1])] | None = None
     design: dict[str, float] | None = None
-    bodies: dict[Name, OwnBody]
+    bodies: Annotated[dict[Name, OwnBody], Field(max_length=MOST)]
     foot: FootTable
     spring: SpringTable = SpringTable()
     stop: StopTable | None = None
     pins: PinsTable | None = None
-    joints: Annotated[tuple[JointTable, ...], Field(strict=False)] = ()
-    loops: Annotated[tuple[LoopTable, ...], Field(strict=False)] = ()
-    springs: Annotated[tuple[ChainSpringTable, ...], Field(strict=False)] = ()
+    joints: Annotated[tuple[JointTable, ...], Field(strict=False, max_length=MOST)] = ()
+    loops: Annotated[tuple[LoopTable, ...], Field(strict=False, max_length=MOST)] = ()
+    springs: Annotated[tuple[ChainSpringTable, ...], Field(strict=False, max_length=MOST)] = ()
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield bodies without mass or inertia, and what does not belong to this kind of robot."""
@@ -232,6 +238,7 @@ def is_robot_file(path: Path) -> bool:
     return path.suffix == ".toml" and os.path.isfile(path) and "bodies" in read_toml(path)[0]
 
 
+@check_arguments
 def load_robot(path: str | Path) -> Mechanism | Chain:
     """Return the robot of a file that gives its bodies: a URDF with its loop file, or a TOML file.
 

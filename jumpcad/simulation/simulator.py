@@ -1,5 +1,6 @@
 """One simulated jump: the feasibility tests, then a run in an engine, then its verdict."""
 
+from jumpcad.arguments import check_arguments
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
@@ -16,6 +17,7 @@ LEAST_STEP_S = 1e-6
 """Least time step that settings may have."""
 
 
+@check_arguments
 def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, engine: str | None = None) -> Jump:
     """Let a robot jump.
 

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ndtri
 
+from jumpcad.arguments import check_arguments
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
 from jumpcad.robot import Robot
@@ -21,7 +22,7 @@ from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
 from jumpcad.simulation.simulator import simulate
 from jumpcad.sobol import sobol
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, ByValue
 
 SAMPLES = 256
 """Jumps, a power of two."""
@@ -38,8 +39,8 @@ EDGE, TINY = 1e-9, 1e-30
 """Least distance of a sample from 0 and 1; least variance that is divided by."""
 
 
-@dataclass(frozen=True)
-class Uncertainty:
+@dataclass(frozen=True, eq=False)
+class Uncertainty(ByValue):
     """Quantiles (10, 50, 90 %) of touchdown and rise over `jumps` simulated jumps, and what they depend on.
 
     `first_order` has, by group and figure, the share of the variance that the group explains, `interval` its 80 %
@@ -59,6 +60,7 @@ class Uncertainty:
         return dict(vars(self))
 
 
+@check_arguments
 def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0, samples: int = SAMPLES) -> Uncertainty:
     """Return the uncertainty of a printed robot's jump.
 

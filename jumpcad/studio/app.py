@@ -12,7 +12,7 @@ from jumpcad.bundle.limits import limits_of, violation, with_verdict
 from jumpcad.bundle.viewer import parts_facts
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.files.outputs import is_sealed, require_free, sealed, write_atomically
+from jumpcad.files.outputs import is_sealed, sealed, write_files
 from jumpcad.robot import Robot
 from jumpcad.search.study.result import workshop_file
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
@@ -253,10 +253,7 @@ class Studio:
         while any(file.exists() and not is_sealed(file) for file in (path, workshop_file(path))):  # changed since
             path = self.folder / f"{self.name}-studio-{next(numbers)}.toml"
         texts = {path: design.to_toml()} | ({workshop_file(path): self.workshop.to_toml()} if is_points else {})
-        for file in texts:
-            require_free(file)
-        for file, text in texts.items():
-            write_atomically(file, sealed(text))
+        write_files(self.folder, {file.name: sealed(text) for file, text in texts.items()})
         used = str(workshop_file(path)) if is_points else self._chosen
         if used in (DEFAULT, STUDYS):
             return f"saved {path}"

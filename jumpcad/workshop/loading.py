@@ -10,7 +10,7 @@ from jumpcad.catalogue import Article, load_catalogue
 from jumpcad.design import DEFAULT
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean, find_template, read_toml, template_names
-from jumpcad.files.complaints import place, shown
+from jumpcad.files.complaints import Origin, place, shown
 from jumpcad.files.names import NAME, NAME_RULE, composed
 from jumpcad.workshop.tables import Roles
 from jumpcad.workshop.workshop import OWN_PARTS, Workshop
@@ -47,16 +47,17 @@ def load_workshop(
         If a file is missing, or a key is unknown, out of range, or contradicts another.
     """
     path = find_template("workshops", _not_a_printer(name_or_path))
-    data, text = _assembled(path, ())
+    data, origins = _assembled(path, ())
     if printer is not None:
-        data["printer"] = read_toml(find_template("printers", printer))[0]
+        origins.insert(0, _printer(printer))
+        data |= origins[0].data
     if material is not None:
         known = data.get("materials")
         name = material.upper() if material.lower() in template_names("materials") else material
         own = known.get(name) if isinstance(known, dict) else None
         data["roles"] = dict.fromkeys(Roles.model_fields, name)
         data["materials"] = {name: _material(path, name, own)}
-    return Workshop.from_data(data, source=str(path), text=text)
+    return Workshop.from_data(data, str(path), origins=origins)
 
 
 def _not_a_printer(name_or_path: str | Path) -> str | Path:
@@ -68,12 +69,19 @@ def _not_a_printer(name_or_path: str | Path) -> str | Path:
     return name_or_path
 
 
-def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]:
-    """Return the data of a workshop file on top of its base, and the text of the file itself."""
+def _printer(name_or_path: str) -> Origin:
+    file = find_template("printers", name_or_path)
+    data, text = read_toml(file)
+    return Origin(str(file), text, {"printer": data}, "printer")
+
+
+def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], list[Origin]]:
+    """Return the data of a workshop file on top of its base, and the files that they are of."""
     if len(above) > MOST_BASES:
         raise JumpcadError(f"{above[0]}: more than {MOST_BASES} workshops build on each other; join some of them")
     data, text = read_toml(path)
     whole: dict[str, Any] = {}
+    origins: list[Origin] = []
     if "base" in data or path != find_template("workshops", DEFAULT):
         base = data.pop("base", DEFAULT)
         if not isinstance(base, str):
@@ -83,10 +91,12 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]
         real = os.path.realpath(path)  # unlike Path.resolve, also of links that lead round in a circle
         if os.path.exists(base_path) and os.path.realpath(base_path) in (real, *above):
             raise JumpcadError(f"{path}: base = {shown(base)}: leads back to a file that builds on it")
-        whole, _ = _assembled(base_path, (*above, real))
+        whole, origins = _assembled(base_path, (*above, real))
     if isinstance(data.get("printer"), str):
-        whole["printer"] = read_toml(find_template("printers", data.pop("printer")))[0]
+        origins.insert(0, _printer(data.pop("printer")))
+        whole |= origins[0].data
     data = composed(data)  # after the paths, which are as they are written
+    origins.insert(0, Origin(str(path), text, data))
     data |= {
         kind: _completed(kind, data[kind], str(path), text) for kind in OWN_PARTS if isinstance(data.get(kind), dict)
     }
@@ -104,7 +114,7 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]
                 f"{did_you_mean(unused[0], used)}"
             )
         whole["materials"] = {name: _material(path, name, whole["materials"].get(name)) for name in sorted(set(used))}
-    return whole, text
+    return whole, origins
 
 
 def _of_kit(name: Any, source: str, text: str) -> dict[str, Any]:

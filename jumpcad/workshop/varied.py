@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from jumpcad.arguments import check_arguments
 from jumpcad.catalogue import load_catalogue
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean, find_template, read_toml, template_names
@@ -17,6 +18,7 @@ WORDS = ("name", "source", "surface")
 """Last steps of keys that describe and decide nothing."""
 
 
+@check_arguments
 def workshop_value(workshop: Workshop, key: str) -> Value:
     """Return the value of a key that can vary.
 
@@ -37,6 +39,7 @@ def workshop_value(workshop: Workshop, key: str) -> Value:
     raise JumpcadError(f"{shown(key)} is neither a parameter of a design nor a key of the workshop{hint}")
 
 
+@check_arguments
 def varied(workshop: Workshop, values: Mapping[str, Value]) -> Workshop:
     """Return a workshop with other values.
 

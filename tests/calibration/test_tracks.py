@@ -67,6 +67,7 @@ def test_what_cannot_be_points_of_one_flight_is_refused_in_one_line(tmp_path: Pa
         "t,x,z\n0,0,a\n": "points.csv:2: '0,0,a' must be three numbers",
         "t,x,z\n0,0,\n": "points.csv:2: '0,0,' must be three numbers",
         "t,x,z\n0,0,inf\n": "must be finite",
+        "t,x,z\n1e300,0,0\n": "must be finite numbers within ±1e+15",
         "t,x,z\n0,0,nan\n": "points.csv:2: '0,0,' must be three numbers",
         "t,x,z\n" + "0,0,0\n" * 8: "t must grow",
         "t,x,y\n0,00,0,02,0,09\n": "points.csv:2: '0,00,0,02,0,09' has more values than columns: decimal commas need",

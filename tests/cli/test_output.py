@@ -106,3 +106,21 @@ def test_names_are_no_markup_and_move_no_cursor(run: Run, tmp_path: Path, name: 
     code, _, err = run("build", name, "--no-pictures")
     assert (code, err.count("\n")) == (2, 1)
     assert "use letters, digits" in err
+
+
+@pytest.mark.thorough
+def test_surroundings_that_no_command_can_use(tmp_path: Path) -> None:
+    """A terminal that is a hundred million columns wide, no backend for windows, hardly any file that may be opened."""
+    for width in ("COLUMNS", "TERMINAL_WIDTH"):
+        code, out, err = called("check", "--help", folder=tmp_path, **{width: "99999999"})
+        assert (code, err) == (0, "")
+        assert max(map(len, out.splitlines())) < 1000
+    search = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--study", "s.db")
+    code, _, err = called(*search, "--workers", "0", "--plots", "p", folder=tmp_path, MPLBACKEND="nonsense")
+    assert (code, err) == (0, "")
+    done = subprocess.run(
+        ["sh", "-c", 'ulimit -n 20; exec "$@"', "sh", *JUMPCAD, *search, "--workers", "2"],
+        capture_output=True, cwd=tmp_path, env=SURROUNDINGS, text=True, timeout=60.0,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+    assert "workers = 2: take 28 open files, and 20 are allowed" in done.stderr

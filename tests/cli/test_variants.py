@@ -73,5 +73,5 @@ def test_what_differs_has_the_spread_of_the_workshops_tolerances() -> None:
         ([np.log(one.friction.pin) for one in made if one.friction], 0.4),
     ):  # fmt: skip
         assert np.std(values) == pytest.approx(deviation, rel=0.15)  # four standard errors of a standard deviation
-    with pytest.raises(JumpcadError, match="count = 0: at least one variant"):
+    with pytest.raises(JumpcadError, match="count = 0: must be at least 1"):
         jumpcad.variants(robot, 0)

@@ -1,5 +1,6 @@
 """What is written is whole or not there, and nothing of a user's is replaced unasked."""
 
+import errno
 import io
 import os
 import re
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from PIL import Image
+from support.each import each
 from support.elsewhere import environment
 
 from jumpcad.errors import JumpcadError
@@ -79,10 +81,43 @@ def test_an_interrupt_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(os, "replace", interrupted)
+    monkeypatch.setattr(os, "link", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        write_atomically(tmp_path / "p.toml", "new\n")
+        write_atomically(tmp_path / "new" / "newer" / "p.toml", "new\n")
     assert os.listdir(tmp_path) == []
+
+
+@each("links", [True, False])
+@each("second", ["old", "new", "newer"])
+def test_all_files_are_written_or_none(tmp_path: Path, second: str, links: bool) -> None:
+    """Also where the last of them cannot be put in its place, or was made by the user meanwhile."""
+    before = {"a": sealed("a\n"), "old": sealed("b\n")}
+    folder = tmp_path / f"{second}{links}"
+    write_files(folder, before)
+
+    def refused(*_: object) -> None:
+        raise OSError(errno.EIO, "Input/output error")
+
+    def replace(source: Path, target: Path) -> None:
+        if target.name == second and source.read_bytes() == b"z":
+            refused()
+        os.rename(source, target)
+
+    def link(source: Path, target: Path) -> None:
+        if target.name == "newer":
+            target.write_text("mine")
+        if not links or (target.name == second and second != "newer"):
+            refused()
+        real_link(source, target)
+
+    real_link = os.link
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "link", link)
+        patch.setattr(os, "replace", replace)
+        with pytest.raises(JumpcadError, match="File exists" if second == "newer" else "Input/output error"):
+            write_files(folder, {"a": "y", "fresh": "y", second: "z"})
+    left = {file.name: file.read_text() for file in folder.iterdir()}
+    assert left == before | ({"newer": "mine"} if second == "newer" else {})
 
 
 def test_files_of_users_are_not_replaced_unasked(tmp_path: Path) -> None:
@@ -159,6 +194,9 @@ def test_a_path_that_no_file_can_have_is_refused_in_words(tmp_path: Path) -> Non
         "\udfff/b.toml": "U+DFFF cannot be part of a file's name",
         "\0": "it has a NUL",
         "folder/\0.toml": "it has a NUL",
+        "f/" * 300: "it has more than 200 folders",
+        "CON": "CON is a device on Windows; choose another name",
+        "nul.x/robot.toml": "nul.x is a device on Windows; choose another name",
     }.items():
         with pytest.raises(JumpcadError, match=f"cannot be a path: {re.escape(words)}$"):
             require_path(Path(path))

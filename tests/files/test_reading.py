@@ -1,6 +1,7 @@
 """Files that cannot be read, or are not TOML or JSON, are rejected in one line."""
 
 import os
+import sys
 import tomllib
 from pathlib import Path
 
@@ -44,12 +45,28 @@ def test_toml_reads_back() -> None:
     assert tomllib.loads(to_toml(data)) == data
 
 
+def test_a_list_of_many_decimals_is_read(tmp_path: Path) -> None:
+    numbers = [n / 8 for n in range(1, 2400, 8)]
+    (tmp_path / "p.toml").write_text(f"a = {numbers}\n")
+    assert read_toml(tmp_path / "p.toml")[0] == {"a": numbers}
+
+
 def test_pipes_and_devices_are_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.toml")
     (tmp_path / "zero.toml").symlink_to("/dev/zero")
     for name in ("pipe.toml", "zero.toml"):
         with pytest.raises(JumpcadError, match="is a pipe or a device, not a TOML file"):
             read_toml(tmp_path / name)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="these files are Linux's")
+@each("made", ["/proc/kmsg", "/proc/kallsyms", "/proc/self/environ", "/sys/kernel/profiling"])
+def test_what_the_system_makes_as_it_is_read_is_no_file(tmp_path: Path, made: str) -> None:
+    """The first waits for messages of the kernel, the second has more bytes than are read, the others have no size."""
+    (tmp_path / "p.toml").unlink(missing_ok=True)
+    (tmp_path / "p.toml").symlink_to(made)
+    with pytest.raises(JumpcadError, match=r"made by the system|larger than 1 MiB|no such file|may not be read"):
+        read_toml(tmp_path / "p.toml")
 
 
 @each(

@@ -145,3 +145,20 @@ def test_a_kit_brings_its_parts_and_the_file_may_choose_others(written):
 )
 def test_a_base_printer_or_material_that_is_not_there_is_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
+
+
+@each(
+    ("base", "own", "named"),
+    [
+        ("[body]\nplate = 3", "", r"base.toml:2: body.plate: unknown key"),
+        ("[body]\nplate_mm = 99.0", "[body]\nstop_pad = 'x'", r"base.toml:2: body.plate_mm = 99.0"),
+        ("[body]\nplate_mm = 99.0", "body.plate_mm = 98.0", r"my.toml:2: body.plate_mm = 98.0"),
+        ("", "[body]\nplate = 3", r"my.toml:3: body.plate: unknown key"),
+        ("body = {plate = 3}", "", r"base.toml: body.plate: unknown key"),
+        ("printer = 'PRINTER'", "", r"printer.toml:2: printer.nozzle: unknown key"),
+    ],
+)
+def test_a_wrong_key_is_told_with_the_file_that_has_it(written, refusal, base, own, named):
+    printer = written("name = 'mine'\nnozzle = 0.4\nbed_mm = [200, 200, 200]\n", "printer.toml")
+    written(base.replace("PRINTER", str(printer)) + "\n", "base.toml")
+    assert re.search(rf"(^|/)({named})", refusal(f"base = 'base.toml'\n{own}\n"))

@@ -55,7 +55,7 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
 
 
 @check_arguments
-def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
+def save_figure(figure: Figure, folder: str | Path, name: str, force: bool = False) -> Path:
     """Write a figure as `folder/name.svg` and `folder/name.png`, with a seal; return the first path.
 
     A picture of `PICTURES` has its explanation below it.
@@ -63,7 +63,7 @@ def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
     Raises
     ------
     JumpcadError
-        If the folder cannot be written.
+        If the folder cannot be written, or a picture of the user's has the name (unless `force`).
     """
     pixels = io.BytesIO()
     if name in PICTURES:
@@ -75,7 +75,7 @@ def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
         f"{name}.svg": sealed(drawn, "<!-- {} -->"),
         f"{name}.png": sealed_png(pixels.getvalue()),
     }
-    path, _ = write_files(Path(folder), files)
+    path, _ = write_files(Path(folder), files, force)
     return path
 
 

@@ -21,9 +21,9 @@ from jumpcad.search.study.trial import Trial, searched
 
 
 @check_arguments
-def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
+def plot_study(store: StudyStore, folder: str | Path, force: bool = False) -> list[Path]:
     """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
-    return [save_figure(draw(), folder, name) for name, draw in study_figures(store).items()]
+    return [save_figure(draw(), folder, name, force) for name, draw in study_figures(store).items()]
 
 
 def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[], Figure]]:

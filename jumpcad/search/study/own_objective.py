@@ -18,10 +18,9 @@ from typing import Any
 import numpy as np
 
 from jumpcad.errors import JumpcadError, without_controls
-from jumpcad.files import did_you_mean
+from jumpcad.files import did_you_mean, read_bytes
 from jumpcad.files.complaints import described, shown
 from jumpcad.files.names import NAME
-from jumpcad.files.outputs import require_path
 from jumpcad.search.study.code_hash import file_hash, function_hash
 
 SUFFIX = ".py"
@@ -70,7 +69,7 @@ def own_function(asked: Any) -> tuple[str, Callable[[Mapping[str, float]], float
         except KeyError as error:
             key = shown(error.args[0] if error.args else "")
             raise refused(f"asks for {key}; a jump of this model has {', '.join(metrics)}") from None
-        except (Exception, SystemExit) as error:
+        except (Exception, SystemExit, GeneratorExit) as error:
             raise refused(f"fails for a design that jumps: {_told(error)}") from None
         if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
             raise refused(f"returns {described(value)}, not a number")
@@ -86,16 +85,14 @@ def _loaded(place: str) -> Any:
     file, _, name = place.rpartition(":")
     if Path(file).suffix != SUFFIX or not name.isidentifier():
         raise JumpcadError(f"{shown(place)}: give an own objective as FILE{SUFFIX}:FUNCTION")
-    require_path(Path(file))
-    if not os.path.isfile(file):
-        raise JumpcadError(f"{shown(file)}: no such file, so there is no objective {name}")
+    read_bytes(Path(file), "a file of Python")
     beside = os.path.dirname(os.path.realpath(file))
     if beside not in sys.path:
         sys.path.append(beside)
     try:
         with _undisturbed():
             defined = runpy.run_path(file, run_name="objective")
-    except (Exception, SystemExit) as error:
+    except (Exception, SystemExit, GeneratorExit) as error:
         raise JumpcadError(f"{shown(file)}: does not run: {_told(error)}") from None
     if name not in defined:
         raise JumpcadError(f"{shown(file)}: defines no {name}{did_you_mean(name, defined)}")

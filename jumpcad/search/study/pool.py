@@ -24,7 +24,7 @@ from jumpcad.interrupts import raise_if_seen
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.variant import Variant
-from jumpcad.search.study.worker import LocalWorkers, evaluate_one
+from jumpcad.search.study.worker import LocalWorkers, evaluate_one, require_descriptors
 
 ANSWER_S = 10.0
 """Timeout for a Dask scheduler's answer."""
@@ -171,6 +171,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     if workers == 0:
         return Pool(InProcess, InProcess.shutdown, 1)
 
+    require_descriptors(workers)
     copies = iter([may_copy()])  # not again, where workers were lost: then this process has threads that watched them
     return Pool(lambda: LocalWorkers(workers, next(copies, False)), LocalWorkers.end, workers, limit_s)
 

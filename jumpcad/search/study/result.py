@@ -8,7 +8,7 @@ from typing import Any
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
-from jumpcad.files.outputs import require_target, sealed, write_atomically
+from jumpcad.files.outputs import require_target, sealed, write_files
 from jumpcad.plural import counted
 from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import PrintedModel
@@ -16,6 +16,7 @@ from jumpcad.search.pick.robust import ActiveBound, Candidate
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.trial import Trial, count_rejections, is_flat, to_frame
 from jumpcad.search.study.why_none import why_required
+from jumpcad.transforms import ByValue
 from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
@@ -27,8 +28,8 @@ def workshop_file(design_file: Path) -> Path:
     return design_file.with_name(f"{design_file.stem}{WORKSHOP_END}")
 
 
-@dataclass(frozen=True, repr=False)
-class Result:
+@dataclass(frozen=True, repr=False, eq=False)
+class Result(ByValue):
     """What a study found.
 
     Parameters
@@ -179,8 +180,7 @@ class Result:
         files = {file: text for file, text in texts.items() if text}
         for file in files:
             require_target(file, (".toml",), force)
-        for file, text in files.items():
-            write_atomically(file, text)
+        write_files(Path(path).parent, {file.name: text for file, text in files.items()}, force)
         return Path(path)
 
     def to_dict(self) -> dict[str, Any]:

@@ -203,9 +203,9 @@ def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) 
     records = _records(trials)
     if path.suffix == ".csv":
         head = list(records[0]) if records else ["phase"]
-        write_atomically(path, to_csv([head, *(list(record.values()) for record in records)]))
+        write_atomically(path, to_csv([head, *(list(record.values()) for record in records)]), force)
     else:
-        write_atomically(path, _parquet(records))
+        write_atomically(path, _parquet(records), force)
 
 
 def to_frame(trials: Sequence[Trial]) -> Any:

@@ -2,6 +2,7 @@
 
 import atexit
 import contextlib
+import importlib
 import logging
 import os
 import pickle
@@ -48,6 +49,26 @@ class LocalWorkers(loky.ProcessPoolExecutor):  # type: ignore[misc]  # loky has 
     def end(self) -> None:
         """End the processes without waiting for their tasks."""
         self.shutdown(kill_workers=True)
+
+
+def require_descriptors(workers: int) -> None:
+    """Require that so many workers can be started: 17 descriptors are open for two, and two more for each other one.
+
+    Raises
+    ------
+    JumpcadError
+        If this process may not open as many files.
+    """
+    try:
+        resource = importlib.import_module("resource")  # of POSIX alone
+    except ImportError:
+        return
+    needed, (most, _) = 24 + 2 * workers, resource.getrlimit(resource.RLIMIT_NOFILE)
+    if 0 <= most < needed:
+        raise JumpcadError(
+            f"workers = {workers}: take {needed} open files, and {most} are allowed: raise that with "
+            f"ulimit -n {needed}, or take fewer workers (0 for none)"
+        )
 
 
 def start_worker(parent: int) -> None:

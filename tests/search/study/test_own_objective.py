@@ -96,6 +96,7 @@ def test_a_function_that_fails_or_is_none_is_one_line():
     for function, message in (
         (lambda m: m["fitnes"], "asks for 'fitnes'; a jump of this model has fitness, mass_kg"),
         (lambda m: 1 / 0, "fails for a design that jumps: ZeroDivisionError: division by zero"),
+        (lambda m: (_ for _ in ()).throw(GeneratorExit), "fails for a design that jumps: GeneratorExit"),
         (lambda m: sys.exit("bye"), "SystemExit: bye"), (lambda m: float("nan"), "returns nan"),
         (lambda m: True, r"returns True \(bool\), not a number"), (lambda m: 1.001e12, r"within ±1e\+12"),
     ):  # fmt: skip
