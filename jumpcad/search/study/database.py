@@ -63,17 +63,6 @@ def require_study(study: Path | None) -> None:
         require_writable(study.parent)
 
 
-def _let_go() -> None:
-    for descriptor in _locks:
-        os.close(descriptor)
-
-
-_locks: set[int] = set()
-"""Descriptors of locks; copies of this process let go of them, else a study whose search was killed stays locked."""
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_let_go)
-
-
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
     """Lock a study file for this process.
@@ -97,11 +86,9 @@ def locked(path: Path) -> Iterator[None]:
     except OSError:
         os.close(descriptor)
         raise JumpcadError(f"{path}: is being written by another run; wait for it, or name another file") from None
-    _locks.add(descriptor)
     try:
         yield
     finally:
-        _locks.remove(descriptor)
         os.close(descriptor)
 
 

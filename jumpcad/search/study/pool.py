@@ -16,7 +16,7 @@ from typing import Any
 import cloudpickle
 
 from jumpcad.arguments import check_arguments
-from jumpcad.beside import cores, may_copy
+from jumpcad.beside import A, T, cores, one_by_one
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
@@ -24,12 +24,14 @@ from jumpcad.interrupts import raise_if_seen
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.variant import Variant
-from jumpcad.search.study.worker import LocalWorkers, evaluate_one
+from jumpcad.search.study.worker import LocalWorkers, evaluate_one, share
 
 ANSWER_S = 10.0
 """Timeout for a Dask scheduler's answer."""
 
 MOST_WORKERS = 256
+SHARE = 4
+"""Arguments that a worker gets at a time of work that is shared."""
 SHORTEST_S, LONGEST_S = 0.1, 86400.0
 """Least timeout per evaluation, below which no evaluation could end, and largest."""
 
@@ -104,7 +106,7 @@ class Pool:
             raise_if_seen()
             while waiting and len(running) <= self.workers:  # one more keeps workers busy while results travel
                 task = waiting.pop()
-                running[self._submit(sent, task[1])] = task
+                running[self._submit(evaluate_one, sent, task[1], self._limit_s)] = task
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 index, variant = running.pop(future)
                 outcome = self._outcome(index, future)
@@ -115,22 +117,41 @@ class Pool:
         for index, variant, reason in suspects:
             raise_if_seen()
             self.notice(f"an evaluation failed and is repeated alone: {reason}")
-            again = self._outcome(index, self._submit(sent, variant))
+            again = self._outcome(index, self._submit(evaluate_one, sent, variant, self._limit_s))
             if isinstance(again, str):
                 values = ", ".join(value if isinstance(value, str) else f"{value:.6g}" for value in variant.key)
                 self.notice(f"a design is quarantined: {again}; before: {reason}; design: {values}")
                 again = Outcome(index, Evaluation(QUARANTINED, detail=again), 0.0)
             yield again
 
-    def _submit(self, sent: bytes, variant: Variant) -> Future[bytes]:
+    def shared(self, function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
+        """Return what a function returns for each argument: the last ones here, the first by workers that are free.
+
+        Nothing waits for them: what they have not done, or cannot do, is done here.
+        """
+        parts = [arguments[start : start + SHARE] for start in range(0, len(arguments), SHARE)]
+        try:
+            sent = cloudpickle.dumps(function) if self.workers > 1 and len(parts) > 1 else b""
+        except Exception:  # an objective of the user's that holds what cannot be sent
+            sent = b""
+        if not sent:
+            return one_by_one(function, arguments)
+        others = [self._submit(share, sent, part) for part in parts]
+        found: list[T] = []
+        for part, other in zip(parts[::-1], others[::-1], strict=True):
+            done = not other.cancel() and other.done() and other.exception() is None
+            found = [*(other.result() if done else one_by_one(function, part)), *found]
+        return found
+
+    def _submit(self, function: Callable[..., T], *arguments: Any) -> Future[T]:
         if self._executor is None:
             self._executor = self._open()
         try:
-            return self._executor.submit(evaluate_one, sent, variant, self._limit_s)
+            return self._executor.submit(function, *arguments)
         except BrokenExecutor:
             self.close()
             self._executor = self._open()
-            return self._executor.submit(evaluate_one, sent, variant, self._limit_s)
+            return self._executor.submit(function, *arguments)
 
     def _outcome(self, index: int, future: Future[bytes]) -> Outcome | str:
         """Return what a future holds: an outcome, or in one line how the evaluation failed."""
@@ -170,9 +191,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     _require_limit(limit_s)
     if workers == 0:
         return Pool(InProcess, InProcess.shutdown, 1)
-
-    copies = iter([may_copy()])  # not again, where workers were lost: then this process has threads that watched them
-    return Pool(lambda: LocalWorkers(workers, next(copies, False)), LocalWorkers.end, workers, limit_s)
+    return Pool(lambda: LocalWorkers(workers), LocalWorkers.end, workers, limit_s)
 
 
 @check_arguments
