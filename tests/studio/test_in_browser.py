@@ -116,7 +116,7 @@ def test_it_fits_a_phone(driver: Any) -> None:
 
 
 def test_nothing_leaves_the_machine_and_no_error_is_logged(driver: Any, studio: Studio) -> None:
-    require_quiet(driver, own=f"{address(studio)}/")
+    require_quiet(driver, own=address(studio))
 
 
 def test_without_webgl_a_sentence_stands_there(studio: Studio) -> None:
