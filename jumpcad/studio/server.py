@@ -13,13 +13,12 @@ from typing import Any
 
 import viser
 from websockets.asyncio import server as sockets
-from websockets.http11 import Request, Response
+from websockets.http11 import Request
 
 from jumpcad.errors import JumpcadError
 
 REFUSED = "Open the whole address that `jumpcad studio` printed.\n"
 Process = Callable[[sockets.ServerConnection, Request], Any]
-"""Answers a request for a page; returns None for one for a web socket."""
 
 
 class OwnServer(viser.ViserServer):
@@ -37,19 +36,21 @@ class OwnServer(viser.ViserServer):
     def __init__(self, port: int) -> None:
         self._token = secrets.token_urlsafe(24)
         logging.getLogger("websockets").setLevel(logging.CRITICAL)  # a connection that is no web socket is no bug
-        theirs, check = sockets.serve, self._checked
+        theirs = sockets.serve
 
-        class Guarded(theirs):  # type: ignore[valid-type, misc]
-            def __init__(self, *given: Any, process_request: Process, **options: Any) -> None:
-                super().__init__(*given, process_request=check(process_request), **options)
+        def guarded(*given: Any, process_request: Process, **options: Any) -> sockets.serve:
+            return theirs(*given, process_request=self._checked(process_request), **options)
 
         try:
-            sockets.serve = Guarded  # type: ignore[assignment, misc]  # viser takes it from there, and hands on no options
+            sockets.serve = guarded  # type: ignore[assignment, misc]  # viser takes it there, and hands on no options
             with contextlib.redirect_stdout(io.StringIO()):  # its banner has an address too
                 super().__init__(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
         finally:
             sockets.serve = theirs  # type: ignore[misc]
-        if self._status_without_token() != HTTPStatus.FORBIDDEN:
+        with contextlib.closing(http.client.HTTPConnection("127.0.0.1", self.get_port(), timeout=10.0)) as anybody:
+            anybody.request("GET", "/")
+            status = anybody.getresponse().status
+        if status != HTTPStatus.FORBIDDEN:
             self.stop()
             raise JumpcadError(f"the studio cannot guard its page with viser {viser.__version__}: install viser 1.1")
 
@@ -68,14 +69,8 @@ class OwnServer(viser.ViserServer):
             if not known or request.headers.get("Origin") not in pages:
                 return connection.respond(HTTPStatus.FORBIDDEN, REFUSED)
             found = answer(connection, replace(request, path=f"/{rest}"))
-            if isinstance(found, Response):
+            if found is not None:
                 found.headers["Referrer-Policy"] = "no-referrer"  # nor do links tell the token
             return found
 
         return process
-
-    def _status_without_token(self) -> int:
-        connection = http.client.HTTPConnection("127.0.0.1", self.get_port(), timeout=10.0)
-        with contextlib.closing(connection):
-            connection.request("GET", "/")
-            return connection.getresponse().status

@@ -252,7 +252,9 @@ def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
         distributed: Any = importlib.import_module("distributed")  # its annotations are incomplete
     except ImportError:
         raise JumpcadError("Dask is not installed: pip install 'jumpcad[dask]', or use --workers") from None
-    _silence(("distributed", "tornado"))
+    for name in logging.root.manager.loggerDict:
+        if name.split(".")[0] in ("distributed", "tornado"):  # what they say of a lost connection is told in one line
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     try:
         if address.startswith("inproc:"):
             raise ValueError("that is within one process")
@@ -262,7 +264,8 @@ def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
             distributed.comm.resolve_address(address)
             client = distributed.Client(address, timeout=ANSWER_S, set_as_default=False)
     except Exception as error:  # each protocol has its own
-        raise JumpcadError(f"no Dask scheduler answers at {address}: {_first_line(error)}") from None
+        reason = str(error).split("\n")[0] or type(error).__name__
+        raise JumpcadError(f"no Dask scheduler answers at {address}: {reason}") from None
     try:
         workers = sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
         if workers == 0:
@@ -292,29 +295,16 @@ def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
 
 def _require_same_versions(client: Any) -> None:
     """Require Python and jumpcad of scheduler and workers, which read what is sent to them, to be those of here."""
+
+    def versions(one: Any) -> str:
+        python = dict(one["host"])["python"].split(".")[:2]
+        return f"Python {'.'.join(python)} and jumpcad {dict(one['packages'])['jumpcad'] or '(none)'}"
+
     found = client.get_versions(packages=["jumpcad"])
-    own = found["client"]
+    own = versions(found["client"])
     for place, other in {"the Dask scheduler": found["scheduler"], **found["workers"]}.items():
-        for kind, name in (("host", "python"), ("packages", "jumpcad")):
-            ours, theirs = (dict(one[kind])[name] for one in (own, other))
-            if name == "python":
-                ours, theirs = (".".join(one.split(".")[:2]) for one in (ours, theirs))
-            if ours != theirs:
-                raise JumpcadError(
-                    f"{place} has {name} {theirs or '(none)'}, not {ours}: install there what is installed here"
-                )
-
-
-def _silence(packages: tuple[str, ...]) -> None:
-    """Let packages log nothing: what they say of a lost connection is told in one line."""
-    for name in [*packages, *logging.root.manager.loggerDict]:
-        if name.split(".")[0] in packages:
-            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
-
-
-def _first_line(error: BaseException) -> str:
-    """Return the first line of what an error says, or its kind."""
-    return str(error).split("\n")[0] or type(error).__name__
+        if versions(other) != own:
+            raise JumpcadError(f"{place} has {versions(other)}, not {own}: install there what is installed here")
 
 
 class InProcess(Executor):

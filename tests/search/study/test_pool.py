@@ -188,9 +188,11 @@ def test_other_versions_are_named_before_anything_is_sent():
 
     good = host("3.11.2.final.0", "0.1.0")
     pool_module._require_same_versions(client(good, good))
-    with pytest.raises(JumpcadError, match=r"tcp://a has python 3.12, not 3.11: install"):
+    with pytest.raises(
+        JumpcadError, match=r"^tcp://a has Python 3.12 and jumpcad 0.1.0, not Python 3.11 and jumpcad 0.1.0: install"
+    ):
         pool_module._require_same_versions(client(good, host("3.12.1.final.0", "0.1.0")))
-    with pytest.raises(JumpcadError, match=r"the Dask scheduler has jumpcad \(none\), not 0.1.0: install"):
+    with pytest.raises(JumpcadError, match=r"^the Dask scheduler has Python 3.11 and jumpcad \(none\), not "):
         pool_module._require_same_versions(client(host("3.11.7", None), good))
 
 
