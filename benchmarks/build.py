@@ -12,6 +12,7 @@ import sys
 import tempfile
 from collections import defaultdict
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -41,15 +42,15 @@ def once(name: str) -> dict[str, float]:
     def passed(stage: str) -> None:
         clock.append((stage, process_time()))
 
-    from jumpcad import beside, simulation
+    from jumpcad import simulation
     from jumpcad.building import growth as building
     from jumpcad.bundle import export as bundle
     from jumpcad.bundle.renders import all_pictures
     from jumpcad.design import load_design
     from jumpcad.exporters.registry import chosen
     from jumpcad.mechanism.capsule import capsule_robot
+    from jumpcad.search.study.pool import InProcess
 
-    beside.cores = lambda: 1  # one thing after the other, in this process
     passed("imports")
     robot = building.build(load_design(name), name=name)
     passed("robot")
@@ -67,6 +68,7 @@ def once(name: str) -> dict[str, float]:
     exporters = [replace(one, files=timed(STAGES[one.name], one.files)) for one in chosen()]
     with (
         patch.object(bundle, chosen.__name__, lambda _names: exporters),
+        patch.object(bundle, ThreadPoolExecutor.__name__, lambda _: InProcess()),  # one thing after the other
         patch.object(bundle, all_pictures.__name__, timed("pictures", all_pictures)),
         tempfile.TemporaryDirectory() as folder,
     ):

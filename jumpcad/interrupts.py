@@ -4,7 +4,6 @@ The command line counts them and decides what follows; programs that use jumpcad
 """
 
 import signal
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -25,7 +24,6 @@ def raise_if_seen() -> None:
 def deferred_interrupts() -> Iterator[None]:
     """Let interrupts wait for the end of a block; processes that start in it never get any.
 
-    Nor does Python 3.12 warn there of copies of a process with threads: ours use none of what these may have locked.
     Ctrl-C is sent to the whole process group, and a process inherits which signals are blocked: one that has just
     started would otherwise print a traceback before it can ignore the signal.
     """
@@ -34,9 +32,7 @@ def deferred_interrupts() -> Iterator[None]:
     deferring.append(None)  # another thread may get the signal, and its handler runs in spite of the mask
     before = system.pthread_sigmask(system.SIG_BLOCK, {signal.SIGINT}) if masks else set()
     try:
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "This process", DeprecationWarning)
-            yield
+        yield
     finally:
         deferring.pop()
         if masks:

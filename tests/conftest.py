@@ -20,7 +20,7 @@ from support.kept import once as once_of
 from support.kept import plate_key, robot_key, threemf_key
 from support.robots import make_small_robot
 
-from jumpcad import beside, checks
+from jumpcad import checks
 from jumpcad.building import growth
 from jumpcad.bundle import export as bundle_export
 from jumpcad.bundle import limits
@@ -63,7 +63,6 @@ def judged_once(of_all_workers: Path) -> Iterator[None]:
         seen, printability._undersides, lambda drawing, *shop: (drawing.shape, *(one.model_dump_json() for one in shop))
     )
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(beside, "cores", lambda: 1)  # what is judged beside this process would not be seen here
         compiled_by_one(patch, of_all_workers)
         for module in (finish, printability):
             patch.setattr(module, "faults", faults)

@@ -1,81 +1,65 @@
-"""Work in a copy of this process: its result, its errors, and where there is no copy."""
+"""Work on several cores: no process with threads is copied, and nothing that was begun outlives an error."""
 
-import io
-import os
-import signal
+import subprocess
 import sys
 import threading
-from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from support.robots import make_small_robot
 
-from jumpcad import beside as module
-from jumpcad.beside import beside, shared
-from jumpcad.checks import costly_findings
+from jumpcad.bundle import export as module
+from jumpcad.bundle.export import contents
+from jumpcad.exporters.registry import Exporter
+from jumpcad.search.study.pool import local_pool
+from jumpcad.simulation import simulate
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux alone")
+WATCHED = """
+import os, sys, threading
+
+def watch(event, _):
+    if event == "os.fork":
+        raise RuntimeError("a copy of this process")
+
+sys.addaudithook(watch)
+threading.Thread(target=threading.Event().wait, daemon=True).start()
+from jumpcad.cli import main
+main()
+"""
+"""The command line with a thread, where a copy of the process is an error."""
 
 
-@pytest.fixture(autouse=True)
-def two_cores(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "cores", lambda: 2)
+def test_what_an_export_began_ends_with_its_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    begun: list[threading.Thread] = []
 
+    def draw(_: object) -> dict[str, bytes]:
+        begun.append(threading.current_thread())
+        return {}
 
-def test_a_function_runs_in_another_process_once_and_here_where_there_is_one_core(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    elsewhere = beside(os.getpid)
-    assert elsewhere() == elsewhere() != os.getpid()
-    monkeypatch.setattr(module, "cores", lambda: 1)
-    assert beside(os.getpid)() == os.getpid()
+    def fail(_: object) -> object:
+        raise ZeroDivisionError
 
-
-def test_what_fails_there_fails_here() -> None:
-    """An error is raised where the result is asked for; what a copy cannot finish or send is done here."""
+    monkeypatch.setattr(module, "all_pictures", draw)
+    robot = make_small_robot()
     with pytest.raises(ZeroDivisionError):
-        beside(lambda: 1 // 0)()
-    here = os.getpid()
-
-    def killed() -> int:
-        if os.getpid() != here:
-            os.kill(os.getpid(), signal.SIGKILL)
-        return 7
-
-    assert beside(killed)() == 7
-    unsent: Callable[[], Callable[[], int]] = lambda: lambda: 8  # noqa: E731  no pickle holds it
-    assert beside(unsent)()() == 8
+        contents(robot, [Exporter("broken", fail)], pictures=True, jump=simulate(robot, engine="planar"))
+    assert [thread.is_alive() for thread in begun] == [False]
 
 
-def test_work_is_shared_in_order_among_as_many_processes_as_are_asked_for() -> None:
-    for most in (1, 2, 5):
-        found = shared(lambda number: (number, os.getpid()), range(13), most)
-        assert [number for number, _ in found] == [*range(13)], most
-        assert len({process for _, process in found}) == min(most, 2)
-    assert shared(abs, [], 2) == []
+@pytest.mark.thorough
+@pytest.mark.parametrize("asked", ["build kenan-2.0 -o bundle", "optimize --workers 2 --evaluations 14 --study s.db"])
+def test_no_command_copies_a_process_with_threads(tmp_path: Path, asked: str) -> None:
+    """Python 3.12 and later warn of such copies; libraries such as OpenMP hang in them."""
+    command = [sys.executable, "-W", "error::DeprecationWarning:multiprocessing", "-c", WATCHED, *asked.split()]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "") or "a copy" not in done.stderr, done.stderr
 
 
-def test_interrupts_are_this_process_s_affair() -> None:
-    """Ctrl-C goes to the whole group of processes: the copy ignores it; SIGTERM ends it without a word."""
-    found = beside(lambda: [signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM)])()
-    assert found == [signal.SIG_IGN, signal.SIG_DFL]
-
-
-def test_a_copy_waits_for_no_lock_of_a_thread_that_it_has_not(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Such as that of a terminal's progress, through which Python prints warnings too."""
-    held = threading.Lock()
-
-    class Progress(io.StringIO):
-        def write(self, text: str) -> int:
-            assert held.acquire(timeout=1.0)
-            return len(text)
-
-    monkeypatch.setattr(sys, "stderr", Progress())
-    with held:
-        assert beside(lambda: print("a warning", file=sys.stderr) or os.getpid())() != os.getpid()
-
-
-def test_findings_are_the_same_on_one_core_and_on_two(monkeypatch: pytest.MonkeyPatch) -> None:
-    two = costly_findings(make_small_robot())
-    monkeypatch.setattr(module, "cores", lambda: 1)
-    assert two == costly_findings(make_small_robot())
+def test_work_is_shared_in_order_and_what_workers_cannot_do_is_done_here() -> None:
+    with local_pool(2) as pool:
+        assert pool.shared(abs, range(-9, 9)) == [abs(one) for one in range(-9, 9)]
+        lock = threading.Lock()  # no pickle holds it
+        assert pool.shared(lambda one: (one, lock.locked()), range(9)) == [(one, False) for one in range(9)]
+        with pytest.raises(ZeroDivisionError):
+            pool.shared(lambda one: 1 // one, range(9))
+        assert pool.shared(abs, []) == []

@@ -4,10 +4,10 @@ The same robot gives the same bytes.
 """
 
 from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-from jumpcad.beside import beside
 from jumpcad.building.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle import facts
 from jumpcad.bundle.atomic_write import require_place, write_folder
@@ -26,7 +26,7 @@ from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.coupon.contents import coupon_files, coupon_pieces
 from jumpcad.errors import CannotBuildError
-from jumpcad.exporters.animation import BodyMotion, animated
+from jumpcad.exporters.animation import animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
@@ -84,19 +84,20 @@ def export(
 
 def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: Jump) -> Files:
     """Return path and content of every file of a bundle, except its manifest."""
-    moving = beside(_moving, robot) if pictures else _Moving
     for part in robot.parts:
-        part.drawing.solid  # noqa: B018  # made here, copies of this process have it too
-    drawn = beside(all_pictures, robot) if pictures else dict
-    files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
-    for exporter in exporters:
-        files |= dict(exporter.files(robot))
-    made = coupon_pieces(robot.workshop)
-    files |= {f"coupon/{path}": content for path, content in coupon_files(robot.workshop, made, pictures)}
-    files["bom.csv"] = write_bom(bill_of_materials(robot))
-    files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
-    limits_of(robot)  # for guide and report, while pictures are drawn
-    seen, (motion, sure) = drawn(), moving()
+        part.drawing.solid  # noqa: B018  # made once, for files and pictures
+    with ThreadPoolExecutor(1) as beside:  # most of drawing is arithmetic, during which Python goes on here
+        drawn = beside.submit(all_pictures, robot) if pictures else None
+        files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
+        for exporter in exporters:
+            files |= dict(exporter.files(robot))
+        made = coupon_pieces(robot.workshop)
+        files |= {f"coupon/{path}": content for path, content in coupon_files(robot.workshop, made, pictures)}
+        files["bom.csv"] = write_bom(bill_of_materials(robot))
+        files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
+        limits_of(robot)  # for guide and report
+        motion, sure = (jump_motion(robot), uncertainty_of(robot)) if pictures else (None, None)
+        seen = drawn.result() if drawn else {}
     scene = next((path for path in files if path.endswith(".glb")), "")
     glb = files.get(scene)
     if isinstance(glb, bytes) and motion is not None:
@@ -109,17 +110,6 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
     files |= {**shown, **guide, "assembly.html": page}
     files["report.html"] = _page(robot, jump, seen, glb if pictures and isinstance(glb, bytes) else None, files, sure)
     return files.items()
-
-
-class _Moving(NamedTuple):
-    """The motion of the GLB file, and how sure range and rise are."""
-
-    motion: BodyMotion | None = None
-    sure: Uncertainty | None = None
-
-
-def _moving(robot: Robot) -> _Moving:
-    return _Moving(jump_motion(robot), uncertainty_of(robot))
 
 
 def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:

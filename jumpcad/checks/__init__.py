@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from typing import Any
 
-from jumpcad.beside import beside
 from jumpcad.checks import (
     assembly,
     blocked,
@@ -61,14 +60,13 @@ class Check:
 
     `find` takes what the check `needs` (a Mechanism, or a Robot with its parts) and returns findings, whose names are
     in `basis`. A `cheap` check looks at no mesh and at no motion, takes about a millisecond, and runs for every design
-    of a search. One that is `solid` makes the solids of many parts, with which others do little.
+    of a search.
     """
 
     find: Callable[[Any], Iterable[Finding]]
     basis: Mapping[str, Basis]
     needs: type[Mechanism] = Robot
     cheap: bool = False
-    solid: bool = False
 
 
 CHECKS = (
@@ -85,8 +83,8 @@ CHECKS = (
     Check(sideways.sideways_findings, sideways.BASIS, cheap=True),
     Check(printability.bed_findings, printability.BASIS, cheap=True),
     Check(cage.cage_findings, cage.BASIS, cheap=True),
-    Check(ground.foot_findings, ground.BASIS, solid=True),
-    Check(printability.printability_findings, printability.BASIS, solid=True),
+    Check(ground.foot_findings, ground.BASIS),
+    Check(printability.printability_findings, printability.BASIS),
     Check(interference.interference_findings, interference.BASIS),
     Check(engraving.engraving_findings, engraving.BASIS),
     Check(assembly.assembly_findings, assembly.BASIS),
@@ -125,17 +123,8 @@ def basis_of(name: str) -> Basis | None:
 
 
 def _findings(robot: Mechanism, checks: Iterable[Check]) -> list[Finding]:
-    """Return the findings of those checks whose needs the robot meets; about half of the costly work beside here."""
-    met = [check for check in checks if isinstance(robot, check.needs)]
-    solid = [check for check in met if check.solid]
-    others = beside(_found, robot, solid) if solid else dict
-    found = _found(robot, [check for check in met if not check.solid]) | others()
-    findings = [one for check in met for one in found[check.find.__name__]]
+    """Return the findings of those checks whose needs the robot meets."""
+    findings = [one for check in checks if isinstance(robot, check.needs) for one in check.find(robot)]
     if isinstance(robot, Robot) and robot.workshop.bought.spring:
         return [replace(found, remedy=of_stock(found.remedy)) for found in findings]
     return findings
-
-
-def _found(robot: Mechanism, checks: Iterable[Check]) -> dict[str, list[Finding]]:
-    """Return the findings of checks by the names of their functions."""
-    return {check.find.__name__: list(check.find(robot)) for check in checks}

@@ -28,12 +28,14 @@ USED_AS = {
     "pads": "[ground] pad, [body] stop_pad",
 }
 """Every kind that is listed, and where its names are used."""
+GROUPS = {"parts": ("kits", "motors", "batteries", "boards", "components", "bearings", "springs", "rods", "pads")}
+"""Names for several kinds."""
 FOLDERS = {"templates": "robots", "workshops": "workshops", "settings": "settings"}
 """Kinds whose files begin with a comment that describes them, and their folders."""
 
+KINDS = f"{', '.join(USED_AS)}; parts: all that are bought; all kinds unless given."
 KindArgument = Annotated[
-    str | None,
-    typer.Argument(help=f"{', '.join(USED_AS)}; all unless given.", metavar="KIND", autocompletion=lambda: [*USED_AS]),
+    str | None, typer.Argument(help=KINDS, metavar="KIND", autocompletion=lambda: [*USED_AS, *GROUPS])
 ]
 
 
@@ -41,9 +43,9 @@ def list_names(kind: KindArgument = None, as_json: JsonFlag = False) -> None:
     """List what ships: templates, workshops, printers, materials, kits, motors and more."""
     from jumpcad.files import did_you_mean
 
-    if kind is not None and kind not in USED_AS:
+    if kind is not None and kind not in {*USED_AS, *GROUPS}:
         raise JumpcadError(f"{kind!r} is none of the kinds {', '.join(USED_AS)}{did_you_mean(kind, USED_AS)}")
-    found = {name: described(name) for name in ([kind] if kind else USED_AS)}
+    found = {name: described(name) for name in (GROUPS.get(kind, (kind,)) if kind else USED_AS)}
     if as_json:
         print_json(
             {

@@ -51,7 +51,8 @@ def _results(rows: "list[Reproduction]", style: dict[str, Any]) -> "Table":
         made.add_row(row.published.title, *length, _shown(jump.ballistic_range_m), "ballistic")
         made.add_row("", "", "", "", "", _shown(jump.touchdown_distance_m), "touchdown")
         made.add_row("", *height, _shown(jump.com_rise_m), "rise")
-        made.add_row("", *energy, _shown(jump.takeoff_energy_ratio), "share", end_section=True)
+        made.add_row("", *energy, _shown(jump.spring_energy_j), "stored")
+        made.add_row("", "share", "", "", "", _shown(jump.takeoff_energy_ratio), "take-off", end_section=True)
     return made
 
 

@@ -28,7 +28,7 @@ def studio(
 ) -> None:
     """Change the eight numbers in a browser and see the robot that they give, wind and jump (extra `studio`)."""
     try:
-        from jumpcad.studio.server import own_server
+        from jumpcad.studio.server import OwnServer
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
     from jumpcad.files.templates import template_names
@@ -43,10 +43,10 @@ def studio(
     )
     shops = dict.fromkeys(name for name in (workshop, own, *template_names("workshops")) if name is not None)
     name = Path(design).name.removesuffix(".toml").removesuffix(STUDY)
-    server = own_server(port)
+    server = OwnServer(port)
     shown = Studio(opened, name, list(shops), server, Path.cwd(), points, number)
     shown.start()
-    print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio; the browser needs WebGL)")
+    print(f"{server.address}  (Ctrl-C ends the studio; the browser needs WebGL)")
     collect_usually()
     try:
         server.sleep_forever()

@@ -62,7 +62,8 @@ READING = (
     "published: as given by the study. again: its simulation, run here. measured: built robots, electrical energy with "
     "all losses.\n"
     "evaluator: the same masses (capsule robot) in jumpcad's own simulation: ballistic range, way of the "
-    "centre of mass to the touchdown, rise of the centre of mass, share of the springs' energy at take-off.\n"
+    "centre of mass to the touchdown, rise of the centre of mass, energy stored in the springs, share of it at "
+    "take-off.\n"
     "Kenan 1.0's published height is the one figure here that the study's simulation does not give.\n"
 )
 

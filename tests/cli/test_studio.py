@@ -31,9 +31,9 @@ def test_a_studio_is_started_and_ends_however_its_server_does(run: Run, monkeypa
     def opened(*_: object) -> SimpleNamespace:
         return SimpleNamespace(start=lambda: acts.append("started"), end=lambda: acts.append("ended"))
 
-    server = SimpleNamespace(get_port=lambda: 8080, sleep_forever=interrupted)
+    server = SimpleNamespace(address="http://", sleep_forever=interrupted)
     monkeypatch.setitem(sys.modules, "jumpcad.studio", SimpleNamespace(Studio=opened))
-    monkeypatch.setitem(sys.modules, "jumpcad.studio.server", SimpleNamespace(own_server=lambda _: server))
+    monkeypatch.setitem(sys.modules, "jumpcad.studio.server", SimpleNamespace(OwnServer=lambda _: server))
     assert run("studio", "best-bo")[0] == 130
     assert acts == ["started", "served", "ended"]
 

@@ -15,7 +15,7 @@ from support.browsers import PHONE, browser, needs_browser, require_quiet, wait,
 viser = needs.package("viser")
 
 from jumpcad.studio import Points, Studio  # noqa: E402
-from jumpcad.studio.server import own_server  # noqa: E402
+from jumpcad.studio.server import OwnServer  # noqa: E402
 
 pytestmark = needs_browser
 KEYS = webdriver.common.keys.Keys
@@ -27,7 +27,7 @@ CHANGED = 2.0
 
 @pytest.fixture(scope="module")
 def studio(study: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
-    server = own_server(0)
+    server = OwnServer(0)
     server.scene.configure_environment_map(None)  # with it, and with shadows, software rendering takes 20 s
     server.scene.configure_default_lights(cast_shadow=False)
     points = Points(study)
@@ -48,7 +48,7 @@ def driver(studio: Studio) -> Iterator[Any]:
 
 
 def address(studio: Studio) -> str:
-    return f"http://127.0.0.1:{studio.server.get_port()}"
+    return str(studio.server.address)
 
 
 def words(driver: Any) -> str:
@@ -116,7 +116,7 @@ def test_it_fits_a_phone(driver: Any) -> None:
 
 
 def test_nothing_leaves_the_machine_and_no_error_is_logged(driver: Any, studio: Studio) -> None:
-    require_quiet(driver, own=f"{address(studio)}/")
+    require_quiet(driver, own=address(studio))
 
 
 def test_without_webgl_a_sentence_stands_there(studio: Studio) -> None:

@@ -78,14 +78,11 @@ class Estimator:
 
     def look_at(self, variants: Iterable[Variant], shared: Shared) -> None:
         """Lay out and estimate what was not yet, by a function that shares the work among cores."""
-        new = {one.key: one for one in variants if one.key not in (self._estimates if self.ready else self._layouts)}
-        looked = shared(self._looked, [*new.values()])
-        self._layouts |= {key: laid for key, (laid, _) in zip(new, looked, strict=True)}
-        if self.ready:
-            self._estimates |= {key: estimate for key, (_, estimate) in zip(new, looked, strict=True)}
-
-    def _looked(self, variant: Variant) -> "tuple[Mapping[str, float] | Evaluation, Estimate | None]":
-        return self.layout(variant), self(variant)
+        asked = {one.key: one for one in variants}
+        new = [one for key, one in asked.items() if key not in self._layouts]
+        self._layouts |= zip((one.key for one in new), shared(self._model.laid_out, new), strict=True)
+        for variant in asked.values():
+            self(variant)
 
     def layout(self, variant: Variant) -> Mapping[str, float] | Evaluation:
         """Return figures of a variant's layout, or the outcome of one that has no room."""

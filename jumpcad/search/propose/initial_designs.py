@@ -64,7 +64,7 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
     quick = getattr(evaluator.model, "quick_score", None)
     if quick is None:
         return []
-    space = evaluator.space
+    space, objective = evaluator.space, evaluator.objective
     points = space.drawn(sobol(space.dimension, SCREENED, generator))
-    scores = np.array(evaluator.shared(lambda point: quick(space.to_design(point), evaluator.objective), [*points]))
+    scores = np.array(evaluator.shared(lambda point: quick(space.to_design(point), objective), [*points]))
     return [points[index] for index in np.argsort(-scores, kind="stable") if math.isfinite(scores[index])]

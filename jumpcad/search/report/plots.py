@@ -5,11 +5,13 @@ from textwrap import fill
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import PARAMETERS, Design
@@ -49,15 +51,16 @@ def history(trials: Sequence[Trial], objective: Objective) -> Figure:
         axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase, rasterized=many)
     axes.plot(number, np.fmax.accumulate(scores), "-", lw=1.2, color="black", label="best so far")
     rejected = number[np.isnan(scores)]
-    axes.plot(rejected, np.zeros(len(rejected)), "|", color=GREY, label="rejected", rasterized=many)
+    _at_the_foot(axes, rejected, "|", color=GREY, label="rejected", rasterized=many)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     labels(axes, "evaluation", f"{objective.meaning} ({objective.unit})")
     axes.legend()
     return figure
 
 
 @check_arguments
-def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figure:
-    """Draw the score over each free parameter."""
+def slices(space: Space, trials: Sequence[Trial], objective: Objective, winner: Trial | None = None) -> Figure:
+    """Draw the score over each free parameter, with a star at the design that the search chose, else the best one."""
     figure, all_axes = panels(space.dimension)
     feasible = [trial for trial in trials if trial.score is not None]
     order = np.arange(len(feasible))
@@ -65,7 +68,7 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
         _name_ticks(axes, parameter.names)
         values, many = _values(parameter, feasible), len(feasible) > MOST_DRAWN
         dots = axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8, rasterized=many)
-        if best := best_trial(feasible):
+        if best := winner or best_trial(feasible):
             axes.plot(*_values(parameter, [best]), best.score or 0.0, **BEST)
         low, high = axes.get_xlim() if feasible else (parameter.lower, parameter.upper)
         reach = MARGIN * parameter.width
@@ -135,11 +138,16 @@ def sweeps(found: Sequence[Sweep], objective: Objective, centre: Design | None =
         scores = _scores(one.trials)
         axes.plot(one.values, scores, "." if one.names else ".-", color=BLUE, label="jumps")
         _name_ticks(axes, one.names)
-        rejected = np.isnan(scores)
-        axes.plot(one.values[rejected], np.zeros(int(rejected.sum())), "x", color=RED, ms=4, label="rejected")
+        _at_the_foot(axes, one.values[np.isnan(scores)], "x", color=RED, ms=4, label="rejected")
         if centre is not None and one.parameter in PARAMETERS:
             axes.axvline(getattr(centre, one.parameter), ls="--", lw=1.0, color="black", label=CENTRE["label"])
         labels(axes, one.parameter, _named(objective))
+    scores = np.concatenate([_scores(one.trials) for one in found])
+    if np.isfinite(scores).any():  # one scale, to compare what the parameters do; crosses below it
+        low, high = np.nanmin(scores), np.nanmax(scores)
+        reach = (high - low) or abs(high) or 1.0
+        for axes in all_axes:
+            axes.set_ylim(low - 0.15 * reach, high + 0.05 * reach)
     handles, names = all_axes[0].get_legend_handles_labels()
     figure.legend(handles, names, loc="outside upper right", ncols=len(names))
     return figure
@@ -242,6 +250,11 @@ def _log_acquisition(posterior: SearchPosterior, points: Array, best: float) -> 
     value = (posterior.log_improvement(points, best) + posterior.log_feasible(points)) / np.log(10.0)
     shown: Array = np.maximum(value, value.max() - DECADES)
     return shown
+
+
+def _at_the_foot(axes: Axes, x: npt.NDArray[Any], marker: str, **how: Any) -> None:
+    """Draw marks at the foot of the axes, whose heights say nothing."""
+    axes.plot(x, np.full(len(x), 0.03), marker, transform=axes.get_xaxis_transform(), **how)
 
 
 def _end(parameter: SearchParameter, number: float) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from jumpcad.arguments import check_arguments
 from jumpcad.search.fronts import described_cost
@@ -17,6 +18,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.study.objective import described_objective
 from jumpcad.search.study.result import Result
 from jumpcad.search.study.store import StudyStore
+from jumpcad.search.study.summary import summary
 from jumpcad.search.study.trial import Trial, searched
 
 
@@ -33,7 +35,7 @@ def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[],
     figures: dict[str, Callable[[], Figure]] = {}
     if trials:
         figures["history"] = partial(plots.history, trials, objective)
-        figures["slices"] = partial(plots.slices, space, trials, objective)
+        figures["slices"] = partial(plots.slices, space, trials, objective, summary(store).winner)
     if trials and space.dimension > 1:
         figures["parallel"] = partial(plots.parallel, space, trials)
     if trials and identity["method"] in FRONTS:
@@ -61,7 +63,8 @@ def _moments(trials: Sequence[Trial]) -> list[tuple[str, int, int]]:
 def best_so_far(results: Sequence[Result]) -> Figure:
     """Draw the best score so far against evaluations: median and range of each method's searches.
 
-    A search that ended keeps its best. One without a jump so far counts as the worst, and has no place in the picture.
+    A search that ended keeps its best. One without a jump so far counts as the worst, and has no place in the picture;
+    until the last one jumps, the median is dotted.
     """
     figure, (axes,) = panels(1, 6.4, 3.6)
     for colour, method in zip(plots.COLOURS, dict.fromkeys(one.request.method for one in results), strict=False):
@@ -74,8 +77,11 @@ def best_so_far(results: Sequence[Result]) -> Figure:
                              (best.min(axis=0), np.median(best, axis=0), best.max(axis=0)))  # fmt: skip
         number = np.arange(1, scores.shape[1] + 1)
         axes.fill_between(number, low, high, color=colour, alpha=0.2, lw=0)
-        axes.plot(number, middle, color=colour, label=f"{method}, {len(searches)} searches")
+        axes.plot(number, middle, ":", color=colour)
+        whole = np.where(np.isfinite(low), middle, np.nan)
+        axes.plot(number, whole, color=colour, label=f"{method}, {len(searches)} searches")
     objective = results[0].request.aim
     labels(axes, "designs evaluated by the search", f"{objective.meaning} ({objective.unit})")
-    axes.legend(loc="upper left")
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.legend(loc="lower right")
     return figure

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from jumpcad.arguments import check_arguments
-from jumpcad.beside import A, T, shared
+from jumpcad.beside import A, T
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.models import RobotModel
@@ -89,8 +89,8 @@ class Evaluator:
         return self.objective.unrequired(trial.evaluation) if trial.score is None else trial.score
 
     def shared(self, function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
-        """Return what a function returns for each argument, on as many cores as there are workers."""
-        return shared(function, arguments, self._pool.workers)
+        """Return what a function returns for each argument; workers of the search take part."""
+        return self._pool.shared(function, arguments)
 
     def admits(self, one: Design | Variant) -> bool:
         """Whether a design or variant is new, also to the prior, and the model admits it without an evaluation."""

@@ -6,9 +6,11 @@ with the reason. The run continues in both cases.
 """
 
 import importlib
+import logging
 import pickle
 import re
-from collections.abc import Callable, Iterator, Sequence
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
 from typing import Any
@@ -16,7 +18,7 @@ from typing import Any
 import cloudpickle
 
 from jumpcad.arguments import check_arguments
-from jumpcad.beside import cores, may_copy
+from jumpcad.beside import A, T, cores, one_by_one
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
@@ -24,12 +26,15 @@ from jumpcad.interrupts import raise_if_seen
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.variant import Variant
-from jumpcad.search.study.worker import LocalWorkers, evaluate_one, require_descriptors
+from jumpcad.search.study.worker import LocalWorkers, evaluate_one, require_descriptors, share
 
 ANSWER_S = 10.0
-"""Timeout for a Dask scheduler's answer."""
+"""Timeout for a Dask scheduler's answer, and for a result until somebody asks whether there may be one."""
+GO_ON = "and repeat the command: with --study it goes on"
 
 MOST_WORKERS = 256
+SHARE = 4
+"""Arguments that a worker gets at a time of work that is shared."""
 SHORTEST_S, LONGEST_S = 0.1, 86400.0
 """Least timeout per evaluation, below which no evaluation could end, and largest."""
 
@@ -58,6 +63,8 @@ class Pool:
         Timeout per evaluation (s), after which its worker is ended; 0 for none.
     notice
         Called with one line about every failure.
+    lost
+        Called where nothing ends for `ANSWER_S`: says why nothing will any more, or nothing.
     """
 
     @check_arguments
@@ -68,12 +75,14 @@ class Pool:
         workers: int,
         limit_s: float = 0.0,
         notice: Callable[[str], None] = lambda text: None,
+        lost: Callable[[], str] = str,
     ) -> None:
         self.workers = workers
         self.notice = notice
         self._open = open_executor
         self._end = end_executor
         self._limit_s = limit_s
+        self._lost = lost
         self._executor: Executor | None = None
 
     def __enter__(self) -> "Pool":
@@ -94,7 +103,7 @@ class Pool:
         Raises
         ------
         JumpcadError
-            If the model itself cannot work, whatever the design.
+            If the model itself cannot work, whatever the design, or there is nobody to evaluate any more.
         """
         sent = cloudpickle.dumps((model, model.versions()))  # once per batch; executors would do it once per task
         waiting = [(index, Variant.of(design)) for index, design in enumerate(designs)][::-1]
@@ -104,8 +113,8 @@ class Pool:
             raise_if_seen()
             while waiting and len(running) <= self.workers:  # one more keeps workers busy while results travel
                 task = waiting.pop()
-                running[self._submit(sent, task[1])] = task
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                running[self._submit(evaluate_one, sent, task[1], self._limit_s)] = task
+            for future in self._ended(running):
                 index, variant = running.pop(future)
                 outcome = self._outcome(index, future)
                 if isinstance(outcome, str):
@@ -115,22 +124,55 @@ class Pool:
         for index, variant, reason in suspects:
             raise_if_seen()
             self.notice(f"an evaluation failed and is repeated alone: {reason}")
-            again = self._outcome(index, self._submit(sent, variant))
+            (future,) = self._ended([self._submit(evaluate_one, sent, variant, self._limit_s)])
+            again = self._outcome(index, future)
             if isinstance(again, str):
                 values = ", ".join(value if isinstance(value, str) else f"{value:.6g}" for value in variant.key)
                 self.notice(f"a design is quarantined: {again}; before: {reason}; design: {values}")
                 again = Outcome(index, Evaluation(QUARANTINED, detail=again), 0.0)
             yield again
 
-    def _submit(self, sent: bytes, variant: Variant) -> Future[bytes]:
+    def shared(self, function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
+        """Return what a function returns for each argument: the last ones here, the first by workers that are free.
+
+        Nothing waits for them: what they have not done, or cannot do, is done here.
+        """
+        parts = [arguments[start : start + SHARE] for start in range(0, len(arguments), SHARE)]
+        try:
+            sent = cloudpickle.dumps(function) if self.workers > 1 and len(parts) > 1 else b""
+        except Exception:  # an objective of the user's that holds what cannot be sent
+            sent = b""
+        if not sent:
+            return one_by_one(function, arguments)
+        others = [self._submit(share, sent, part) for part in parts]
+        found: list[T] = []
+        for part, other in zip(parts[::-1], others[::-1], strict=True):
+            done = not other.cancel() and other.done() and other.exception() is None
+            found = [*(other.result() if done else one_by_one(function, part)), *found]
+        return found
+
+    def _ended(self, running: Iterable[Future[bytes]]) -> Iterable[Future[bytes]]:
+        """Return the futures that have ended, one or more."""
+        while not (ended := wait(running, ANSWER_S, FIRST_COMPLETED).done):
+            self._require_somebody()
+        return ended
+
+    def _require_somebody(self) -> None:
+        if reason := self._lost():
+            raise JumpcadError(reason)
+
+    def _submit(self, function: Callable[..., T], *arguments: Any) -> Future[T]:
         if self._executor is None:
             self._executor = self._open()
         try:
-            return self._executor.submit(evaluate_one, sent, variant, self._limit_s)
+            return self._executor.submit(function, *arguments)
         except BrokenExecutor:
             self.close()
             self._executor = self._open()
-            return self._executor.submit(evaluate_one, sent, variant, self._limit_s)
+            return self._executor.submit(function, *arguments)
+        except Exception:  # a Dask client is closed when its scheduler does not come back
+            self._require_somebody()
+            raise
 
     def _outcome(self, index: int, future: Future[bytes]) -> Outcome | str:
         """Return what a future holds: an outcome, or in one line how the evaluation failed."""
@@ -172,8 +214,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
         return Pool(InProcess, InProcess.shutdown, 1)
 
     require_descriptors(workers)
-    copies = iter([may_copy()])  # not again, where workers were lost: then this process has threads that watched them
-    return Pool(lambda: LocalWorkers(workers, next(copies, False)), LocalWorkers.end, workers, limit_s)
+    return Pool(lambda: LocalWorkers(workers), LocalWorkers.end, workers, limit_s)
 
 
 @check_arguments
@@ -213,22 +254,59 @@ def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
         distributed: Any = importlib.import_module("distributed")  # its annotations are incomplete
     except ImportError:
         raise JumpcadError("Dask is not installed: pip install 'jumpcad[dask]', or use --workers") from None
+    for name in logging.root.manager.loggerDict:
+        if name.split(".")[0] in ("distributed", "tornado"):  # what they say of a lost connection is told in one line
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     try:
-        # First, because a client with a wrong address prints an error again when it is garbage-collected.
-        distributed.comm.resolve_address(address)
-        client = distributed.Client(address, timeout=ANSWER_S, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise JumpcadError(f"no Dask scheduler answers at {address}: {error}") from None
-    workers = sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
-    if workers == 0:
+        if address.startswith("inproc:"):
+            raise ValueError("that is within one process")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of other versions: they are looked at below
+            # First, because a client with a wrong address prints an error again when it is garbage-collected.
+            distributed.comm.resolve_address(address)
+            client = distributed.Client(address, timeout=ANSWER_S, set_as_default=False)
+    except Exception as error:  # each protocol has its own
+        reason = str(error).split("\n")[0] or type(error).__name__
+        raise JumpcadError(f"no Dask scheduler answers at {address}: {reason}") from None
+    try:
+        workers = sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
+        if workers == 0:
+            raise JumpcadError(
+                f"the Dask scheduler at {address} has no workers: start some with `dask worker {address}`"
+            )
+        _require_same_versions(client)
+    except BaseException:
         client.close()
-        raise JumpcadError(f"the Dask scheduler at {address} has no workers: start some with `dask worker {address}`")
+        raise
+
+    def lost() -> str:
+        try:
+            known = client.sync(client.scheduler.identity, n_workers=-1, callback_timeout=ANSWER_S)
+        except Exception:  # whatever the connection raises
+            return f"the Dask scheduler at {address} answers no more: start it and its workers again, {GO_ON}"
+        ended = f"the Dask scheduler at {address} has no workers any more: start some, {GO_ON}"
+        return "" if known["workers"] else ended
 
     def end_executor(executor: Any) -> None:
-        executor.shutdown(wait=False)
+        if client.status == "running":
+            executor.shutdown(wait=False)
         client.close()
 
-    return Pool(lambda: client.get_executor(pure=False), end_executor, workers, limit_s)
+    return Pool(lambda: client.get_executor(pure=False), end_executor, workers, limit_s, lost=lost)
+
+
+def _require_same_versions(client: Any) -> None:
+    """Require Python and jumpcad of scheduler and workers, which read what is sent to them, to be those of here."""
+
+    def versions(one: Any) -> str:
+        python = dict(one["host"])["python"].split(".")[:2]
+        return f"Python {'.'.join(python)} and jumpcad {dict(one['packages'])['jumpcad'] or '(none)'}"
+
+    found = client.get_versions(packages=["jumpcad"])
+    own = versions(found["client"])
+    for place, other in {"the Dask scheduler": found["scheduler"], **found["workers"]}.items():
+        if versions(other) != own:
+            raise JumpcadError(f"{place} has {versions(other)}, not {own}: install there what is installed here")
 
 
 class InProcess(Executor):

@@ -7,18 +7,18 @@ import logging
 import os
 import pickle
 import signal
-import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from functools import lru_cache
-from multiprocessing import get_context, resource_tracker
+from multiprocessing import resource_tracker
 from typing import Any
 
 import cloudpickle
 import loky
 
+from jumpcad.beside import one_by_one
 from jumpcad.blas_threads import ONE_THREAD, one_thread
 from jumpcad.errors import JumpcadError
 from jumpcad.gc_tuning import collect_seldom
@@ -29,16 +29,12 @@ from jumpcad.search.study.variant import Variant
 
 
 class LocalWorkers(loky.ProcessPoolExecutor):  # type: ignore[misc]  # loky has no annotations
-    """An executor whose processes start while interrupts are held back, and end with this process.
+    """An executor whose processes start while interrupts are held back, and end with this process."""
 
-    Copies of this process have loaded what it has: others need a second for that.
-    """
-
-    def __init__(self, workers: int, copies: bool = False) -> None:
+    def __init__(self, workers: int) -> None:
         resource_tracker.ensure_running()  # of Python 3.11, it unblocks interrupts when it starts
-        how: dict[str, Any] = {"context": get_context("fork")} if copies else {"env": ONE_THREAD}
         with deferred_interrupts():
-            super().__init__(workers, initializer=start_worker, initargs=(os.getpid(),), **how)
+            super().__init__(workers, initializer=start_worker, initargs=(os.getpid(),), env=ONE_THREAD)
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Send a task; the first one starts the processes, and the thread that starts others in place of lost ones."""
@@ -80,7 +76,6 @@ def start_worker(parent: int) -> None:
     one_thread()
     # Engines print a banner; the parent may be printing one JSON document.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    sys.stderr = sys.__stderr__  # what shows progress may stand there, locked by a thread that is not in this copy
     threading.Thread(target=_end_with_parent, args=(parent,), daemon=True).start()
     collect_seldom()
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # as in `jumpcad.cli.commands.run`
@@ -106,6 +101,11 @@ def evaluate_one(sent: bytes, one: Variant, limit_s: float) -> bytes:
         # A model that is made in no workshop gets the design alone.
         outcome: Evaluation = model(one.design, *([one.workshop] if one.workshop else []))
     return pickle.dumps((outcome, time.perf_counter() - start))
+
+
+def share(sent: bytes, arguments: Sequence[Any]) -> list[Any]:
+    """Return what a pickled function returns for each argument, in a worker."""
+    return one_by_one(cloudpickle.loads(sent), arguments)
 
 
 @lru_cache(maxsize=1)

@@ -75,8 +75,19 @@ def test_sweeps_show_the_centre_without_a_score_that_nobody_computed(tmp_path, r
     assert list(drawn.pop("centre design").get_xdata()) == [ratio, ratio]
     low, high = axes.get_xlim()
     assert low < ratio < high
-    points = [(x, y) for line in drawn.values() for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)]
-    assert [point for point in points if np.isfinite(point[1])] == [(0.3, 5.0), (0.5, 9.0), (0.8, 0.0)]
+    points = [*zip(*drawn["jumps"].get_data(), strict=True)]
+    assert [point for point in points if np.isfinite(point[1])] == [(0.3, 5.0), (0.5, 9.0)]
+    assert list(drawn["rejected"].get_xdata()) == [0.8]
+    assert axes.get_ylim()[0] > 0.0  # a cross is no score
+
+
+def test_sweeps_of_several_parameters_have_one_scale(tmp_path):
+    with studied(tmp_path / "s.db", Space.parse(fix=REST), "ga", 40) as store:
+        best = next(trial for trial in store.trials() if trial.score is not None)
+    swept = [[replace(best, score=score) for score in scores] for scores in ((1.0, 2.0), (5.0, 9.0))]
+    found = [Sweep("c_coef", np.array([0.5, 0.7]), trials) for trials in swept]
+    first, second = plots.sweeps(found, find_objective("fitness")).axes
+    assert first.get_ylim() == second.get_ylim()
 
 
 def trial(unit, score, *reasons):

@@ -6,7 +6,9 @@ import select
 import subprocess
 import sys
 import textwrap
+import time
 from concurrent.futures import BrokenExecutor, Future
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -132,11 +134,66 @@ def test_dask_loses_nothing_when_a_worker_is_killed(tmp_path):
         assert found == [Hill()(design) for design in DESIGNS]
 
 
+@pytest.mark.thorough
+@pytest.mark.parametrize(("dies", "said"), [(0, "answers no more"), (1, "has no workers any more")])
+def test_a_search_without_scheduler_or_workers_ends(tmp_path, monkeypatch, capfd, dies, said):
+    """At once, as when memory ran out: nobody says goodbye."""
+    needs.package("distributed")
+    monkeypatch.setattr("jumpcad.search.study.pool.ANSWER_S", 5.0)
+    known, dask = tmp_path / "scheduler.json", [sys.executable, "-m", "dask"]
+    once = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": tmp_path}
+    commands = ["scheduler --port 0 --no-dashboard", "worker --no-nanny --nthreads 1 --no-dashboard"]
+    programs = [subprocess.Popen([*dask, *one.split(), "--scheduler-file", known], **once) for one in commands]
+    try:
+        address = wait_for_workers(known)
+        with dask_pool(address) as pool:
+            outcomes = pool.evaluate(Hill(pause_s=0.1), DESIGNS)
+            next(outcomes)
+            programs[dies].kill()
+            with pytest.raises(JumpcadError, match=said):
+                list(outcomes)
+    finally:
+        for one in programs:
+            one.kill()
+            one.wait()
+    assert capfd.readouterr().err == ""
+
+
+def wait_for_workers(known):
+    """Return the address of a scheduler, from its file, when it has a worker."""
+    import distributed
+
+    while not known.exists():
+        time.sleep(0.1)
+    with distributed.Client(scheduler_file=str(known), set_as_default=False) as client:
+        client.wait_for_workers(1)
+        return client.scheduler.address
+
+
 def test_dask_that_does_not_answer(monkeypatch):
     monkeypatch.setattr("jumpcad.search.study.pool.ANSWER_S", 0.5)
     needs.package("distributed")
-    with pytest.raises(JumpcadError, match="no Dask scheduler answers at"):
-        dask_pool("tcp://127.0.0.1:1")
+    for address in ("tcp://127.0.0.1:1", "tls://127.0.0.1:1", "ucx://127.0.0.1:1", "inproc://a", "tcp://127.0.0.1:x"):
+        with pytest.raises(JumpcadError, match=f"^no Dask scheduler answers at {address}: [^\n]+$"):
+            dask_pool(address)
+
+
+def test_other_versions_are_named_before_anything_is_sent():
+    def host(python, package):
+        return {"host": [("python", python)], "packages": {"jumpcad": package}}
+
+    def client(scheduler, worker):
+        found = {"client": host("3.11.7.final.0", "0.1.0"), "scheduler": scheduler, "workers": {"tcp://a": worker}}
+        return SimpleNamespace(get_versions=lambda packages: found)
+
+    good = host("3.11.2.final.0", "0.1.0")
+    pool_module._require_same_versions(client(good, good))
+    with pytest.raises(
+        JumpcadError, match=r"^tcp://a has Python 3.12 and jumpcad 0.1.0, not Python 3.11 and jumpcad 0.1.0: install"
+    ):
+        pool_module._require_same_versions(client(good, host("3.12.1.final.0", "0.1.0")))
+    with pytest.raises(JumpcadError, match=r"^the Dask scheduler has Python 3.11 and jumpcad \(none\), not "):
+        pool_module._require_same_versions(client(host("3.11.7", None), good))
 
 
 def test_a_cluster_has_its_own_workers_and_the_same_timeout(monkeypatch):
