@@ -51,6 +51,13 @@ class Article(TomlTable):
         return ()
 
 
+    def _follows(self, **values: float) -> None:
+        """Set values that were not given and follow from others: an article is read once, then never changed."""
+        for key, value in values.items():
+            if key not in self.model_fields_set:
+                self.__dict__[key] = value
+
+
 AnyArticle = TypeVar("AnyArticle", bound=Article)
 
 

@@ -11,6 +11,8 @@ from jumpcad.files.names import Name, OptionalName, Text
 
 # Lower limits keep quotients finite: they are below any figure of a robot that is printed and jumps.
 Positive = Annotated[float, Field(ge=1e-4, le=1e4)]
+Price = Annotated[float, Field(ge=0, le=1e4)]
+"""Of what is there already, 0."""
 SmallPositive = Annotated[float, Field(ge=1e-12, le=1e-5)]
 Backlash = Annotated[float, Field(ge=0, le=30)]
 Length = Annotated[float, Field(ge=0.01, le=1e4)]
@@ -50,7 +52,7 @@ class Material(TomlTable):
     strength_in_plane_mpa: Stress
     strength_interlayer_mpa: Stress
     modulus_mpa: Annotated[float, Field(ge=1, le=1e6)]
-    price_eur_per_kg: Positive | None = None
+    price_eur_per_kg: Price | None = None
     nozzle_c: Annotated[float, Field(ge=100, le=500)] | None = None
     bed_c: Annotated[float, Field(ge=0, le=200)] | None = None
     source: Text = ""

@@ -39,7 +39,7 @@ from jumpcad.workshop.tables import (
     Masses,
     Material,
     Pins,
-    Positive,
+    Price,
     Printer,
     Process,
     ReleaseTable,
@@ -62,7 +62,8 @@ OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs", "pads")
 class Workshop(Record):
     """Everything that a robot depends on besides its eight numbers.
 
-    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials. `motors`,
+    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials; 0 is what is
+    there already, which is not ordered. `motors`,
     `bearings`, `batteries`, `boards`, `springs` and `pads` are the user's own parts alone.
     """
 
@@ -81,7 +82,7 @@ class Workshop(Record):
     release: ReleaseTable
     safety: Safety
     mass: Masses
-    prices_eur: dict[Name, Positive]
+    prices_eur: dict[Name, Price]
     motors: OwnParts[Motor] = Field(default_factory=dict)
     bearings: OwnParts[Bearing] = Field(default_factory=dict)
     batteries: OwnParts[Battery] = Field(default_factory=dict)

@@ -1,10 +1,11 @@
 """Mechanical articles: the stiffness of rubber blocks, the turns of springs with tangent arms, room in a bearing."""
 
 import math
+import re
 
 import pytest
 
-from jumpcad.catalogue import load_catalogue
+from jumpcad.catalogue import StockSpring, load_catalogue
 
 
 def test_a_wide_pad_is_stiffer_than_its_area_says() -> None:
@@ -81,3 +82,29 @@ def test_a_rate_per_radian_per_turn_or_in_newton_metres_is_refused(name: str) ->
     bronze = spring.model_copy(update={"rate_nmm_per_deg": 110.0 / 206.0 * spring.rate_nmm_per_deg})
     assert not list(bronze.contradictions())
     assert not list(spring.model_copy(update={"rate_nmm_per_deg": 1.1 * by_hand}).contradictions())
+
+
+@pytest.mark.parametrize("name", list(load_catalogue().springs))
+def test_a_spring_as_a_shop_describes_it_has_the_makers_rate(name: str) -> None:
+    """Of wire, outer diameter, turns, angle and arms alone, within 6 %; a rate that is given counts."""
+    known = load_catalogue().springs[name]
+    words = {"wire_mm", "turns", "arm_angle_deg", "arm_length_mm"}
+    figures = known.model_dump(include=words) | {"name": "own", "source": "a drawer"}
+    outer = known.inside_diameter_mm + 2.0 * known.wire_mm
+    found = StockSpring(**figures, outer_diameter_mm=outer)
+    assert found.inside_diameter_mm == pytest.approx(known.inside_diameter_mm)
+    assert found.rate_nmm_per_deg == pytest.approx(known.rate_nmm_per_deg, rel=0.06)
+    measured = known.rate_nmm_per_deg
+    assert StockSpring(**figures, outer_diameter_mm=outer, rate_nmm_per_deg=measured).rate_nmm_per_deg == measured
+    for wrong, key in (
+        ({}, "inside_diameter_mm"), ({"outer_diameter_mm": 3.0 * known.wire_mm}, "outer_diameter_mm"),
+        ({"outer_diameter_mm": outer, "inside_diameter_mm": outer}, "outer_diameter_mm"),
+    ):  # fmt: skip
+        assert (key,) in [place for place, *_ in StockSpring(**figures, **wrong).contradictions()], wrong
+
+
+def test_turns_that_an_angle_does_not_have_are_named_for_both_sides_of_it() -> None:
+    """Six turns have opposite arms; a quarter turn more closes them to 90°, a quarter less opens them to 270°."""
+    spring = load_catalogue().springs["9271K619"].model_copy(update={"turns": 6.0, "arm_angle_deg": 90.0})
+    ((_, _, reason),) = spring.contradictions()
+    assert re.search(r"90° take 6.25 turns, .*270°.* 5.75", reason)

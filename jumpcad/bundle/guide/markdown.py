@@ -41,7 +41,9 @@ def bill_text(bill: Bill) -> str:
     """Return the guide's sections `Print` and `Buy`; times and prices have columns where any is known."""
     printed = [item for item in bill.items if item.kind != "bought"]
     bought = [item for item in bill.items if item.kind == "bought"]
-    return render(BILL, {"bill": bill, "printed": printed, "bought": bought, "duration": duration, "euros": euros})
+    there = [item.name for item in bought if not item.ordered]
+    values = {"bill": bill, "printed": printed, "bought": bought, "there": there, "duration": duration, "euros": euros}
+    return render(BILL, values)
 
 
 def with_bill(order: str, bill: Bill) -> str:
