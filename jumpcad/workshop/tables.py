@@ -66,12 +66,18 @@ class Roles(TomlTable):
     gears: Name
 
 
+PER_SIDE = ("press_mm", "eye_mm", "lying_mm", "sliding_mm", "loose_mm")
+DIAMETERS = ("m2_tap_mm", "m2_clearance_mm", "m3_tap_mm", "m3_insert_mm", "m3_clearance_mm")
+"""Fits of holes, by what they give."""
+
+
 class Fits(TomlTable):
     """Every tolerance offset, as modelled. Fits are added per side; screw holes are given by their drawn diameter.
 
     The limits allow for any usable printer: holes come out up to 1 mm too small in diameter, hardly ever
     too large. What a shaft turns in or passes is never drawn smaller than the shaft; a screw cuts its thread in a hole
-    between its core and its own diameter, and passes one that is wider than itself.
+    between its core and its own diameter, and passes one that is wider than itself. Where they still come out
+    `holes_small_mm` smaller in diameter than they should, all are drawn wider by it; it is no play.
     """
 
     press_mm: Annotated[float, Field(ge=-0.2, le=0.5)]
@@ -80,7 +86,7 @@ class Fits(TomlTable):
     lying_mm: Annotated[float, Field(ge=-0.2, le=0.8)]
     sliding_mm: Annotated[float, Field(ge=0, le=0.8)]
     loose_mm: Annotated[float, Field(ge=0, le=1)]
-    hole_allowance_diameter_mm: Annotated[float, Field(ge=-0.4, le=1)]
+    holes_small_mm: Annotated[float, Field(ge=-0.4, le=1)]
     backlash_circumferential_mm: Annotated[float, Field(ge=0, le=1)]
     m2_tap_mm: Annotated[float, Field(ge=1.4, le=2.2)]
     m2_clearance_mm: Annotated[float, Field(ge=2, le=3.5)]
@@ -94,6 +100,17 @@ class Fits(TomlTable):
     first_layer_chamfer_mm: Annotated[float, Field(ge=0, le=2)]
     overhang_deg: Annotated[float, Field(ge=0, le=80)]
     bridge_mm: Annotated[float, Field(ge=0.01, le=200)]
+
+    @property
+    def drawn(self) -> "Fits":
+        """The fits with which holes are drawn: wider by `holes_small_mm`, of which nothing is left."""
+        more = self.holes_small_mm
+        if more == 0.0:
+            return self
+        shares = dict.fromkeys(PER_SIDE, 0.5) | dict.fromkeys(DIAMETERS, 1.0) | {"rib_mm": -0.5, "holes_small_mm": -1.0}
+        return self.model_copy(
+            update={key: round(getattr(self, key) + share * more, 6) for key, share in shares.items()}
+        )
 
     @property
     def link_tolerance_mm(self) -> float:

@@ -38,7 +38,7 @@ def test_free_text_is_one_line_that_steers_no_terminal(text, written):
 
 
 def test_fits_that_no_printer_needs_are_refused(written):
-    fits = ("press_mm", "sliding_mm", "loose_mm", "hole_allowance_diameter_mm")
+    fits = ("press_mm", "sliding_mm", "loose_mm", "holes_small_mm")
     with pytest.raises(JumpcadError) as caught:
         load_workshop(written("[fits]\n" + "".join(f"{key} = -0.5\n" for key in fits)))
     assert all(f"fits.{key} = -0.5: must be at least" in str(caught.value) for key in fits)
