@@ -50,7 +50,6 @@ class Article(TomlTable):
         """Return values that are allowed alone but not together."""
         return ()
 
-
     def _follows(self, **values: float) -> None:
         """Set values that were not given and follow from others: an article is read once, then never changed."""
         for key, value in values.items():

@@ -110,8 +110,8 @@ class Motor(Article):
             return
         if self.stall_torque_nm > (most := self.lossless_nm):
             reason = (
-                f"must be at most {most:.3g}, which no_load_rpm and stall_current_a give at {self.voltage_v:g} V with an "
-                f"efficiency of 100 %; this is {100.0 * self.stall_torque_nm / most:.0f} %: is it in N·m?"
+                f"must be at most {most:.3g}, which no_load_rpm and stall_current_a give at {self.voltage_v:g} V "
+                f"with an efficiency of 100 %; this is {100.0 * self.stall_torque_nm / most:.0f} %: is it in N·m?"
             )
             yield ("stall_torque_nm",), self.stall_torque_nm, reason
         elif self.efficiency and abs(self.stall_torque_nm / most / self.efficiency - 1.0) > 1e-3:

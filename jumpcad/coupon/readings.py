@@ -259,4 +259,5 @@ def _out_of_range(key: str, value: float | None, offsets: tuple[float, ...]) -> 
         yield f"{key} = {value:g}: the workshop's legs have no bearing; leave it out"
     elif not offsets[0] <= value <= offsets[-1]:
         limits = f"{offsets[0]:.2f}…{offsets[-1]:.2f}"
-        yield f"{key} = {value:g}: must be {limits} as engraved; if nothing fits, give axle_press_mm or press_hole_mm alone and print again"
+        alone = "if nothing fits, give press_hole_mm alone, and print the coupon of that workshop"
+        yield f"{key} = {value:g}: must be {limits} as engraved; {alone}"

@@ -3,7 +3,7 @@
 import math
 
 from jumpcad.catalogue import StockSpring, Wire
-from jumpcad.design import Design
+from jumpcad.design import Design, limits_of
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, torsion_spring
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, beside_mm, between_pins_rad
 from jumpcad.errors import CannotBuildError
@@ -82,6 +82,22 @@ def fitted_spring(
             "spring_bushing", spring.mandrel_mm - limits.mandrel_min_mm,
         )  # fmt: skip
     return spring
+
+
+def rest_angles_deg(stock: StockSpring, preload_rad: float, limits: SpringLimits) -> list[int]:
+    """Return the rest angles, in whole degrees, at which the arms of a stock spring reach their pins in a free leg."""
+    shortest, longest = _arm_turns_rad(stock, limits)
+
+    def fits(angle_deg: int) -> bool:
+        bent = preload_rad + FULL_TURN_RAD * stock.wound_turns
+        turns = (
+            (between_pins_rad(pin, -math.radians(angle_deg)) - bent) % FULL_TURN_RAD / 2.0
+            for pin in limits.plate_pins_rad
+        )
+        return any(shortest <= turn <= longest for turn in turns)
+
+    lower, upper = limits_of("rest_angle_deg")
+    return [angle for angle in range(math.ceil(lower), math.floor(upper) + 1) if fits(angle)]
 
 
 def _arm_turns_rad(stock: StockSpring, limits: SpringLimits) -> tuple[float, float]:

@@ -45,7 +45,9 @@ def test_a_printer_that_narrows_holes_gets_fits_that_fit(shrinkage_mm: float) ->
         assert play <= bore - shrinkage_mm - 3.0 < play + 0.1  # within one step of what was wanted, in diameter
     default_mm = 0.2  # that the default's press fit allows for
     for unread in (HoleSizes.lying, HoleSizes.eye):  # follow
-        assert unread(holes, 3.0) - shrinkage_mm == pytest.approx(unread(coupon_holes(WORKSHOP), 3.0) - default_mm, abs=0.1)
+        assert unread(holes, 3.0) - shrinkage_mm == pytest.approx(
+            unread(coupon_holes(WORKSHOP), 3.0) - default_mm, abs=0.1
+        )
 
 
 def test_one_number_corrects_all_holes_of_a_printer_that_narrows_them_and_is_no_play() -> None:
@@ -57,7 +59,9 @@ def test_one_number_corrects_all_holes_of_a_printer_that_narrows_them_and_is_no_
         assert size(coupon_holes(tried), 3.0) == pytest.approx(size(coupon_holes(WORKSHOP), 3.0) + 0.2)
     more = read("[gauge.PETG]\naxle_press_mm = 0.25", tried)  # of its own coupon: 0.05 mm a side more
     assert more.fits.holes_small_mm == pytest.approx(0.3)
-    drawn = read("[gauge.PETG]\naxle_press_mm = 0.2\n[joints]\nlying_mm = 0.22\nm2_tap_mm = 1.85\nrib_mm = 0.0").fits.drawn
+    drawn = read(
+        "[gauge.PETG]\naxle_press_mm = 0.2\n[joints]\nlying_mm = 0.22\nm2_tap_mm = 1.85\nrib_mm = 0.0"
+    ).fits.drawn
     assert (drawn.lying_mm, drawn.m2_tap_mm, drawn.rib_mm, drawn.sliding_mm) == pytest.approx((0.22, 1.85, 0.0, 0.3))
     found = build(load_design("kenan-2.0"), tried)
     assert not errors(constraint_findings(found))
