@@ -48,10 +48,22 @@ def built_and_checked(design: Design, workshop: Workshop, name: str) -> tuple[Ro
         raise CannotBuildError(
             f"{first.name}: {first.message}: {first.remedy}", first.name, first.margin, unit=first.unit
         )
-    growth, uses = Growth(), dict[tuple[str, str], tuple[float, float]]()
-    ever_weak: list[Finding] = []
+    growth, asked, ever_weak = Growth(), Growth.asked(workshop), list[Finding]()
     robot = assembled(design, workshop, name, growth)
-    findings = constraint_findings(robot)
+    robot, findings, growth = _grown(robot, growth, ever_weak)
+    grown = growth.grown(ever_weak)
+    if asked != Growth():  # stronger than what the limits ask for
+        growth = growth.times(asked)
+        robot, findings, growth = _grown(assembled(design, workshop, name, growth, robot), growth, ever_weak)
+    robot = replace(robot, grown=grown) if grown else robot
+    if "balance" in (workshop.seats.battery, workshop.seats.boards):
+        return _balanced(robot, findings)
+    return robot, findings
+
+
+def _grown(robot: Robot, growth: Growth, ever_weak: list[Finding]) -> tuple[Robot, list[Finding], Growth]:
+    """Return a robot grown until its limits hold or nothing has room, with its findings; `ever_weak` gets those."""
+    findings, uses = constraint_findings(robot), dict[tuple[str, str], tuple[float, float]]()
     for _ in range(GROWTH_ROUNDS):
         weak = [finding for finding in errors(findings) if finding.grows]
         if not weak:
@@ -63,10 +75,7 @@ def built_and_checked(design: Design, workshop: Workshop, name: str) -> tuple[Ro
         ever_weak += weak
         robot, growth = found
         findings = constraint_findings(robot)
-    robot = replace(robot, grown=growth.grown(ever_weak)) if ever_weak else robot
-    if "balance" in (workshop.seats.battery, workshop.seats.boards):
-        return _balanced(robot, findings)
-    return robot, findings
+    return robot, findings, growth
 
 
 def _balanced(robot: Robot, findings: list[Finding]) -> tuple[Robot, list[Finding]]:

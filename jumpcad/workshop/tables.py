@@ -18,6 +18,7 @@ Backlash = Annotated[float, Field(ge=0, le=30)]
 Length = Annotated[float, Field(ge=0.01, le=1e4)]
 BedSide = Annotated[float, Field(ge=10, le=1e4)]
 Stress = Annotated[float, Field(ge=0.1, le=1e4)]
+Stronger = Annotated[float, Field(ge=1, le=3)]
 Share = Annotated[float, Field(ge=1e-3, le=1)]
 
 
@@ -280,6 +281,18 @@ class Safety(TomlTable):
     def motor_share(self) -> float:
         """Share of a motor's allowed torque that the computed springs may need."""
         return (1.0 - self.motor_torque_reserve) / (1.0 + self.spring_rate_scatter)
+
+
+class StrengthTable(TomlTable):
+    """By how much parts that broke are made thicker or higher than their limits ask for; `eyes` are the links'."""
+
+    main_leg: Stronger
+    front_link: Stronger
+    eyes: Stronger
+    foot: Stronger
+    body_plates: Stronger
+    cam: Stronger
+    stop_bar: Stronger
 
 
 class ReleaseTable(TomlTable):

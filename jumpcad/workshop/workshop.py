@@ -47,6 +47,7 @@ from jumpcad.workshop.tables import (
     Safety,
     Seats,
     SpringTable,
+    StrengthTable,
 )
 
 Role = Literal["links", "body", "gears"]
@@ -81,6 +82,7 @@ class Workshop(Record):
     spring: SpringTable
     release: ReleaseTable
     safety: Safety
+    strength: StrengthTable
     mass: Masses
     prices_eur: dict[Name, Price]
     motors: OwnParts[Motor] = Field(default_factory=dict)
