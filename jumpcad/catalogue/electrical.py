@@ -86,7 +86,8 @@ class Motor(Article):
     def _completed(self) -> Self:
         ratio, free_a = ROTOR_RPM / self.no_load_rpm, FREE_SHARE * self.stall_current_a
         self._follows(ratio=float(f"{min(max(ratio, 1.0), 1e5):.3g}"), no_load_current_a=max(free_a, 1e-4))
-        self._follows(stall_torque_nm=float(f"{(self.efficiency or EFFICIENCY) * self.lossless_nm:.4g}"))
+        stall_nm = float(f"{(self.efficiency or EFFICIENCY) * self.lossless_nm:.4g}")
+        self._follows("efficiency", stall_torque_nm=stall_nm)
         return self
 
     def contradictions(self) -> Iterator[Contradiction]:

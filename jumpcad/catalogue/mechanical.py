@@ -79,7 +79,8 @@ class StockSpring(Article):
     @model_validator(mode="after")
     def _completed(self) -> Self:
         if self.outer_diameter_mm is not None:
-            self._follows(inside_diameter_mm=round(self.outer_diameter_mm - 2.0 * self.wire_mm, 6))
+            inside = round(self.outer_diameter_mm - 2.0 * self.wire_mm, 6)
+            self._follows("outer_diameter_mm" if inside > self.wire_mm else "", inside_diameter_mm=inside)
         if self.inside_diameter_mm > 0.0:
             self._follows(rate_nmm_per_deg=float(f"{self._steel_rate(ARMS_SHARE):.4g}"))
         return self
@@ -88,7 +89,7 @@ class StockSpring(Article):
         """Yield wire too thick for the coil, and an angle or a rate that turns and wire do not have."""
         if (outer := self.outer_diameter_mm) is not None:
             inside = outer - 2.0 * self.wire_mm
-            if inside <= self.wire_mm + 1e-6:
+            if round(inside, 6) <= self.wire_mm:
                 reason = f"must be more than three wires, {3.0 * self.wire_mm:g}: measure coil and wire again"
                 yield ("outer_diameter_mm",), outer, reason
                 return
