@@ -13,7 +13,7 @@ from jumpcad.files.names import composed
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import Robot, require_name
-from jumpcad.strength.growth import Growth
+from jumpcad.strength.growth import Grown, Growth
 from jumpcad.workshop import Workshop, load_workshop, varied
 
 GROWTH_ROUNDS = 10
@@ -48,22 +48,19 @@ def built_and_checked(design: Design, workshop: Workshop, name: str) -> tuple[Ro
         raise CannotBuildError(
             f"{first.name}: {first.message}: {first.remedy}", first.name, first.margin, unit=first.unit
         )
-    growth, asked, ever_weak = Growth(), Growth.asked(workshop), list[Finding]()
-    robot = assembled(design, workshop, name, growth)
-    robot, findings, growth = _grown(robot, growth, ever_weak)
-    grown = growth.grown(ever_weak)
-    if asked != Growth():  # stronger than what the limits ask for
-        growth = growth.times(asked)
-        robot, findings, growth = _grown(assembled(design, workshop, name, growth, robot), growth, ever_weak)
+    robot, findings, growth, grown = _grown(assembled(design, workshop, name, Growth()), Growth())
+    if (stronger := growth.stronger(workshop)) != growth:
+        robot, findings, *_ = _grown(assembled(design, workshop, name, stronger, robot), stronger)
     robot = replace(robot, grown=grown) if grown else robot
     if "balance" in (workshop.seats.battery, workshop.seats.boards):
         return _balanced(robot, findings)
     return robot, findings
 
 
-def _grown(robot: Robot, growth: Growth, ever_weak: list[Finding]) -> tuple[Robot, list[Finding], Growth]:
-    """Return a robot grown until its limits hold or nothing has room, with its findings; `ever_weak` gets those."""
+def _grown(robot: Robot, growth: Growth) -> tuple[Robot, list[Finding], Growth, tuple[Grown, ...]]:
+    """Return a robot grown until its limits hold or nothing has room, its findings, by what it grew, and for which."""
     findings, uses = constraint_findings(robot), dict[tuple[str, str], tuple[float, float]]()
+    ever_weak: list[Finding] = []
     for _ in range(GROWTH_ROUNDS):
         weak = [finding for finding in errors(findings) if finding.grows]
         if not weak:
@@ -75,7 +72,7 @@ def _grown(robot: Robot, growth: Growth, ever_weak: list[Finding]) -> tuple[Robo
         ever_weak += weak
         robot, growth = found
         findings = constraint_findings(robot)
-    return robot, findings, growth
+    return robot, findings, growth, growth.grown(ever_weak)
 
 
 def _balanced(robot: Robot, findings: list[Finding]) -> tuple[Robot, list[Finding]]:

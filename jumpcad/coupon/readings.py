@@ -31,7 +31,7 @@ from jumpcad.files import Contradiction, Record, TomlTable
 from jumpcad.files.names import Name
 from jumpcad.strength.stress import VON_MISES
 from jumpcad.workshop import Workshop
-from jumpcad.workshop.tables import DIAMETERS
+from jumpcad.workshop.tables import SHARES
 
 LEAST_PLAY_MM = 0.05
 """Circumferential play that keeps printed gears from binding where they run eccentrically (judgement)."""
@@ -40,10 +40,6 @@ PEG_ERROR_MM = 0.5
 
 
 AXLE_KEYS = ("axle_press_mm", "axle_sliding_mm", "axle_loose_mm")
-
-
-HOLE_ERROR_MM = 0.6
-"""Largest error of a hole's diameter, as of pegs; a caliper reads small holes up to 0.1 mm too small."""
 
 
 class GaugeReadings(TomlTable):
@@ -190,7 +186,7 @@ def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
     if loose:
         fits["loose_mm"] = max(loose)
     if small := _smaller_mm(readings, workshop) + workshop.fits.holes_small_mm:
-        fits = {key: value - _share(key) * small for key, value in fits.items()}
+        fits = {key: value - SHARES[key] * small for key, value in fits.items()}
     if press or readings.press_hole_mm is not None:
         fits["holes_small_mm"] = small
     teeth = readings.gauge.get(workshop.material_name("gears"), GaugeReadings())
@@ -204,8 +200,7 @@ def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
 
 def _press(readings: Readings) -> list[float]:
     """Return the readings of press fits."""
-    gauges = readings.gauge.values()
-    read = [value for gauge in gauges for value in (gauge.axle_press_mm, gauge.bearing_press_mm)]
+    read = [value for one in readings.gauge.values() for value in (one.axle_press_mm, one.bearing_press_mm)]
     return _given([*read, readings.joints.seat_press_mm])
 
 
@@ -214,11 +209,6 @@ def _smaller_mm(readings: Readings, workshop: Workshop) -> float:
     if press := _press(readings):
         return 2.0 * (max(press) - workshop.fits.drawn.press_mm)
     return 0.0 if readings.press_hole_mm is None else workshop.bought.axle_mm - readings.press_hole_mm
-
-
-def _share(key: str) -> float:
-    """Return how much of `holes_small_mm` a fit is drawn wider by."""
-    return 1.0 if key in DIAMETERS else -0.5 if key == "rib_mm" else 0.5
 
 
 def _given(values: Iterable[float | None]) -> list[float]:
@@ -233,10 +223,7 @@ def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
             f"axle_mm = {readings.axle_mm:g}: this coupon is for rods of {readings.axle_mm:g} mm, the workshop has "
             f"{workshop.bought.axle_mm:g}: print the workshop's own (jumpcad coupon --workshop FILE)"
         )
-    small, axle = _smaller_mm(readings, workshop), workshop.bought.axle_mm
-    if (hole := readings.press_hole_mm) is not None and not abs(hole - axle) <= HOLE_ERROR_MM:
-        limits = f"{axle - HOLE_ERROR_MM:g}…{axle + HOLE_ERROR_MM:g}"
-        yield f"press_hole_mm = {hole:g}: must be {limits}, a caliper's reading of the hole that should hold the axle"
+    small = _smaller_mm(readings, workshop)
     for name, tried in readings.gauge.items():
         if name not in workshop.materials:
             yield f"gauge.{name}: the workshop prints in {', '.join(workshop.materials)}"
@@ -244,7 +231,7 @@ def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
             yield from _out_of_range(f"gauge.{name}.{key}", getattr(tried, key), steps.axle_mm)
         yield from _out_of_range(f"gauge.{name}.bearing_press_mm", tried.bearing_press_mm, steps.bearing_mm)
     for key, (fit, step) in JOINT_KEYS.items():
-        drawn, off = workshop.fits.drawn, _share(key) * small
+        drawn, off = workshop.fits.drawn, SHARES[fit] * small
         around = rib_steps_mm(drawn) if key == "rib_mm" else steps_mm(getattr(drawn, fit), step)
         around = (around[0] + min(off, 0.0), around[-1] + max(off, 0.0))
         yield from _out_of_range(f"joints.{key}", getattr(readings.joints, key), around)
@@ -259,5 +246,4 @@ def _out_of_range(key: str, value: float | None, offsets: tuple[float, ...]) -> 
         yield f"{key} = {value:g}: the workshop's legs have no bearing; leave it out"
     elif not offsets[0] <= value <= offsets[-1]:
         limits = f"{offsets[0]:.2f}…{offsets[-1]:.2f}"
-        alone = "if nothing fits, give press_hole_mm alone, and print the coupon of that workshop"
-        yield f"{key} = {value:g}: must be {limits} as engraved; {alone}"
+        yield f"{key} = {value:g}: must be {limits} as engraved; if nothing fits, give press_hole_mm and print again"

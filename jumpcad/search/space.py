@@ -49,8 +49,8 @@ def _with_springs(workshop: Workshop) -> dict[str, SearchParameter]:
     found = {STIFFNESS: SearchParameter.among(STIFFNESS, [min(max(2.0 * stock.rate_nmm_per_deg, lower), upper)])}
     free = tuple(pin for pin in PLATE_PINS_RAD if pin <= ROOM_UP_TO_RAD)
     anywhere = SpringLimits(0.0, 0.0, workshop.bought.axle_mm, 1.0, free)
-    angles = rest_angles_deg(stock, math.radians(workshop.spring.preload_deg), anywhere)
-    angles = [one for one in angles if one >= SEARCH_BOUNDS[angle].lower]
+    reached = rest_angles_deg(stock, math.radians(workshop.spring.preload_deg), anywhere)
+    angles = [one for one in reached if one >= SEARCH_BOUNDS[angle].lower]
     return found | ({angle: SearchParameter(angle, float(angles[0]), float(angles[-1]))} if len(angles) > 1 else {})
 
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import astuple, dataclass, replace
+from dataclasses import dataclass, replace
 
 from jumpcad.findings import Finding
 from jumpcad.workshop import Workshop
@@ -21,14 +21,9 @@ leap would pass."""
 
 
 OF_PARTS = {
-    "main_leg": ("leg", "lever"),
-    "front_link": ("front",),
-    "eyes": ("thickness",),
-    "foot": ("toe", "rail", "lug"),
-    "body_plates": ("plate",),
-    "cam": ("dog",),
-    "stop_bar": ("stop",),
-}
+    "main_leg": ("leg", "lever"), "front_link": ("front",), "eyes": ("thickness",), "foot": ("toe", "rail", "lug"),
+    "body_plates": ("plate",), "cam": ("dog",), "stop_bar": ("stop",),
+}  # fmt: skip
 """What grows with each key of `[strength]`, in proportion."""
 
 
@@ -47,14 +42,10 @@ class Growth:
     dog: float = 1.0
     stop: float = 1.0
 
-    @classmethod
-    def asked(cls, workshop: Workshop) -> "Growth":
-        """Return the factors that a workshop's `[strength]` asks for."""
-        return cls(**{size: getattr(workshop.strength, part) for part, sizes in OF_PARTS.items() for size in sizes})
-
-    def times(self, other: "Growth") -> "Growth":
-        """Return the factors times others."""
-        return Growth(*(one * more for one, more in zip(astuple(self), astuple(other), strict=True)))
+    def stronger(self, workshop: Workshop) -> "Growth":
+        """Return the factors times those that a workshop's `[strength]` asks for."""
+        by = {size: getattr(workshop.strength, part) for part, sizes in OF_PARTS.items() for size in sizes}
+        return replace(self, **{size: factor * getattr(self, size) for size, factor in by.items()})
 
     def more(self, weak: Iterable[Finding]) -> "Growth":
         """Return the factors with those of weak sections larger by at most a step.

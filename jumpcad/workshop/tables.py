@@ -67,9 +67,10 @@ class Roles(TomlTable):
     gears: Name
 
 
-PER_SIDE = ("press_mm", "eye_mm", "lying_mm", "sliding_mm", "loose_mm")
-DIAMETERS = ("m2_tap_mm", "m2_clearance_mm", "m3_tap_mm", "m3_insert_mm", "m3_clearance_mm")
-"""Fits of holes, by what they give."""
+SHARES = {"press_mm": 0.5, "eye_mm": 0.5, "lying_mm": 0.5, "sliding_mm": 0.5, "loose_mm": 0.5, "rib_mm": -0.5,
+          "m2_tap_mm": 1.0, "m2_clearance_mm": 1.0, "m3_tap_mm": 1.0, "m3_insert_mm": 1.0, "m3_clearance_mm": 1.0,
+          "holes_small_mm": -1.0}  # fmt: skip
+"""Of `holes_small_mm`, by which fits are drawn larger: those per side by half of it, diameters by all."""
 
 
 class Fits(TomlTable):
@@ -105,13 +106,10 @@ class Fits(TomlTable):
     @property
     def drawn(self) -> "Fits":
         """The fits with which holes are drawn: wider by `holes_small_mm`, of which nothing is left."""
-        more = self.holes_small_mm
-        if more == 0.0:
+        if (more := self.holes_small_mm) == 0.0:
             return self
-        shares = dict.fromkeys(PER_SIDE, 0.5) | dict.fromkeys(DIAMETERS, 1.0) | {"rib_mm": -0.5, "holes_small_mm": -1.0}
-        return self.model_copy(
-            update={key: round(getattr(self, key) + share * more, 6) for key, share in shares.items()}
-        )
+        larger = {key: round(getattr(self, key) + share * more, 6) for key, share in SHARES.items()}
+        return self.model_copy(update=larger)
 
     @property
     def link_tolerance_mm(self) -> float:

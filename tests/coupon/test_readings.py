@@ -165,7 +165,7 @@ def test_layers_hold_each_other_no_better_than_a_floor_that_broke_holds_itself(f
             "[gauge.PETG]\naxle_press_mm = 0.25\naxle_sliding_mm = 0.2",
             r"r\.toml:3: gauge\.PETG\.axle_sliding_mm = 0\.2: must be at least axle_press_mm = 0\.25",
         ),
-        ("press_hole_mm = 1.5", r"r\.toml: press_hole_mm = 1\.5: must be 2\.4…3\.6, a caliper's reading"),
+        ("press_hole_mm = 1.5", r"r\.toml: fits\.holes_small_mm = 1\.5: must be at most 1"),
         ("[gauge.PETG]\naxle_press_mm = 0.2\n[joints]\nlying_mm = 0.3", r"lying_mm = 0\.3: must be 0\.05…0\.25"),
         ("[gauge.PETG]\npegs_mm = [4.0, 6.0]", r"r\.toml:2: gauge\.PETG\.pegs_mm = .*: must be 3 diameters, of the"),
         ("[gauge.PETG]\npegs_mm = [4.0, 6.0, 8.0, 10.0]", "must be 3 diameters, of the pegs 4, 6, 8 mm"),
