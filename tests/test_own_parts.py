@@ -11,14 +11,17 @@ from typing import Any
 
 import pytest
 from support.commands import exit_code_of
+from support.each import each
 
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.export import export
 from jumpcad.checks import check
+from jumpcad.cli.commented import commented_workshop
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
+from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop
 
 Tables = dict[str, dict[str, Any]]
@@ -27,6 +30,18 @@ Write = Callable[[str | Tables], Path]
 KENAN = load_design("kenan-2.0")
 CHAPTER = (Path(__file__).parents[1] / "docs" / "workshop.md").read_text(encoding="utf-8")
 (EXAMPLE,) = re.findall(r"```toml\n(\[bought\].*?)```", CHAPTER, re.S)
+
+(DRAWER,) = re.findall(r"```toml\n(# drawer\.toml.*?)```", CHAPTER, re.S)
+OTHERS = """
+bought = { motors = ["mine"], spring = "mine", switch = "" }
+motors.mine = { like = "n20-298", width_mm = 16, height_mm = 16, body_length_mm = 40, shaft_mm = 4,\
+ shaft_flat_mm = 3.5, shaft_length_mm = 11, boss_mm = 7, mass_g = 32,\
+ no_load_rpm = 45, stall_current_a = 0.9, source = "bench" }
+springs.mine = { wire_mm = 2, outer_diameter_mm = 16, turns = 4.25, arm_angle_deg = 90, arm_length_mm = 40,\
+ rate_nmm_per_deg = 14.5, source = "scale" }
+prices_eur = { "torsion spring" = 0, "gear motor" = 0, "screw" = 0, "LiPo" = 0 }
+"""
+"""A drawer of other parts: a large motor, and springs that were measured."""
 
 SPRING = """
 [springs.stock]
@@ -191,6 +206,21 @@ def faults(write: Write, *cases: str) -> list[str]:
         return [f"{finding.name}: {finding.message}" for finding in errors(check(build(KENAN, workshop)))]
     except CannotBuildError as error:
         return [str(error)]
+
+
+@pytest.mark.thorough
+@each("drawer", [DRAWER, OTHERS])
+def test_a_robot_from_a_drawer_keeps_all_limits_and_costs_less_than_60_euros(drawer: str, written: Write) -> None:
+    """Springs and motor as callipers and multimeter tell; what a bundle keeps of the workshop is read as the same."""
+    shop = load_workshop(written(drawer))
+    robot = build(KENAN, shop)
+    assert not errors(check(robot))
+    assert simulate(robot).verdict == "jump"
+    cost = bill_of_materials(robot).cost_eur
+    assert cost is not None
+    assert 20.0 < cost < 60.0
+    assert load_workshop(written(shop.to_toml())) == shop
+    assert load_workshop(written(commented_workshop(shop, "drawer"))) == shop
 
 
 @pytest.mark.thorough

@@ -25,7 +25,7 @@ COLUMNS = (
     "kind", "item", "quantity", "ordered", "material", "grams_each", "grams", "mass_from", "eur_each", "eur",
     "print_time_s", "price_from",
 )  # fmt: skip
-OWN = "workshop"
+OWN, THERE = "workshop", "there already"
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,8 @@ class BillLine:
     """One line: mass, price and printing time are those of one piece.
 
     `kind` is `printed`, `pad` (printed of a soft material) or `bought`. The robot has `quantity` pieces; what it costs
-    are those that are `ordered`, in packs of `pack`. `price_from` is `workshop`, a shop with its date, or `estimate`.
+    are those that are `ordered`, in packs of `pack`. `price_from` is `workshop`, `there already` (price 0, none
+    is ordered), a shop with its date, or `estimate`.
     """
 
     kind: str
@@ -55,6 +56,8 @@ class BillLine:
     @property
     def ordered(self) -> int:
         """How many pieces are ordered: whole packs, and of springs more than the robot has, to choose from."""
+        if self.price_from == THERE:
+            return 0
         return -(-self.quantity * (ORDERED if self.name.endswith(CHOOSE) else 1) // self.pack) * self.pack
 
     @property
@@ -224,5 +227,6 @@ def _price(item: BillLine, workshop: Workshop) -> tuple[float | None, str, int]:
         return shipped_prices().filament_eur_per_kg * item.mass_kg, ESTIMATE, 1
     beginnings = [beginning for beginning in workshop.prices_eur if item.name.startswith(beginning)]
     if beginnings:
-        return workshop.prices_eur[max(beginnings, key=len)], OWN, 1
+        price = workshop.prices_eur[max(beginnings, key=len)]
+        return price, OWN if price else THERE, 1
     return shipped_prices().eur(item.name) or (None, "", 1)

@@ -13,7 +13,7 @@ from jumpcad.files.names import composed
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import Robot, require_name
-from jumpcad.strength.growth import Growth
+from jumpcad.strength.growth import Grown, Growth
 from jumpcad.workshop import Workshop, load_workshop, varied
 
 GROWTH_ROUNDS = 10
@@ -48,10 +48,19 @@ def built_and_checked(design: Design, workshop: Workshop, name: str) -> tuple[Ro
         raise CannotBuildError(
             f"{first.name}: {first.message}: {first.remedy}", first.name, first.margin, unit=first.unit
         )
-    growth, uses = Growth(), dict[tuple[str, str], tuple[float, float]]()
+    robot, findings, growth, grown = _grown(assembled(design, workshop, name, Growth()), Growth())
+    if (stronger := growth.stronger(workshop)) != growth:
+        robot, findings, *_ = _grown(assembled(design, workshop, name, stronger, robot), stronger)
+    robot = replace(robot, grown=grown) if grown else robot
+    if "balance" in (workshop.seats.battery, workshop.seats.boards):
+        return _balanced(robot, findings)
+    return robot, findings
+
+
+def _grown(robot: Robot, growth: Growth) -> tuple[Robot, list[Finding], Growth, tuple[Grown, ...]]:
+    """Return a robot grown until its limits hold or nothing has room, its findings, by what it grew, and for which."""
+    findings, uses = constraint_findings(robot), dict[tuple[str, str], tuple[float, float]]()
     ever_weak: list[Finding] = []
-    robot = assembled(design, workshop, name, growth)
-    findings = constraint_findings(robot)
     for _ in range(GROWTH_ROUNDS):
         weak = [finding for finding in errors(findings) if finding.grows]
         if not weak:
@@ -63,10 +72,7 @@ def built_and_checked(design: Design, workshop: Workshop, name: str) -> tuple[Ro
         ever_weak += weak
         robot, growth = found
         findings = constraint_findings(robot)
-    robot = replace(robot, grown=growth.grown(ever_weak)) if ever_weak else robot
-    if "balance" in (workshop.seats.battery, workshop.seats.boards):
-        return _balanced(robot, findings)
-    return robot, findings
+    return robot, findings, growth, growth.grown(ever_weak)
 
 
 def _balanced(robot: Robot, findings: list[Finding]) -> tuple[Robot, list[Finding]]:

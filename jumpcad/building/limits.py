@@ -43,7 +43,7 @@ def _spring_limits(
     workshop: Workshop, sections: Sections, holes: HoleSizes, plate_pins_rad: tuple[float, ...]
 ) -> SpringLimits:
     """Return the limits of the springs: a bushing around the leg's axle, and a pin that passes hub and leg."""
-    fits, safety, axle = workshop.fits, workshop.safety, workshop.bought.axle_mm
+    fits, safety, axle = workshop.fits.drawn, workshop.safety, workshop.bought.axle_mm
     hub_radius = max(holes.hub_radius_mm, sections.leg_root_mm / 2.0)
     return SpringLimits(
         mandrel_min_mm=2.0 * (axle / 2.0 + fits.sliding_mm + fits.wall_min_mm),
@@ -76,7 +76,7 @@ def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamL
 
 def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
     """Return the limits of motor and gears: the motor maker's, and the strength of the printed material."""
-    fits, safety = workshop.fits, workshop.safety
+    fits, safety = workshop.fits.drawn, workshop.safety
     return TrainLimits(
         stall_share=safety.motor_share * safety.motor_stall_share,
         torque_max_nm=safety.motor_share * safety.motor_torque_max_nm,

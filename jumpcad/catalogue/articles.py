@@ -50,6 +50,12 @@ class Article(TomlTable):
         """Return values that are allowed alone but not together."""
         return ()
 
+    def _follows(self, instead_of: str = "", **values: float) -> None:
+        """Set values that were not given and follow from others; what they take the place of is then forgotten."""
+        for key, value in values.items():
+            if key not in self.model_fields_set:
+                self.__dict__.update({key: value} | dict.fromkeys(filter(None, [instead_of])))
+
 
 AnyArticle = TypeVar("AnyArticle", bound=Article)
 

@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from jumpcad.catalogue.articles import (
     STEEL_G_CM3,
@@ -32,6 +32,10 @@ ROUND_OFF_V = 1e-6
 RATED_SHARES = (0.25, 1.0)
 """Lowest and highest voltage of a motor over its rated one where none is given; judgement: below, it may not start."""
 
+EFFICIENCY, FREE_SHARE, ROTOR_RPM = 0.5, 0.06, 20000.0
+"""Of a gear motor where none is given: efficiency at stall, no-load over stall current, no-load speed of the rotor;
+judgement: 0.48 to 0.70, 0.056 to 0.107 and 13,000 to 34,000 of those that ship."""
+
 ComponentKind = Literal["sensor", "switch", "plug", "capacitor", "diode", "wire"]
 """What a small part is; a workshop names one of each kind under that word."""
 
@@ -41,13 +45,16 @@ class Motor(Article):
 
     Its body is a box along its axis; width and height are the largest of gearhead and motor across it. The shaft
     stands in the middle of the box, in a boss at the gearhead's front, and has a flat (`shaft_flat_mm` across it).
+    Without `stall_torque_nm` it follows from no-load speed and stall current at `voltage_v` with the gearhead's
+    `efficiency` at stall, 0.5 unless given. `ratio` and `no_load_current_a` may be left out too.
     """
 
-    ratio: Positive
+    ratio: Positive = 0.0
     voltage_v: Positive
     no_load_rpm: Positive
-    no_load_current_a: Positive
-    stall_torque_nm: Positive
+    no_load_current_a: Positive = 0.0
+    stall_torque_nm: Positive = 0.0
+    efficiency: Annotated[float | None, Field(exclude=True, ge=0.05, le=1)] = None
     stall_current_a: Positive
     mass_g: Mass
     width_mm: Annotated[Length, Field(ge=5)]
@@ -68,6 +75,20 @@ class Motor(Article):
         low, high = RATED_SHARES
         return self.bears_v or (low * self.voltage_v, high * self.voltage_v)
 
+    @property
+    def lossless_nm(self) -> float:
+        """Stall torque of a DC machine without friction, (V - I0·R)/ω0·(Is - I0) with R = V/Is."""
+        free = self.no_load_current_a / self.stall_current_a
+        per_a = self.voltage_v * (1.0 - free) / (self.no_load_rpm * math.pi / 30.0)
+        return per_a * self.stall_current_a * (1.0 - free)
+
+    @model_validator(mode="after")
+    def _completed(self) -> Self:
+        ratio, free_a = ROTOR_RPM / self.no_load_rpm, FREE_SHARE * self.stall_current_a
+        self._follows(ratio=float(f"{min(max(ratio, 1.0), 1e5):.3g}"), no_load_current_a=max(free_a, 1e-4))
+        self._follows("efficiency", stall_torque_nm=float(f"{(self.efficiency or EFFICIENCY) * self.lossless_nm:.4g}"))
+        return self
+
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield impossible shafts and bosses, and figures that violate the conservation of energy."""
         shaft, narrow = self.shaft_mm, min(self.width_mm, self.height_mm)
@@ -87,12 +108,17 @@ class Motor(Article):
             reason = f"must be less than stall_current_a = {self.stall_current_a:g}"
             yield ("no_load_current_a",), self.no_load_current_a, reason
             return
-        # of a DC machine at half its speed: half the torque, and the mean of both currents
-        power = self.no_load_rpm * math.pi / 30.0 / 2.0 * self.stall_torque_nm / 2.0
-        drawn = self.voltage_v * (self.no_load_current_a + self.stall_current_a) / 2.0
-        if power >= drawn:
-            reason = f"at half speed it would give {power:.2g} W and draw {drawn:.2g} W: is it in N·m?"
+        if self.stall_torque_nm > (most := self.lossless_nm):
+            reason = (
+                f"must be at most {most:.3g}, which no_load_rpm and stall_current_a give at {self.voltage_v:g} V "
+                f"with an efficiency of 100 %; this is {100.0 * self.stall_torque_nm / most:.0f} %: is it in N·m?"
+            )
             yield ("stall_torque_nm",), self.stall_torque_nm, reason
+        elif self.efficiency:
+            yield ("efficiency",), self.efficiency, "stall_torque_nm says it too: give one of the two"
+        elif not 1e-4 <= self.stall_torque_nm <= 1e5:
+            reason = f"with no_load_rpm it makes a motor of {self.stall_torque_nm:.2g} N·m: is it in A?"
+            yield ("stall_current_a",), self.stall_current_a, reason
 
 
 class Battery(Article):

@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from jumpcad.catalogue.articles import STEEL_G_CM3, Article, Length, Mass, Positive, Source
 from jumpcad.files import Contradiction
@@ -20,6 +20,9 @@ RATE_OFF = 3.0
 """By how much a spring's rate may differ from that of its wire; judgement: bronze is half as stiff as steel."""
 TURNS_OFF = 0.1
 """By how much a spring's turns may differ from what its arms' angle says; judgement: makers round to a quarter."""
+ARMS_SHARE = 0.5
+"""Share of its length at which an arm is taken to be loaded where no rate is given; judgement: so the rates of all that
+ship follow within 6 %."""
 GENT = 0.64
 """Factor of the shape of a rubber block's free sides, of Shore A 60 to 70 (Gent)."""
 
@@ -54,31 +57,54 @@ class StockSpring(Article):
     """A torsion spring from stock, of which shops keep both hands: its arms are tangents of the coil.
 
     `arm_angle_deg` is the angle between the relaxed arms, 180 where they point in opposite directions; loading in the
-    closing direction lowers it. `rate_nmm_per_deg` is the torque per degree. `left_hand` and `right_hand` are what to
+    closing direction lowers it. `outer_diameter_mm` may take the place of `inside_diameter_mm`. `rate_nmm_per_deg` is
+    the torque per degree; that of the steel wire where it is not given. `left_hand` and `right_hand` are what to
     order; without one of them it is ordered as the other's mirror image, without both by its name.
     """
 
     left_hand: Text = ""
     right_hand: Text = ""
     wire_mm: Annotated[Length, Field(le=10)]
-    inside_diameter_mm: Length
+    inside_diameter_mm: Length = 0.0
+    outer_diameter_mm: Annotated[Length | None, Field(exclude=True)] = None
     turns: Annotated[float, Field(ge=0.1, le=100)]
     arm_angle_deg: Annotated[float, Field(ge=0, le=360)]
     arm_length_mm: Length
-    rate_nmm_per_deg: Positive
+    rate_nmm_per_deg: Positive = 0.0
+
+    @model_validator(mode="after")
+    def _completed(self) -> Self:
+        if self.outer_diameter_mm is not None:
+            inside = round(self.outer_diameter_mm - 2.0 * self.wire_mm, 6)
+            self._follows("outer_diameter_mm" if inside > self.wire_mm else "", inside_diameter_mm=inside)
+        if self.inside_diameter_mm > 0.0:
+            self._follows(rate_nmm_per_deg=float(f"{self._steel_rate(ARMS_SHARE):.4g}"))
+        return self
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield wire too thick for the inside diameter, and an angle or a rate that turns and wire do not have."""
+        """Yield wire too thick for the coil, and an angle or a rate that turns and wire do not have."""
+        if self.inside_diameter_mm <= 0.0 or self.outer_diameter_mm is not None:
+            reason = f"give inside_diameter_mm, or outer_diameter_mm of more than three wires, {3.0 * self.wire_mm:g}"
+            yield ("outer_diameter_mm",), self.outer_diameter_mm, reason
+            return
+        if not 1e-4 <= self.rate_nmm_per_deg <= 1e5:
+            yield ("wire_mm",), self.wire_mm, f"makes a spring of {self.rate_nmm_per_deg:.2g} N·mm/°: is it in mm?"
+            return
         if self.wire_mm >= self.inside_diameter_mm:
             reason = f"must be less than inside_diameter_mm = {self.inside_diameter_mm:g}"
             yield ("wire_mm",), self.wire_mm, reason
-        softest, stiffest = self._steel_rates
+        softest, stiffest = self._steel_rate(1.0), self._steel_rate(0.0)
         if not softest / RATE_OFF <= self.rate_nmm_per_deg <= stiffest * RATE_OFF:
             reason = f"steel wire wound so has {softest:.2g} to {stiffest:.2g}, with and without its arms"
             yield ("rate_nmm_per_deg",), self.rate_nmm_per_deg, f"{reason}: is it per degree, and of one spring?"
         if abs(self.wound_turns - self.turns) > TURNS_OFF:
             angle = (180.0 - 360.0 * self.turns) % 360.0
-            reason = f"{self.turns:g} turns with tangent arms have {angle:.0f}° between them: correct one of the two"
+            other = self.model_copy(update={"arm_angle_deg": 360.0 - self.arm_angle_deg})
+            reason = (
+                f"{self.turns:g} turns with tangent arms have {angle:.0f}° between them; {self.arm_angle_deg:g}° take "
+                f"{self.wound_turns:g} turns, and {other.arm_angle_deg:g}°, measured on the other side, "
+                f"{other.wound_turns:g}: look at the spring and correct one of the two"
+            )
             yield ("arm_angle_deg",), self.arm_angle_deg, reason
 
     def article(self, hand: str) -> str:
@@ -92,13 +118,11 @@ class StockSpring(Article):
             f"diameter {self.inside_diameter_mm + 2.0 * self.wire_mm:.2f} mm, {self.turns:g} turns)"
         )
 
-    @property
-    def _steel_rates(self) -> tuple[float, float]:
-        """Rates (N·mm/°) of steel wire loaded at the arms' ends, and at the coil: E·d⁴/(64·D·n) (EN 13906-3)."""
+    def _steel_rate(self, share: float) -> float:
+        """Return the rate (N·mm/°) of steel wire loaded at a share of the arms' length: E·d⁴/(64·D·n) (EN 13906-3)."""
         mean = self.inside_diameter_mm + self.wire_mm
-        with_arms = self.turns + 2.0 * self.arm_length_mm / (3.0 * math.pi * mean)
-        rate = math.radians(STEEL_MPA * self.wire_mm**4 / (64.0 * mean))
-        return rate / with_arms, rate / self.turns
+        with_arms = self.turns + share * 2.0 * self.arm_length_mm / (3.0 * math.pi * mean)
+        return math.radians(STEEL_MPA * self.wire_mm**4 / (64.0 * mean)) / with_arms
 
     @property
     def wound_turns(self) -> float:

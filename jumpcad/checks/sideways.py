@@ -66,7 +66,8 @@ def sideways_findings(robot: Robot) -> list[Finding]:
             "sideways_tipping", worst.margin_deg, reserve, "°",
             f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
             f"takes {worst.play_deg:.1f}°; {worst.margin_deg:.1f}° are left, of {reserve:g}° at least",
-            f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm",
+            f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm "
+            "(holes that come out small: fits.holes_small_mm)",
         )
     ]  # fmt: skip
     if limit := robot.workshop.safety.lateral_offset_mm:
@@ -105,7 +106,8 @@ def rolls(robot: Robot, layout: Layout | None = None) -> tuple[Roll, ...]:
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
     com = centre_of_mass_on_foot_mm(robot, linkage, linkage.pose(leg))
     stance = stance_deg(layout, com, robot.lateral_offset_mm)
-    play = math.degrees(play_rad(layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)))
+    printed = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), fits=robot.workshop.fits)
+    play = math.degrees(play_rad(layout, printed))
     return (
         Roll("at rest", float(stance[-1]), play),
         Roll("springs loaded", float(stance[0]), play),
@@ -128,7 +130,7 @@ def stance_deg(layout: Layout, com_mm: Array, aside_mm: float) -> Array:
 
 
 def play_rad(layout: Layout, holes: HoleSizes) -> float:
-    """Return by how much the body may roll on its foot to either side (rad), as drawn: the chain with less play counts.
+    """Return by how much the body may roll on its foot to either side (rad): the chain with less play counts.
 
     Tilt of the ball bearings themselves and bending of pins and links are neglected.
     """

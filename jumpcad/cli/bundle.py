@@ -1,5 +1,6 @@
 """`jumpcad build`, `jumpcad render`, `jumpcad verify`: bundles and their pictures."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -74,7 +75,8 @@ def build(
     if not force:
         _require_same_design_file(robot, design_file(design), folder)
     with status(f"simulating {robot.name} …"):
-        printed, capsule = (simulate(one, engine=BUNDLE_ENGINE) for one in (robot, capsule_robot(robot.design)))
+        plain = replace(capsule_robot(robot.design), spring=replace(robot.spring, one_sided=False))
+        printed, capsule = (simulate(one, engine=BUNDLE_ENGINE) for one in (robot, plain))
     if printed.verdict != "jump" and not anyway:
         raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
     with status(f"writing {robot.name} …"):

@@ -35,9 +35,24 @@ def warn_of_no_jump(robot: "Robot") -> None:
 
 def notes(robot: "Robot", findings: "Sequence[Finding]") -> Iterator[str]:
     """Yield what became of a robot by itself: sections that grew, and what bought springs do to its stiffness."""
+    if asked := [f"strength.{part} = {more:g}" for part, more in robot.workshop.strength if more != 1.0]:
+        yield f"{', '.join(asked)}: {_cost(robot)}"
     if robot.grown:
         yield grown_in_words(robot.grown)
     yield from (finding.message for finding in findings if finding.is_note)
+
+
+def _cost(robot: "Robot") -> str:
+    """Return what the strength that was asked for costs in mass and range."""
+    from jumpcad.building import build
+    from jumpcad.simulation import simulate
+    from jumpcad.simulation.engines import default_engine
+    from jumpcad.workshop import varied
+
+    plain = {f"strength.{part}": 1.0 for part, _ in robot.workshop.strength}
+    before = build(robot.design, varied(robot.workshop, plain), robot.name)
+    far = [1000.0 * (simulate(one, engine=default_engine()).ballistic_range_m or 0.0) for one in (robot, before)]
+    return f"{1000.0 * (robot.mass_kg - before.mass_kg):+.1f} g and {far[0] - far[1]:+.0f} mm of range"
 
 
 def grown_in_words(grown: "Sequence[Grown]") -> str:

@@ -73,10 +73,11 @@ def coupon_values(workshop: Workshop, holes: HoleSizes) -> dict[str, Any]:
         "bearing": holes.bearing and holes.bearing.name,
         "bearings": [*([holes.bearing.name] if holes.bearing else []), *stronger],
         "seats": stronger,
-        "lying": [engraved(step) for step in steps_mm(workshop.fits.lying_mm)],
+        "lying": [engraved(step) for step in steps_mm(holes.fits.lying_mm)],
         "readings": READINGS,
         "floor_n": math.ceil(floor_breaks_n(workshop)),
-        "fits": workshop.fits,
+        "fits": holes.fits,
+        "press_hole": engraved(holes.fits.press_mm),
         "pegs_mm": PEGS_MM,
         "joints": {key: fit for key, (fit, _) in JOINT_KEYS.items()},
     }

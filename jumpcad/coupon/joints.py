@@ -49,7 +49,7 @@ LYING_MM = 10.0
 def joint_pieces(workshop: Workshop, holes: HoleSizes) -> list[Piece]:
     """Return the pieces of a workshop's joints, each in the material of the robot's parts with this joint."""
     links, body, gears = (workshop.material_name(role) for role in ("links", "body", "gears"))
-    motor, fits = _motor(workshop), workshop.fits
+    motor, fits = _motor(workshop), holes.fits
     sliding, ribs, taps = steps_mm(fits.sliding_mm), rib_steps_mm(fits), steps_mm(fits.m2_tap_mm, TAP_STEP_MM)
     labels = [engraved(step) for step in sliding]
     bores = [ribbed_d_bore(motor.shaft_mm, motor.shaft_flat_mm, holes, rib_mm=step) for step in ribs]

@@ -6,8 +6,9 @@ that works for all of them:
 
 - `press_mm`: the smallest. A seat that is a step too tight still takes its part, one that is too wide does not hold it.
 - `sliding_mm`, `loose_mm`: the largest. A running fit that is a step too wide runs, one that is too tight seizes.
-- `hole_allowance_diameter_mm`: a hole that just holds a part has, when printed, the part's own diameter, so printing
-  narrows holes by twice the press fit; the largest reading counts, because such holes must not be too small.
+- `holes_small_mm`: a hole that just holds a part has, when printed, the part's own diameter. So holes come out smaller
+  than the fits allow for by twice what the press fit is read wider; the largest reading counts, because holes must not
+  be too small. Without one, a caliper's reading of such a hole says it. Fits that were not read follow.
 - `backlash_circumferential_mm`: that of the tightest pinion that turns freely. Without this reading it follows from the
   pegs, because teeth are outer surfaces too: if pegs are printed g larger in diameter, every flank is g/2 further out,
   which takes g/cos 20° from each gear's gaps along the pitch circle and 2·g/cos 20° from the pair's backlash; the drawn
@@ -30,6 +31,7 @@ from jumpcad.files import Contradiction, Record, TomlTable
 from jumpcad.files.names import Name
 from jumpcad.strength.stress import VON_MISES
 from jumpcad.workshop import Workshop
+from jumpcad.workshop.tables import SHARES
 
 LEAST_PLAY_MM = 0.05
 """Circumferential play that keeps printed gears from binding where they run eccentrically (judgement)."""
@@ -92,9 +94,13 @@ class JointReadings(TomlTable):
 
 
 class Readings(Record):
-    """Everything read from a coupon made for rods of `axle_mm`: gauges by material, joints and gears."""
+    """Everything read from a coupon made for rods of `axle_mm`: gauges by material, joints and gears.
+
+    `press_hole_mm` is a caliper's reading of the hole that should hold the axle.
+    """
 
     axle_mm: float | None = None
+    press_hole_mm: float | None = None
     gauge: dict[Name, GaugeReadings] = Field(default_factory=dict)
     joints: JointReadings = JointReadings()
     gears: GearReadings = GearReadings()
@@ -168,18 +174,21 @@ def _sheared_mm2(workshop: Workshop) -> float:
 def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
     """Return the fits that follow from the readings, by key."""
     tried, joints = list(readings.gauge.values()), readings.joints
-    press = _given(value for gauge in tried for value in (gauge.axle_press_mm, gauge.bearing_press_mm))
-    press += _given([joints.seat_press_mm])
+    press = _press(readings)
     sliding = _given([*(gauge.axle_sliding_mm for gauge in tried), *joints.sliding_mm])
     loose = _given(gauge.axle_loose_mm for gauge in tried)
     own = {key: getattr(joints, key) for key in ("m2_tap_mm", "rib_mm", "lying_mm")}
     fits: dict[str, float] = {key: value for key, value in own.items() if value is not None}
     if press:
-        fits |= {"press_mm": min(press), "hole_allowance_diameter_mm": 2.0 * max(press)}
+        fits["press_mm"] = min(press)
     if sliding:
         fits["sliding_mm"] = max(sliding)
     if loose:
         fits["loose_mm"] = max(loose)
+    if small := _smaller_mm(readings, workshop) + workshop.fits.holes_small_mm:
+        fits = {key: value - SHARES[key] * small for key, value in fits.items()}
+    if press or readings.press_hole_mm is not None:
+        fits["holes_small_mm"] = small
     teeth = readings.gauge.get(workshop.material_name("gears"), GaugeReadings())
     if readings.gears.turns_freely_mm is not None:
         fits["backlash_circumferential_mm"] = readings.gears.turns_freely_mm
@@ -187,6 +196,19 @@ def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
         lost = 2.0 * teeth.peg_growth_mm / math.cos(PRESSURE_ANGLE_RAD)
         fits["backlash_circumferential_mm"] = max(LEAST_PLAY_MM + lost, 0.0)
     return {key: round(value, 3) for key, value in fits.items()}
+
+
+def _press(readings: Readings) -> list[float]:
+    """Return the readings of press fits."""
+    read = [value for one in readings.gauge.values() for value in (one.axle_press_mm, one.bearing_press_mm)]
+    return _given([*read, readings.joints.seat_press_mm])
+
+
+def _smaller_mm(readings: Readings, workshop: Workshop) -> float:
+    """Return by how much more than the workshop says holes come out too small in diameter; 0 if that was not read."""
+    if press := _press(readings):
+        return 2.0 * (max(press) - workshop.fits.drawn.press_mm)
+    return 0.0 if readings.press_hole_mm is None else workshop.bought.axle_mm - readings.press_hole_mm
 
 
 def _given(values: Iterable[float | None]) -> list[float]:
@@ -201,6 +223,7 @@ def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
             f"axle_mm = {readings.axle_mm:g}: this coupon is for rods of {readings.axle_mm:g} mm, the workshop has "
             f"{workshop.bought.axle_mm:g}: print the workshop's own (jumpcad coupon --workshop FILE)"
         )
+    small = _smaller_mm(readings, workshop)
     for name, tried in readings.gauge.items():
         if name not in workshop.materials:
             yield f"gauge.{name}: the workshop prints in {', '.join(workshop.materials)}"
@@ -208,7 +231,9 @@ def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
             yield from _out_of_range(f"gauge.{name}.{key}", getattr(tried, key), steps.axle_mm)
         yield from _out_of_range(f"gauge.{name}.bearing_press_mm", tried.bearing_press_mm, steps.bearing_mm)
     for key, (fit, step) in JOINT_KEYS.items():
-        around = rib_steps_mm(workshop.fits) if key == "rib_mm" else steps_mm(getattr(workshop.fits, fit), step)
+        drawn, off = workshop.fits.drawn, SHARES[fit] * small
+        around = rib_steps_mm(drawn) if key == "rib_mm" else steps_mm(getattr(drawn, fit), step)
+        around = (around[0] + min(off, 0.0), around[-1] + max(off, 0.0))
         yield from _out_of_range(f"joints.{key}", getattr(readings.joints, key), around)
     yield from _out_of_range("gears.turns_freely_mm", readings.gears.turns_freely_mm, steps.backlash_mm)
 
@@ -221,4 +246,4 @@ def _out_of_range(key: str, value: float | None, offsets: tuple[float, ...]) -> 
         yield f"{key} = {value:g}: the workshop's legs have no bearing; leave it out"
     elif not offsets[0] <= value <= offsets[-1]:
         limits = f"{offsets[0]:.2f}…{offsets[-1]:.2f}"
-        yield f"{key} = {value:g}: must be {limits} as engraved; if nothing fits, set the fit by hand and print again"
+        yield f"{key} = {value:g}: must be {limits} as engraved; if nothing fits, give press_hole_mm and print again"

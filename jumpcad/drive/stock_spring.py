@@ -3,7 +3,7 @@
 import math
 
 from jumpcad.catalogue import StockSpring, Wire
-from jumpcad.design import Design
+from jumpcad.design import Design, limits_of
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, torsion_spring
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, beside_mm, between_pins_rad
 from jumpcad.errors import CannotBuildError
@@ -62,12 +62,10 @@ def fitted_spring(
         says by how much.
     """
     d, mean, turns = stock.wire_mm, stock.inside_diameter_mm + stock.wire_mm, stock.wound_turns
-    beside, (shortest, longest) = beside_mm(mean, d, limits.pin_mm), _arm_turns_rad(stock, limits)
+    beside = beside_mm(mean, d, limits.pin_mm)
     found: list[tuple[Arms, float]] = []
     for plate_pin in limits.plate_pins_rad:
-        between = between_pins_rad(plate_pin, leg_pin_rad)
-        arm_turn = ((between - on_leg.preload_rad - FULL_TURN_RAD * turns) % FULL_TURN_RAD) / 2.0
-        if shortest <= arm_turn <= longest:
+        if arm_turn := _arm_turn_rad(stock, plate_pin, leg_pin_rad, on_leg.preload_rad, limits):
             found.append((Arms(mean, d, limits.pin_mm, beside * math.tan(arm_turn)), plate_pin))
     if not found:
         raise _no_pins(stock, on_leg, leg_pin_rad, limits)
@@ -82,6 +80,23 @@ def fitted_spring(
             "spring_bushing", spring.mandrel_mm - limits.mandrel_min_mm,
         )  # fmt: skip
     return spring
+
+
+def rest_angles_deg(stock: StockSpring, preload_rad: float, limits: SpringLimits) -> list[int]:
+    """Return the rest angles, in whole degrees, at which the arms of a stock spring reach their pins in a free leg."""
+    lower, upper = map(round, limits_of("rest_angle_deg"))
+    turned = ((one, pin) for one in range(lower, upper + 1) for pin in limits.plate_pins_rad)
+    return sorted({one for one, pin in turned if _arm_turn_rad(stock, pin, -math.radians(one), preload_rad, limits)})
+
+
+def _arm_turn_rad(
+    stock: StockSpring, plate_pin_rad: float, leg_pin_rad: float, preload_rad: float, limits: SpringLimits
+) -> float | None:
+    """Return the angle at the hub by which both arms touch their pins; None where they reach none."""
+    shortest, longest = _arm_turns_rad(stock, limits)
+    between = between_pins_rad(plate_pin_rad, leg_pin_rad)
+    turn = ((between - preload_rad - FULL_TURN_RAD * stock.wound_turns) % FULL_TURN_RAD) / 2.0
+    return turn if shortest <= turn <= longest else None
 
 
 def _arm_turns_rad(stock: StockSpring, limits: SpringLimits) -> tuple[float, float]:

@@ -160,7 +160,7 @@ def with_cage(layout: Layout, workshop: Workshop) -> Layout:
     up, origin = ground(layout)
     crouch, usual = float(-origin @ up), WITH_BOW if table.bow else HOOPS
     lean, angle = (math.radians(value) for value in (table.lean_deg or usual.lean_deg, table.arc_deg or usual.arc_deg))
-    socket = rod.diameter_mm + 2.0 * (workshop.fits.lying_mm + SOCKET_WALL_MM)
+    socket = rod.diameter_mm + 2.0 * (workshop.fits.drawn.lying_mm + SOCKET_WALL_MM)
     level = (socket - BAR_MM) / 2.0  # of a rod, forwards of its bar's middle plane
     rear_end, front_end = plate_ends_mm(layout)
     nose = float(layout.linkage.pose(layout.linkage.travel_rad[0]).front_eye_mm[0, 0]) + layout.sections.ground_mm

@@ -21,7 +21,7 @@ class HoleSizes:
     @classmethod
     def of(cls, workshop: Workshop, bearing: Bearing | None) -> Self:
         """Return the bores of a workshop's fits and axles, and of the hub's bearings."""
-        return cls(workshop.fits, workshop.process, workshop.bought.axle_mm, bearing)
+        return cls(workshop.fits.drawn, workshop.process, workshop.bought.axle_mm, bearing)
 
     def press(self, diameter_mm: float) -> float:
         """Return the diameter of a hole that holds a shaft tightly."""

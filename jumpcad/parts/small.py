@@ -67,7 +67,7 @@ def require_axle(workshop: Workshop) -> None:
     JumpcadError
         Naming the thickest axle that they hold.
     """
-    axle, fits = workshop.bought.axle_mm, workshop.fits
+    axle, fits = workshop.bought.axle_mm, workshop.fits.drawn
     thickest = 2.0 * (SPACER_RADIUS_MM - fits.sliding_mm - fits.wall_min_mm)
     if axle > thickest:
         raise JumpcadError(

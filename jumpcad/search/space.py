@@ -15,7 +15,10 @@ import numpy as np
 
 from jumpcad.arguments import check_arguments, check_fields
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
+from jumpcad.drive import SpringLimits
+from jumpcad.drive.stock_spring import STIFFNESS, rest_angles_deg
 from jumpcad.errors import JumpcadError
+from jumpcad.layout.drive_places import PLATE_PINS_RAD
 from jumpcad.search.parameter import (
     Kind,
     SearchParameter,
@@ -31,6 +34,24 @@ from jumpcad.sobol import sobol
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop, workshop_value
 from jumpcad.workshop.varied import Value
+
+ROOM_UP_TO_RAD = math.radians(75.0)
+"""Directions of the springs' pin up to which there mostly is room; judgement: in 60 robots of the default bounds the
+cam begins at 40 to 80°."""
+
+
+def _with_springs(workshop: Workshop) -> dict[str, SearchParameter]:
+    """Return stiffness and rest angle as springs from stock have them; nothing where they are made to order."""
+    stock, angle = workshop.stock_spring, "rest_angle_deg"
+    if stock is None:
+        return {}
+    lower, upper = physical_limits(STIFFNESS)
+    found = {STIFFNESS: SearchParameter.among(STIFFNESS, [min(max(2.0 * stock.rate_nmm_per_deg, lower), upper)])}
+    free = tuple(pin for pin in PLATE_PINS_RAD if pin <= ROOM_UP_TO_RAD)
+    anywhere = SpringLimits(0.0, 0.0, workshop.bought.axle_mm, 1.0, free)
+    reached = rest_angles_deg(stock, math.radians(workshop.spring.preload_deg), anywhere)
+    angles = [one for one in reached if one >= SEARCH_BOUNDS[angle].lower]
+    return found | ({angle: SearchParameter(angle, float(angles[0]), float(angles[-1]))} if len(angles) > 1 else {})
 
 
 @dataclass(frozen=True, repr=False)
@@ -65,6 +86,9 @@ class Space:
         workshop: Workshop | None = None,
     ) -> Self:
         """Return the default space with changes.
+
+        Where the workshop has springs from stock, the stiffness is theirs, and the rest angle, unless the search is
+        `around` a design, one at which their arms may reach their pins.
 
         Parameters
         ----------
@@ -106,9 +130,12 @@ class Space:
                     raise JumpcadError(f"{name}: the workshop has no cage: fix cage.rod too, cage.rod=glass-1.5")
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
+        with_springs = _with_springs(workshop) if workshop and "bought.spring" not in changed else {}
         for name, limits in SEARCH_BOUNDS.items():
             parameter = SearchParameter(name, limits.lower, limits.upper)
-            if only and name not in only:
+            if name in with_springs and (around is None or not with_springs[name].free):
+                parameter = with_springs[name]
+            elif only and name not in only:
                 parameter = parameter.held(centre[name])
             elif within_percent is not None:
                 parameter = parameter.narrowed(centre[name], within_percent, physical_limits(name))

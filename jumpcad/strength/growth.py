@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from jumpcad.findings import Finding
+from jumpcad.workshop import Workshop
 
 STEP, LEAP, MORE = 1.1, 1.5, 1.002
 """Largest factor by which a section grows where it is not known what growing helps, and where it is, and factor beyond
@@ -17,6 +18,13 @@ LEAST_POWER = 0.5
 """Least power of a section by which a use is taken to fall; judgement: stresses fall with the first to the third power,
 and nothing that was measured falls less than the release's kick. What falls less is held by another size too, which a
 leap would pass."""
+
+
+OF_PARTS = {
+    "main_leg": ("leg", "lever"), "front_link": ("front",), "eyes": ("thickness",), "foot": ("toe", "rail", "lug"),
+    "body_plates": ("plate",), "cam": ("dog",), "stop_bar": ("stop",),
+}  # fmt: skip
+"""What grows with each key of `[strength]`, in proportion."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +41,11 @@ class Growth:
     plate: float = 1.0
     dog: float = 1.0
     stop: float = 1.0
+
+    def stronger(self, workshop: Workshop) -> "Growth":
+        """Return the factors times those that a workshop's `[strength]` asks for."""
+        by = {size: getattr(workshop.strength, part) for part, sizes in OF_PARTS.items() for size in sizes}
+        return replace(self, **{size: factor * getattr(self, size) for size, factor in by.items()})
 
     def more(self, weak: Iterable[Finding]) -> "Growth":
         """Return the factors with those of weak sections larger by at most a step.

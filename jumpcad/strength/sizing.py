@@ -187,7 +187,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
 
 def _socket_mm(workshop: Workshop) -> tuple[float, float]:
     """Return height and thickness that a leg needs around its bar's socket; zeros for legs that are printed whole."""
-    bar, fits = workshop.leg_bar, workshop.fits
+    bar, fits = workshop.leg_bar, workshop.fits.drawn
     if bar is None:
         return 0.0, 0.0
     gap = 2.0 * fits.lying_mm
@@ -247,7 +247,7 @@ def dog_inside_mm(fits: Fits, axle_mm: float) -> float:
 def _least_dog_mm(workshop: Workshop) -> float:
     """Return the diameter at which the jaws are as thick as the thinnest column that can be printed."""
     jaw = workshop.fits.pin_min_mm + DOG_FACETS_MM
-    return dog_inside_mm(workshop.fits, workshop.bought.axle_mm) + 2.0 * jaw
+    return dog_inside_mm(workshop.fits.drawn, workshop.bought.axle_mm) + 2.0 * jaw
 
 
 def _leg_tip_mm(root_mm: float) -> float:

@@ -24,6 +24,11 @@ TELLS = {
     "boards": ("description", ("length_mm", "width_mm", "height_mm")),
 }  # fmt: skip
 """What is ordered for a part, and figures that it stands for: with others it is not that article."""
+STALE = {
+    "motors": (("no_load_rpm", "stall_current_a"), ("ratio", "no_load_current_a", "stall_torque_nm", "article")),
+    "springs": (("outer_diameter_mm",), ("inside_diameter_mm", "rate_nmm_per_deg", "left_hand", "right_hand")),
+}
+"""Figures that, given beside `like`, make some of the shipped part's stale: these follow where they are not given."""
 
 
 @check_arguments
@@ -156,6 +161,9 @@ def _completed(kind: str, tables: dict[str, Any], source: str, text: str) -> dic
             figures = shipped[like].model_dump(exclude={"source"})
             own = {key: value for key, value in table.items() if key != "like"}
             table = figures | _renamed(kind, name, figures, own) | own
+            given, stale = STALE.get(kind, ((), ()))
+            if given and own.keys() >= set(given):
+                table = {key: value for key, value in table.items() if key in own or key not in stale}
         completed[name] = table
     return completed
 

@@ -11,11 +11,14 @@ from jumpcad.files.names import Name, OptionalName, Text
 
 # Lower limits keep quotients finite: they are below any figure of a robot that is printed and jumps.
 Positive = Annotated[float, Field(ge=1e-4, le=1e4)]
+Price = Annotated[float, Field(ge=0, le=1e4)]
+"""Of what is there already, 0."""
 SmallPositive = Annotated[float, Field(ge=1e-12, le=1e-5)]
 Backlash = Annotated[float, Field(ge=0, le=30)]
 Length = Annotated[float, Field(ge=0.01, le=1e4)]
 BedSide = Annotated[float, Field(ge=10, le=1e4)]
 Stress = Annotated[float, Field(ge=0.1, le=1e4)]
+Stronger = Annotated[float, Field(ge=1, le=3)]
 Share = Annotated[float, Field(ge=1e-3, le=1)]
 
 
@@ -50,7 +53,7 @@ class Material(TomlTable):
     strength_in_plane_mpa: Stress
     strength_interlayer_mpa: Stress
     modulus_mpa: Annotated[float, Field(ge=1, le=1e6)]
-    price_eur_per_kg: Positive | None = None
+    price_eur_per_kg: Price | None = None
     nozzle_c: Annotated[float, Field(ge=100, le=500)] | None = None
     bed_c: Annotated[float, Field(ge=0, le=200)] | None = None
     source: Text = ""
@@ -64,12 +67,19 @@ class Roles(TomlTable):
     gears: Name
 
 
+SHARES = {"press_mm": 0.5, "eye_mm": 0.5, "lying_mm": 0.5, "sliding_mm": 0.5, "loose_mm": 0.5, "rib_mm": -0.5,
+          "m2_tap_mm": 1.0, "m2_clearance_mm": 1.0, "m3_tap_mm": 1.0, "m3_insert_mm": 1.0, "m3_clearance_mm": 1.0,
+          "holes_small_mm": -1.0}  # fmt: skip
+"""Of `holes_small_mm`, by which fits are drawn larger: those per side by half of it, diameters by all."""
+
+
 class Fits(TomlTable):
     """Every tolerance offset, as modelled. Fits are added per side; screw holes are given by their drawn diameter.
 
     The limits allow for any usable printer: holes come out up to 1 mm too small in diameter, hardly ever
     too large. What a shaft turns in or passes is never drawn smaller than the shaft; a screw cuts its thread in a hole
-    between its core and its own diameter, and passes one that is wider than itself.
+    between its core and its own diameter, and passes one that is wider than itself. Where they still come out
+    `holes_small_mm` smaller in diameter than they should, all are drawn wider by it; it is no play.
     """
 
     press_mm: Annotated[float, Field(ge=-0.2, le=0.5)]
@@ -78,7 +88,7 @@ class Fits(TomlTable):
     lying_mm: Annotated[float, Field(ge=-0.2, le=0.8)]
     sliding_mm: Annotated[float, Field(ge=0, le=0.8)]
     loose_mm: Annotated[float, Field(ge=0, le=1)]
-    hole_allowance_diameter_mm: Annotated[float, Field(ge=-0.4, le=1)]
+    holes_small_mm: Annotated[float, Field(ge=-0.4, le=1)]
     backlash_circumferential_mm: Annotated[float, Field(ge=0, le=1)]
     m2_tap_mm: Annotated[float, Field(ge=1.4, le=2.2)]
     m2_clearance_mm: Annotated[float, Field(ge=2, le=3.5)]
@@ -92,6 +102,14 @@ class Fits(TomlTable):
     first_layer_chamfer_mm: Annotated[float, Field(ge=0, le=2)]
     overhang_deg: Annotated[float, Field(ge=0, le=80)]
     bridge_mm: Annotated[float, Field(ge=0.01, le=200)]
+
+    @property
+    def drawn(self) -> "Fits":
+        """The fits with which holes are drawn: wider by `holes_small_mm`, of which nothing is left."""
+        if (more := self.holes_small_mm) == 0.0:
+            return self
+        larger = {key: round(getattr(self, key) + share * more, 6) for key, share in SHARES.items()}
+        return self.model_copy(update=larger)
 
     @property
     def link_tolerance_mm(self) -> float:
@@ -261,6 +279,18 @@ class Safety(TomlTable):
     def motor_share(self) -> float:
         """Share of a motor's allowed torque that the computed springs may need."""
         return (1.0 - self.motor_torque_reserve) / (1.0 + self.spring_rate_scatter)
+
+
+class StrengthTable(TomlTable):
+    """By how much parts that broke are made thicker or higher than their limits ask for; `eyes` are the links'."""
+
+    main_leg: Stronger
+    front_link: Stronger
+    eyes: Stronger
+    foot: Stronger
+    body_plates: Stronger
+    cam: Stronger
+    stop_bar: Stronger
 
 
 class ReleaseTable(TomlTable):

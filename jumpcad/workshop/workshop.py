@@ -39,7 +39,7 @@ from jumpcad.workshop.tables import (
     Masses,
     Material,
     Pins,
-    Positive,
+    Price,
     Printer,
     Process,
     ReleaseTable,
@@ -47,6 +47,7 @@ from jumpcad.workshop.tables import (
     Safety,
     Seats,
     SpringTable,
+    StrengthTable,
 )
 
 Role = Literal["links", "body", "gears"]
@@ -62,7 +63,8 @@ OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs", "pads")
 class Workshop(Record):
     """Everything that a robot depends on besides its eight numbers.
 
-    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials. `motors`,
+    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials; 0 is what is
+    there already, which is not ordered. `motors`,
     `bearings`, `batteries`, `boards`, `springs` and `pads` are the user's own parts alone.
     """
 
@@ -80,8 +82,9 @@ class Workshop(Record):
     spring: SpringTable
     release: ReleaseTable
     safety: Safety
+    strength: StrengthTable
     mass: Masses
-    prices_eur: dict[Name, Positive]
+    prices_eur: dict[Name, Price]
     motors: OwnParts[Motor] = Field(default_factory=dict)
     bearings: OwnParts[Bearing] = Field(default_factory=dict)
     batteries: OwnParts[Battery] = Field(default_factory=dict)

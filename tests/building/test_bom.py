@@ -108,6 +108,22 @@ def test_springs_cost_what_is_ordered_of_them(robot: Robot) -> None:
     assert guide.count("|20.00 €|\n") == 2
 
 
+def test_what_is_there_already_costs_nothing_and_is_not_ordered(robot: Robot) -> None:
+    """A price of 0 leaves an article out of cost and order; the robot has it as before."""
+    before = bill_of_materials(robot)
+    shop = robot.workshop.model_copy(update={"prices_eur": {"torsion spring": 0.0, "gear motor": 0.0}})
+    bill = bill_of_materials(replace(robot, workshop=shop))
+    there = [item for item in bill.items if item.name.startswith(("torsion spring", "gear motor"))]
+    assert {item.ordered for item in there} == {0}
+    dear = sum(item.total_eur or 0.0 for item in before.items if item.name.startswith(("torsion spring", "gear motor")))
+    assert before.cost_eur is not None
+    assert bill.cost_eur == pytest.approx(before.cost_eur - dear)
+    assert bill.mass_kg == before.mass_kg
+    text = bill_text(bill)
+    assert not any(line.startswith("|") and "torsion spring" in line for line in text.splitlines())
+    assert "There already, not ordered: " in text
+
+
 def test_what_is_sold_in_packs_is_ordered_in_packs() -> None:
     """Three bearings of a pack of 20 at 9.99 dollars cost the pack; a price of one's own is of a piece."""
     facts = {"kind": "bought", "name": "ball bearing 623", "quantity": 3, "material": "", "mass_kg": 0.0, "source": ""}

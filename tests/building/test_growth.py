@@ -1,23 +1,28 @@
 """Sections that are too weak grow until the checks pass, or stay where there is no room, which is reported."""
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
+from fnmatch import fnmatchcase
 from typing import Any
 
 import pytest
+from support.built import built
 from support.workshops import workshop_with
 
 from jumpcad import checks
 from jumpcad.building import assembly, build, growth
+from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.checks import check, constraint_findings
 from jumpcad.checks.strength import strength_findings
+from jumpcad.cli.verdict import notes
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, at_least, errors
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.robot import Robot
-from jumpcad.strength.growth import Growth
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.strength.growth import OF_PARTS, Growth
+from jumpcad.workshop import Workshop, load_workshop, varied
 
 LIMP_LEVER = [100.0, 0.9301, 0.5, 1.0781, 0.8, 62.7789, 27.6332, 15.5445]
 
@@ -179,3 +184,25 @@ def test_any_check_can_make_a_section_grow(monkeypatch: pytest.MonkeyPatch) -> N
     assert build(load_design("kenan-2.0")).layout.sections.dog_mm < 11.7
     monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, checks.Check(wide_dog, {}, cheap=True)))
     assert 11.7 <= build(load_design("kenan-2.0")).layout.sections.dog_mm < 11.8
+
+
+@pytest.mark.thorough
+def test_a_part_that_broke_gets_stronger_and_heavier_by_its_key_which_the_trouble_page_has() -> None:
+    """Limits by which sections grow, and the row that names them; with thicker sections stresses fall."""
+    before = built("first-robot", "first-robot")
+    uses = {one.name: one.use for one in constraint_findings(before)}
+    (row,) = (line for line in write_guide(before)["trouble.md"].splitlines() if line.startswith("|a part broke|"))
+    for part, sizes in OF_PARTS.items():
+        shop = varied(before.workshop, {f"strength.{part}": 1.3})
+        stronger = build(before.design, shop, before.name)
+        assert stronger.mass_kg > before.mass_kg, part
+        found = [one for one in constraint_findings(stronger) if one.grows in sizes]
+        assert not errors(found), part
+        assert all(one.use < uses[one.name] / 1.1 for one in found if one.use), part
+        named = row.partition(f"`{part}")[2].partition("), ")[0]
+        patterns = [f"{part}_*", *re.findall(r"`([a-z_*]+)`", named)]
+        breaks = [one.name for one in found if "strength" in one.name and one.name != "hub_strength"]
+        assert [name for name in breaks if not any(fnmatchcase(name, one) for one in patterns)] == [], part
+    (cost, *_) = notes(stronger, [])
+    grams = 1000.0 * (stronger.mass_kg - before.mass_kg)
+    assert cost.startswith(f"strength.stop_bar = 1.3: {grams:+.1f} g and ")

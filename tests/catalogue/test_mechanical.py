@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from jumpcad.catalogue import load_catalogue
+from jumpcad.catalogue import StockSpring, load_catalogue
 
 
 def test_a_wide_pad_is_stiffer_than_its_area_says() -> None:
@@ -30,6 +30,7 @@ def test_turns_follow_from_the_angle_between_tangent_arms(angle_deg: float, turn
     assert place == ("arm_angle_deg",)
     advised = float(reason.partition("have ")[2].partition("°")[0])
     assert advised == (angle_deg - 90.0) % 360.0
+    assert f"{angle_deg:g}° take {turns:g} turns, and {360.0 - angle_deg:g}°" in reason
     assert not list(wrong.model_copy(update={"arm_angle_deg": advised}).contradictions())
 
 
@@ -81,3 +82,20 @@ def test_a_rate_per_radian_per_turn_or_in_newton_metres_is_refused(name: str) ->
     bronze = spring.model_copy(update={"rate_nmm_per_deg": 110.0 / 206.0 * spring.rate_nmm_per_deg})
     assert not list(bronze.contradictions())
     assert not list(spring.model_copy(update={"rate_nmm_per_deg": 1.1 * by_hand}).contradictions())
+
+
+@pytest.mark.parametrize("name", list(load_catalogue().springs))
+def test_a_spring_as_a_shop_describes_it_has_the_makers_rate(name: str) -> None:
+    """Of wire, outer diameter, turns, angle and arms alone, within 6 %; a rate that is given counts."""
+    known = load_catalogue().springs[name]
+    words = {"wire_mm", "turns", "arm_angle_deg", "arm_length_mm"}
+    figures = known.model_dump(include=words) | {"name": "own", "source": "a drawer"}
+    outer = known.inside_diameter_mm + 2.0 * known.wire_mm
+    found = StockSpring(**figures, outer_diameter_mm=outer)
+    assert found.inside_diameter_mm == pytest.approx(known.inside_diameter_mm)
+    assert found.rate_nmm_per_deg == pytest.approx(known.rate_nmm_per_deg, rel=0.06)
+    measured = known.rate_nmm_per_deg
+    assert StockSpring(**figures, outer_diameter_mm=outer, rate_nmm_per_deg=measured).rate_nmm_per_deg == measured
+    for wrong in (0.0, 3.0 * known.wire_mm), (outer, outer):
+        both = {key: one for key, one in zip(("inside_diameter_mm", "outer_diameter_mm"), wrong, strict=True) if one}
+        assert "outer_diameter_mm of more than three" in str([*StockSpring(**figures, **both).contradictions()])

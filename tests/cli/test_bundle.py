@@ -29,6 +29,16 @@ def test_a_bundle_has_what_the_contract_says(bundle: Path) -> None:
     assert any(file.startswith("print/") and file.endswith(".3mf") for file in files)
 
 
+@pytest.mark.thorough
+def test_the_studys_masses_jump_with_the_springs_that_the_robot_has(run: Run, tmp_path: Path) -> None:
+    """A lighter robot with the same energy, of springs from stock, goes farther."""
+    _, out, _ = run("build", "first-robot", "-o", tmp_path / "b", "--no-pictures", "--json")
+    jump, capsule = json.loads(out)["jump"], json.loads(out)["capsule_jump"]
+    assert capsule["spring_energy_j"] == pytest.approx(jump["spring_energy_j"])
+    assert capsule["mass_kg"] < jump["mass_kg"]
+    assert capsule["ballistic_range_m"] > jump["ballistic_range_m"]
+
+
 def test_build_says_how_far_it_jumps_and_what_it_weighs(
     run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -6,8 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.hills import FIXED
 
+from jumpcad.building import build
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.space import Space
 from jumpcad.search.study.variant import Variant
@@ -210,3 +211,20 @@ def test_a_part_of_the_space_keeps_what_is_fixed_and_all_choices():
     assert held.to_variant([0.5]) == centre
     assert held.to_variant([0.5]).workshop["bought.battery"] == "lipo-1s-300"
     assert space.near(centre, ("c_coef",), None) is None
+
+
+def test_the_box_follows_springs_from_stock() -> None:
+    """Their stiffness is fixed at two of them; angles at which arms miss the room for the pin are left out."""
+    shop = load_workshop("first-robot")
+    box = {parameter.name: parameter for parameter in Space.make(workshop=shop).parameters}
+    assert (box["stiffness_nmm_per_deg"].lower, box["stiffness_nmm_per_deg"].upper) == (2.0 * 26.36, 2.0 * 26.36)
+    angle = box["rest_angle_deg"]
+    assert angle.lower < load_design("first-robot").rest_angle_deg <= angle.upper
+    for outside in (20.0, angle.lower - 3.0):
+        with pytest.raises(CannotBuildError, match="the plate's pin must be"):
+            build(load_design("kenan-2.0").model_copy(update={"rest_angle_deg": outside}), shop)
+    assert Space.make(workshop=load_workshop()) == Space.default()
+    asked = Space.make(bounds={"rest_angle_deg": (30, 40)}, fixed={"stiffness_nmm_per_deg": 9.2}, workshop=shop)
+    assert {p.name: (p.lower, p.upper) for p in asked.parameters}["rest_angle_deg"] == (30.0, 40.0)
+    near = Space.make(around=load_design("kenan-2.0"), within_percent=25, workshop=shop)
+    assert {p.name: (p.lower, p.upper) for p in near.parameters}["rest_angle_deg"] == pytest.approx((75.7, 90.0))

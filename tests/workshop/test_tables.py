@@ -38,7 +38,7 @@ def test_free_text_is_one_line_that_steers_no_terminal(text, written):
 
 
 def test_fits_that_no_printer_needs_are_refused(written):
-    fits = ("press_mm", "sliding_mm", "loose_mm", "hole_allowance_diameter_mm")
+    fits = ("press_mm", "sliding_mm", "loose_mm", "holes_small_mm")
     with pytest.raises(JumpcadError) as caught:
         load_workshop(written("[fits]\n" + "".join(f"{key} = -0.5\n" for key in fits)))
     assert all(f"fits.{key} = -0.5: must be at least" in str(caught.value) for key in fits)
@@ -54,8 +54,8 @@ def test_fits_that_no_printer_needs_are_refused(written):
         ('[roles]\nlinks = "PA12"', r"materials.PA12.strength_in_plane_mpa: missing"),
         ("process = 3", r"process = 3: must be"),
         ("[mass.weighed_g]\nfoot = -1", r"weighed_g.foot = -1: must be at least 0.0001"),
-        ("[prices_eur]\nnut = 0", r"prices_eur.nut = 0: must be at least 0.0001"),
-        ("[materials.PETG]\nprice_eur_per_kg = -20.0", r"PETG.price_eur_per_kg = -20.0: must be at least 0.0001"),
+        ("[prices_eur]\nnut = -1", r"prices_eur.nut = -1: must be at least 0"),
+        ("[materials.PETG]\nprice_eur_per_kg = -20.0", r"PETG.price_eur_per_kg = -20.0: must be at least 0"),
         ('[mass]\nmodel = "guess"', r"mass.model = 'guess': must be 'printed' or 'solid'"),
     ],
 )

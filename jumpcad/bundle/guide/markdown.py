@@ -8,6 +8,7 @@ from jumpcad.building.bom import Bill, bill_of_materials, euros
 from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.files.rendering import render
 from jumpcad.parts.part import Part
+from jumpcad.parts.spring_wire import CHOOSE
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import Step, assembly_steps
 from jumpcad.scene.step_views import label_of
@@ -41,7 +42,9 @@ def bill_text(bill: Bill) -> str:
     """Return the guide's sections `Print` and `Buy`; times and prices have columns where any is known."""
     printed = [item for item in bill.items if item.kind != "bought"]
     bought = [item for item in bill.items if item.kind == "bought"]
-    return render(BILL, {"bill": bill, "printed": printed, "bought": bought, "duration": duration, "euros": euros})
+    there = [item.name.removesuffix(CHOOSE) for item in bought if not item.ordered]
+    values = {"bill": bill, "printed": printed, "bought": bought, "there": there, "duration": duration, "euros": euros}
+    return render(BILL, values)
 
 
 def with_bill(order: str, bill: Bill) -> str:

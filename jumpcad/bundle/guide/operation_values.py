@@ -88,7 +88,7 @@ def operation_values(robot: Robot) -> dict[str, Any]:
         "stroke_deg": math.degrees(cam.law.compression_rad),
         "lift_deg": math.degrees(cam.law.lift_rad),
         "pull_n": 2.0 * robot.layout.drive.spring.torque_nmm / robot.design.carrying_link_mm,
-        "shaft_hole_mm": train.motor.shaft_mm + 2.0 * workshop.fits.loose_mm,
+        "shaft_hole_mm": train.motor.shaft_mm + 2.0 * workshop.fits.drawn.loose_mm,
         "box_mm": _box_mm(robot),
         "preloaded": robot.layout.stop_preload_rad > 0.0,
     }

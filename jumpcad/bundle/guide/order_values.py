@@ -67,6 +67,7 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
         "bars": _bars(robot, bill),
         "cage": _cage(robot),
         "bearings": [one for one in workshop.catalogue.bearings.values() if f"ball bearing {one.name}" in billed],
+        "there": "".join(f"|{item.name}" for item in bill.items if not item.ordered),
         "strap_mm": strap_mm(robot),
         "boards": chosen.boards,
         "slide_switch": _switch(robot),
