@@ -35,7 +35,7 @@ def test_a_coupon_is_printed_tried_and_built_with(run: Run, tmp_path: Path) -> N
     (tmp_path / "readings.toml").write_text(filled)
     code, out, err = run("coupon", "--measured", "readings.toml", "--json")
     assert (code, err) == (0, "")
-    assert json.loads(out)["fits"]["press_mm"] == {"before": 0.1, "after": 0.15}
+    assert json.loads(out)["fits"]["holes_small_mm"] == {"before": 0.0, "after": 0.1}
     workshop = load_workshop(tmp_path / "my-workshop.toml")
     robot = build(load_design("kenan-2.0"), workshop)
     found = measured(robot, "main_leg", 0.0, np.array([robot.layout.leg_pin_mm, 0.0]))
@@ -55,8 +55,8 @@ def test_a_workshop_keeps_its_comments_with_measured_values(run: Run, tmp_path: 
         shop, out = tmp_path / f"{name}.toml", tmp_path / f"{name}-measured.toml"
         code, _, err = run("coupon", "--measured", tmp_path / "r.toml", "--workshop", shop, "-o", out)
         assert (code, err) == (0, "")
-        fits = load_workshop(out).fits
+        fits = load_workshop(out).fits.drawn
         assert (fits.press_mm, fits.sliding_mm) == (0.15, 0.25), name
     text = (tmp_path / "mine-measured.toml").read_text(encoding="utf-8")
-    assert text.startswith('base = "default"\n[fits]  # by Ada\npress_mm = 0.15  # old nozzle\nsliding_mm = 0.25\n')
+    assert text.startswith('base = "default"\n[fits]  # by Ada\npress_mm = 0.12  # old nozzle\nsliding_mm = 0.22\n')
     assert "plate_mm = 2.8  # stiffer" in text
