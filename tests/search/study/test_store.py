@@ -34,9 +34,9 @@ def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
 EARLIER = (
     "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL)",
     "CREATE TABLE notes (text TEXT NOT NULL)",
-    "CREATE TABLE trials (\n  phase TEXT NOT NULL, run INTEGER NOT NULL, step INTEGER NOT NULL, place INTEGER NOT NULL,\n"
-    "  score REAL, record TEXT NOT NULL, PRIMARY KEY (phase, run, step, place)\n)",
-    "PRAGMA application_id = 1246055760",
+    "CREATE TABLE trials (\n  phase TEXT NOT NULL, run INTEGER NOT NULL, step INTEGER NOT NULL, "
+    "place INTEGER NOT NULL,\n  score REAL, record TEXT NOT NULL, PRIMARY KEY (phase, run, step, place)\n)",
+    "PRAGMA application_id = 1247104336",
     "PRAGMA user_version = 6",
     """INSERT INTO trials VALUES ('ga', 0, 0, 4, 0.8532087977914693, '{"phase":"ga","step":0,"place":4,"design":
     {"carrying_link_mm":139.5239838399,"c_coef":1.1588129409,"d_coef":0.7242377173,"e_coef":1.2317109637,
