@@ -24,14 +24,10 @@ OWN = "def aim(m):\n    return 100 * m['com_rise_m'] - m['mass_kg']\n"
 FIGURES = ("com_rise_m>=0.01", "-1.5e2<=touchdown_pitch_deg<=123.4567891", "mass_kg<=0.5", "com_rise_m>=0.123456789")
 EVALUATED = ("0.001<=com_rise_m", "-170<=touchdown_pitch_deg<=170", "leg_strength>=0.5", "rights_itself>=0.2")
 PRINTED = ["--workers", "0", "--engine", "planar", "--evaluations", "4"]
+QUIETLY = [HealthCheck.function_scoped_fixture]
 EXAMPLES = settings(
-    max_examples=6,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    phases=[Phase.generate],
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
+    max_examples=6, deadline=None, derandomize=True, database=None, phases=[Phase.generate], suppress_health_check=QUIETLY
+)  # fmt: skip
 
 
 def repeated(option: str, values: Any) -> list[str]:
