@@ -26,7 +26,8 @@ EVALUATED = ("0.001<=com_rise_m", "-170<=touchdown_pitch_deg<=170", "leg_strengt
 PRINTED = ["--workers", "0", "--engine", "planar", "--evaluations", "4"]
 QUIETLY = [HealthCheck.function_scoped_fixture]
 EXAMPLES = settings(
-    max_examples=6, deadline=None, derandomize=True, database=None, phases=[Phase.generate], suppress_health_check=QUIETLY
+    max_examples=6, deadline=None, derandomize=True, database=None, phases=[Phase.generate],
+    suppress_health_check=QUIETLY,
 )  # fmt: skip
 
 
