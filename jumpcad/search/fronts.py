@@ -108,13 +108,7 @@ COSTS: Mapping[str, Cost] = {
 
 
 def find_cost(name: str) -> Cost:
-    """Return a cost by its name, or for the name of an objective the cost of having less of it.
-
-    Raises
-    ------
-    JumpcadError
-        If there is none of that name.
-    """
+    """Return a cost by its name, or for the name of an objective the cost of having less of it."""
     if name in COSTS:
         return COSTS[name]
     if name in OBJECTIVES:

@@ -101,12 +101,6 @@ def _posed(first: Array, second: Array, share: float) -> Array:
 
 
 def playback(robot: Robot) -> Playback:
-    """Return the motion of a robot, by the engine of its report.
-
-    Raises
-    ------
-    JumpcadError
-        If no engine is installed.
-    """
+    """Return the motion of a robot, by the engine of its report."""
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), BUNDLE_ENGINE)
     return Playback(motion(robot, jump.trajectory, jump.takeoff_time_s), turning_parts(robot))

@@ -4,11 +4,16 @@ import json
 from pathlib import Path
 
 import pytest
+from support.each import each
 from typer.testing import CliRunner
 
 import jumpcad
 from jumpcad.cli.commands import app
+from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.search.models import robot_model
+from jumpcad.search.space import Space
+from jumpcad.search.study.request import Request
 
 WEAK = {"stiffness_nmm_per_deg": 5, "compression_ratio": 0.1}
 QUICK = {"model": "capsule", "settings": "screening", "workers": 0}
@@ -85,3 +90,32 @@ def test_a_search_is_around_a_design_however_it_is_named(folder, monkeypatch):
         for around in ("best-ga", "own.toml", Path("own.toml"), folder / "own.toml", design)
     ]
     assert spaces == [jumpcad.search.Space.parse(around=design, within_percent=10)] * 5
+
+
+@pytest.mark.thorough
+@each("method", [None, "ga", "pareto", "nsga2"])
+def test_what_is_known_is_evaluated_first_and_the_search_begins_with_it(folder, method):
+    """It counts, is the same robot to `simulate`, and what is found is as good; what is out of bounds is told."""
+    ask = QUICK | {"method": method or "bo", "evaluations": 12, "objective": "range", "until_percent": 0}
+    found = jumpcad.optimize(start=["best-bo", load_design("best-bo")], around="best-ga", **ask)
+    assert [trial.phase for trial in found.trials].count("start") == 2 == 12 - len(found.trials[2:])
+    for trial, name in zip(found.trials, ("best-ga", "best-bo"), strict=False):
+        design = load_design(name)
+        assert trial.design == design
+        jump = jumpcad.simulate(jumpcad.capsule_robot(design), jumpcad.load_settings("screening"))
+        assert trial.score == pytest.approx(jump.ballistic_range_m, rel=1e-9)
+    assert found.score >= max(trial.score for trial in found.trials[:2])
+    with pytest.raises(JumpcadError, match=r"start: rest_angle_deg = 88\.2 is outside of the search"):
+        jumpcad.optimize(start=["kenan-2.0"], **ask)
+    told = jumpcad.optimize(around="kenan-2.0", only=["rest_angle_deg", "c_coef"], **ask)
+    assert "around: rest_angle_deg = 88.2 is outside of the search, so that design is not evaluated" in told.notes
+    assert not any(trial.phase == "start" for trial in told.trials)
+
+
+def test_a_start_of_the_workshop_has_its_values_or_the_nearest_that_are_searched():
+    robot = robot_model("printed")
+    space = Space.parse(bound=["body.plate_mm=2.6:3"], choose=["bought.roller=683,682"], workshop=robot.workshop)
+    (begun,) = Request.make(space, robot, start=[load_design("best-bo")]).first
+    assert dict(begun.workshop) == {"body.plate_mm": 2.6, "bought.roller": "683"}
+    with pytest.raises(JumpcadError, match="evaluations = 1 leave 1 for the search, which begins with 2 designs"):
+        Request.make(space, robot, evaluations=1, start=[load_design("best-bo"), load_design("best-ga")])

@@ -24,8 +24,8 @@ class Requirement:
     most: float | None = None
 
     def __str__(self) -> str:
-        low = "" if self.least is None else f"{self.least:g}<="
-        return f"{low}{self.name}" + ("" if self.most is None else f"<={self.most:g}")
+        low = "" if self.least is None else f"{_number(self.least)}<="
+        return f"{low}{self.name}" + ("" if self.most is None else f"<={_number(self.most)}")
 
     @classmethod
     def parse(cls, text: str) -> "Requirement":
@@ -69,11 +69,16 @@ class Requirement:
         """Yield a finding of a value for each limit, named after it."""
         remedy = "change what the figure depends on, or require less"
         if self.least is not None:
-            name = f"{self.name}>={self.least:g}"
+            name = f"{self.name}>={_number(self.least)}"
             yield at_least(name, value, self.least, "", f"{self.name} is {value:.4g}, required is {name}", remedy)
         if self.most is not None:
-            name = f"{self.name}<={self.most:g}"
+            name = f"{self.name}<={_number(self.most)}"
             yield at_most(name, value, self.most, "", f"{self.name} is {value:.4g}, required is {name}", remedy)
+
+
+def _number(value: float) -> str:
+    """Return a number with all of its digits: a study tells searches apart by them."""
+    return repr(float(value)).removesuffix(".0")
 
 
 Required = Mapping[str, tuple[float | None, float | None]]

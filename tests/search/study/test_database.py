@@ -103,7 +103,13 @@ def lay(path, kind, victim):
          "folder": lambda _: path.mkdir()}[kind](victim)  # fmt: skip
 
 
-KINDS = ["link", "symlink", "pipe", "folder", *(["another's"] if hasattr(os, "getuid") and os.getuid() == 0 else [])]
+KINDS = [
+    "link",
+    "symlink",
+    *(["pipe"] if hasattr(os, "mkfifo") else []),
+    "folder",
+    *(["another's"] if hasattr(os, "getuid") and os.getuid() == 0 else []),
+]
 
 
 @each("end, kind", [("-journal", "journal"), *((end, kind) for end in ("-journal", "-wal", "-shm") for kind in KINDS)])

@@ -1,11 +1,13 @@
 """The study file: complete, readable while it is written, and never mistaken for another."""
 
+import json
 import os
 import signal
 import sqlite3
 import subprocess
 import sys
 import textwrap
+from contextlib import closing
 from dataclasses import replace
 
 import pytest
@@ -14,6 +16,7 @@ from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
+from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.store import ENDED, FORMAT, MOST_NOTES, StudyStore
 
 
@@ -26,6 +29,49 @@ def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
         assert store.trials() == [*second, *first]
         assert store.identity == IDENTITY
     assert os.listdir(tmp_path) == ["s.db"]
+
+
+EARLIER = (
+    "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL)",
+    "CREATE TABLE notes (text TEXT NOT NULL)",
+    "CREATE TABLE trials (\n  phase TEXT NOT NULL, run INTEGER NOT NULL, step INTEGER NOT NULL, "
+    "place INTEGER NOT NULL,\n  score REAL, record TEXT NOT NULL, PRIMARY KEY (phase, run, step, place)\n)",
+    "PRAGMA application_id = 1247104336",
+    "PRAGMA user_version = 6",
+    """INSERT INTO trials VALUES ('ga', 0, 0, 4, 0.8532087977914693, '{"phase":"ga","step":0,"place":4,"design":
+    {"carrying_link_mm":139.5239838399,"c_coef":1.1588129409,"d_coef":0.7242377173,"e_coef":1.2317109637,
+    "compression_ratio":0.4680879167,"rest_angle_deg":66.0827657022,"stiffness_nmm_per_deg":22.4955519615,
+    "ground_link_angle_deg":22.8371130209},"evaluation":{"verdict":"jump","metrics":{"fitness":0.8532087977914693},
+    "findings":[["audit_loop","info",0.486909,"mm"],["com_rise_m>=0.05","info",0.00734566,""]],"detail":""},
+    "score":0.8532087977914693,"model":"m","duration_s":0.0132,"proposal":{},"workshop":{},"run":0}')""",
+)
+"""What an earlier version wrote for `--require "com_rise_m>=0.05"`, and could not read."""
+
+
+def test_a_study_of_an_earlier_version_is_read(tmp_path):
+    identity = json.dumps(IDENTITY | {"model": {"name": "capsule", "require": ["0.05<=com_rise_m"]}})
+    with closing(sqlite3.connect(tmp_path / "s.db")) as connection, connection:
+        for statement in EARLIER:
+            connection.execute(statement)
+        connection.execute("INSERT INTO study VALUES ('identity', ?)", (identity,))
+    with StudyStore.read(tmp_path / "s.db") as store:
+        (found,) = store.trials()
+    assert found.evaluation.margins == {"audit_loop": 0.486909, "com_rise_m>=0.05": 0.00734566}
+    assert (found.score, found.design.c_coef, found.position) == (0.8532087977914693, 1.1588129409, ("ga", 0, 0, 4))
+
+
+def test_what_no_reader_takes_is_not_written(tmp_path):
+    """A fault of the program: it ends with its traceback, and the study stays what it was."""
+    (one, *_), wrong = trials(2), Evaluation("no verdict")
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        store.append([one])
+        for write in (
+            lambda: store.append([replace(one, place=9, evaluation=wrong)]),
+            lambda: store.remember(ENDED, 5),
+        ):
+            with pytest.raises(AssertionError, match="could not be read again"):
+                write()
+        assert (store.trials(), store.recall(ENDED)) == ([one], None)
 
 
 def test_one_failing_row_undoes_its_batch(tmp_path):

@@ -84,6 +84,17 @@ def test_a_record_has_every_figure_under_its_name_and_the_workshop_where_one_var
     assert varied.variant.workshop == varied.workshop
 
 
+def test_of_several_margins_of_one_name_the_least_counts_everywhere(trial: Trial, tmp_path) -> None:
+    """A requirement is checked on several floors."""
+    for margins in ((12.0, -5.0), (-5.0, 12.0)):
+        floors = tuple(Finding("turn_deg<=9", "error" if m < 0 else "info", m, "°", "", "") for m in margins)
+        one = replace(trial, evaluation=Evaluation("jump", {}, floors), score=None)
+        write_table([one], tmp_path / "t.csv", force=True)
+        (row,) = csv.DictReader((tmp_path / "t.csv").read_text().splitlines())
+        assert one.to_dict()["margins"] == {"turn_deg<=9": {"margin": -5.0, "unit": "°"}}
+        assert (row["margin_turn_deg<=9"], one.evaluation.margins) == ("-5.0", {"turn_deg<=9": -5.0})
+
+
 @pytest.fixture
 def trials(evaluator):
     one = evaluator()
