@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 import jumpcad
+from jumpcad.simulation.engines import default_engine
 
 DESIGN = jumpcad.Design.from_vector([123.456789, 1.0123456789, 0.8123456, 1.2345678, 0.5123456, 61.23456, 12.345, 33.3])
 
@@ -27,7 +28,7 @@ def test_a_rejected_design_says_why():
     weak = jumpcad.load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 0.5})
     jump = jumpcad.simulate(jumpcad.capsule_robot(weak))
     shown = table(jump._repr_html_())
-    assert shown["verdict"] == "too_weak (pybullet)"
+    assert shown["verdict"] == f"too_weak ({default_engine()})"
     assert "error: too_weak" in shown
     assert "ballistic range" not in shown
 

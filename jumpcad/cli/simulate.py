@@ -172,15 +172,8 @@ def _published(design: "Design", heading: dict[str, str], engine: str | None, as
 
 
 def _engines(asked: str | None) -> list[str]:
-    """Return the engines to use: by default the first installed, with a message if it is not PyBullet."""
-    if asked == "both":
-        return list(GENERAL)
-    if asked is not None:
-        return [asked]
-    engine = default_engine()
-    if engine != GENERAL[0]:
-        print(f"jumpcad: {GENERAL[0]} is not installed; simulated with {engine}", file=sys.stderr)
-    return [engine]
+    """Return the engines to use: by default the first installed, which the output names."""
+    return list(GENERAL) if asked == "both" else [default_engine() if asked is None else asked]
 
 
 def _land(robot: "Robot", heading: dict[str, str], settings: "Settings", tries: int, seed: int, as_json: bool) -> None:

@@ -17,6 +17,7 @@ from jumpcad.landing.series import jumps
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
+from jumpcad.simulation.engines import default_engine
 from jumpcad.simulation.prior import floors
 from jumpcad.workshop import DEFAULT, load_workshop, own_workshop, varied
 
@@ -57,7 +58,7 @@ def test_it_keeps_all_limits_with_both_kits(robot: Robot) -> None:
 
 
 def test_it_touches_down_upright_on_all_floors_of_its_workshop(robot: Robot) -> None:
-    for engine in ("planar", "pybullet"):
+    for engine in ("planar", default_engine()):
         pitches = [simulate(robot, one, engine).touchdown_pitch_deg for one in (Settings(), *floors(robot, Settings()))]
         assert all(pitch is not None and abs(pitch) <= 30.0 for pitch in pitches), (engine, pitches)
 

@@ -15,6 +15,7 @@ from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.variant import Variant
 from jumpcad.settings import load_settings
 from jumpcad.simulation import Jump
+from jumpcad.simulation.engines import default_engine
 from jumpcad.workshop import load_workshop, varied
 
 
@@ -36,19 +37,19 @@ def test_only_a_printed_robot_has_a_workshop_a_size_and_a_quick_score():
 def test_a_model_says_what_decides_its_evaluations():
     """The capsule robot is simulated by an engine, the published one by PyBullet alone; versions follow."""
     printed, capsule, published = robot_model(), robot_model("capsule"), robot_model("published")
-    assert [one.describe()["engine"] for one in (printed, capsule, published)] == ["pybullet"] * 3
+    assert [one.describe()["engine"] for one in (printed, capsule, published)] == [default_engine()] * 2 + ["pybullet"]
     assert replace(capsule, engine="planar").describe()["engine"] == "planar"
     assert [one.describe()["workshop"] is None for one in (printed, capsule, published)] == [False, True, True]
     assert [one.describe()["settings"] is None for one in (printed, capsule, published)] == [False, False, True]
     assert {"manifold3d", "trimesh"} < set(printed.versions())
     assert not {"manifold3d", "trimesh"} & set(capsule.versions())
     for model, engine in (
-        (printed, "pybullet"),
+        (printed, default_engine()),
         (replace(capsule, engine="mujoco"), "mujoco"),
         (published, "pybullet"),
     ):
         assert {"jumpcad", "code", "numpy", engine} <= set(model.versions())
-    assert "mujoco" not in printed.versions()
+    assert "mujoco" not in published.versions()
     assert replace(printed, stand_in=True).describe() == printed.describe() | {"stand_in": True}
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
     assert len(digests) == 4

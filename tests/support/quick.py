@@ -7,6 +7,7 @@ from jumpcad.search.models import PrintedModel, robot_model
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.simulation import simulate
+from jumpcad.simulation.engines import default_engine
 
 BEST = load_design("best-printable")
 SPACE = Space.make(around=BEST, within_percent=15.0)
@@ -23,7 +24,7 @@ class Quick(PrintedModel):
         larger = design.carrying_link_mm / BEST.carrying_link_mm
         heavier = larger * (1.0 + 0.002 * design.stiffness_nmm_per_deg * larger)
         figures = {name: value * (heavier if "mass" in name else 1.0) for name, value in FIGURES.items()}
-        jump = simulate(estimated_robot(design, figures, LIKE), self.settings, "pybullet")
+        jump = simulate(estimated_robot(design, figures, LIKE), self.settings, default_engine())
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
         size = max(0.1, design.l_max_mm / 1000.0)
         figures |= dict.fromkeys(EXTENTS, 0.1)
