@@ -24,10 +24,10 @@ from jumpcad.transforms import ByValue
 from jumpcad.workshop import Workshop
 
 JUMP_FIGURES = {
-    "touchdown_distance_m": "way of the centre of mass to the first touch of the floor by any part",
+    "touchdown_distance_m": "touchdown: way until any part touches the floor",
     "com_rise_m": "rise of the centre of mass",
-    "ballistic_range_m": "range: its way until it falls below the height at which it started, floor or not",
-    "touchdown_gap_m": "… of it, what lies after the touchdown",
+    "ballistic_range_m": "range, floor or not",
+    "touchdown_gap_m": "… of it, after the touchdown",
     "fitness": "range over the longest link",
     "spring_energy_j": "energy in the springs",
     "release_energy_ratio": "springs' energy left after the release, share",

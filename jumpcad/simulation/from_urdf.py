@@ -42,6 +42,7 @@ Angle = Annotated[float, Field(ge=-20, le=20)]
 Radius = Annotated[float, Field(ge=0, le=0.1)]
 Point = Annotated[tuple[Length, Length, Length], Field(strict=False)]
 Corner = Annotated[tuple[Length, Length], Field(strict=False)]
+Outline = Annotated[list[Corner], Field(min_length=3, max_length=1000)]
 JointName = Literal["leg", "front", "ankle"]
 BodyName = Literal["body", "main_leg", "front_link", "foot"]
 
@@ -127,9 +128,7 @@ class LoopFile(Record):
     roller_off: RollerOffSection | None = None
     friction: FrictionSection | None = None
     foot_depth_m: Annotated[float, Field(ge=1e-5, le=1)]
-    outline_m: dict[BodyName, Annotated[list[Corner], Field(min_length=3, max_length=1000)]] = Field(
-        default_factory=dict
-    )
+    outline_m: dict[BodyName, Outline] = Field(default_factory=dict)
     surfaces: dict[str, Literal["foot", "body"]]
 
 

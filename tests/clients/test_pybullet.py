@@ -51,9 +51,10 @@ def test_reads_what_was_written(case: Case) -> None:
 
 
 def test_jumps_as_far_as_in_memory(case: Case) -> None:
-    here = simulate(case.robot).ballistic_range_m
-    assert loaded_range_m(case.bundle.urdf) == pytest.approx(here, rel=1e-9)
-    assert simulate(robot_from_urdf(case.bundle.urdf)).ballistic_range_m == pytest.approx(here, rel=1e-9)
+    here, there = (simulate(robot) for robot in (case.robot, robot_from_urdf(case.bundle.urdf)))
+    assert loaded_range_m(case.bundle.urdf) == pytest.approx(here.ballistic_range_m, rel=1e-9)
+    assert there.ballistic_range_m == pytest.approx(here.ballistic_range_m, rel=1e-9)
+    assert there.touchdown_distance_m == pytest.approx(here.touchdown_distance_m, abs=1e-5)
 
 
 @pytest.mark.thorough

@@ -70,7 +70,7 @@ def test_links_are_told_from_the_hub_to_the_toe() -> None:
 def test_headlines_come_first_and_nothing_twice() -> None:
     """Figures of estimates alone are not shown."""
     first, others = told(laid_coil_mm=0.5, turn_rate_deg_s=90.0, **dict.fromkeys(HEADLINES, 0.125))
-    assert list(first.values()).count("125 mm") == 2
+    assert list(first.values()).count("125 mm") == 3  # touchdown, range, rise
     assert "125 g" in first.values()
     assert others == {"rate of that turn": "90 °/s"}
 

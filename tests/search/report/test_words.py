@@ -53,7 +53,7 @@ def test_the_longest_name_counts_and_an_unknown_reason_has_no_words():
 
 
 def test_figures_and_parameters_have_their_units():
-    assert figure_words("ballistic_range_m", 0.2024) == ("range", "202.4 mm")
+    assert figure_words("ballistic_range_m", 0.2024) == ("range, floor or not", "202.4 mm")
     assert figure_words("takeoff_angle_deg", 58.0) == ("angle of take-off above the ground", "58°")
     assert figure_words("foot_mass_kg", 0.0117) == ("mass of the foot", "11.7 g")
     assert figure_words("foot_inertia_kg_m2", 2.5e-5) == ("foot inertia", "2.5e-05 kg·m²")
