@@ -19,14 +19,7 @@ from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.study.own_objective import LARGEST
 from jumpcad.search.study.request import Stage
-from jumpcad.search.study.trial import (
-    Trial,
-    best_trial,
-    feasible_trials,
-    lacking,
-    required_sizes,
-    searched,
-)
+from jumpcad.search.study.trial import Trial, best_trial, feasible_trials, lacking, required_sizes, searched
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
@@ -119,8 +112,7 @@ class Fitness:
     def fitness(self, trial: Trial) -> Any:
         """Return the fitness of a trial; what only misses requirements is between all rejected and all others."""
         if trial.score is None and trial.evaluation.only_misses_required:
-            lack = lacking(trial, self._sizes)
-            return np.multiply(self.rejected, 0.5 + 0.5 * lack / (1.0 + lack)).tolist()
+            return np.multiply(self.rejected, 1.0 - 0.5 / (1.0 + lacking(trial, self._sizes))).tolist()
         return self.rejected if trial.score is None else self.objectives(trial)
 
     def left_out(self, _variants: Sequence[Variant]) -> Mapping[Key, Evaluation]:
