@@ -109,14 +109,13 @@ def run_study(
         trials = evaluator.trials
         timed = clock.is_over(request.pick) and not converged and len(trials) < request.searched
         picking, best = True, best_trial(trials)
-        if best is None and not why_required(trials):
-            for line in why_rejected(trials, request.space, request.model):
-                store.note_once(line)
         worth = request.pick and best is not None and (request.is_front or not is_flat(trials))
         candidates, bounds = _picked(request, evaluator) if worth else ([], [])
         result = Result(request, trials, best, candidates, bounds, [], len(evaluator.trials), converged)
         righting = simulated_righting(request.model, store, result.winner)
         notes = store.notes()
+        if best is None and not why_required(trials):
+            notes += why_rejected(trials, request.space, request.model)
         if timed or cut:
             where = f"before {counted(request.searched, 'design')}" if timed else "during the robust pick"
             notes.append(f"ended after {request.hours:g} h, {where}: the same command goes on")

@@ -148,8 +148,9 @@ def is_flat(trials: Sequence[Trial]) -> bool:
 
 
 def typical_size(margins: Sequence[float] | Array) -> float:
-    """Return the median of absolute margins, 1 if that is 0: what counts as 1 where several limits are compared."""
-    return float(np.median(np.abs(margins))) or 1.0
+    """Return the median of absolute margins, what counts as 1 where several limits are compared; 1 if it is 0."""
+    size = float(np.median(np.abs(margins)))
+    return size if 0.0 < size < np.inf else 1.0
 
 
 def required_sizes(trials: Iterable[Trial]) -> dict[str, float]:

@@ -98,11 +98,9 @@ def _bounds(remedy: str, space: Space) -> Iterator[str]:
     parameters = {one.name: one for one in space.parameters if not one.names}
     for word, key in asked(remedy):
         if (direction := DIRECTIONS[word]) and (one := parameters.pop(key, None)):
-            usual = SEARCH_BOUNDS.get(key, one)
-            end, value, what = (
-                (one.upper, usual.upper, "at most") if direction > 0 else (one.lower, usual.lower, "at least")
-            )
+            usual, up = SEARCH_BOUNDS.get(key, one), direction > 0
+            end, value = (one.upper, usual.upper) if up else (one.lower, usual.lower)
             if said := re.search(rf"{re.escape(key)}(?: to| =) ({NUMBERS.pattern})", remedy):
                 value = float(said[1].rstrip("."))
             if direction * (value - end) > 0.0:
-                yield f"{key} {what if one.free else 'fixed at'} {end:g}"
+                yield f"{key} {('at most' if up else 'at least') if one.free else 'fixed at'} {end:g}"
