@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.report.words import meaning_of, named, unit_of, value_words, with_unit
+from jumpcad.search.report.words import meaning_of, unit_of, value_words, with_unit
 from jumpcad.search.space import Space
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial, best_trial, feasible_trials
@@ -27,8 +27,8 @@ LITTLE = 0.01
 """Gain of a search's last fifth, over the best score before, below which going on promises little; judgement."""
 TOGETHER, APART = 0.1, 0.5
 """Shares of a range within which designs run together, and beyond which they spread; judgement."""
-LEFT, RIGHT, ROW = 16.0, 624.0, 54.0
-"""Ends of the axes of the parallel lines, and their distance."""
+LEFT, RIGHT, ROW = 272.0, 624.0, 54.0
+"""Ends of the axes of the parallel lines, beside their names, and their distance."""
 Scale = tuple[float, float, list[float]]
 """Lowest and highest value of an axis, and its ticks."""
 
@@ -171,11 +171,16 @@ def parallel(found: StudySummary, shown: Sequence[Trial]) -> dict[str, Any]:
         "told": len(best) >= BEST_LEAST,
         "best": len(best),
         "others": bool(others),
-        "height": ROW * space.dimension + 6.0,
+        "height": ROW * space.dimension + 28.0,
+        "left": LEFT,
         "bundles": ["".join(_line(space, trial) for trial in reversed(bundle)) for bundle in bundles],
         "shown": [_line(space, trial) for trial in shown],
         "axes": [
-            (ROW * row, value_words(one.value(one.lower)), named(one.name), value_words(one.value(one.upper)))
+            (
+                ROW * row,
+                one.name,
+                with_unit(" … ".join(value_words(one.value(end)) for end in (one.lower, one.upper)), one.name),
+            )
             for row, one in enumerate(space.free, start=1)
         ],
     }

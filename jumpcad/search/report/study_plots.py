@@ -83,5 +83,5 @@ def best_so_far(results: Sequence[Result]) -> Figure:
     objective = results[0].request.aim
     labels(axes, "designs evaluated by the search", f"{objective.meaning} ({objective.unit})")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.legend(loc="lower right")
+    figure.legend(loc="outside upper right", ncols=4)
     return figure

@@ -55,7 +55,7 @@ def test_a_click_on_a_point_shows_its_robot(driver: Any, page: Path) -> None:
     (now,) = shown(driver)
     assert now.startswith(f"Design {number} (")
     assert box.screenshot_as_png != before
-    drawn = driver.find_element("css selector", f"#design-{number} svg.side")
+    drawn = driver.find_element("css selector", f'[data-of="{number}"] svg.side')
     assert drawn.size["width"] > 200
     assert drawn.size["height"] > 50
     assert last.get_attribute("aria-current") == "true"
