@@ -23,7 +23,6 @@ from PIL import Image
 
 from jumpcad.building import build
 from jumpcad.bundle.motion_gif import motion_gif
-from jumpcad.bundle.step_pictures import paletted
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.cli.commands import run
 from jumpcad.design import load_design
@@ -33,6 +32,7 @@ from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
 from jumpcad.scene.camera import View
+from jumpcad.scene.renderer import paletted
 from jumpcad.simulation import Settings, simulate
 from jumpcad.transforms import Array
 from jumpcad.workshop import load_workshop, own_workshop

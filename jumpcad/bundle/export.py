@@ -25,6 +25,7 @@ from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.checks.electronics import electronics_findings
+from jumpcad.coupon.contents import coupon_files, coupon_pieces
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.animation import BodyMotion, animated
 from jumpcad.exporters.glb import write_glb
@@ -91,6 +92,8 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
     files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
     for exporter in exporters:
         files |= dict(exporter.files(robot))
+    made = coupon_pieces(robot.workshop)
+    files |= {f"coupon/{path}": content for path, content in coupon_files(robot.workshop, made, pictures)}
     files["bom.csv"] = write_bom(bill_of_materials(robot))
     files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
     limits_of(robot)  # for guide and report, while pictures are drawn

@@ -6,6 +6,7 @@ from jumpcad.catalogue import Battery
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.nets import gpio
 from jumpcad.landing.series import LANDING_S, REST_S
+from jumpcad.layout.sensor import SensorPlace
 from jumpcad.robot import Robot, carried
 
 BUTTON_DELAY_MS = 3000
@@ -13,7 +14,7 @@ BUTTON_DELAY_MS = 3000
 SLOWEST = 1.5
 """Time allowed for winding over that on an empty battery; judgement: cold grease and scatter of the motor."""
 TOO_EARLY = 0.5
-"""Share of the shortest time for a turn before which the sensor is not believed after a release; judgement."""
+"""Share of the shortest time for a turn, or a release, before which the sensor is not believed; judgement."""
 SETTLE_MS = 10
 """How long a switch must keep its state; usual of small switches: they bounce for 1 to 5 ms."""
 AFTER_RELEASE_MS = round(1000.0 * RUN_ON_S)
@@ -26,6 +27,8 @@ RAMP_MS = 100
 """In which the motor gets its power; judgement."""
 LOW_MS = 200
 """How long the loaded battery must be low; judgement: longer than the motor's start."""
+WATCHDOG_MS = 1000
+"""The least that MicroPython's `machine.WDT` takes on every board; a step takes 2 ms, a blocked USB port 200 ms."""
 PWM_HZ = 20_000
 RESERVE_V = 0.2
 """Per cell, over the empty voltage at rest, with which winding begins: what is begun is not to be refused half-way.
@@ -62,6 +65,7 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "LOW_MS": LOW_MS,
         "WIND_MIN_MS": math.floor(TOO_EARLY * fastest_s * 10.0) * 100,
         "WIND_MAX_MS": math.ceil(SLOWEST * slowest_s * 10.0) * 100,
+        "RELEASE_MIN_MS": _release_min_ms(robot.layout.sensor, 2.0 * math.pi / fastest_s),
         "RELEASE_MAX_MS": math.ceil(SLOWEST * slowest_s * release_share(robot) * 10.0) * 100,
         "READY_DEG": None if sensor is None else round(math.degrees(sensor.ready_rad), 1),
         "AFTER_RELEASE_MS": AFTER_RELEASE_MS,
@@ -70,12 +74,21 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "REST_MS": REST_MS,
         "BUTTON_DELAY_MS": BUTTON_DELAY_MS,
         "RAMP_MS": RAMP_MS,
+        "WATCHDOG_MS": WATCHDOG_MS,
     }
 
 
 def start_v(battery: Battery) -> float:
     """Return the voltage at rest from which the robot winds (V): the reserve over empty, at most the nominal one."""
     return round(min(battery.range_v[0] + RESERVE_V * battery.cells, battery.voltage_v), 3)
+
+
+def _release_min_ms(sensor: SensorPlace | None, fastest_rad_s: float) -> int:
+    """Return the share `TOO_EARLY` of the shortest time from the ready position until the sensor opens (ms)."""
+    if sensor is None:
+        return 0
+    shortest_rad = sensor.ready_rad + sensor.open_rad - 2.0 * sensor.scatter_rad - sensor.needs.stop_rad
+    return math.floor(1000.0 * TOO_EARLY * max(shortest_rad, 0.0) / fastest_rad_s)
 
 
 def release_share(robot: Robot) -> float:

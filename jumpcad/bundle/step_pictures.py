@@ -3,13 +3,12 @@
 from types import MappingProxyType
 
 import numpy as np
-from PIL import Image
 
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled
-from jumpcad.scene.renderer import Renderer, png_of
+from jumpcad.scene.renderer import COMPRESSION, Renderer, paletted, png_of
 from jumpcad.scene.step_views import StepView, step_views
 from jumpcad.scene.visuals import Visual
 from jumpcad.transforms import Array
@@ -22,8 +21,6 @@ COMPASS = MappingProxyType({"front": 0, "left": 1})
 """What every picture of a bundle marks: axes of the standing robot."""
 ROOM = 1.12
 """Size of the picture's frame over that of the view's."""
-COMPRESSION = 6
-"""Of the PNG files: 9 takes four times as long, for files 6 % smaller."""
 
 
 def step_pictures(robot: Robot, things: tuple[Visual, ...], scene: Renderer) -> dict[str, bytes]:
@@ -68,12 +65,3 @@ def _picture(view: StepView, number: dict[str, int], scene: Renderer, size: tupl
 def compass(view: View) -> dict[str, Array]:
     """Return where a picture has front and left: unit vectors (2,) or shorter, y downwards."""
     return {name: np.round(view.axes[:2, axis] * (1.0, -1.0), 6) for name, axis in COMPASS.items()}
-
-
-def paletted(picture: Image.Image) -> Image.Image:
-    """Return a picture with a palette of at most 256 colours; the colour of its first pixel stays as it is."""
-    found = picture.quantize(method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
-    palette, ground = found.getpalette() or [], 3 * int(np.asarray(found)[0, 0])
-    palette[ground : ground + 3] = np.asarray(picture)[0, 0].tolist()
-    found.putpalette(palette)
-    return found

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jumpcad.bundle.step_pictures import COMPRESSION, paletted
 from jumpcad.coupon.pieces import (
     GAUGE_MM,
     MARGIN_MM,
@@ -20,7 +19,7 @@ from jumpcad.coupon.pieces import (
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled
-from jumpcad.scene.renderer import MM, Renderer, png_of
+from jumpcad.scene.renderer import COMPRESSION, MM, Renderer, paletted, png_of
 from jumpcad.transforms import Array, pose_at
 
 if TYPE_CHECKING:

@@ -41,6 +41,8 @@ AMBIENT, DIFFUSE = 0.6, 0.45
 """Brightness of a face turned away from the light, and what perpendicular light adds."""
 MM = 0.001
 """In metres."""
+COMPRESSION = 6
+"""Of PNG files: 9 takes four times as long, for files 6 % smaller."""
 
 
 @dataclass(frozen=True)
@@ -115,6 +117,15 @@ def png_of(picture: Image.Image, **options: int) -> bytes:
     stream = io.BytesIO()
     picture.save(stream, "PNG", **options)
     return stream.getvalue()
+
+
+def paletted(picture: Image.Image) -> Image.Image:
+    """Return a picture with a palette of at most 256 colours; the colour of its first pixel stays as it is."""
+    found = picture.quantize(method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    palette, ground = found.getpalette() or [], 3 * int(np.asarray(found)[0, 0])
+    palette[ground : ground + 3] = np.asarray(picture)[0, 0].tolist()
+    found.putpalette(palette)
+    return found
 
 
 def creases(mesh: "trimesh.Trimesh") -> Array:

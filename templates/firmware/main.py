@@ -1,5 +1,7 @@
 """Runs the robot: reads sensor, button, battery and serial commands, and turns the motor as `winder` returns.
 
+From the first turn of the motor on a hardware watchdog restarts the board, motor off, if the program hangs.
+
 Commands over USB, one a line: `wind`, `jump`, `go 10`, `stop`, `state`. The button on the board winds, and then
 releases after a delay, in which you step back. While it winds a press stops the motor, and during the delay it takes
 the jump back; it also ends jumps in a row.
@@ -10,12 +12,13 @@ import sys
 import time
 
 import robot
-from machine import ADC, PWM, Pin
+from machine import ADC, PWM, WDT, WDT_RESET, Pin, reset_cause
 from winder import READY, WINDING, Row, Winder
 
 STEP_MS = 2
 LONGEST = 20  # characters of a line that are kept
 MOST = 9999  # jumps in a row
+KEPT = 20  # lines that wait for the motor to stand
 SAMPLES = 8  # readings of the battery that are averaged: one alone scatters
 COMMANDS = ("wind", "jump", "go", "stop", "state")
 
@@ -31,9 +34,19 @@ class Board:
         self.battery = None
         if robot.PIN_BATTERY is not None:
             self.battery = ADC(Pin(robot.PIN_BATTERY), atten=ADC.ATTN_11DB)
+        self.turning = False
+        self.watchdog = None  # none before the motor turns: it cannot be ended, and files are copied without it
+
+    def feed(self):
+        """Tell the watchdog that the program runs."""
+        if self.watchdog is not None:
+            self.watchdog.feed()
 
     def turn(self, share):
         """Give the motor a share of PWM; at 0 the driver sleeps."""
+        if share > 0.0 and self.watchdog is None:
+            self.watchdog = WDT(timeout=robot.WATCHDOG_MS)
+        self.turning = share > 0.0
         if self.sleep is not None:
             self.sleep.value(1 if share > 0.0 else 0)
         self.motor.duty_u16(int(65535 * share))
@@ -78,6 +91,24 @@ class Console:
         return ""
 
 
+class Output:
+    """Lines for the console, written only while the motor stands: a computer that does not read them may block."""
+
+    def __init__(self):
+        self.lines = []
+
+    def say(self, line):
+        """Keep a line; of many the last."""
+        self.lines.append(line)
+        if len(self.lines) > KEPT:
+            self.lines.pop(0)
+
+    def write(self):
+        """Write what was kept."""
+        while self.lines:
+            print(self.lines.pop(0))
+
+
 def split(line):
     """Return a command and the number behind it; 0 without one, and no command where it is none."""
     word, _, number = line.partition(" ")
@@ -88,12 +119,15 @@ def split(line):
 
 def run():
     """Run until interrupted; the motor is off afterwards in every case."""
-    board, winder, button, console = Board(), Winder(robot), Button(), Console()
+    board, winder, button, console, output = Board(), Winder(robot), Button(), Console(), Output()
     row = Row(winder)
     told, release_at = "", None
+    if reset_cause() == WDT_RESET:
+        output.say("the program hung and was restarted")
     now, last = 0, time.ticks_ms()
     try:
         while True:
+            board.feed()
             ticks = time.ticks_ms()
             now += time.ticks_diff(ticks, last)
             last = ticks
@@ -102,19 +136,19 @@ def run():
             pressed = button.pressed(now, down)
             if number:
                 row.begin(number)
-                print("%d jumps in a row; stop or the button ends it" % number)
+                output.say("%d jumps in a row; stop or the button ends it" % number)
             ended = row.left and (pressed or word in ("stop", "wind", "jump"))
             if ended:
                 row.end()
                 pressed = pressed and winder.state == WINDING  # it ends the row, and nothing begins
             if ended and winder.state == READY:
-                print("no jump; the springs stay loaded")
+                output.say("no jump; the springs stay loaded")
             elif pressed and release_at is not None:
                 release_at = None
-                print("no jump; the springs stay loaded")
+                output.say("no jump; the springs stay loaded")
             elif pressed and winder.state == READY:
                 release_at = now + robot.BUTTON_DELAY_MS
-                print("jump in %d s" % (robot.BUTTON_DELAY_MS // 1000))
+                output.say("jump in %d s" % (robot.BUTTON_DELAY_MS // 1000))
             due = release_at is not None and now >= release_at
             if winder.state != READY or due or word == "stop":
                 release_at = None
@@ -128,13 +162,18 @@ def run():
                 jump=word == "jump" or hop or due,
                 stop=word == "stop" or (pressed and winder.state == WINDING),
             )
-            board.turn(share)
+            if share == 0.0:
+                board.turn(0.0)
             if word and word not in COMMANDS:
-                print("unknown command; there are: %s" % ", ".join(COMMANDS))
+                output.say("unknown command; there are: %s" % ", ".join(COMMANDS))
             elif word or winder.said != told:  # each command is answered, also one that does nothing in this state
                 told = winder.said
                 battery = "" if volts is None else "; battery %.2f V" % volts
-                print("%s: %s; %d jumps%s" % (winder.state, told, winder.jumps, battery))
+                output.say("%s: %s; %d jumps%s" % (winder.state, told, winder.jumps, battery))
+            if not board.turning:
+                output.write()
+            if share > 0.0:
+                board.turn(share)
             time.sleep_ms(STEP_MS)
     finally:
         board.turn(0.0)

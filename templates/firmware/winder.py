@@ -70,6 +70,8 @@ class Winder:
         if self.state == RELEASING:
             return self._releasing(now_ms, elapsed, pressed)
         if self.state == READY:
+            if not settled:  # knocked, crept past the land, or released by a blow
+                return self._enter(FAULT, now_ms, "the sensor let go: the springs may be loaded; wind again")
             if jump:  # even on a low battery: a robot is safer with its springs unloaded
                 self._freed_ms = None
                 return self._enter(RELEASING, now_ms, "releasing")
@@ -107,6 +109,7 @@ class Winder:
         """Turn the cam past the drop: the sensor is free, and the motor stops a little after that.
 
         The first free reading counts at once: the leg swings back within milliseconds; a bounce restarts the time.
+        A sensor that is free sooner than the cam can have passed its land was knocked: that is no release.
         """
         numbers = self.numbers
         if pressed:
@@ -114,6 +117,8 @@ class Winder:
         elif self._freed_ms is None:
             self._freed_ms = now_ms
         if self._freed_ms is not None and now_ms - self._freed_ms >= numbers.AFTER_RELEASE_MS:
+            if self._freed_ms - self._since_ms < numbers.RELEASE_MIN_MS:
+                return self._enter(FAULT, now_ms, "the sensor let go too early: the springs may be loaded; wind again")
             self.jumps += 1
             self._released, self._begun = True, False
             self._landed_ms = now_ms + numbers.LANDING_MS  # before that the landing may close switch and button

@@ -6,8 +6,8 @@ from PIL import Image
 from support.built import built
 
 from jumpcad.bundle import step_pictures
-from jumpcad.bundle.step_pictures import paletted
 from jumpcad.scene.camera import aimed
+from jumpcad.scene.renderer import paletted
 
 
 def test_every_picture_marks_where_front_and_left_are(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,6 +27,10 @@ def test_it_compiles_for_micropython(path: str, tmp_path: Path) -> None:
     assert source.with_suffix(".mpy").stat().st_size > 100
 
 
+class Restart(BaseException):
+    """The board starts anew."""
+
+
 class Bench:
     """A board with its robot: the sensor is pressed after 1 s of motor and free 0.1 s of motor later.
 
@@ -44,9 +48,17 @@ class Bench:
         self.samples = 0
         self.presses: tuple[int, ...] = ()
         self.breaks_ms = math.inf
+        self.hangs_ms = math.inf
+        self.bites_ms = math.inf
+        self.resets_by_watchdog = False
 
     def sleep_ms(self, ms: int) -> None:
         self.now_ms += ms
+        while self.now_ms >= self.hangs_ms:  # the program never comes back
+            self.now_ms += 1
+            if self.now_ms >= self.bites_ms:
+                raise Restart
+            assert self.now_ms < 60_000, "nothing restarts it"
         if self.awake.get(6) and self.duty.get(5):
             self.turned_ms += ms * self.duty[5] / 65535
         if self.now_ms > 12_000:
@@ -75,6 +87,21 @@ class Bench:
     def read_uv(self) -> float:
         self.samples += 1
         return (self.battery_v + self.noise_v[self.samples % len(self.noise_v)]) / 2.0 * 1e6
+
+    def watchdog(self, timeout: int) -> Any:
+        """Return a watchdog that bites when it was not fed for its time (ms), as `machine.WDT`."""
+
+        def feed() -> None:
+            assert self.now_ms < self.bites_ms
+            self.bites_ms = self.now_ms + timeout
+
+        feed()
+        return SimpleNamespace(feed=feed)
+
+    def print(self, *words: Any) -> None:
+        """Write a line to a computer that does not read: it may block for as long as it likes."""
+        assert not any(self.duty.values()), "writes while the motor turns"
+        print(*words)
 
     def poll(self, timeout: int) -> bool:
         return bool(self.keys) and self.keys[0][0] <= self.now_ms
@@ -108,7 +135,14 @@ def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
             return adc
 
     modules = {
-        "machine": SimpleNamespace(ADC=ADC, PWM=bench.pwm, Pin=Pin),
+        "machine": SimpleNamespace(
+            ADC=ADC,
+            PWM=bench.pwm,
+            Pin=Pin,
+            WDT=bench.watchdog,
+            WDT_RESET=3,
+            reset_cause=lambda: 3 if bench.resets_by_watchdog else 1,
+        ),
         "select": SimpleNamespace(POLLIN=1, poll=lambda: SimpleNamespace(register=lambda *_: None, poll=bench.poll)),
         "time": SimpleNamespace(
             ticks_ms=lambda: bench.now_ms, ticks_diff=lambda new, old: new - old, sleep_ms=bench.sleep_ms
@@ -121,18 +155,26 @@ def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     for name, fake in modules.items():
         monkeypatch.setitem(sys.modules, name, fake)
     monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=SimpleNamespace(read=bench.read)))
-    with pytest.raises(KeyboardInterrupt):
-        exec(compile(FILES["firmware/main.py"], "main.py", "exec"), {"__name__": "__main__"})
+    with pytest.raises((KeyboardInterrupt, Restart)):
+        exec(compile(FILES["firmware/main.py"], "main.py", "exec"), {"__name__": "__main__", "print": bench.print})
 
 
 def test_main_winds_and_releases_on_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
-    bench = Bench({500: "wind", 5000: "jump", 11000: "state"})
+    bench = Bench({500: "wind", 900: "state", 5000: "jump", 11000: "state"})
     run_main(bench, monkeypatch)
     assert 1100.0 <= bench.turned_ms <= 1100.0 + 60.0 + 10.0
     assert bench.duty[5] == 0
     assert bench.awake[6] == 0
     said = capsys.readouterr().out.splitlines()
-    assert [line.partition(":")[0] for line in said] == ["idle", "winding", "ready", "releasing", "idle", "idle"]
+    assert [line.partition(":")[0] for line in said] == [
+        "idle",
+        "winding",
+        "winding",
+        "ready",
+        "releasing",
+        "idle",
+        "idle",
+    ]
     assert "; 1 jumps;" in said[-1]
 
 
@@ -142,6 +184,28 @@ def test_a_broken_lead_stops_the_motor(monkeypatch: pytest.MonkeyPatch) -> None:
     run_main(bench, monkeypatch)
     assert 400.0 <= bench.turned_ms <= 400.0 + 20.0
     assert bench.duty[5] == 0
+
+
+def test_a_program_that_hangs_while_the_motor_turns_is_restarted(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    """A board that restarts has its pins free, and the driver's own resistors keep it asleep."""
+    bench = Bench({500: "wind"})
+    bench.hangs_ms = 900
+    run_main(bench, monkeypatch)
+    assert 900 < bench.now_ms <= 900 + 1000 + 10
+    bench = Bench({})
+    bench.resets_by_watchdog = True
+    run_main(bench, monkeypatch)
+    assert bench.turned_ms == 0.0
+    assert "hung and was restarted" in capsys.readouterr().out
+
+
+def test_files_can_be_copied_before_the_motor_has_turned(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A watchdog that runs cannot be ended: it would restart the board while files are copied."""
+    bench = Bench({500: "state"})
+    run_main(bench, monkeypatch)
+    assert bench.bites_ms == math.inf
 
 
 def test_the_button_winds_and_releases_after_a_delay(monkeypatch: pytest.MonkeyPatch) -> None:

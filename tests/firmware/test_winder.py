@@ -48,6 +48,24 @@ def test_a_gear_that_sticks_at_release_stops_the_motor_in_time() -> None:
     assert (world.power, world.winder.jumps) == (0.0, 0)
 
 
+@each("after_s", [0.0, 0.004, 1.0])
+def test_a_sensor_that_lets_go_of_a_wound_robot_is_no_release(after_s: float) -> None:
+    """Knocked or crept while it waits, or just as it is told to jump: the cam has not dropped, and the motor stands."""
+    world = wound(bounce_ms=0)
+    world.wait(1.0)
+    world.dead_switch = False
+    world.wait(after_s)
+    assert (world.winder.state == WINDER.FAULT) == (1000.0 * after_s > NUMBERS.SETTLE_MS)
+    world.step(jump=True)
+    world.until(WINDER.FAULT, limit_s=0.1)
+    assert "let go" in world.winder.said
+    world.wait(1.0)
+    assert (world.winder.jumps, world.drops, world.power) == (0, 0, 0.0)
+    world.dead_switch = None
+    world.step(wind=True)
+    world.until(WINDER.READY)
+
+
 @each("at_deg", [10.0, 60.0, 150.0, 250.0, 340.0])
 @each("after_a_jump", [False, True])
 def test_a_lead_that_breaks_while_winding_stops_the_motor_before_the_drop(at_deg: float, after_a_jump: bool) -> None:

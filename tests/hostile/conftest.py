@@ -23,9 +23,9 @@ from support.robots import make_small_robot
 from support.sandbox import Sandbox
 from support.slicers import OBEDIENT
 
+from jumpcad.bundle import coupon_folder, renders
 from jumpcad.bundle import export as bundle_export
-from jumpcad.bundle import renders
-from jumpcad.coupon import export as coupon_export
+from jumpcad.coupon import contents as coupon_contents
 from jumpcad.coupon.pieces import Piece
 from jumpcad.simulation.engines import engine_named
 from jumpcad.workshop import Workshop
@@ -84,8 +84,9 @@ def remembered() -> Iterator[dict[object, Any]]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(bundle_export, "contents", once(made, bundle_export.contents, robot_key))
-        patch.setattr(coupon_export, "_contents", once(made, coupon_export._contents, lambda shop, *_: shop.to_toml()))
-        patch.setattr(coupon_export, "_mass_kg", once(made, coupon_export._mass_kg, mass_key))
+        files = once(made, coupon_contents.coupon_files, lambda shop, *_: shop.to_toml())
+        patch.setattr(coupon_folder, "coupon_files", files)
+        patch.setattr(coupon_contents, "_mass_kg", once(made, coupon_contents._mass_kg, mass_key))
         patch.setattr(renders, "renders", once(made, renders.renders, robot_key))
         patch.setattr(renders, "jump_gif", once(made, renders.jump_gif, lambda robot, *_: robot_key(robot)))
         yield made

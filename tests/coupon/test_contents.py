@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from support.fits import with_fits_apart
 
-from jumpcad.coupon.export import coupon_values, export_coupon
+from jumpcad.bundle.coupon_folder import export_coupon
+from jumpcad.coupon.contents import coupon_values
 from jumpcad.coupon.pictures import GROUPS
 from jumpcad.coupon.pieces import coupon_holes
 from jumpcad.coupon.readings import Readings, measured_workshop

@@ -1,16 +1,10 @@
-"""The fit coupon's folder: STL and 3MF files, instructions, and a file for the readings.
-
-It is a bundle like a robot's, with a manifest and with the workshop for which it was made.
-"""
+"""The fit coupon's files: STL and 3MF, pictures, instructions, and a file for the readings."""
 
 import math
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 from jumpcad.building.bom import Bill, BillLine, mass_facts
-from jumpcad.bundle.atomic_write import require_place, write_folder
-from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pictures import coupon_pictures
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
@@ -26,38 +20,38 @@ from jumpcad.workshop import Workshop
 READINGS = "readings.toml"
 
 
-def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -> Bundle:
-    """Write the coupon of a workshop: a gauge in every material of the robot, gears in the gears' material.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder holds anything but a coupon, or one whose readings were filled in (unless `force`), or cannot be
-        written.
-    CannotBuildError
-        If a piece does not fit the bed, or its file is not one closed solid.
-    """
-    require_place(folder)
+def coupon_pieces(workshop: Workshop) -> list[Piece]:
+    """Return what is printed: a gauge in every material of the robot, gears in the gears' material, the joints."""
     holes = coupon_holes(workshop)
-    made = pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
+    return pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
+
+
+def coupon_masses(made: Sequence[Piece], workshop: Workshop) -> dict[str, Any]:
+    """Return a manifest's entries about the masses of the pieces."""
     masses = [
         BillLine("printed", one.name, one.quantity, one.material, _mass_kg(one, workshop), "printed") for one in made
     ]
-    facts = {"mass_kg": sum(line.mass_kg for line in masses), "masses": mass_facts(Bill(tuple(masses)))}
-    return write_folder(folder, "coupon", facts, _contents(workshop, holes, made), force)
+    return {"mass_kg": sum(line.mass_kg for line in masses), "masses": mass_facts(Bill(tuple(masses)))}
 
 
-def _contents(workshop: Workshop, holes: HoleSizes, made: Sequence[Piece]) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of every file, except the manifest."""
-    yield "workshop.toml", workshop.to_toml()
+def coupon_files(workshop: Workshop, made: Sequence[Piece], pictures: bool = True) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of every file of the coupon.
+
+    Raises
+    ------
+    CannotBuildError
+        If a piece does not fit the bed, or its file is not one closed solid.
+    """
+    holes = coupon_holes(workshop)
     for piece in made:
         stl = write_stl(piece.mesh)
         require_part(piece.name, stl)
         yield f"stl/{piece.name}.stl", stl
     yield from plate_files(made, workshop)
-    for name, png in coupon_pictures(made, holes).items():
+    shown = coupon_pictures(made, holes) if pictures else {}
+    for name, png in shown.items():
         yield f"pictures/{name}.png", png
-    values = coupon_values(workshop, holes)
+    values = {**coupon_values(workshop, holes), "pictures": list(shown)}
     yield "coupon.md", render("guides/coupon.md.j2", values)
     yield READINGS, fill("guides/readings.toml.j2", values)
 

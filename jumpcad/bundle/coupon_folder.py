@@ -1,0 +1,26 @@
+"""The fit coupon's folder: a bundle like a robot's, with a manifest and the workshop for which it was made."""
+
+from pathlib import Path
+
+from jumpcad.bundle.atomic_write import require_place, write_folder
+from jumpcad.bundle.inputs import WORKSHOP
+from jumpcad.bundle.manifest import Bundle
+from jumpcad.coupon.contents import coupon_files, coupon_masses, coupon_pieces
+from jumpcad.workshop import Workshop
+
+
+def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -> Bundle:
+    """Write the coupon of a workshop.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder holds anything but a coupon, or one whose readings were filled in (unless `force`), or cannot be
+        written.
+    CannotBuildError
+        If a piece does not fit the bed, or its file is not one closed solid.
+    """
+    require_place(folder)
+    made = coupon_pieces(workshop)
+    files = ((WORKSHOP, workshop.to_toml()), *coupon_files(workshop, made))
+    return write_folder(folder, "coupon", coupon_masses(made, workshop), files, force)
