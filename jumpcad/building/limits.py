@@ -68,6 +68,7 @@ def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamL
         overshoot_rad=math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD,
         pressure_mpa=CamLimits.pressure_mpa
         / math.sqrt(safety.load_factor),  # of a line contact, with the root of force
+        shakedown_mpa=4.0 / math.sqrt(3.0) * workshop.material("gears").strength_in_plane_mpa,
         clearance_mm=GAP_MM + safety.gap_reserve_mm,
         pressure_angle_rad=CamLimits.pressure_angle_rad - math.radians(safety.pressure_angle_reserve_deg),
         undercut_margin_mm=CamLimits.undercut_margin_mm + safety.gap_reserve_mm,

@@ -23,6 +23,9 @@ FREE_MM = 3.0
 RIGHTED = 90.0
 """Least percentage of stable poses on its feet, wherever the centre of mass is within its shifts. Judgement: robots
 above it rose from every drop in simulation."""
+SIDE = 0.4
+"""Share of the springs' energy that the end of one bar takes in a fall sideways, once its hoop has given way; the worst
+of 200 landings of `best-jumper`, MuJoCo."""
 WITHIN_MM = 100.0
 """Larger distances are not measured."""
 MODEL = "a hoop as a ring: Roark, ch. 9, case 1"
@@ -46,6 +49,11 @@ BASIS = {
         f"`cage_landing`, k = E·I/(0.149·R³), x from plates to bar, t the plates' thickness, h = {HORN_MM:g} mm",
         f"cantilever: Roark, ch. 8; {MODEL}",
     ),
+    "cage_side": Basis(
+        f"{SIDE:g}·U ≤ strength_in_plane_mpa²·h·t·x/(9·E) of the body (J), the least of both bars: two horns that the "
+        f"bar guides bend sideways, x from plates to bar, t the plates' thickness, h = {HORN_MM:g} mm",
+        f"beams with guided ends: Roark, ch. 8; {SIDE:g}: the worst of 200 simulated landings, judgement",
+    ),
     "cage_clear": Basis(
         f"least distance of rods and bars from what moves, and of rods and horns from the ground, springs loaded ≥ "
         f"{FREE_MM:g} mm",
@@ -63,7 +71,7 @@ CROUCH = "raise compression_ratio, so that it crouches lower, or take the sizes 
 
 
 def cage_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield bending, landing, sag, bar, horn and clearance of a cage; nothing without one."""
+    """Yield bending, landing, sag, bar, horn, sideways fall and clearance of a cage; nothing without one."""
     cage = robot.layout.cage
     if cage is None:
         return
@@ -106,6 +114,7 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
         f"horns of the body plates at a landing on a hoop: {stress:.1f} of {allowed:.1f} MPa",
         "raise body.plate_mm, or lower cage.front_ahead_mm",
     )  # fmt: skip
+    yield _side(robot, plate, float(lengths.min()))
     free, above = _free_mm(robot.layout, cage), _above_mm(robot.layout, cage)
     yield at_least(
         "cage_clear", min(free, above), FREE_MM, "mm",
@@ -113,6 +122,18 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
         f"{FREE_MM:g} mm are needed",
         ELSEWHERE,
     )  # fmt: skip
+
+
+def _side(robot: Robot, plate_mm: float, length_mm: float) -> Finding:
+    """Return `cage_side`: a note where the horns do not bear what a fall sideways may bring, which most do not."""
+    body, energy = robot.workshop.material("body"), SIDE * robot.spring.energy_j
+    least = body.strength_in_plane_mpa**2 * HORN_MM * plate_mm * length_mm / (9000.0 * body.modulus_mpa)
+    told = f"an end of a cross bar may land with {energy:.2f} J; its horns bear {least:.2f} J sideways"
+    remedy = "let it land on grass, a mat or a carpet, or raise body.plate_mm"
+    if energy <= least:
+        return at_most("cage_side", energy, least, "J", told, remedy)
+    told += ": on a hard floor a fall on its side may break a body plate"
+    return Finding("cage_side", "info", least - energy, "J", told, remedy, energy)
 
 
 def righting_findings(robot: Robot) -> Iterator[Finding]:

@@ -35,6 +35,8 @@ SMALLEST_PIECE_MM2 = 0.05
 TOUCH_MM = 0.05
 ROUND_OFF_MM = 0.02
 """By how much polygons can reduce a width."""
+WALL_LINES = 2.0
+"""Printed lines of the thinnest wall."""
 MINIMA = ("wall_min_mm", "hole_min_mm", "pin_min_mm")
 """Fits that say what a printer can just print."""
 PRACTICE = "practice of desktop printing: templates/workshops/default.toml"
@@ -44,8 +46,9 @@ BASIS = {
         "geometry; printer's data sheet",
     ),
     "walls": Basis(
-        "width from which opening a section removes more than corners ≥ fits.wall_min_mm (mm), layers taller than it",
-        PRACTICE,
+        "width from which opening a section removes more than corners ≥ larger of fits.wall_min_mm and "
+        f"{WALL_LINES:g}·process.line_width_mm (mm), layers taller than it",
+        f"{PRACTICE}; two lines: one alone comes loose (judgement)",
     ),
     "holes": Basis(
         "width at which a hole closes ≥ smaller of fits.hole_min_mm and fits.m2_tap_mm (mm)", f"{PRACTICE}; ISO 2306"
@@ -91,8 +94,9 @@ def bed_findings(robot: Robot) -> list[Finding]:
 def printability_findings(robot: Robot) -> list[Finding]:
     """Return the findings that need outlines and meshes: walls, holes, pins, overhangs, bridges, solid."""
     fits, process = robot.workshop.fits, robot.workshop.process
+    wall_min = max(fits.wall_min_mm, WALL_LINES * process.line_width_mm)
     drawings = [part.drawing for part in robot.parts]
-    regions = [(drawing.name, *tall) for drawing in drawings for tall in _tall_regions(drawing, fits.wall_min_mm)]
+    regions = [(drawing.name, *tall) for drawing in drawings for tall in _tall_regions(drawing, wall_min)]
     hole_min = min(fits.hole_min_mm, fits.m2_tap_mm)
     columns = [(name, height, piece) for name, height, region in regions for piece in region.decompose()]
     slender = [
@@ -107,7 +111,7 @@ def printability_findings(robot: Robot) -> list[Finding]:
     reaches = [(size, name) for name, bridge, size in undersides if not bridge]
     spans = [(size, name) for name, bridge, size in undersides if bridge]
     return [
-        _narrowest("walls", "wall", flat, _thin_wall, fits.wall_min_mm, less["wall_min_mm"]),
+        _narrowest("walls", "wall", flat, _thin_wall, wall_min, less["wall_min_mm"]),
         _narrowest("holes", "hole", flat, _narrow_hole, hole_min, f"{less['hole_min_mm']}, or drill it"),
         _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, less["pin_min_mm"]),
         _largest(

@@ -15,9 +15,10 @@ from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.layout.stop import EAR_MM, GIVE_ROOM_RAD
+from jumpcad.mechanism.flight import Blow
 from jumpcad.robot import Robot
 from jumpcad.strength.axle_beam import AxleBeam
-from jumpcad.strength.stop import BLOW_FACTOR
+from jumpcad.strength.stop import BLOW_FACTOR, stop_blow
 from jumpcad.strength.stress import CREEP_MPA, Beam
 
 PAD_STRAIN = 0.5
@@ -58,11 +59,18 @@ BASIS = {
         "as in `stop_pad`",
         "energy of a spring; limit: judgement",
     ),
+    "free_release": Basis(
+        "U_s ≤ E (J); U_s springs' energy from loaded to the stop, all of which meets it where the feet push on "
+        "nothing; E energy at which F alone brings a stress of `stop_strength`, `stop_plates` or `stop_leg`, or the "
+        "pad, to its limit",
+        "conservation of energy and momentum; stresses: as there",
+    ),
 }
+FEET_FIRST = "release it only standing on its feet; the guide says how to slacken it without a jump"
 
 
 def stop_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield `stop_strength`, `stop_plates`, `stop_leg`, `stop_pad`, `stop_clearance`; preloaded: `stop_creep`."""
+    """Yield `stop_strength`, `stop_plates`, `stop_leg`, `stop_pad`, `stop_clearance`, `free_release`; `stop_creep`."""
     case, blow, stop = LoadCase(robot), robot.stop_blow, robot.layout.stop
     bar, plates, leg = _stresses_mpa(robot, case, BLOW_FACTOR * blow.force_n, BLOW_FACTOR * blow.torque_nm)
     links, body = (robot.workshop.material(role).strength_in_plane_mpa for role in ("links", "body"))
@@ -94,6 +102,31 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
         f"leaves room for {room:.1f}°",
         "choose a stiffer body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio",
     )  # fmt: skip
+    yield _free_release(robot)
+
+
+def free_release_j(robot: Robot) -> tuple[float, float]:
+    """Return the energy (J) that the stop takes where the feet push on nothing, all of the springs', and what it bears.
+
+    Force and deflection of a linear pad grow with the root of the energy.
+    """
+    spring, stop = robot.spring, robot.layout.stop
+    rate = stop.pad_n_per_mm(robot.layout.sections.thickness_mm)
+    joule = stop_blow(Blow(0.0, math.sqrt(2.0), 1.0), stop.angle_rad, stop.radius_mm, rate)
+    strengths = [robot.workshop.material(role).strength_in_plane_mpa for role in ("links", "body", "links")]
+    stresses = _stresses_mpa(robot, LoadCase(robot), joule.force_n, joule.torque_nm)
+    use = max(joule.give_mm / (PAD_STRAIN * stop.pad.thickness_mm), *np.divide(stresses, strengths))
+    return spring.stored_j(-spring.wind_rad) - spring.stored_j(stop.angle_rad), float(use) ** -2.0
+
+
+def _free_release(robot: Robot) -> Finding:
+    """Return `free_release`: a note where the stop does not bear it, since a robot is not released so."""
+    energy, borne = free_release_j(robot)
+    told = f"released with its feet free its stop takes {energy:.2f} J, and bears {borne:.2f} J"
+    if energy <= borne:
+        return at_most("free_release", energy, borne, "J", told, FEET_FIRST)
+    told += ": it stands on its feet at every release, is in no hand, not on its side, not in the air"
+    return Finding("free_release", "info", borne - energy, "J", told, FEET_FIRST, energy)
 
 
 def _stresses_mpa(robot: Robot, case: LoadCase, force_n: float, torque_nm: float) -> tuple[float, float, float]:

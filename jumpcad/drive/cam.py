@@ -164,6 +164,8 @@ class Cam:
         Largest pressure angle of the lift, and smallest convex radius of its pitch curve.
     peak_contact_n, contact_pressure_mpa
         Largest force between roller and cam, and largest pressure of their line contact (Hertz).
+    worn_mm
+        Radius to which the corner at the end of the lift wears.
     findings
         Signed margins of every limit that was checked.
     """
@@ -176,6 +178,7 @@ class Cam:
     min_convex_radius_mm: float
     peak_contact_n: float
     contact_pressure_mpa: float
+    worn_mm: float
     findings: tuple[Finding, ...]
 
     @property

@@ -20,6 +20,9 @@ OVERSHOOT_RAD = math.radians(5)
 NO_DROP_RAD = -1.0
 """Margin of `cam_drop` where the roller's arc about the hub nowhere passes the corner."""
 
+WORN_MAX_MM = 4.0
+"""Radius of a corner beyond which none is computed: no release bears it."""
+
 
 @dataclass(frozen=True)
 class CamLimits:
@@ -38,6 +41,8 @@ class CamLimits:
         Of the cam's material, against a steel roller. Rolling line contact shakes down to an elastic state up to 4k, k
         the yield strength in shear (Johnson, Contact Mechanics, 9.2): 104 MPa for a printed PETG that yields at 45 MPa
         in tension (judgement), less 15 %.
+    shakedown_mpa
+        The same 4k without reserve, at which a worn corner stays as it is.
     lift_rad, ramp_rad
         Cam angle of the lift and of its ramp; what is left of the turn is for release and drop. Judgement: a longer
         ramp costs torque, a shorter one a larger cam.
@@ -73,6 +78,7 @@ class CamLimits:
     modulus_mpa: float
     poisson: float = 0.38
     pressure_mpa: float = 90.0
+    shakedown_mpa: float = 104.0
     lift_rad: float = math.radians(310)
     ramp_rad: float = math.radians(30)
     hub_radius_mm: float = 4.5
@@ -89,6 +95,13 @@ class CamLimits:
     lever_max_mm: float = 45.0
     gap_max_mm: float = 50.0
     lead_max_rad: float = math.radians(45)
+
+    def worn_mm(self, force_n: float) -> float:
+        """Return the radius to which a corner under a force wears: where its line contact shakes down (Hertz)."""
+        modulus = self.modulus_mpa / (1.0 - self.poisson**2)
+        flatness = force_n * modulus / (math.pi * self.cam_width_mm * self.shakedown_mpa**2)
+        curvature = 1.0 / max(flatness, 1e-6) - 1.0 / self.roller_radius_mm
+        return 1.0 / max(curvature, 1.0 / WORN_MAX_MM)
 
 
 ROWS = np.array([0, 0, 1, 1, 2, 2, 3, 4, 4, 5, 6, 7, 7, 7, 8, 8, 9])

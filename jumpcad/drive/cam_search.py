@@ -67,6 +67,7 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
         min_convex_radius_mm=float(numbers["convex_radius"][0]),
         peak_contact_n=float(numbers["force"][0]),
         contact_pressure_mpa=float(numbers["pressure"][0]),
+        worn_mm=limits.worn_mm(float(numbers["force"][0])),
         findings=cam_findings(limits, margin, numbers),
     )
 

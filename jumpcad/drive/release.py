@@ -37,6 +37,12 @@ BASIS = {
         "end of the dog's play, same cases as `release_energy`",
         f"impacts with rebound: jumpcad/drive/blows.py; {MODEL}; teeth: Lewis",
     ),
+    "cam_corner": Basis(
+        "energy as in `release_energy`, but over a worn corner ≥ release.energy_ratio_min (%); its radius ρ is that at "
+        "which √(N·E/((1 - ν²)·π·b)·(1/ρ + 1/R)) falls to 4·strength_in_plane_mpa/√3, N largest force on the roller, R "
+        "its radius, b its width, E modulus of the gears' material",
+        f"Hertz's line contact; shakedown of one that rolls: Johnson, Contact Mechanics, 9.2; {MODEL}",
+    ),
     "release_window": Basis(
         "play + ω·t + 3° ≤ window (°); ω unloaded cam with a full battery, t time of the push-off up to past rest, "
         "window: cam angle past the lift up to which the roller's whole path is free",
@@ -119,6 +125,8 @@ class Release:
         Largest torque in the dog, at the cam; torque peak on the gear motor's output, and its limit.
     gear_ratio, push_off_s
         Motor turns per cam turn; time from release until the leg is as far past rest as it may swing.
+    worn_rad
+        How much earlier the leg begins to fall over a worn corner, as an angle of the cam.
     free_play_rad, roll_over_rad, window_rad
         Play of the dog; cam angle from the end of the lift until the roller can fall freely; range in which it can.
     """
@@ -132,6 +140,7 @@ class Release:
     kick_limit_nm: float
     gear_ratio: float
     push_off_s: float
+    worn_rad: float
     free_play_rad: float
     roll_over_rad: float
     window_rad: tuple[float, float]
@@ -157,6 +166,8 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
     printed = [roll(sharp, case, wound) for case in cases]
     corner = roll_over(geometry, limits.rounding_mm)
     rounded = [roll(corner, case, wound) for case in cases]
+    worn = roll_over(geometry, drive.cam.worn_mm)
+    kept = min(rolled.kept_j / rolled.held_j for rolled in (roll(worn, case, wound) for case in cases))
     first, second = (min(each, key=lambda rolled: rolled.kept_j) for each in (printed, rounded))
     ratios = first.kept_j / first.held_j, second.kept_j / second.held_j
     kick = max(rolled.kick_nm for rolled in printed + rounded) / train.ratio
@@ -172,11 +183,12 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
         kick_limit_nm=allowed,
         gear_ratio=train.ratio,
         push_off_s=push_off,
+        worn_rad=law.lift_rad - float(worn.cam_rad[0]),
         free_play_rad=drive.dog.play_rad,
         roll_over_rad=drive.cam.roll_over_rad,
         window_rad=window,
         parts=cases,
-        findings=_findings(drive, limits, min(ratios), kick, allowed, window[1], push_off),
+        findings=_findings(drive, limits, (min(ratios), kept), kick, allowed, window[1], push_off),
     )
 
 
@@ -236,22 +248,29 @@ def _told_apart(found: float, allowed: float) -> tuple[str, str]:
 def _findings(
     drive: Drive,
     limits: ReleaseLimits,
-    ratio: float,
+    ratios: tuple[float, float],
     kick_nm: float,
     allowed_nm: float,
     window_rad: float,
     push_off_s: float,
 ) -> tuple[Finding, ...]:
+    (ratio, worn), least = ratios, 100.0 * limits.energy_ratio_min
     play, over = math.degrees(drive.dog.play_rad), math.degrees(drive.cam.roll_over_rad)
     turned, reserved = drive.train.cam_speed_rad_s * push_off_s, (1.0 + limits.kick_reserve) * kick_nm
     needed, window = play + math.degrees(turned + PLAY_MORE_RAD), math.degrees(np.nan_to_num(window_rad))
     more_play = f'release.play_deg = "auto" or more than {over + 3.0:.0f}, or a smaller bought.roller'
     return (
         at_least(
-            "release_energy", 100.0 * ratio, 100.0 * limits.energy_ratio_min, "%",
+            "release_energy", 100.0 * ratio, least, "%",
             f"at least {100.0 * ratio:.1f} % of the springs' energy is left after the release; "
-            f"{100.0 * limits.energy_ratio_min:g} % are needed (dog's play {play:.0f}°, roll-over {over:.0f}°)",
+            f"{least:g} % are needed (dog's play {play:.0f}°, roll-over {over:.0f}°)",
             more_play,
+        ),
+        at_least(
+            "cam_corner", 100.0 * worn, least, "%",
+            f"the cam's corner wears to a radius of {drive.cam.worn_mm:.1f} mm, with which {100.0 * worn:.1f} % of the "
+            f"springs' energy is left after the release; {least:g} % are needed",
+            'more release.play_deg, a wider or larger bought.roller, or a stronger material of the gears',
         ),
         at_most(
             "release_kick", 1000.0 * reserved, 1000.0 * allowed_nm, "mN·m",

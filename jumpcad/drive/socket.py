@@ -3,10 +3,13 @@
 from jumpcad.catalogue import Motor
 from jumpcad.dimensions import CAP_EAR_MM, CAP_HEAD_MM, MOTOR_CAP_MM, MOTOR_RIM_MM, SOCKET_PLAY_MM, SOCKET_WALL_MM
 
+FACETS_MM = 0.04
+"""What the facets of a head's seat take off both walls beside it."""
+
 
 def cap_ear_mm(wall_min_mm: float) -> float:
     """Return how far the ears for the cap's screws reach beyond the socket, with walls that a printer can print."""
-    return max(CAP_EAR_MM, CAP_HEAD_MM + 2.0 * wall_min_mm)
+    return max(CAP_EAR_MM, CAP_HEAD_MM + 2.0 * wall_min_mm + FACETS_MM)
 
 
 def socket_half_mm(motor: Motor, ear_mm: float = CAP_EAR_MM) -> tuple[float, float]:

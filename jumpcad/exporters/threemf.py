@@ -22,7 +22,7 @@ from jumpcad.exporters.xml import allowed
 from jumpcad.files import templates_folder
 from jumpcad.files.rendering import fill, render
 from jumpcad.parts.pads import printed_pads
-from jumpcad.printing.plates import Printable, PrintPlate, packed
+from jumpcad.printing.plates import Printable, PrintPlate, brim_mm, packed
 from jumpcad.printing.project import project_settings
 from jumpcad.robot import Robot, carried
 from jumpcad.scene.camera import View
@@ -107,13 +107,14 @@ def _object(number: int, part: Printable, copies: int) -> dict[str, Any]:
         "number": number,
         "name": escape(allowed(part.name)),
         "copies": copies,
+        "brim_mm": brim_mm(part),
         "vertices": _lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.mesh.vertices.astype(np.float32)),
         "triangles": _lines('<triangle v1="%d" v2="%d" v3="%d"/>\n', part.mesh.faces),
         "last": len(part.mesh.faces) - 1,
     }
 
 
-def _in_words(plates: Iterable[PrintPlate], workshop: Workshop, kinds: Mapping[str, Pad]) -> str:
+def _in_words(plates: Sequence[PrintPlate], workshop: Workshop, kinds: Mapping[str, Pad]) -> str:
     """Return the text of `print/README.md`; `kinds` are those of pads, by material."""
     told = [
         {
@@ -125,7 +126,9 @@ def _in_words(plates: Iterable[PrintPlate], workshop: Workshop, kinds: Mapping[s
         }
         for plate in plates
     ]
-    values = {"printer": workshop.printer, "process": workshop.process, "plates": told}
+    parts = {placed.part.name: placed.part for plate in plates for placed in plate.items}
+    brims = {name: brim for name, part in parts.items() if (brim := brim_mm(part))}
+    values = {"printer": workshop.printer, "process": workshop.process, "plates": told, "brims": brims}
     return render("print/README.md.j2", values)
 
 

@@ -33,7 +33,7 @@ RADIUS_WANTED_MM = 12.0
 """Of the land's middle; judgement: farther out an angle is more exact, and the plate larger."""
 OPENING_MM = 0.4
 """Around the switch's case in the plate; the mount holds it."""
-MOUNT_WALL_MM, MOUNT_PLAY_MM = 1.2, 0.2
+MOUNT_WALL_MM, MOUNT_PLAY_MM = 1.4, 0.2
 """Wall of the mount, and play around the case in it, either side; judgement."""
 EAR_RADIUS_MM, HEAD_RADIUS_MM = 2.6, 1.9
 """Of the mount's ears, and room for its screws' heads: M2 heads of 3.8 mm (ISO 14580)."""

@@ -18,6 +18,10 @@ STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend 
 EDGE_MM = 5.0
 """Left free along the bed's edges where that takes no further plate; judgement: a skirt, clips, an uneven rim."""
 
+SLENDER, BRIM_MM = 2.0, 2.5
+"""Height of a part over the narrower side of its bed face from which it gets a brim, and how wide; judgement. Brims of
+neighbours at the usual spacing just touch."""
+
 
 class Printable(Protocol):
     """What packing needs to know of a printed part; the mesh is in mm, in printing orientation."""
@@ -41,6 +45,13 @@ class Printable(Protocol):
     @property
     def look(self) -> "trimesh.Trimesh":
         """The mesh as detailed as a picture needs."""
+
+
+def brim_mm(part: Printable) -> float:
+    """Return the width of the brim that holds a part on the bed, 0 for one that stands without."""
+    low, high = part.mesh.bounds[:, 2]
+    face = part.mesh.vertices[part.mesh.vertices[:, 2] < low + 1e-3, :2]
+    return BRIM_MM if high - low > SLENDER * float(np.ptp(face, axis=0).min()) else 0.0
 
 
 @dataclass(frozen=True)

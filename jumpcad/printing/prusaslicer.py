@@ -43,7 +43,7 @@ def slicer_program() -> str | None:
 
 
 def slicer_settings(printer: Printer, process: Process, material: Material | Pad) -> dict[str, str]:
-    """Return PrusaSlicer's settings for a workshop: all that decides a part's plastic; no skirt, brim, support."""
+    """Return PrusaSlicer's settings for a workshop: all that decides a part's plastic; brims are parts' own."""
     width, height = printer.bed_mm[:2]
     solid = process.infill >= 1.0
     lines = ("", "perimeter_", "external_perimeter_", "infill_", "solid_infill_", "top_infill_", "first_layer_")

@@ -17,8 +17,10 @@ from jumpcad.checks import check, constraint_findings
 from jumpcad.checks.stop import stop_findings
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
+from jumpcad.scene.visuals import visuals
 from jumpcad.workshop import Workshop
 
 
@@ -194,3 +196,23 @@ def test_bare_feet_are_allowed_and_stand_on_plastic() -> None:
     assert bare.foot_depth_m == pytest.approx(bare.layout.sections.foot_depth_mm / 1000.0)
     assert not [item for item in bare.hardware if item.name.startswith(("nose_pad", "toe_"))]
     assert shop.ground.foot_friction == shop.ground.bare_friction
+
+
+@pytest.mark.thorough
+def test_without_ground_all_of_the_springs_energy_meets_the_stop() -> None:
+    """MuJoCo's own: released in the air, without gravity, the robot has that energy when the leg comes to its stop."""
+    mujoco = pytest.importorskip("mujoco")
+    robot = built("best-bo")
+    model = mujoco.MjModel.from_xml_string(write_robot(robot, visuals(robot), looks=False))
+    data, leg = mujoco.MjData(model), model.joint("leg")
+    mujoco.mj_resetDataKeyframe(model, data, model.key("wound").id)
+    data.ctrl[:], model.opt.gravity[:], model.opt.timestep = 0.0, 0.0, 2e-5
+    while data.qpos[leg.qposadr[0]] < leg.range[1]:
+        mujoco.mj_step(model, data)
+    mujoco.mj_energyVel(model, data)
+    told = found(robot)["free_release"]
+    assert told.value == pytest.approx(data.energy[1], rel=0.05)  # joints rub
+    assert told.is_note
+    assert told.margin < 0.0
+    once = robot.stop_blow
+    assert told.value + told.margin <= once.energy_j * (0.5 * robot.layout.stop.pad.thickness_mm / once.give_mm) ** 2

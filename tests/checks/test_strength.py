@@ -24,7 +24,7 @@ OF_ROLES = {
     "links": {
         "leg_strength", "hub_strength", "lever_strength", "leg_flex", "front_link_strength", "front_link_buckling",
         "eye_strength", "toe_strength", "toe_landing", "rail_strength", "rail_twist", "foot_lug_strength",
-        "leg_sideways", "stop_strength", "stop_leg",
+        "leg_sideways", "stop_strength", "stop_leg", "free_release",
     },
     "body": {"plate_seat", "axle_retention", "stop_plates"},
     "gears": {"cam_dog_strength", "cam_dog_blocked", "gear_blocked"},

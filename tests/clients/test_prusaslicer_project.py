@@ -85,3 +85,14 @@ def test_trimesh_reads_the_same_parts(tmp_path: Path) -> None:
     scene = trimesh.load_scene(io.BytesIO(file.read_bytes()), file_type="3mf")
     assert len(scene.graph.nodes_geometry) == 3
     assert sorted(round(mesh.volume) for mesh in scene.geometry.values())[0] == 900
+
+
+def test_what_is_tall_on_a_small_foot_gets_a_brim(tmp_path: Path) -> None:
+    """A tube of 6.4 mm has one from twice its width on, a plate has none."""
+    for size, height, has in (((6.4, 6.4), 20.0, True), ((6.4, 6.4), 12.0, False), ((60.0, 30.0), 3.0, False)):
+        drawing = Drawing("tall", "links", Stack.of([(0, height, rectangle(size))]), (Placement("body", upright(0.0)),))
+        part = Part(drawing, "PETG", drawing.shape.mass_properties(1.0), "solid")
+        file = tmp_path / f"{height:g}.3mf"
+        file.write_bytes(next(iter(plate_files([part], load_workshop())))[1])
+        sliced(file)
+        assert ("Brim" in file.with_suffix(".gcode").read_text()) == has

@@ -241,3 +241,18 @@ def test_a_motor_as_quick_as_a_fan_brings_the_next_lift_under_the_roller() -> No
     layout = replace(robot.layout, drive=replace(robot.layout.drive, train=quick))
     found = release_of(layout, robot.workshop, robot.parts, robot.hardware, robot.bodies, robot.spring)
     assert [finding.name for finding in errors(found.findings)] == ["release_window"]
+
+
+def test_a_corner_wears_until_its_contact_shakes_down() -> None:
+    """Hertz: p² = N·E'/(π·b)·(1/ρ + 1/R) on that radius is (4·k)², k = σ/√3, of PETG of 45 MPa and 2 GPa."""
+    robot = built("best-bo")
+    cam, width = robot.layout.drive.cam, 4.0
+    flat = 2000.0 / (1.0 - 0.38**2) * cam.peak_contact_n / (math.pi * width)
+    pressure = math.sqrt(flat * (1.0 / cam.worn_mm + 1.0 / cam.roller_radius_mm))
+    assert pressure == pytest.approx(4.0 * 45.0 / math.sqrt(3.0), rel=1e-3)
+    assert 0.0 < robot.release.worn_rad < math.radians(10.0)
+    sharp, worn = (next(one.value for one in robot.release.findings if one.name == name) for name in NAMES)
+    assert 97.0 < (worn or 0.0) < (sharp or 0.0)
+
+
+NAMES = ("release_energy", "cam_corner")

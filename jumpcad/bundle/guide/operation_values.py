@@ -10,6 +10,7 @@ from jumpcad.bundle.firmware_numbers import (
     numbers,
 )
 from jumpcad.catalogue.electrical import DEAD_CELL_V
+from jumpcad.checks.stop import free_release_j
 from jumpcad.electronics.nets import LOWER_OHM, Wiring
 from jumpcad.electronics.supply import boards_beside_a
 from jumpcad.parts.leads import lead_lengths
@@ -45,6 +46,7 @@ def operation_values(robot: Robot) -> dict[str, Any]:
     rate = None if controller.charge_ma is None else controller.charge_ma / battery.capacity_mah
     cuts = lead_lengths(robot.layout, wiring)
     low, high = pin_share(wiring)
+    free_j, bears_j = free_release_j(robot)
     return {
         "name": robot.name,
         "program": program,
@@ -87,9 +89,12 @@ def operation_values(robot: Robot) -> dict[str, Any]:
         "delay_s": BUTTON_DELAY_MS / 1000.0,
         "stroke_deg": math.degrees(cam.law.compression_rad),
         "lift_deg": math.degrees(cam.law.lift_rad),
+        "worn_deg": math.degrees(robot.release.worn_rad),
         "pull_n": 2.0 * robot.layout.drive.spring.torque_nmm / robot.design.carrying_link_mm,
         "shaft_hole_mm": train.motor.shaft_mm + 2.0 * workshop.fits.drawn.loose_mm,
         "box_mm": _box_mm(robot),
+        "free_j": free_j,
+        "bears_j": bears_j,
         "preloaded": robot.layout.stop_preload_rad > 0.0,
     }
 
