@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from jumpcad.drive import cam_findings, release, spring, stock_spring, train
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, Severity
 from jumpcad.robot import Robot
 
 ROUND_OFF = 1e-6
@@ -17,5 +17,6 @@ def drive_findings(robot: Robot) -> list[Finding]:
 
 def _judged(found: Finding) -> Finding:
     """Return a finding with its severity; the cam's search ends on its limits, within about 1e-9."""
+    failed: Severity = "warning" if found.severity == "warning" else "error"  # of what wears
     margin = 0.0 if abs(found.margin) < ROUND_OFF else found.margin
-    return replace(found, margin=margin, severity="info" if margin >= 0.0 else "error")
+    return replace(found, margin=margin, severity="info" if margin >= 0.0 else failed)

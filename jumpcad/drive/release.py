@@ -270,7 +270,7 @@ def _findings(
             "cam_corner", 100.0 * worn, least, "%",
             f"the cam's corner wears to a radius of {drive.cam.worn_mm:.1f} mm, with which {100.0 * worn:.1f} % of the "
             f"springs' energy is left after the release; {least:g} % are needed",
-            'more release.play_deg, a wider or larger bought.roller, or a stronger material of the gears',
+            'more release.play_deg, a wider or larger bought.roller, or a stronger material of the gears', "warning",
         ),
         at_most(
             "release_kick", 1000.0 * reserved, 1000.0 * allowed_nm, "mN·m",
