@@ -1,6 +1,7 @@
 """The study's table: its simulation gives what it printed, and the evaluator something else."""
 
 import pytest
+from support import needs
 
 from jumpcad.bundle.compared import compared_of
 from jumpcad.design import load_design
@@ -10,6 +11,7 @@ from jumpcad.paper.reproduction import HYPERPARAMETERS, PUBLISHED_RESULTS, Repro
 
 @pytest.fixture(scope="module")
 def rows() -> dict[str, Reproduction]:
+    needs.package("pybullet")
     return {row.published.template: row for row in reproduce()}
 
 
