@@ -87,6 +87,8 @@ def test_a_bug_is_exit_code_3_with_its_traceback(run: Run, monkeypatch: pytest.M
     ids=lambda arguments: arguments[0],
 )
 def test_json_is_one_document(run: Run, arguments: list[str]) -> None:
+    if arguments[0] != "new":
+        needs.package("pybullet")
     code, out, err = run(*arguments, "--json")
     assert (code, err) == (0, "")
     assert isinstance(json.loads(out), dict)

@@ -1,9 +1,11 @@
 """`jumpcad reproduce`: the published figures beside the simulated ones."""
 
+from support import needs
 from support.commands import Run
 
 
 def test_reproduce_shows_both_worlds(run: Run) -> None:
+    needs.package("pybullet")
     code, out, err = run("reproduce")
     assert (code, err) == (0, "")
     for shown in ("Kenan 1.0", "best GA", "best BO", "Kenan 2.0", "0.2571", "0.3212", "0.9047", "1.5", "1.3"):

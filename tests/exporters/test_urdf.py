@@ -53,6 +53,7 @@ def test_read_back_is_the_same_robot(small_robot: Robot, tmp_path: Path) -> None
 
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_pybullet_loads_and_simulates_the_file_like_the_robot_in_memory(name: str, tmp_path: Path) -> None:
+    needs.package("pybullet")
     robot = capsule_robot(load_design(name))
     assert loaded_range_m(write(robot, tmp_path)) == pytest.approx(simulate(robot).ballistic_range_m, rel=1e-9)
 

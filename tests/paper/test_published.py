@@ -26,6 +26,7 @@ def design_of(name: str) -> Design:
 
 @each("name", [name for name in ROWS if name not in CHAOTIC])
 def test_reference_jumps_are_met_to_the_last_printed_digit(name: str) -> None:
+    needs.package("pybullet")
     jump, row = published.simulate(design_of(name)), ROWS[name]
     found = (jump.distance_m, jump.base_height_m, jump.energy_j)
     printed = [float(row[name]) for name in ("distance_m", "base_height_m", "energy_j")]
@@ -54,6 +55,7 @@ def test_every_build_of_pybullet_gives_what_3_2_7_gave() -> None:
 
 @pytest.mark.parametrize("name", CHAOTIC)
 def test_artefacts_are_chaotic(name: str) -> None:
+    needs.package("pybullet")
     design = design_of(name)
     nearby = design.model_copy(update={"carrying_link_mm": design.carrying_link_mm * (1 + 1e-9)})
     moved = published.simulate(nearby).distance_m - published.simulate(design).distance_m

@@ -13,6 +13,7 @@ from jumpcad.simulation import Settings, simulate
 
 @pytest.fixture(scope="module")
 def rows() -> dict[str, Reproduction]:
+    needs.package("pybullet")
     return {row.published.template: row for row in reproduce()}
 
 

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 import pytest
+from support import needs
 
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -138,6 +139,7 @@ def test_what_a_model_does_not_have_or_use_is_refused():
 
 
 def test_the_published_fitness_is_distance_over_the_longest_of_legs_and_toes():
+    needs.package("pybullet")
     design = load_design("kenan-2.0")
     jump, figures = published.simulate(design), robot_model("published")(design).metrics
     longest_m = max(design.l2_mm, design.l3_mm, design.l5_mm) / 1000.0

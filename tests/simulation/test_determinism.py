@@ -26,6 +26,7 @@ ENGINES = [name for name in ("pybullet", "mujoco") if find_spec(name)]
 
 def bits(robot: Robot, engine: str = "pybullet") -> str:
     """Return everything that a simulation says, as text."""
+    needs.package(engine)
     jump = simulate(robot, SETTINGS, engine)
     assert jump.trajectory is not None
     return f"{jump.to_dict()} {jump.trajectory.position_m.tobytes().hex()}"

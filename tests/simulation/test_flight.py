@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support import needs
 from support.built import built
 
 from jumpcad.building import build
@@ -48,6 +49,7 @@ def test_templates_touch_down_as_their_simulated_flights_do(name: str) -> None:
     robot = built(name)
     assert apart_deg(robot, "mujoco") < 1.0
     if name == "kenan-2.0":
+        needs.package("pybullet")
         assert apart_deg(robot, "pybullet") < 1.0
 
 

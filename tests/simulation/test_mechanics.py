@@ -84,7 +84,7 @@ def test_energy_of_a_known_motion(lopsided: Robot) -> None:
 
 
 def test_loop_gap_is_the_distance_of_its_ends(kenan: Robot) -> None:
-    with engine_named("pybullet").world(kenan, Settings()) as world:
+    with engine_named("mujoco").world(kenan, Settings()) as world:
         state = world.state()
     moved = replace(state, com_m=state.com_m + np.outer([name == FOOT for name in BODY_NAMES], [3e-3, 0, 4e-3]))
     assert Mechanics(kenan, 9.81).loop_gap_m(moved) == pytest.approx(5e-3, rel=1e-6)

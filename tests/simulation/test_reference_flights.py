@@ -19,6 +19,7 @@ def test_verdicts(flights: list[Flight]) -> None:
 
 
 def test_jumps_at_the_default_step(jumping: list[Flight]) -> None:
+    needs.package("pybullet")
     for flight in jumping:
         jump, table = simulate(flight.robot, SIMULATED), flight.values
         assert jump.mass_kg == pytest.approx(table["mass_kg"], rel=1e-12)
