@@ -13,7 +13,6 @@ from functools import cached_property
 import numpy as np
 from scipy.special import gammaln
 
-from jumpcad.arguments import check_arguments
 from jumpcad.calibration import priors
 from jumpcad.calibration.measurements import DISTANCES, HEIGHTS, lengths
 from jumpcad.calibration.priors import Prior
@@ -110,7 +109,6 @@ class Predicted:
 class CalibrationModel:
     """Parameters and data of some robots."""
 
-    @check_arguments
     def __init__(self, subjects: Sequence[Subject]) -> None:
         self.subjects = list(subjects)
         self.data = [datum for subject in subjects for datum in data_of(subject)]

@@ -141,7 +141,7 @@ def test_screws_as_axles_have_one_size_and_a_thinner_one_is_no_way_out() -> None
 
 def test_an_axle_that_leaves_spacers_no_wall_is_a_wrong_request() -> None:
     """Spacers of 6.4 mm with 0.2 mm of play and walls of 0.8 mm hold axles of 4.4 mm."""
-    with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.4, .*: use a thinner axle") as caught:
+    with pytest.raises(JumpcadError, match=r"^bought.axle_mm = 4.5 is more than 4.2, .*: use a thinner axle") as caught:
         layout_of(KENAN, workshop_with(bought={"axle_mm": 4.5, "leg_bearing": ""}))
     assert caught.value.exit_code == 2
 

@@ -54,7 +54,7 @@ def test_a_figure_of_the_workshop_is_a_limit(table: str, key: str, value: float,
 
 
 @pytest.mark.parametrize(
-    ("role", "names"), [("gears", {"stress_mpa", "modulus_mpa"}), ("links", set()), ("body", set())]
+    ("role", "names"), [("gears", {"stress_mpa", "modulus_mpa", "shakedown_mpa"}), ("links", set()), ("body", set())]
 )
 def test_teeth_and_cam_are_as_strong_and_stiff_as_what_gears_are_printed_in(role: Role, names: set[str]) -> None:
     """The stress of their teeth, also at the release, and the modulus under the roller; nothing of the drive else."""

@@ -55,17 +55,17 @@ def test_play_adds_up_along_the_leg(kenan: Robot) -> None:
     [
         ("eye_mm", True, 0.1, [6.0]),  # the ankle's eye; both eyes of the front link have more play
         ("lying_mm", True, 0.1, [21.0]),  # the ankle's pin in the foot
-        ("sliding_mm", True, 0.1, [36.1]),  # the axle in both plates
-        ("sliding_mm", False, 0.3, [6.0, 36.1]),  # the hub without a bearing too
+        ("sliding_mm", True, 0.1, [36.2]),  # the axle in both plates
+        ("sliding_mm", False, 0.3, [6.0, 36.2]),  # the hub without a bearing too
         ("eye_mm", False, 0.0, [6.0, 6.0]),  # with tight eyes the front link counts: its two eyes
         ("lying_mm", False, 0.0, [15.0]),  # its pin in the nose's lugs
-        ("sliding_mm", False, 0.0, [36.1]),
+        ("sliding_mm", False, 0.0, [36.2]),
     ],
 )
 def test_each_joint_tilts_by_its_clearance_over_its_length(
     kenan: Robot, fit: str, bearing: bool, eye_mm: float, lengths_mm: list[float]
 ) -> None:
-    """A hole that is wider by c lets a pin tilt by c/l more; the bores of the plates are 37.7 - 2·0.8 mm apart."""
+    """A hole that is wider by c lets a pin tilt by c/l more; the bores of the plates are 37.8 - 2·0.8 mm apart."""
     layout = kenan.layout if bearing else replace(kenan.layout, hub_bearing=None)
     holes = HoleSizes.of(kenan.workshop, layout.hub_bearing)
     fits = holes.fits.model_copy(update={"eye_mm": eye_mm})

@@ -9,6 +9,7 @@ from support.kept import once
 from support.proposals import with_less_work
 from support.quick import LIKE, SPACE, Quick, quick
 from support.stages import stage
+from support.studies import IDENTITY
 
 from jumpcad.search.estimate.estimate import Estimate
 from jumpcad.search.estimate.estimated_robot import LAID
@@ -68,7 +69,7 @@ def trials(tmp_path_factory):
 def dry_run_of(model=None, space=SPACE, phase="bo", asked=STAGE, prior=()):
     model = model or quick()
     request = Request(space, model, "fitness", "bo", 20)
-    store, pool = StudyStore.write(None, {}), local_pool(0)
+    store, pool = StudyStore.write(None, IDENTITY), local_pool(0)
     return DryRun.of(Evaluator(request, store, pool, prior), phase, asked.request.seed, asked.run)
 
 

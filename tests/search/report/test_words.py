@@ -17,7 +17,7 @@ def refusals():
         for call in ast.walk(ast.parse(text)):
             if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "CannotBuildError" and len(call.args) > 1:
                 name = call.args[1]
-                if isinstance(name, ast.Attribute):  # of a finding: a check of the reference
+                if isinstance(name, ast.Attribute | ast.Name):  # of a finding: a check of the reference
                     continue
                 yield name.value if isinstance(name, ast.Constant) else name.values[0].value + "x"
 

@@ -57,7 +57,7 @@ def test_numbers_of_a_request_have_ends_that_are_told():
     ):  # fmt: skip
         for value in (least, most):
             assert getattr(replace(PLAIN, **{name: value}), name) == value
-        for value, words in ((least - step, f"at least {least:g}"), (most + step, "at most")):
+        for value, words in ((least - step, f"at least {least:g}"), (most + step, ".*at most")):
             with pytest.raises(JumpcadError, match=f"{name} = .* must be {words}"):
                 replace(PLAIN, **{name: value})
 
