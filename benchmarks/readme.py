@@ -117,7 +117,7 @@ def report_differences(write: bool) -> Iterator[str]:
     """Yield a sentence if the template's report is not what `jumpcad report best-printable` writes today."""
     page = report_page(figures.built("best-printable")[0])
     if write:
-        write_atomically(REPORT, page)
+        write_atomically(REPORT, page, force=True)
     elif REPORT.read_text(encoding="utf-8") != page:
         yield f"{REPORT.name}: is not the report of best-printable"
 
@@ -127,7 +127,7 @@ def compared_differences(write: bool) -> Iterator[str]:
     for name, text in calibrated.comparisons().items():
         path = COMPARED / f"{name}.toml"
         if write:
-            write_atomically(path, text)
+            write_atomically(path, text, force=True)
         else:
             yield from differences(path.name, path.read_text(encoding="utf-8"), text, calibrated.SAMPLER_SLACK)
 
@@ -145,7 +145,7 @@ def main(arguments: list[str] | None = None) -> int:
         winner = figures.outcome("printed").winner
         design = Design(**winner["design"])
         if options.write:
-            write_atomically(TEMPLATE, HEADING + design.to_toml())
+            write_atomically(TEMPLATE, HEADING + design.to_toml(), force=True)
         wrong += template_differences(design, winner["fitness"])
         wrong += report_differences(options.write)
     if "calibration" in costly:
@@ -162,7 +162,7 @@ def main(arguments: list[str] | None = None) -> int:
         written = shown(text)
         there |= written.keys()
         if options.write:
-            write_atomically(page, rewritten(text, made))
+            write_atomically(page, rewritten(text, made), force=True)
             continue
         for name in made.keys() & written.keys():
             wrong += differences(f"{page.name}, {name}", written[name], made[name], slack[name])
