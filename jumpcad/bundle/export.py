@@ -24,6 +24,7 @@ from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.uncertainty import uncertainty_of
+from jumpcad.bundle.weigh_sheet import weigh_sheet
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.coupon.contents import coupon_files, coupon_pieces
 from jumpcad.errors import CannotBuildError
@@ -97,6 +98,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
     files["bom.csv"] = write_bom(bill_of_materials(robot))
     files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
     limits_of(robot)  # for guide and report, while pictures are drawn
+    files["weigh.csv"] = weigh_sheet(robot)
     seen, (motion, sure) = drawn(), moving()
     scene = next((path for path in files if path.endswith(".glb")), "")
     glb = files.get(scene)
