@@ -22,7 +22,7 @@ def weigh_sheet(robot: Robot) -> str:
 
     The effect is the difference of two simulated jumps; it is left blank where one of them is none.
     """
-    pieces, others = defaultdict(list), defaultdict(float)
+    pieces, others = defaultdict(list), defaultdict[str, float](float)
     for part in robot.parts:
         for place in part.placements:
             pieces[part.name, place.body].append(part.mass.placed(in_metres(place.T_body_part)))
