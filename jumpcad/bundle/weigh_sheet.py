@@ -18,10 +18,7 @@ LEAST_KG = 0.5e-3
 
 
 def weigh_sheet(robot: Robot) -> str:
-    """Return the sheet as CSV: all pieces of a part on one body together, and the effect of a gram more of them.
-
-    The effect is the difference of two simulated jumps; it is left blank where one of them is none.
-    """
+    """Return the sheet as CSV: the pieces of a part on one body, and by two jumps the effect of a gram more of them."""
     pieces, others = defaultdict(list), defaultdict[str, float](float)
     for part in robot.parts:
         for place in part.placements:
@@ -39,8 +36,8 @@ def weigh_sheet(robot: Robot) -> str:
         heavier = _figures(_with_gram(robot, body, together))
         both = zip(heavier, plain, strict=True) if heavier and plain else ()
         effect = [f"{1000.0 * (more - now):.2f}" for more, now in both] or ["", ""]
-        grams = f"{1000.0 * (together.mass_kg + others[name]):.2f}"
-        rows.append((name.removesuffix(CHOOSE), body, len(masses), grams, "", *effect))
+        computed_g = f"{1000.0 * (together.mass_kg + others[name]):.2f}"
+        rows.append((name.removesuffix(CHOOSE), body, len(masses), computed_g, "", *effect))
     return to_csv([COLUMNS, *rows])
 
 

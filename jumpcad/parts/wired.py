@@ -125,11 +125,9 @@ def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     place, switch, low = layout.fittings.switch_mm, layout.fittings.switch, layout.lateral.inside[0]
     if place is None or switch is None:
         return
-    width = switch.width_mm or 0.0
-    slabs = [
-        (0.0, SWITCH_EAR_MM, box_outline(switch.length_mm or 0.0, width)),
-        (SWITCH_EAR_MM, switch.height_mm or 1.0, box_outline(SWITCH_BODY_MM, width)),
-    ]
+    long, width, high = switch.length_mm or 0.0, switch.width_mm or 0.0, switch.height_mm or 1.0
+    body = (SWITCH_EAR_MM, high, box_outline(SWITCH_BODY_MM, width))
+    slabs = [(0.0, SWITCH_EAR_MM, box_outline(long, width)), body]
     yield bought("switch", switch.description, BODY, switch.mass_g, slabs, (place[0], low, place[1]))
     screw, nut, outer = catalogue.screws["M2"], catalogue.nuts["M2"], layout.lateral.outside[0]
     length = screw.length_for(low - outer + SWITCH_EAR_MM + nut.height_mm)
@@ -137,5 +135,5 @@ def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     for number, sign in enumerate((-1.0, 1.0), start=1):
         at = np.array([place[0] + sign * SWITCH_SCREWS_MM, place[1]])
         yield placed_screw(f"switch_screw_{number}", BODY, at, (outer, outer + length), -1.0, screw, catalogue)
-        inside = (at[0], low + SWITCH_EAR_MM, at[1])
-        yield bought(f"switch_nut_{number}", "nut M2 ISO 4032", BODY, nut.mass_g, slabs, inside, math.pi / 6.0)
+        ear = (at[0], low + SWITCH_EAR_MM, at[1])
+        yield bought(f"switch_nut_{number}", "nut M2 ISO 4032", BODY, nut.mass_g, slabs, ear, math.pi / 6.0)

@@ -347,6 +347,7 @@ def test_preloaded_and_stock_springs_are_handled_as_such() -> None:
     shop = workshop_with(spring={"preload_deg": 5.0}, bought={"spring": "9271K589"})
     text = whole(build(design("kenan-1.0"), shop, "own"))
     assert "Two torsion springs 9271K589, one of each hand, from stock" in text
+    assert "right-hand wound for outside diameter 0.848 in, wire 0.105 in, legs 3.5 in" in text  # of the left-hand one
     assert "asks for 4.60 N·mm/°; the robot is computed with 26.36 N·mm/°" in text
     assert "by the preload|132 N·mm|" in text  # 26.36 · 5
     assert text.count("On the stop, too, the springs are loaded by 2.0°") == 1  # which is 3° past rest

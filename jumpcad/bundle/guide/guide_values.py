@@ -40,7 +40,6 @@ between it and what stands beside it, such as a standoff's screw head; judgement
 ROUND_OFF_MM = 1e-3
 ROUND_OFF_DEG = 1e-6
 """By how much lengths and angles that are computed miss round numbers."""
-INCH_MM, INLB_NMM = 25.4, 112.985
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
 
@@ -96,7 +95,7 @@ def _springs(robot: Robot) -> dict[str, Any]:
     without = spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)
     return {
         "spring": spring,
-        "twin": _twin(robot),
+        "stock": robot.workshop.stock_spring,
         "loadings": robot.workshop.safety.jumps,
         "asked_rate": robot.design.stiffness_nmm_per_deg / 2.0,
         "free_deg": math.degrees(spring.free_arm_angle_rad),
@@ -116,21 +115,6 @@ def _springs(robot: Robot) -> dict[str, Any]:
     }
 
 
-def _twin(robot: Robot) -> dict[str, Any] | None:
-    """Return what a shop's table in inches has of the stock spring whose number is known for its other hand alone."""
-    stock = robot.workshop.stock_spring
-    if stock is None or bool(stock.left_hand) == bool(stock.right_hand):
-        return None
-    return {
-        "hand": "right" if stock.left_hand else "left",
-        "deg": stock.arm_angle_deg,
-        "outside_in": (stock.inside_diameter_mm + 2.0 * stock.wire_mm) / INCH_MM,
-        "wire_in": stock.wire_mm / INCH_MM,
-        "legs_in": round(stock.arm_length_mm / INCH_MM, 2),
-        "inlb": stock.rate_nmm_per_deg * stock.arm_angle_deg / INLB_NMM,
-    }
-
-
 def _sizes(robot: Robot) -> dict[str, Any]:
     """Return lengths (mm) and articles that tell one thing from another; nothing of what a robot lacks."""
     articles = defaultdict(str, {item.name: item.article for item in robot.hardware})
@@ -144,7 +128,8 @@ def _sizes(robot: Robot) -> dict[str, Any]:
         "axle_mm": robot.layout.axle_mm,
         "axle_length_mm": high - low,
         "pin_hole_mm": robot.layout.pin_hole.diameter_mm,
-        "plunger_mm": _plunger_mm(robot),
+        "felt": robot.layout.sensor,
+        "left_plate_mm": float(np.ptp(robot.layout.lateral.left_plate)),
         "end_play_mm": (2.0 * AXLE_END_PLAY_MM, 2.0 * AXLE_END_PLAY_MM + ROD_SHORT_MM),
         "clamp_mm": MOTOR_CLAMP_MM,
         "window_mm": window,
@@ -157,16 +142,6 @@ def _sizes(robot: Robot) -> dict[str, Any]:
         "cam_turn": both[1],
         "motor_turn": both[motor_sense(robot)],
     }
-
-
-def _plunger_mm(robot: Robot) -> tuple[float, float, float] | None:
-    """Return how far the sensor's plunger stands inside the plate as it clicks, how sure that is, and free at most."""
-    place = robot.layout.sensor
-    if place is None:
-        return None
-    travel, behind = place.needs.travel, place.base_mm + float(np.ptp(robot.layout.lateral.left_plate))
-    sure = travel.operating_tolerance_mm + place.needs.axial_mm
-    return travel.operating_mm - behind, round(sure, 1), travel.free_mm - behind
 
 
 def _prong_mm(robot: Robot) -> float:
