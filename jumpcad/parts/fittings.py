@@ -43,7 +43,8 @@ def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left",
         x, z = fittings.switch_mm
         yield rectangle(KNOB_MM, (x, z), 1.0)
         for sign in (-1.0, 1.0):
-            yield stadium(*((x + sign * end, z) for end in SWITCH_SLOT_MM), holes.fits.m2_clearance_mm)
+            inner, outer = ((x + sign * end, z) for end in SWITCH_SLOT_MM)
+            yield stadium(inner, outer, holes.fits.m2_clearance_mm)
     if fittings.usb_mm is not None and side == fittings.usb_side:
         yield rectangle(fittings.usb_size_mm, fittings.usb_mm, 1.0)
 

@@ -36,7 +36,7 @@ def test_the_plates_have_material_around_what_passes_them(kenan: Robot) -> None:
 
 
 def test_openings_are_as_large_as_what_passes_them(kenan: Robot) -> None:
-    """A knob's slot of 8 x 4.4 mm between screws 14.4 to 15 mm apart; two slots for a tie 5 mm above the leads' hole."""
+    """A knob's slot of 8 x 4.4 mm between screws 14.4 to 15 mm apart; two slots for a tie above the leads' hole."""
     fittings, holes = kenan.layout.fittings, HoleSizes.of(kenan.workshop, None)
     hole, one, other, *more = sizes(list(fitting_openings(fittings, holes, "left")))
     assert not more

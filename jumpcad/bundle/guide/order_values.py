@@ -39,10 +39,8 @@ STEEL_FROM_G_CM3 = 7.0
 """Rods that are as dense or denser are of steel; aluminium has 2.8."""
 NUT_THREAD_MM = 18.0
 """Thread of M3 from the end, without its run-out (ISO 4762): it must begin before the lock nut."""
-SLIDER_REACHES_MM = 5.0
-"""Of the slider of SS-12F15 G5 out of its ears."""
-SLIDER_MM = 1.5
-"""Of a switch's slider outside the plate, for a fingertip; judgement."""
+SLIDER_MM, SLIDER_REACHES_MM = 1.5, 5.0
+"""Of a switch's slider outside the plate, for a fingertip (judgement), and out of the ears of SS-12F15 G5."""
 ROOM_MM = 0.5
 """By which a rod is thinner than the hole that it passes, and the body of a USB plug smaller than its window."""
 
