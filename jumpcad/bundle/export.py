@@ -23,6 +23,7 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
+from jumpcad.bundle.weigh_sheet import weigh_sheet
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.coupon.contents import coupon_files, coupon_pieces
 from jumpcad.errors import CannotBuildError
@@ -94,6 +95,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
         made = coupon_pieces(robot.workshop)
         files |= {f"coupon/{path}": content for path, content in coupon_files(robot.workshop, made, pictures)}
         files["bom.csv"] = write_bom(bill_of_materials(robot))
+        files["weigh.csv"] = weigh_sheet(robot)
         files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
         limits_of(robot)  # for guide and report
         motion, sure = (jump_motion(robot), uncertainty_of(robot)) if pictures else (None, None)

@@ -36,7 +36,8 @@ class Board(Article):
     underneath. `logic_v` is the level of a controller's pins, or the one that a driver's inputs are made for.
     `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma` the fixed
     current of its battery charger (a board without it and without `battery` pads has none: the battery is then charged
-    outside the robot), `micropython` the name of its image among MicroPython's downloads.
+    outside the robot), `micropython` the name of its image among MicroPython's downloads. `before` says what is done to
+    it before it is wired.
     """
 
     description: Source
@@ -61,6 +62,7 @@ class Board(Article):
     efficiency: Annotated[float, Field(ge=0.01, le=1)] = 1.0
     charge_ma: Positive | None = None
     micropython: Text = ""
+    before: Text = ""
     confidence: Confidence = "stated"
 
     def contradictions(self) -> Iterator[Contradiction]:

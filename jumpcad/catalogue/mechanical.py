@@ -115,7 +115,7 @@ class StockSpring(Article):
             return f"torsion spring, {hand} hand, {number or self.name}"
         return (
             f"torsion spring, {hand} hand, twin of {other} ({self.arm_angle_deg:g}°, wire {self.wire_mm:g} mm, outside "
-            f"diameter {self.inside_diameter_mm + 2.0 * self.wire_mm:.2f} mm, {self.turns:g} turns)"
+            f"diameter {self.inside_diameter_mm + 2.0 * self.wire_mm:.2f} mm, {self.turns:g} turns), number not known"
         )
 
     def _steel_rate(self, share: float) -> float:

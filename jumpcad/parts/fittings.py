@@ -14,13 +14,14 @@ from jumpcad.layout.fittings import (
     switch_half_mm,
 )
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.solids.outline import Region, hole, rectangle
+from jumpcad.solids.outline import Region, hole, rectangle, stadium
 from jumpcad.transforms import Array
 
 KNOB_MM = (8.0, 4.4)
 """Slot for the switch's knob, along its travel and across; judgement: a knob of 4 x 3 mm that goes 3 mm."""
-SWITCH_SCREWS_MM = 7.5
-"""From the switch's middle to its screws: 15 mm apart, usual of slide switches for panels."""
+SWITCH_SCREWS_MM, SWITCH_SLOT_MM = 7.2, (7.0, 7.8)
+"""From the switch's middle to its screws, and to the ends of the plate's slots for them: ears of SS-12F15 have holes
+14.4 mm apart, of others of its kind 14.8 or 15 mm."""
 
 
 def fitting_pads(fittings: Fittings, more_mm: float) -> Iterator[Region]:
@@ -42,7 +43,8 @@ def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left",
         x, z = fittings.switch_mm
         yield rectangle(KNOB_MM, (x, z), 1.0)
         for sign in (-1.0, 1.0):
-            yield hole(holes.fits.m2_clearance_mm, (x + sign * SWITCH_SCREWS_MM, z))
+            inner, outer = ((x + sign * end, z) for end in SWITCH_SLOT_MM)
+            yield stadium(inner, outer, holes.fits.m2_clearance_mm)
     if fittings.usb_mm is not None and side == fittings.usb_side:
         yield rectangle(fittings.usb_size_mm, fittings.usb_mm, 1.0)
 

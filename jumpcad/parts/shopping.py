@@ -178,4 +178,5 @@ def _bearing(name: str, centre: Array, right_mm: float, bearing: Bearing) -> Bou
     """Return a bearing whose right side is at `right_mm` along y."""
     slabs = [(0.0, bearing.width_mm, round_outline(bearing.outer_mm, bearing.bore_mm))]
     at = (centre[0], right_mm, centre[1])
-    return bought(name, f"ball bearing {bearing.name}", MAIN_LEG, bearing.mass_g, slabs, at)
+    size = f"{bearing.bore_mm:g} x {bearing.outer_mm:g} x {bearing.width_mm:g} mm"
+    return bought(name, f"ball bearing {bearing.name} ZZ, {size}", MAIN_LEG, bearing.mass_g, slabs, at)

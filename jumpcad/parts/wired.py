@@ -16,11 +16,13 @@ from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.leads import metres_by_colour
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.parts.simple import box_outline, placed_box, placed_screw
+from jumpcad.solids.outline import hexagon, hole
 from jumpcad.workshop import BoughtParts
 
-SWITCH_EAR_MM = 0.5
-"""Thickness of the ears of a slide switch, tapped M2; usual."""
-STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm, 1.2 mm thick at most", (10.0, 1.0), 0.8
+SWITCH_EAR_MM, SWITCH_BODY_MM = 0.5, 10.0
+"""Thickness of the ears of a slide switch (usual), and length of the body between them (SS-12F15)."""
+STRAP = "hook-and-loop strap 10 x 150 mm (VELCRO ONE-WRAP or equal), 1.2 mm thick at most"
+STRAP_MM, STRAP_G = (10.0, 1.0), 0.8
 TIE, TIE_MM, TIE_G = "cable tie 2.5 x 100 mm, polyamide", (2.5, 1.1), 0.3
 BALANCE_HEIGHT_MM = 6.0
 """Of a balance lead's plug, which lies under its tie; judgement."""
@@ -119,14 +121,19 @@ def _soldered(layout: Layout, parts: Chosen, wiring: Wiring, placed: set[str]) -
 
 
 def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
-    """Yield the switch behind the right plate and the screws through its ears."""
+    """Yield the switch behind the right plate, the screws through its ears and their nuts."""
     place, switch, low = layout.fittings.switch_mm, layout.fittings.switch, layout.lateral.inside[0]
     if place is None or switch is None:
         return
-    slabs = [(0.0, switch.height_mm or 0.0, box_outline(switch.length_mm or 0.0, switch.width_mm or 0.0))]
+    long, width, high = switch.length_mm or 0.0, switch.width_mm or 0.0, switch.height_mm or 1.0
+    body = (SWITCH_EAR_MM, high, box_outline(SWITCH_BODY_MM, width))
+    slabs = [(0.0, SWITCH_EAR_MM, box_outline(long, width)), body]
     yield bought("switch", switch.description, BODY, switch.mass_g, slabs, (place[0], low, place[1]))
-    screw, outer = catalogue.screws["M2"], layout.lateral.outside[0]
-    length = screw.length_for(low - outer + SWITCH_EAR_MM)
+    screw, nut, outer = catalogue.screws["M2"], catalogue.nuts["M2"], layout.lateral.outside[0]
+    length = screw.length_for(low - outer + SWITCH_EAR_MM + nut.height_mm)
+    slabs = [(0.0, nut.height_mm, hexagon(nut.across_flats_mm) - hole(screw.diameter_mm))]
     for number, sign in enumerate((-1.0, 1.0), start=1):
         at = np.array([place[0] + sign * SWITCH_SCREWS_MM, place[1]])
         yield placed_screw(f"switch_screw_{number}", BODY, at, (outer, outer + length), -1.0, screw, catalogue)
+        ear = (at[0], low + SWITCH_EAR_MM, at[1])
+        yield bought(f"switch_nut_{number}", "nut M2 ISO 4032", BODY, nut.mass_g, slabs, ear, math.pi / 6.0)

@@ -171,7 +171,7 @@ def test_nothing_that_is_bought_is_left_out() -> None:
         "roller_washer": 1, "roller_screw": 1, "roller_nut": 1, "ankle_pin": 1, "front_eye_pin": 1, "leg_spring_pin": 1,
         "ankle_pin_split_pin": 1, "front_eye_pin_split_pin": 1, "leg_spring_pin_split_pin": 1, "spring": 2, "motor": 1,
         "cap_screw": 2, "sensor": 1, "sensor_screw": 2, "battery": 1, "strap_battery": 1, "controller": 1, "driver": 1,
-        "capacitor": 1, "plug": 1, "switch": 1, "switch_screw": 2, "stop_pad": 1, "nose_pad": 2,
+        "capacitor": 1, "plug": 1, "switch": 1, "switch_screw": 2, "switch_nut": 2, "stop_pad": 1, "nose_pad": 2,
     }  # fmt: skip
     assert {name: bought[name] for name in needed} == needed
     names = [item.name for item in built("kenan-2.0").hardware]

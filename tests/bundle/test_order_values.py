@@ -12,9 +12,10 @@ from support.built import built
 
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.drawings.wiring import wires
-from jumpcad.bundle.guide.order_values import _screw_axles, nutted_screw, order_values, strap_mm
+from jumpcad.bundle.guide.order_values import _screw_axles, order_values, strap_mm
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.layout.leg_bars import END_PLAY_MM
+from jumpcad.parts import wired
 from jumpcad.robot import Robot
 
 
@@ -84,9 +85,9 @@ def test_the_strap_goes_once_around_battery_and_tray() -> None:
 
 
 def test_bearings_have_their_norms_sizes() -> None:
-    """ISO 15: 623 is 3 x 10 x 4 mm; MR63 3 x 6 x 2.5 mm."""
-    found = {one.name: (one.bore_mm, one.outer_mm, one.width_mm) for one in order(built("kenan-2.0"))["bearings"]}
-    assert found == {"623": (3.0, 10.0, 4.0), "MR63": (3.0, 6.0, 2.5)}
+    """ISO 15 and makers: 623 is 3 x 10 x 4 mm; MR63 3 x 6 x 2.5 mm; 683 without shields would be 2 mm wide."""
+    names = {line.name for line in bill_of_materials(built("kenan-2.0")).items}
+    assert {"ball bearing 623 ZZ, 3 x 10 x 4 mm", "ball bearing MR63 ZZ, 3 x 6 x 2.5 mm"} <= names
 
 
 @pytest.mark.thorough
@@ -147,14 +148,15 @@ def test_leg_and_front_link_turn_on_the_smooth_part_of_their_screws() -> None:
 
 
 def test_thick_plates_need_longer_screws_and_sliders() -> None:
-    """Plate, an ear of 0.5 mm and a nut of 1.6 mm (ISO 4032); the nearest switch's slider is 5 mm, 1.5 are needed."""
+    """Plate, an ear of 0.5 mm and a nut of 1.6 mm (ISO 4032); the switch's slider is 5 mm, 1.5 are needed."""
     robot = built("kenan-2.0")
-    lateral = robot.layout.lateral
+    lateral, catalogue = robot.layout.lateral, robot.workshop.catalogue
     for plate_mm, screw, reaches in ((2.4, "M2 x 5", True), (3.6, "M2 x 6", False), (4.0, "M2 x 8", False)):
         plate = (lateral.inside[0] - plate_mm, lateral.inside[0])
-        thick = replace(robot, layout=replace(robot.layout, lateral=replace(lateral, right_plate=plate)))
-        assert nutted_screw(thick) == f"{screw} ISO 14580"
-        assert order(thick)["slide_switch"]["similar_reaches"] is reaches, plate_mm
+        layout = replace(robot.layout, lateral=replace(lateral, right_plate=plate))
+        articles = Counter(item.article for item in wired._switch(layout, catalogue))
+        assert articles[f"screw {screw} ISO 14580"] == articles["nut M2 ISO 4032"] == 2
+        assert order(replace(robot, layout=layout))["slide_switch"]["reaches"] is reaches, plate_mm
     for gone in ({"switch": None}, {"switch_mm": None}):
         fittings = replace(robot.layout.fittings, **gone)
         assert order(replace(robot, layout=replace(robot.layout, fittings=fittings)))["slide_switch"] is None

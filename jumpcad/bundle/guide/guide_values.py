@@ -96,6 +96,7 @@ def _springs(robot: Robot) -> dict[str, Any]:
     without = spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)
     return {
         "spring": spring,
+        "stock": robot.workshop.stock_spring,
         "loadings": robot.workshop.safety.jumps,
         "asked_rate": robot.design.stiffness_nmm_per_deg / 2.0,
         "free_deg": math.degrees(spring.free_arm_angle_rad),
@@ -128,6 +129,8 @@ def _sizes(robot: Robot) -> dict[str, Any]:
         "axle_mm": robot.layout.axle_mm,
         "axle_length_mm": high - low,
         "pin_hole_mm": robot.layout.pin_hole.diameter_mm,
+        "felt": robot.layout.sensor,
+        "left_plate_mm": float(np.ptp(robot.layout.lateral.left_plate)),
         "end_play_mm": (2.0 * AXLE_END_PLAY_MM, 2.0 * AXLE_END_PLAY_MM + ROD_SHORT_MM),
         "clamp_mm": MOTOR_CLAMP_MM,
         "window_mm": window,
@@ -139,7 +142,6 @@ def _sizes(robot: Robot) -> dict[str, Any]:
         "dog_play_deg": math.degrees(robot.layout.drive.dog.play_rad),
         "cam_turn": both[1],
         "motor_turn": both[motor_sense(robot)],
-        "weighed": [(part.name, 1000.0 * part.mass_kg) for part in robot.parts],
     }
 
 

@@ -12,9 +12,8 @@ from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
 from jumpcad.exporters.threemf import print_plates
 from jumpcad.layout.cage import SOCKET_MM, hoop_mm
 from jumpcad.layout.leg_bars import END_PLAY_MM
-from jumpcad.parts.fittings import SWITCH_SCREWS_MM
+from jumpcad.parts.fittings import SWITCH_SLOT_MM
 from jumpcad.parts.pads import printed_pads
-from jumpcad.parts.wired import SWITCH_EAR_MM
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import SCREW_THREAD_MM
 
@@ -40,12 +39,8 @@ STEEL_FROM_G_CM3 = 7.0
 """Rods that are as dense or denser are of steel; aluminium has 2.8."""
 NUT_THREAD_MM = 18.0
 """Thread of M3 from the end, without its run-out (ISO 4762): it must begin before the lock nut."""
-SIMILAR_A, SIMILAR_SLIDER_MM = 0.5, 5.0
-"""Of the slide switch SS-12F15 G5: what sellers rate it at most (0.3 or 0.5 A at 50 V), and its slider. Sizes as public
-bills of material state them (several projects, the same figures); holes and height behind the ears: BOM.md of
-github.com/morria/pocket-cat, which scaled the distance of the holes off the maker's drawing."""
-SLIDER_MM = 1.5
-"""Of a switch's slider outside the plate, for a fingertip; judgement."""
+SLIDER_MM, SLIDER_REACHES_MM = 1.5, 5.0
+"""Of a switch's slider outside the plate, for a fingertip (judgement), and out of the ears of SS-12F15 G5."""
 ROOM_MM = 0.5
 """By which a rod is thinner than the hole that it passes, and the body of a USB plug smaller than its window."""
 
@@ -53,7 +48,7 @@ ROOM_MM = 0.5
 def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
     """Return what is printed, cut, bought and used (mm, m, g, A), by the names that templates use."""
     workshop, layout, chosen = robot.workshop, robot.layout, robot.electrical_parts
-    pads, billed = printed_pads(robot.hardware, workshop), {item.name for item in bill.items}
+    pads = printed_pads(robot.hardware, workshop)
     usb = layout.fittings.usb_size_mm if layout.fittings.usb_mm is not None else None
     return {
         "plates": [plate.name for plate in print_plates(robot)],
@@ -66,7 +61,6 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
         "strips": _strips(bill),
         "bars": _bars(robot, bill),
         "cage": _cage(robot),
-        "bearings": [one for one in workshop.catalogue.bearings.values() if f"ball bearing {one.name}" in billed],
         "there": "".join(f"|{item.name}" for item in bill.items if not item.ordered),
         "strap_mm": strap_mm(robot),
         "boards": chosen.boards,
@@ -117,13 +111,6 @@ def strap_mm(robot: Robot) -> float:
     battery = robot.electrical_parts.battery
     across, upright = battery.width_mm + 2.0 * STRAP_SLOT_MM[0], battery.height_mm + TRAY_MM
     return 5.0 * math.ceil((2.0 * (across + upright) + STRAP_OVERLAP_MM) / 5.0)
-
-
-def nutted_screw(robot: Robot) -> str:
-    """Return the screws that hold a switch whose ears have no thread: through plate and ear, with a nut behind."""
-    catalogue, lateral = robot.workshop.catalogue, robot.layout.lateral
-    screw, plate = catalogue.screws["M2"], lateral.inside[0] - lateral.outside[0]
-    return f"M2 x {screw.length_for(plate + SWITCH_EAR_MM + catalogue.nuts['M2'].height_mm):g} {screw.norm}"
 
 
 def _rods(robot: Robot, bill: Bill) -> list[dict[str, Any]]:
@@ -218,7 +205,7 @@ def _screw_axles(robot: Robot) -> dict[str, Any]:
 
 
 def _switch(robot: Robot) -> dict[str, Any] | None:
-    """Return what a slide switch must be like (mm, A), and whether the nearest article is; None without one."""
+    """Return what a slide switch must be like (mm, A), and whether its slider is long enough; None without one."""
     fittings, lateral = robot.layout.fittings, robot.layout.lateral
     if fittings.switch is None or fittings.switch_mm is None:
         return None
@@ -227,10 +214,8 @@ def _switch(robot: Robot) -> dict[str, Any] | None:
     blocked_a = supply.driven(robot.layout.drive.train.motor, supply.full_v, most_nm).stall_current_a
     return {
         "article": fittings.switch,
-        "holes_mm": 2.0 * SWITCH_SCREWS_MM,
+        "holes_mm": [2.0 * end for end in SWITCH_SLOT_MM],
         "out_mm": plate + SLIDER_MM,
         "blocked_a": blocked_a,
-        "nutted": nutted_screw(robot),
-        "similar_bears": blocked_a <= SIMILAR_A,
-        "similar_reaches": plate + SLIDER_MM <= SIMILAR_SLIDER_MM,
+        "reaches": plate + SLIDER_MM <= SLIDER_REACHES_MM,
     }
