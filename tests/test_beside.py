@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -55,7 +56,9 @@ def test_no_command_copies_a_process_with_threads(tmp_path: Path, asked: str) ->
     assert (done.returncode, done.stderr) == (0, "") or "a copy" not in done.stderr, done.stderr
 
 
-def test_work_is_shared_in_order_and_what_workers_cannot_do_is_done_here() -> None:
+def test_work_is_shared_in_order_and_what_workers_cannot_do_is_done_here(caplog: pytest.LogCaptureFixture) -> None:
+    with local_pool(2) as pool:
+        assert pool.shared(time.sleep, [0.01] * 40) == [None] * 40
     with local_pool(2) as pool:
         assert pool.shared(abs, range(-9, 9)) == [abs(one) for one in range(-9, 9)]
         lock = threading.Lock()  # no pickle holds it
@@ -63,3 +66,4 @@ def test_work_is_shared_in_order_and_what_workers_cannot_do_is_done_here() -> No
         with pytest.raises(ZeroDivisionError):
             pool.shared(lambda one: 1 // one, range(9))
         assert pool.shared(abs, []) == []
+    assert not caplog.records, "loky logs a traceback"

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 import typer
+from support import needs
 
 from jumpcad.cli.commands import app
 from jumpcad.files import template_names
@@ -31,6 +32,7 @@ def readme() -> ModuleType:
 
 
 def test_figures_that_follow_from_the_templates(readme: ModuleType, capsys: pytest.CaptureFixture[str]) -> None:
+    needs.package("pybullet")
     code = readme.main(["--cheap"])
     assert (code, capsys.readouterr().out) == (0, "every figure is what the program gives\n")
 
@@ -83,6 +85,7 @@ def test_templates_are_named() -> None:
 
 
 def test_lines_of_python_run(capsys: pytest.CaptureFixture[str]) -> None:
+    needs.package("pybullet")
     (code,) = [code for code in re.findall(r"```python\n(.*?)```", PYTHON, re.S) if "published" in code]
     names: dict[str, object] = {}
     exec(code, names)

@@ -139,7 +139,8 @@ def real_path(path: str | Path) -> Path:
     require_path(Path(path))
     try:
         real = Path(path).resolve()
-        real.exists()
+        with suppress(FileNotFoundError, NotADirectoryError):
+            real.stat()  # in Python 3.14 neither `resolve` nor `exists` says what is wrong
     except (OSError, RuntimeError) as error:
         raise JumpcadError(f"{path}: cannot be a path: {getattr(error, 'strerror', None) or error}") from None
     return real

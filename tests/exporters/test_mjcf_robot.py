@@ -130,9 +130,9 @@ def test_the_velocity_of_the_centre_of_mass_is_how_its_place_changes(model: Any)
 
 
 def test_bodies_collide_by_the_convex_hull_of_their_parts(kenan: Robot, model: Any) -> None:
-    """It reaches as far as they do in any direction; the foot's stays half a millimetre above its sole."""
-    directions = np.random.default_rng(0).normal(size=(50, 3))
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    """It reaches as far as they do along the axes, within 2 mm otherwise; the foot's stays above its sole by 0.5 mm."""
+    directions = np.random.default_rng(0).normal(size=(500, 3))
+    directions = np.concatenate([np.eye(3), -np.eye(3), directions / np.linalg.norm(directions, axis=1)[:, None]])
     for name in BODY_NAMES:
         geom = model.geom(f"{name}_collision")
         first = model.mesh_vertadr[geom.dataid[0]]
@@ -144,7 +144,12 @@ def test_bodies_collide_by_the_convex_hull_of_their_parts(kenan: Robot, model: A
             for one in visuals(kenan) if one.body == name
         ])  # fmt: skip
         upward = directions[directions[:, 2] > 0.0] if name == FOOT else directions
-        np.testing.assert_allclose((hull @ upward.T).max(axis=0), (parts @ upward.T).max(axis=0), atol=2e-5)
+        short = (parts @ upward.T).max(axis=0) - (hull @ upward.T).max(axis=0)
+        assert -2e-5 < short.min() <= short.max() < 0.002
+        assert short[np.abs(upward).max(axis=1) == 1.0].max() < 2e-5
+        faces = model.mesh_polyadr[geom.dataid[0]] + np.arange(model.mesh_polynum[geom.dataid[0]])
+        assert len(hull) <= 32
+        assert model.mesh_polyvertnum[faces].max() <= 12
         if name == FOOT:
             assert hull[:, 2].min() == pytest.approx(parts[:, 2].min() + 0.0005, abs=2e-5)
 

@@ -59,6 +59,7 @@ def test_without_damping_the_springs_energy_is_all_there(kenan: Robot) -> None:
 
 
 def test_energy_budget_adds_up_to_the_springs_energy(jumping: list[Flight]) -> None:
+    needs.package("pybullet")
     for flight, engine in itertools.product(jumping, ("pybullet", "planar")):
         jump = simulate(flight.robot, engine=engine)
         assert jump.energy is not None

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support import needs
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, ContactSphere
 from jumpcad.robot import Robot
@@ -23,6 +24,7 @@ def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
 @pytest.mark.parametrize("preload_rad", [0.0, 0.2])
 def test_a_preload_gives_the_energy_of_its_winding(kenan: Robot, preload_rad: float) -> None:
     """½·k·((w + p)² - p²), as in Bullet, whose jump is as far."""
+    needs.package("pybullet")
     robot = replace(kenan, spring=replace(kenan.spring, preload_rad=preload_rad))
     jumps = [simulate(robot, engine=engine) for engine in ("planar", "pybullet")]
     wound = kenan.spring.wind_rad + preload_rad

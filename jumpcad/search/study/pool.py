@@ -144,10 +144,16 @@ class Pool:
             sent = b""
         if not sent:
             return one_by_one(function, arguments)
-        others = [self._submit(share, sent, part) for part in parts]
+        others: list[Future[list[T]]] = []
         found: list[T] = []
+        while len(others) < len(parts):
+            # Few wait: loky ends with a traceback where one that waits was cancelled.
+            while len(others) < len(parts) and sum(not other.done() for other in others) < 2 * self.workers:
+                others.append(self._submit(share, sent, parts[len(others)]))
+            if len(others) < len(parts):
+                found = [*one_by_one(function, parts.pop()), *found]
         for part, other in zip(parts[::-1], others[::-1], strict=True):
-            done = not other.cancel() and other.done() and other.exception() is None
+            done = other.done() and not other.cancelled() and other.exception() is None
             found = [*(other.result() if done else one_by_one(function, part)), *found]
         return found
 
