@@ -5,6 +5,8 @@ import unicodedata
 
 CONTROL_CATEGORIES = ("Cc", "Cf", "Cs", "Zl", "Zp")
 """Unicode categories: control and format characters, halves of surrogate pairs, separators of lines."""
+LONGEST = 4000
+"""Characters of a message; of a longer one, which quotes something long, the middle is left out."""
 
 
 class JumpcadError(Exception):
@@ -17,6 +19,8 @@ class JumpcadError(Exception):
     exit_code = 2
 
     def __init__(self, message: str) -> None:
+        if len(message) > LONGEST:
+            message = f"{message[: LONGEST // 2]} … {message[-LONGEST // 2 :]}"
         super().__init__(without_controls(message))
 
 

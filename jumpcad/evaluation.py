@@ -10,7 +10,6 @@ from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.building.refusal import statics_refusal
-from jumpcad.bundle.inputs import inputs_of
 from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
@@ -180,6 +179,8 @@ def evaluate(
         If the mechanism cannot work, or there is no room for its parts; of a robot that is too weak when it is asked
         for.
     """
+    from jumpcad.bundle.inputs import inputs_of
+
     design, workshop, _ = inputs_of(design, workshop)
     design, workshop = design.revalidated(), workshop.revalidated()
     settings = (settings or Settings()).revalidated()

@@ -60,8 +60,9 @@ def write_files(folder: Path, files: Mapping[str, str | bytes], force: bool = Fa
             if at.exists():
                 shutil.copymode(at, temporary)
         for at, temporary in waiting.items():
+            there = os.path.lexists(at)  # what is made from here on is not replaced
             require_free(at, force)
-            if at.exists():
+            if there:
                 _keep(at, old[at])
                 done.append(at)
                 os.replace(temporary, at)
@@ -289,8 +290,8 @@ def is_sealed(path: Path) -> bool:
     if path.suffix == ".png":
         without = data[: data.rfind(b"tEXtComment\0" + SEAL.encode()) - 4] + data[-PNG_END:]
         return sealed_png(without) == data
-    lines = data.splitlines(keepends=True)
-    return bool(lines) and (SEAL + sha256(b"".join(lines[:-1]))).encode() in lines[-1]
+    last = data.rfind(b"\n", 0, -1) + 1
+    return (SEAL + sha256(data[:last])).encode() in data[last:]
 
 
 def sha256(data: bytes) -> str:

@@ -23,8 +23,11 @@ JOURNAL = "-journal"
 LOCK = ".lock"
 SIDES = (JOURNAL, "-wal", "-shm", LOCK)
 """Ends of the names of files beside a database: SQLite's, and the lock."""
-LOG_BEGINS, LOG_HEADER, FRAME_HEADER = b"\x37\x7f\x06", 32, 24
-"""First bytes of a log; bytes of its header, and of a frame's (SQLite's file format, 4.1)."""
+LOG_BEGINS, LOG_HEADER, FRAME_HEADER, LOG_MOST = b"\x37\x7f\x06", 32, 24, 2**28
+"""First bytes of a log; bytes of its header, and of a frame's (SQLite's file format, 4.1); and the most that is read:
+a search writes its log back every 4 MB."""
+INDEX_BEGINS = tuple((3007000).to_bytes(4, order) for order in ("little", "big"))
+"""First bytes of a log's index, on machines of either order (Walindex format, 2.1)."""
 COPIES = 10
 """How often a database that changes meanwhile is copied."""
 
@@ -96,6 +99,8 @@ def _copied(path: Path, log: io.FileIO, closing: ExitStack) -> str:
             frame = FRAME_HEADER + int.from_bytes(began[8:12], "big")
             # A frame has its page's number, and the log's salt: what follows is older, or empty.
             while len(one := log.read(frame)) == frame and one[8:16] == began[16:24] and any(one[:4]):
+                if target.tell() > LOG_MOST:
+                    raise OSError(errno.EFBIG, f"the log beside it is larger than {LOG_MOST >> 20} MiB")
                 target.write(one)
         if began == before:
             return f"{copy.as_uri()}?mode=rw"
@@ -103,20 +108,31 @@ def _copied(path: Path, log: io.FileIO, closing: ExitStack) -> str:
 
 
 def require_own_sides(path: Path) -> None:
-    """Require, before a study is written, that SQLite's files beside it are plain files of this user.
+    """Require, before a study is written, that it has one name, and that the files beside it are its own.
 
-    SQLite, and who locks, write to whatever has their names. A journal is none of a study's, which has a log.
+    SQLite, and who locks, write to whatever has their names. A journal is none of a study's, which has a log. By a
+    second name two searches would write with a log each.
     """
     real = os.path.realpath(path)
+    if os.path.isfile(real) and os.stat(real).st_nlink > 1:
+        raise JumpcadError(f"{path}: has another name too, a hard link; remove one, or name another study")
     for end in SIDES:
         try:
             there = os.lstat(f"{real}{end}")
         except (FileNotFoundError, NotADirectoryError):
             continue
         own = stat.S_ISREG(there.st_mode) and there.st_nlink == 1 and there.st_uid == own_id()
-        if end == JOURNAL or not own:
-            what = "the journal of another program" if own else "no plain file of yours, or has another name too"
+        if not own or not _is_side(Path(f"{real}{end}"), end):
+            what = "no file of a study" if own else "no plain file of yours, or has another name too"
             raise JumpcadError(f"{real}{end}: is {what}; move it away, or name another study")
+
+
+def _is_side(file: Path, end: str) -> bool:
+    """Tell whether a file is empty, or begins as SQLite's file of this ending."""
+    with open(file, "rb") as stream:
+        begins = stream.read(4)
+    known = {"-wal": begins[:3] == LOG_BEGINS, "-shm": begins in INDEX_BEGINS}
+    return end != JOURNAL and (not begins or known.get(end, False))
 
 
 def require_study(study: Path | None) -> None:
@@ -145,6 +161,7 @@ def locked(path: Path) -> Iterator[None]:
         If the file cannot be written, or is locked by another process.
     """
     require_path(path)
+    require_own_sides(path)
     lock = _lock(path)
     try:
         os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o644))
@@ -178,7 +195,7 @@ def is_written(path: Path) -> bool:
 
 
 def _lock(path: Path) -> FileLock:
-    return FileLock(path.absolute().with_name(path.name + LOCK), timeout=0, thread_local=False)
+    return FileLock(os.path.realpath(path) + LOCK, timeout=0, thread_local=False)
 
 
 @contextmanager

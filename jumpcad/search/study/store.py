@@ -21,7 +21,7 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_path
 from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.phases import SEARCH_PHASES
-from jumpcad.search.study.database import connect, locked, open_to_read, plain_errors, require_own_sides
+from jumpcad.search.study.database import connect, locked, open_to_read, plain_errors
 from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
 from jumpcad.search.study.trial import Trial, in_order
 
@@ -52,6 +52,7 @@ class StudyStore:
     def __init__(self, path: Path | None, made: bool = False) -> None:
         self.path = path
         self._made = made
+        self._useless = False
         self._closing = ExitStack()
 
     def __repr__(self) -> str:
@@ -71,14 +72,14 @@ class StudyStore:
         store = cls(path, path is not None and not os.path.lexists(path))
         if path is not None:
             store._closing.enter_context(locked(path))
+            store._made = store._made and not os.path.getsize(path)
+            store._closing.callback(store._clear)
         with ExitStack() as on_error, plain_errors(path):
             on_error.push(store)
-            if path is not None:
-                require_own_sides(path)
-                if os.path.getsize(path):  # what is refused stays as it is
-                    with cls(path) as there:
-                        there._connection = open_to_read(path, there._closing)
-                        there._require_same(identity)
+            if path is not None and os.path.getsize(path):  # what is refused stays as it is
+                with cls(path) as there:
+                    there._connection = open_to_read(path, there._closing)
+                    there._require_same(identity)
             store._connection = connect(":memory:" if path is None else os.path.abspath(path))
             store._closing.callback(store._connection.close)
             store._prepare(identity)
@@ -120,13 +121,14 @@ class StudyStore:
 
     def __exit__(self, kind: object, error: BaseException | None, _: object) -> None:
         """Close the file; remove it if it was made for a request that is wrong, and holds no score."""
-        useless = self._made and isinstance(error, JumpcadError) and self._has_no_score()
-        if useless and self.path is not None:
-            self.path.unlink(missing_ok=True)
+        self._useless = self._made and isinstance(error, JumpcadError) and self._has_no_score()
         self.close()
-        if useless and self.path is not None:
-            for suffix in ("-wal", "-shm"):
-                self.path.with_name(f"{self.path.name}{suffix}").unlink(missing_ok=True)
+
+    def _clear(self) -> None:
+        """Remove what nobody needs, once it is closed and before another may write."""
+        if self._useless and self.path is not None:
+            for end in ("", "-wal", "-shm"):
+                self.path.with_name(f"{self.path.name}{end}").unlink(missing_ok=True)
 
     @property
     def identity(self) -> dict[str, Any]:

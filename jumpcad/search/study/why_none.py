@@ -9,7 +9,6 @@ from jumpcad.design import SEARCH_BOUNDS
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, errors
 from jumpcad.plural import counted
-from jumpcad.remedies import DIRECTIONS, Remedies, asked
 from jumpcad.search.models import PrintedModel, RobotModel
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import CANNOT_BUILD
@@ -78,6 +77,8 @@ def _causes(trial: Trial) -> list[tuple[str, str]]:
 
 def _told(name: str, trial: Trial, model: RobotModel) -> tuple[str, str]:
     """Return what a design's refusal says, and its remedy, with a number where one is found for a printed robot."""
+    from jumpcad.remedies import Remedies
+
     evaluation, remedies = trial.evaluation, None
     if evaluation.detail and evaluation.verdict != CANNOT_BUILD:  # it may have ended its worker
         return evaluation.detail, ""
@@ -95,6 +96,8 @@ def _told(name: str, trial: Trial, model: RobotModel) -> tuple[str, str]:
 
 def _bounds(remedy: str, space: Space) -> Iterator[str]:
     """Yield the bounds that a remedy's number lies beyond; where it has none, those narrower than the usual ones."""
+    from jumpcad.remedies import DIRECTIONS, asked
+
     parameters = {one.name: one for one in space.parameters if not one.names}
     for word, key in asked(remedy):
         if (direction := DIRECTIONS[word]) and (one := parameters.pop(key, None)):

@@ -13,7 +13,7 @@ from support.each import each
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.study.database import is_written, locked, require_study
+from jumpcad.search.study.database import SIDES, is_written, locked, require_study
 from jumpcad.search.study.store import StudyStore
 
 
@@ -95,6 +95,8 @@ def lay(path, kind, victim):
     """Lay something of a kind at a path."""
     if kind == "journal":  # a hot one: SQLite plays it back, and deletes it
         path.write_bytes(bytes.fromhex("d9d505f920a163d7") + bytes(504) + b"more")
+    elif kind == "mine":
+        path.write_bytes(b"notes\n" * 1000)
     elif kind == "another's":
         path.write_bytes(b"theirs")
         os.chown(path, 12345, 12345)
@@ -108,11 +110,12 @@ KINDS = [
     "symlink",
     *(["pipe"] if hasattr(os, "mkfifo") else []),
     "folder",
+    "mine",
     *(["another's"] if hasattr(os, "getuid") and os.getuid() == 0 else []),
 ]
 
 
-@each("end, kind", [("-journal", "journal"), *((end, kind) for end in ("-journal", "-wal", "-shm") for kind in KINDS)])
+@each("end, kind", [("-journal", "journal"), *((end, kind) for end in SIDES for kind in KINDS)])
 def test_nothing_beside_a_study_is_trusted_or_written(tmp_path_factory, end, kind):
     """Nor is it by a writer, who refuses it, also beside what a link of another name leads to."""
     folder, found = tmp_path_factory.mktemp("study"), trials(1)
@@ -128,6 +131,17 @@ def test_nothing_beside_a_study_is_trusted_or_written(tmp_path_factory, end, kin
         with pytest.raises(JumpcadError, match=f"{end}: is .*; move it away"):
             StudyStore.write(folder / name, IDENTITY)
     assert contents(folder) == before
+
+
+def test_a_study_is_written_by_one_search_whatever_it_is_called(tmp_path):
+    with StudyStore.write(tmp_path / "s.db", IDENTITY):
+        (tmp_path / "soft.db").symlink_to("s.db")
+        assert is_written(tmp_path / "soft.db")
+        with pytest.raises(JumpcadError, match="is being written by another run"):
+            StudyStore.write(tmp_path / "soft.db", IDENTITY)
+        (tmp_path / "hard.db").hardlink_to(tmp_path / "s.db")
+        with pytest.raises(JumpcadError, match="has another name too, a hard link"):
+            StudyStore.write(tmp_path / "hard.db", IDENTITY)
 
 
 def test_a_log_is_read_with_its_study_also_where_it_begins_anew_meanwhile(tmp_path, monkeypatch):
