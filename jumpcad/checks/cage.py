@@ -7,31 +7,12 @@ import numpy as np
 
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import Basis, Finding, at_least, at_most
-from jumpcad.layout.cage import (
-    BAR_MM,
-    HORN_BELOW_MM,
-    HORN_MM,
-    HORN_MORE_MM,
-    HORN_SIZE_MM,
-    Cage,
-    ground,
-    plate_ends_mm,
-)
+from jumpcad.layout.cage import BAR_MM, HORN_MM, HORN_MORE_MM, HORN_SIZE_MM, Cage, ground, plate_ends_mm
 from jumpcad.layout.layout import Layout, moving_obstacles
 from jumpcad.layout.room import EVERYWHERE, clearance
 from jumpcad.robot import Robot
 from jumpcad.scene.stable_poses import least_share_on_feet
-from jumpcad.strength.cage import (
-    FALLS,
-    FOLD,
-    bar_mpa,
-    bent_strain,
-    fold_j,
-    horns_bear,
-    landing_n,
-    landing_strain,
-    ring_n_per_mm,
-)
+from jumpcad.strength.cage import FALLS, FOLD, bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm, two_horns
 from jumpcad.strength.stress import CREEP_MPA
 
 LANDING_FACTOR = 1.25
@@ -137,7 +118,7 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
     body, low = robot.workshop.material("body"), robot.layout.lateral.left_plate
     along = cage.bars[1].horn_end_mm - robot.layout.front_mm
     share, thick = abs(float(along @ cage.bars[1].up)) / math.hypot(*along), low[1] - low[0] + HORN_MORE_MM
-    horns = [horns_bear(body, float(length), HORN_MM, thick, share) for length in lengths]
+    horns = [two_horns(body, float(length), HORN_MM, thick, share) for length in lengths]
     stress = max(horn[0] * force for horn, force in zip(horns, forces, strict=True))
     allowed = body.strength_in_plane_mpa / robot.workshop.safety.printed_factor
     yield at_most(
@@ -158,7 +139,8 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
 def _falls(cage: Cage, horns: list[tuple[float, float, float]], falling_j: float) -> Iterator[Finding]:
     """Yield what ends of bars and their horns bear in a fall sideways, and from ahead: warnings."""
     remedy = "let it land on grass, a mat or a carpet, or raise body.plate_mm"
-    bears = [fold_j(cage.rod, arc.radius_mm) + horn[1] for arc, horn in zip(cage.arcs, horns, strict=False)]
+    folded = FOLD * cage.rod.bending_nmm2 / 1000.0
+    bears = [folded / arc.radius_mm + horn[1] for arc, horn in zip(cage.arcs, horns, strict=False)]
     hits = [share * falling_j for share in SIDE]
     hit, bear, bar = max(zip(hits, bears, cage.bars, strict=True), key=lambda one: one[0] / one[1])
     yield at_most(
@@ -209,7 +191,7 @@ def _above_mm(layout: Layout, cage: Cage) -> float:
     up, origin = ground(layout)
     rods = np.concatenate([arc.points_mm[:, [0, 2]] for arc in cage.arcs]) - cage.rod.diameter_mm / 2.0 * up
     horns = [
-        bar.place_mm - (HORN_BELOW_MM + HORN_SIZE_MM[1] / 2.0) * bar.up + side * np.array([bar.up[1], -bar.up[0]])
+        bar.horn_end_mm - HORN_SIZE_MM[1] / 2.0 * bar.up + side * np.array([bar.up[1], -bar.up[0]])
         for bar in cage.bars
         for side in (-HORN_SIZE_MM[0] / 2.0, HORN_SIZE_MM[0] / 2.0)
     ]

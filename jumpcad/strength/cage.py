@@ -21,12 +21,7 @@ EULER = 2.05
 """Of π²·E·I/L²: a column clamped at one end and guided at the other, which a floor's grip holds (Roark, table 15.1)."""
 
 
-def fold_j(rod: CageRod, radius_mm: float) -> float:
-    """Return the energy that a hoop takes in a fall sideways."""
-    return FOLD * rod.bending_nmm2 / radius_mm / 1000.0
-
-
-def horns_bear(
+def two_horns(
     material: Material, length_mm: float, high_mm: tuple[float, float], thick_mm: float, share: float
 ) -> tuple[float, float, float]:
     """Return what two even tapers bear, clamped at the plates, free to turn at the bar; heights from there on.

@@ -14,7 +14,7 @@ from jumpcad.checks.cage import righting_findings
 from jumpcad.findings import Finding
 from jumpcad.remedies import Remedies
 from jumpcad.robot import Robot
-from jumpcad.strength.cage import bar_mpa, bent_strain, horns_bear, landing_n, landing_strain, ring_n_per_mm
+from jumpcad.strength.cage import bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm, two_horns
 from jumpcad.workshop import load_workshop, varied
 
 GLASS = load_catalogue().cage_rods["glass-1.5"]
@@ -52,13 +52,13 @@ def test_even_horns_are_cantilevers_and_a_triangle_bears_three_times_as_much_by_
     Pressed from ahead so that a twentieth bends them, they buckle at 2.05·π²·E·I/L² = 97 N each.
     """
     pla = load_workshop("default").material("body")
-    each_n, sideways, upwards = horns_bear(pla, 60.0, (6.0, 6.0), 2.4, 1.0)
+    each_n, sideways, upwards = two_horns(pla, 60.0, (6.0, 6.0), 2.4, 1.0)
     assert each_n == pytest.approx(60.0 / 2.0 / (2.4 * 6.0**2 / 6.0), rel=0.01)
     whole_j = 54.0**2 * 2.0 * 60.0 * 6.0 * 2.4 / 2500.0 / 1000.0
     assert [sideways, upwards] == pytest.approx([whole_j / 18.0] * 2, rel=0.02)
-    _, sideways, _ = horns_bear(pla, 60.0, (1e-6, 6.0), 2.4, 1.0)
+    _, sideways, _ = two_horns(pla, 60.0, (1e-6, 6.0), 2.4, 1.0)
     assert sideways == pytest.approx(whole_j / 2.0 / 6.0, rel=0.02)
-    _, _, upwards = horns_bear(pla, 60.0, (6.0, 6.0), 2.4, 0.05)
+    _, _, upwards = two_horns(pla, 60.0, (6.0, 6.0), 2.4, 0.05)
     force = 54.0 * 2.4 * 6.0**2 / 6.0 / 60.0
     assert upwards == pytest.approx(0.112 * (97.1 * 0.05 / force) ** 2, rel=0.03)
 
