@@ -1,17 +1,18 @@
 """The cage: rods bent and landed on, bars under their moment, clearances, and whether it rights the robot (mm, MPa)."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import Basis, Finding, at_least, at_most
-from jumpcad.layout.cage import BAR_MM, HORN_BELOW_MM, HORN_MM, HORN_SIZE_MM, Cage, ground, plate_ends_mm
+from jumpcad.layout.cage import BAR_MM, HORN_MM, HORN_MORE_MM, HORN_SIZE_MM, Cage, ground, plate_ends_mm
 from jumpcad.layout.layout import Layout, moving_obstacles
 from jumpcad.layout.room import EVERYWHERE, clearance
 from jumpcad.robot import Robot
 from jumpcad.scene.stable_poses import least_share_on_feet
-from jumpcad.strength.cage import FALLS, bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm
+from jumpcad.strength.cage import FALLS, FOLD, bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm, two_horns
 from jumpcad.strength.stress import CREEP_MPA
 
 LANDING_FACTOR = 1.25
@@ -23,9 +24,9 @@ FREE_MM = 3.0
 RIGHTED = 90.0
 """Least percentage of stable poses on its feet, wherever the centre of mass is within its shifts. Judgement: robots
 above it rose from every drop in simulation."""
-SIDE = 0.4
-"""Share of the springs' energy that the end of one bar takes in a fall sideways, once its hoop has given way; the worst
-of 200 landings of `best-jumper`, MuJoCo."""
+SIDE, AHEAD = (0.28, 0.6), 0.85
+"""Shares of the falling energy on one end of the rear or the front bar sideways, and on the front bar from ahead: the
+worst of 200 own landings of `best-jumper`, MuJoCo. None of them fell on its back."""
 WITHIN_MM = 100.0
 """Larger distances are not measured."""
 MODEL = "a hoop as a ring: Roark, ch. 9, case 1"
@@ -46,13 +47,21 @@ BASIS = {
     ),
     "cage_horn": Basis(
         f"6·F·x/(2·t·h²) ≤ strength_in_plane_mpa/s of the body (MPa), F = √(2·V·k) the hoop's force, V as in "
-        f"`cage_landing`, k = E·I/(0.149·R³), x from plates to bar, t the plates' thickness, h = {HORN_MM:g} mm",
+        f"`cage_landing`, k = E·I/(0.149·R³), x from the bar, t = body.plate_mm + {HORN_MORE_MM:g} mm, h = "
+        f"{HORN_MM[0]:g} mm at the bar to {HORN_MM[1]:g} mm at the plates",
         f"cantilever: Roark, ch. 8; {MODEL}",
     ),
     "cage_side": Basis(
-        f"{SIDE:g}·U ≤ strength_in_plane_mpa²·h·t·x/(9·E) of the body (J), the least of both bars: two horns that the "
-        f"bar guides bend sideways, x from plates to bar, t the plates' thickness, h = {HORN_MM:g} mm",
-        f"beams with guided ends: Roark, ch. 8; {SIDE:g}: the worst of 200 simulated landings, judgement",
+        f"{SIDE[0]:g}·2·U/3 on an end of the rear bar, {SIDE[1]:g}·2·U/3 of the front one (J) ≤ {FOLD:g}·E·I/R of the "
+        "hoop, and F²·∫x²/(E·I)dx of two horns of the body that bend sideways: F = strength_in_plane_mpa·h·t²/(6·x), "
+        "the least; x, h, t as in `cage_horn`; the bar that is nearer to it",
+        "cantilevers: Roark, ch. 8; a hoop: elastica; shares: the worst of 200 simulated landings, judgement",
+    ),
+    "cage_ahead": Basis(
+        f"{AHEAD:g}·2·U/3 on the front bar (J) ≤ F²·∫x²/(E·I)dx of two horns of the body that bend upwards: F = "
+        "strength_in_plane_mpa·t·h²/(6·x), the least, or at which 2.05·π²·E·I/x² buckles them sideways; the floor lies "
+        "along the front hoop; x, h, t as in `cage_horn`",
+        "cantilevers: Roark, ch. 8; columns: Roark, table 15.1; share: the worst of 200 simulated landings, judgement",
     ),
     "cage_clear": Basis(
         f"least distance of rods and bars from what moves, and of rods and horns from the ground, springs loaded ≥ "
@@ -106,15 +115,18 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
     ends = plate_ends_mm(robot.layout)
     lengths = np.array([abs(bar.place_mm[0] - end) for bar, end in zip(cage.bars, ends, strict=True)])
     forces = np.array([landing_n(rod, radius, energy) for radius in radii[:2]])
-    plate = robot.layout.lateral.left_plate[1] - robot.layout.lateral.left_plate[0]
-    stress = float((lengths * forces).max()) / 2.0 / (plate * HORN_MM**2 / 6.0)
-    allowed = robot.workshop.material("body").strength_in_plane_mpa / robot.workshop.safety.printed_factor
+    body, low = robot.workshop.material("body"), robot.layout.lateral.left_plate
+    along = cage.bars[1].horn_end_mm - robot.layout.front_mm
+    share, thick = abs(float(along @ cage.bars[1].up)) / math.hypot(*along), low[1] - low[0] + HORN_MORE_MM
+    horns = [two_horns(body, float(length), HORN_MM, thick, share) for length in lengths]
+    stress = max(horn[0] * force for horn, force in zip(horns, forces, strict=True))
+    allowed = body.strength_in_plane_mpa / robot.workshop.safety.printed_factor
     yield at_most(
         "cage_horn", stress, allowed, "MPa",
         f"horns of the body plates at a landing on a hoop: {stress:.1f} of {allowed:.1f} MPa",
         "raise body.plate_mm, or lower cage.front_ahead_mm",
     )  # fmt: skip
-    yield _side(robot, plate, float(lengths.min()))
+    yield from _falls(cage, horns, 2.0 * energy)
     free, above = _free_mm(robot.layout, cage), _above_mm(robot.layout, cage)
     yield at_least(
         "cage_clear", min(free, above), FREE_MM, "mm",
@@ -124,16 +136,23 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
     )  # fmt: skip
 
 
-def _side(robot: Robot, plate_mm: float, length_mm: float) -> Finding:
-    """Return `cage_side`: a note where the horns do not bear what a fall sideways may bring, which most do not."""
-    body, energy = robot.workshop.material("body"), SIDE * robot.spring.energy_j
-    least = body.strength_in_plane_mpa**2 * HORN_MM * plate_mm * length_mm / (9000.0 * body.modulus_mpa)
-    told = f"an end of a cross bar may land with {energy:.2f} J; its horns bear {least:.2f} J sideways"
+def _falls(cage: Cage, horns: list[tuple[float, float, float]], falling_j: float) -> Iterator[Finding]:
+    """Yield what ends of bars and their horns bear in a fall sideways, and from ahead: warnings."""
     remedy = "let it land on grass, a mat or a carpet, or raise body.plate_mm"
-    if energy <= least:
-        return at_most("cage_side", energy, least, "J", told, remedy)
-    told += ": on a hard floor a fall on its side may break a body plate"
-    return Finding("cage_side", "info", least - energy, "J", told, remedy, energy)
+    folded = FOLD * cage.rod.bending_nmm2 / 1000.0
+    bears = [folded / arc.radius_mm + horn[1] for arc, horn in zip(cage.arcs, horns, strict=False)]
+    hits = [share * falling_j for share in SIDE]
+    hit, bear, bar = max(zip(hits, bears, cage.bars, strict=True), key=lambda one: one[0] / one[1])
+    yield at_most(
+        "cage_side", hit, bear, "J",
+        f"an end of {bar.name} may land sideways with {hit:.2f} J; its hoop and horns bear {bear:.2f} J",
+        remedy, "warning",
+    )  # fmt: skip
+    yield at_most(
+        "cage_ahead", AHEAD * falling_j, horns[1][2], "J",
+        f"cage_bar_front may land from ahead with {AHEAD * falling_j:.2f} J; its horns bear {horns[1][2]:.2f} J",
+        remedy, "warning",
+    )  # fmt: skip
 
 
 def righting_findings(robot: Robot) -> Iterator[Finding]:
@@ -172,7 +191,7 @@ def _above_mm(layout: Layout, cage: Cage) -> float:
     up, origin = ground(layout)
     rods = np.concatenate([arc.points_mm[:, [0, 2]] for arc in cage.arcs]) - cage.rod.diameter_mm / 2.0 * up
     horns = [
-        bar.place_mm - (HORN_BELOW_MM + HORN_SIZE_MM[1] / 2.0) * bar.up + side * np.array([bar.up[1], -bar.up[0]])
+        bar.horn_end_mm - HORN_SIZE_MM[1] / 2.0 * bar.up + side * np.array([bar.up[1], -bar.up[0]])
         for bar in cage.bars
         for side in (-HORN_SIZE_MM[0] / 2.0, HORN_SIZE_MM[0] / 2.0)
     ]

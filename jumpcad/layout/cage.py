@@ -26,8 +26,17 @@ LAP_MM = 3.0
 """Depth of the notches in bar and horn, half of the lap joint; judgement."""
 LAP_HEIGHT_MM, LAP_WALL_MM = 9.0, 4.0
 """Height of a bar at the plates, and its length beyond them; judgement: 6 mm are left above the notch."""
-HORN_MM, HORN_SIZE_MM, HORN_BELOW_MM = 6.0, (10.6, 10.5), 3.75
-"""Width of a horn; its end around the notch, across and along the bar's plane; that end's middle below the bar's."""
+HORN_MM, HORN_MORE_MM = (5.0, 12.0), 0.8
+"""Height of a horn at its bar and at the plates, and how much thicker than these it is between them, inwards: it bends
+evenly in a fall, sideways and upwards (`cage_side`, `cage_ahead`); judgement."""
+HORN_SIZE_MM, HORN_BELOW_MM = (10.6, 10.5), 3.75
+"""A horn's end around the notch, across and along the bar's plane; that end's middle below the bar's."""
+SWAY_MM = 0.7
+"""How much wider a bar's notches are at its faces than in the middle, on either side: horns that bend sideways turn in
+them by 20°, and bear three times the energy of horns that the bar clamps."""
+END_MM = 2.5
+"""How far a bar's round ends reach beyond its sockets: they meet the floor before the rod breaks. Elastica between bars
+that bend, R 106 mm: 2.2 % of strain at 16.3 mm of sag; a bare socket meets the floor at 18.4 mm."""
 POST_MM = 15.0
 """Least height of a bow's socket over the middle of its bar: its depth and a floor; judgement."""
 CLEAR_MM = 4.0
@@ -83,6 +92,16 @@ class CageBar(ByValue):
     def up(self) -> Array:
         """Its plane's upward direction (2,), x and z in the body's frame."""
         return np.asarray(self.T_body_bar[[0, 2], 1])
+
+    @property
+    def horn_end_mm(self) -> Array:
+        """Middle (2,) of its horns' ends, x and z in the body's frame."""
+        return self.place_mm - HORN_BELOW_MM * self.up
+
+    def reach_mm(self, socket_mm: float) -> float:
+        """Half of its length, from round end to round end, with sockets of a width."""
+        corner = SOCKET_MM * math.cos(self.tilt_rad) + socket_mm * math.sin(self.tilt_rad)
+        return self.half_mm + corner / 2.0 + END_MM
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,10 @@ import itertools
 
 from jumpcad.dimensions import MOTOR_CLAMP_MM, TAB_MM, TRAY_MM
 from jumpcad.drive.socket import window_mm
+from jumpcad.layout.cage import HORN_MORE_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.cage import horn_openings
+from jumpcad.parts.cage import horn_openings, horns
 from jumpcad.parts.engraving import ENGRAVING_MM, letters_on
 from jumpcad.parts.fittings import fitting_openings
 from jumpcad.parts.holes import HoleSizes
@@ -45,6 +46,8 @@ def plates(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
         shaft, covered = shaft + plate_opening(layout.sensor, holes), plate_pad(layout.sensor)
     slabs = [(y0, y1 - floor, whole - union([through, shaft, bores])), (y1 - floor, y1, whole - (through + shaft))]
     slabs.append(_boss(layout, holes, y0 - layout.boss_mm, y0))
+    thicker = horns(layout, blank.hull) if layout.cage else None
+    slabs += [(y0 - HORN_MORE_MM, y0, thicker)] if thicker else []
     words = name and f"{label} L".strip()
     left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
@@ -61,6 +64,7 @@ def plates(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
     for low, high in itertools.pairwise(levels):
         socket = around - (window if high <= seat else cavity)
         slabs.append((low, high, union([socket, *(region for _, top, region in bosses if top >= high)])))
+    slabs += [(y1, y1 + HORN_MORE_MM, thicker)] if thicker else []
     right = _drawing("body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), name and f"{label} R".strip(), "right")
     return [left, right]
 

@@ -12,6 +12,7 @@ import numpy as np
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.layout.cage import (
     BAR_MM,
+    END_MM,
     HORN_BELOW_MM,
     HORN_MM,
     HORN_SIZE_MM,
@@ -19,9 +20,11 @@ from jumpcad.layout.cage import (
     LAP_MM,
     LAP_WALL_MM,
     SOCKET_MM,
+    SWAY_MM,
     Cage,
     CageArc,
     CageBar,
+    plate_ends_mm,
 )
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
@@ -64,33 +67,47 @@ def _bar(cage: Cage, bar: CageBar, layout: Layout, holes: HoleSizes) -> Stack:
         out = np.array([side * np.cos(bar.tilt_rad), np.sin(bar.tilt_rad)])
         middle = np.array([side * bar.half_mm, 0.0])
         floor, mouth = middle - SOCKET_MM / 2.0 * out, middle + SOCKET_MM / 2.0 * out
-        sockets.append(hull([disc(width, floor), strips(floor, mouth, width)]))
-        bores.append(strips(floor, mouth + out, bore))
+        corner = mouth + width / 2.0 * np.array([side * np.sin(bar.tilt_rad), -np.cos(bar.tilt_rad)])
+        tip = disc(2.0 * END_MM, corner)
+        sockets.append(hull([disc(width, floor), strips(floor, mouth, width), tip]))
+        bores.append(strips(floor, mouth + 2.0 * END_MM * out, bore))
     if bar.post_mm:
         top, floor = np.array([0.0, bar.post_mm]), np.array([0.0, bar.post_mm - SOCKET_MM])
         sockets.append(hull([disc(width, floor), strips(floor, top, width)]))
         bores.append(strips(floor, np.array([0.0, bar.post_mm + 1.0]), bore))
         whole.append(strips((0.0, 0.0), top, width))
     play = 2.0 * holes.fits.press_mm
-    notches = []
+    notches: list[list[Region]] = [[], [], []]
     for low, high in (layout.lateral.left_plate, layout.lateral.right_plate):
         x, thickness = (low + high) / 2.0 - float(bar.T_body_bar[1, 3]), high - low
         whole.append(rectangle((thickness + 2.0 * LAP_WALL_MM, max(height, LAP_HEIGHT_MM)), (x, 0.0), 1.0))
-        notches.append(rectangle((thickness + play, LAP_HEIGHT_MM), (x, SEAT_MM - LAP_HEIGHT_MM / 2.0)))
+        for wider, found in enumerate(notches):
+            notch = (thickness + play + wider * SWAY_MM, LAP_HEIGHT_MM)
+            found.append(rectangle(notch, (x, SEAT_MM - LAP_HEIGHT_MM / 2.0)))
     shape = Stack.of([(0.0, BAR_MM, union([*whole, *sockets])), (BAR_MM, width, union(sockets))])
     level = width / 2.0
-    return shape.minus([(level - bore / 2.0, level + bore / 2.0, union(bores)), (0.0, BAR_MM, union(notches))])
+    cut = [(level - bore / 2.0, level + bore / 2.0, union(bores))]
+    for notch, share in zip(map(union, notches), (1.0, 0.8, 0.4), strict=True):  # narrow in the middle
+        deep = share * BAR_MM / 2.0
+        cut += [(0.0, deep, notch), (BAR_MM - deep, BAR_MM, notch)]
+    return shape.minus(cut)
 
 
-def horns(layout: Layout) -> Region:
-    """Return what the cage adds to the outline of both body plates: a strip from an axle to each bar, with its end."""
+def horns(layout: Layout, blank: Region | None = None) -> Region:
+    """Return what the cage adds to the outline of both body plates: a strip from an axle to each bar, with its end.
+
+    With a blank of the plates it is what is thicker, between that and the ends.
+    """
     if layout.cage is None:
         return union([])
-    rear, front = layout.cage.bars
     regions = []
-    for bar, axle in ((rear, layout.hub_mm), (front, layout.front_mm)):
-        end = bar.place_mm - HORN_BELOW_MM * bar.up
-        regions += [stadium(axle, end, HORN_MM), _leaning(rectangle(HORN_SIZE_MM, (0.0, -HORN_BELOW_MM), 2.0), bar)]
+    axles = (layout.hub_mm, layout.front_mm)
+    for bar, axle, x in zip(layout.cage.bars, axles, plate_ends_mm(layout), strict=True):
+        end, low = bar.horn_end_mm, HORN_MM[0]
+        root = axle + (end - axle) * (x - axle[0]) / (end[0] - axle[0])
+        strip = hull([disc(HORN_MM[1], root), disc(low, end)])
+        tip = _leaning(rectangle(HORN_SIZE_MM, (0.0, -HORN_BELOW_MM), 2.0), bar)
+        regions += [strip - tip - blank] if blank else [strip, stadium(axle, root, HORN_MM[1]), tip]
     return union(regions)
 
 

@@ -119,7 +119,7 @@ def cage_capsules(mechanism: Mechanism) -> list[Capsule]:
         stiffness = 1000.0 * ring_n_per_mm(cage.rod, arc.radius_mm)
         found += [Capsule(one, other, radius, stiffness) for one, other in itertools.pairwise(points)]
     for bar in cage.bars:
-        along = bar.half_mm * bar.T_body_bar[:3, 0]
+        along = (bar.reach_mm(cage.socket_mm) - cage.socket_mm / 2.0) * bar.T_body_bar[:3, 0]
         ends = np.round(bar.T_body_bar[:3, 3] + np.array([-along, along]), DIGITS) / 1000.0
         found.append(Capsule(ends[0], ends[1], cage.socket_mm / 2000.0))
     return found

@@ -2,7 +2,10 @@
 
 import math
 
+import numpy as np
+
 from jumpcad.catalogue import CageRod
+from jumpcad.workshop import Material
 
 RING = 0.149
 """Of a ring's compliance R³/(E·I) between two opposite forces (Roark, ch. 9, case 1)."""
@@ -10,6 +13,32 @@ ENERGY = 2.25
 """Energy of such a ring over E·I·R·ΔK²: at its sides a deflection δ adds the curvature ΔK = 1.22·δ/R² (same)."""
 FALLS = 2.0 / 3.0
 """Share of the springs' energy that falls to the ground again; measured: 0.46 to 0.65 on three robots with a cage."""
+
+FOLD = 0.45
+"""Energy that a hoop of 251° takes sideways until its rod breaks at a socket, over E·I/R: elastica between sockets that
+its bar lets turn, glass of 1.5 mm; 0.49 at R 106 mm, 0.59 at 118 mm."""
+EULER = 2.05
+"""Of π²·E·I/L²: a column clamped at one end and guided at the other, which a floor's grip holds (Roark, table 15.1)."""
+
+
+def two_horns(
+    material: Material, length_mm: float, high_mm: tuple[float, float], thick_mm: float, share: float
+) -> tuple[float, float, float]:
+    """Return what two even tapers bear, clamped at the plates, free to turn at the bar; heights from there on.
+
+    The stress for each newton upwards on a bar (MPa), and the energies (J) to their strength: pushed along the bar, and
+    by a force of which that share bends them upwards, the rest buckles them sideways.
+    """
+    along = length_mm * (np.arange(100) + 0.5) / 100.0
+    high = np.interp(along, (0.0, length_mm), high_mm)
+    modulus, strength, found = material.modulus_mpa, material.strength_in_plane_mpa, []
+    for section, half in ((high * thick_mm**2 / 6.0, thick_mm / 2.0), (thick_mm * high**2 / 6.0, high / 2.0)):
+        force = strength * float((section / along).min())
+        gives = float((along**2 / (section * half)).mean()) * length_mm / modulus
+        found.append((force, force**2 * gives / 1000.0))
+    (_, sideways), (force, upwards) = found
+    buckles = EULER * math.pi**2 * modulus * float(high.mean()) * thick_mm**3 / 12.0 / length_mm**2
+    return strength / force / 2.0, sideways, upwards * min(1.0, buckles * share / force) ** 2
 
 
 def bent_strain(rod: CageRod, radius_mm: float) -> float:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from layout.test_cage import FLAT, caged
+from support.each import each
 
 import jumpcad
 from jumpcad.catalogue import load_catalogue
@@ -13,7 +14,7 @@ from jumpcad.checks.cage import righting_findings
 from jumpcad.findings import Finding
 from jumpcad.remedies import Remedies
 from jumpcad.robot import Robot
-from jumpcad.strength.cage import bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm
+from jumpcad.strength.cage import bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm, two_horns
 from jumpcad.workshop import load_workshop, varied
 
 GLASS = load_catalogue().cage_rods["glass-1.5"]
@@ -43,6 +44,31 @@ def test_a_rod_bent_round_95_mm() -> None:
     assert GLASS.bending_nmm2 / 95.0 == pytest.approx(104.6, abs=0.1)
     assert 100.0 * bent_strain(GLASS, 95.0) == pytest.approx(0.789, abs=0.001)
     assert bar_mpa(GLASS, 95.0, 3.0, 5.0) == pytest.approx(104.6 / 12.5, abs=0.01)
+
+
+def test_even_horns_are_cantilevers_and_a_triangle_bears_three_times_as_much_by_its_mass() -> None:
+    """Two of 6 x 2.4 x 60 mm of PLA: σ²·V/(18·E) = 112 mJ either way, σ²·V/(6·E) where each section is at its strength.
+
+    Pressed from ahead so that a twentieth bends them, they buckle at 2.05·π²·E·I/L² = 97 N each.
+    """
+    pla = load_workshop("default").material("body")
+    each_n, sideways, upwards = two_horns(pla, 60.0, (6.0, 6.0), 2.4, 1.0)
+    assert each_n == pytest.approx(60.0 / 2.0 / (2.4 * 6.0**2 / 6.0), rel=0.01)
+    whole_j = 54.0**2 * 2.0 * 60.0 * 6.0 * 2.4 / 2500.0 / 1000.0
+    assert [sideways, upwards] == pytest.approx([whole_j / 18.0] * 2, rel=0.02)
+    _, sideways, _ = two_horns(pla, 60.0, (1e-6, 6.0), 2.4, 1.0)
+    assert sideways == pytest.approx(whole_j / 2.0 / 6.0, rel=0.02)
+    _, _, upwards = two_horns(pla, 60.0, (6.0, 6.0), 2.4, 0.05)
+    force = 54.0 * 2.4 * 6.0**2 / 6.0 / 60.0
+    assert upwards == pytest.approx(0.112 * (97.1 * 0.05 / force) ** 2, rel=0.03)
+
+
+@pytest.mark.thorough
+@each("kit", ("light-1s", "strong-2s"))
+def test_best_jumper_bears_its_own_falls(kit: str) -> None:
+    shop = varied(load_workshop("best-jumper"), {"bought.kit": kit})
+    kept = found(jumpcad.build(jumpcad.load_design("best-jumper"), shop))
+    assert all(kept[name].severity == "info" and kept[name].margin > 0.0 for name in ("cage_side", "cage_ahead"))
 
 
 def test_glass_passes_and_other_rods_fail_where_they_must() -> None:

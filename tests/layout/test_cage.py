@@ -65,7 +65,7 @@ def test_rods_weigh_what_their_length_weighs_and_lie_in_the_body(robot: Robot) -
         assert item.body == BODY
         assert 1e6 * item.mass_kg == pytest.approx(3.446 * length, abs=1.8)
     bare = jumpcad.build(FLAT)
-    assert 0.012 < robot.mass_kg - bare.mass_kg < 0.02
+    assert 0.012 < robot.mass_kg - bare.mass_kg < 0.022  # 3 g of it are horns that bear a fall sideways
 
 
 def test_the_outline_that_lands_first_is_that_of_the_arcs(robot: Robot) -> None:
