@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy import stats
+from support.calibrations import stand_in
 from support.places import ROOT
 
 from jumpcad.calibration import priors
@@ -25,6 +26,7 @@ from jumpcad.calibration.likelihood import (
 )
 from jumpcad.calibration.measurements import Jumps, Measurements
 from jumpcad.calibration.priors import Prior
+from jumpcad.calibration.subject import Subject
 from jumpcad.calibration.surface import JumpAt
 
 ONE = np.ones(1)
@@ -137,8 +139,8 @@ def measured_robot(name: str = "a", **said: Any) -> Any:
 
     video = SimpleNamespace(speed_m_s=1.4, speed_error_m_s=0.0, angle_deg=47.0, angle_error_deg=0.0)
     measured = Measurements(**{"design": "kenan-2.0", "source": "a test", "release": "dog"} | said)
-    return SimpleNamespace(
-        name=name, pair=measured.spring.pair or name, measured=measured, surface=SimpleNamespace(at=at),
+    return stand_in(
+        Subject, name=name, pair=measured.spring.pair or name, measured=measured, surface=SimpleNamespace(at=at),
         seen=(video,) * len(measured.videos), electrical_j=2.0, beyond_m=(0.02, 0.005), standing_m=0.1,
         travel=priors.TRAVEL_MM, mass=Prior("normal", 1.0, 0.2, "model", 0.1), floor=Prior("uniform", 0.3, 1.0, ""),
         rate=Prior("normal", 1.0, 0.03, "measured" if measured.spring.rate_nmm_per_deg else "workshop", 0.3),
@@ -247,7 +249,7 @@ def test_a_posterior_is_prior_times_the_mean_of_the_readings() -> None:
 
 def test_what_does_not_jump_is_not_believed() -> None:
     robot = measured_robot(jumps=({"distance_mm": (200.0,), "distance_of": "centre-of-mass"},))
-    robot.surface = SimpleNamespace(at=lambda *_: JumpAt(np.nan * ONE, ONE, ONE, ONE))
+    vars(robot)["surface"] = SimpleNamespace(at=lambda *_: JumpAt(np.nan * ONE, ONE, ONE, ONE))
     assert CalibrationModel([robot]).log_probability(np.zeros((1, 5))).tolist() == [-math.inf]
 
 

@@ -20,3 +20,8 @@ def with_coarse_calibration(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(surface, "FINE", EVEN)
     patch.setattr(subject, "surface_of", once(KNOWN, surface.surface_of, robot_key))
     patch.setattr(posterior.sampled, "__defaults__", (0, 200, 200, 10))
+
+
+def stand_in(kind: type, **said: Any) -> Any:
+    """Return an object of a class that has these attributes and was not made by its constructor."""
+    return object.__new__(type(kind.__name__, (kind,), said))
