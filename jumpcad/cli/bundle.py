@@ -60,7 +60,7 @@ def build(
     from jumpcad.bundle.export import export
     from jumpcad.files.outputs import require_apart, require_writable
     from jumpcad.mechanism.capsule import capsule_robot
-    from jumpcad.simulation import simulate
+    from jumpcad.simulation import Settings, simulate
     from jumpcad.simulation.engines import BUNDLE_ENGINE
 
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
@@ -76,7 +76,7 @@ def build(
         _require_same_design_file(robot, design_file(design), folder)
     with status(f"simulating {robot.name} …"):
         plain = replace(capsule_robot(robot.design), spring=replace(robot.spring, one_sided=False))
-        printed, capsule = (simulate(one, engine=BUNDLE_ENGINE) for one in (robot, plain))
+        printed, capsule = (simulate(one, Settings(flight="simulated"), BUNDLE_ENGINE) for one in (robot, plain))
     if printed.verdict != "jump" and not anyway:
         raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
     with status(f"writing {robot.name} …"):

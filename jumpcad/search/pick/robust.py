@@ -38,7 +38,8 @@ class Candidate:
 
     ``parameters_score`` and ``print_score`` are the 10th percentiles of the score when every parameter varies by ±1 %,
     and within the tolerances of making: printed lengths, springs' rate, mass and the floor's friction. Each is the
-    lowest of ten neighbours or fewer, and a rejected one counts 0, or less than any other where some are negative.
+    lowest of ten neighbours or fewer, and a rejected one counts 0, or less than any other where some are negative; one
+    that only misses what was required counts half.
     ``rejections`` counts why neighbours were rejected, of ``neighbours`` that were evaluated, half of each kind. The
     design ``fails`` where a percentile is no more than a rejected one's score: it may not jump as it is made.
     """
@@ -204,7 +205,8 @@ class _Examined:
 def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tuple[int, int], seed: int) -> None:
     """Evaluate `new` more neighbours of each, in a run and step of the pick.
 
-    A rejected one scores 0, or where some score is negative as far below the worst as the best is above it.
+    A rejected one scores 0, or where some score is negative as far below the worst as the best is above it; one that
+    only misses what was required, by the scatter of what is made, half of its score.
     """
     run, step = at
     making = evaluator.model.making
@@ -216,7 +218,12 @@ def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tup
     for (one, kind, _), trial in zip(asked, found, strict=True):
         if trial is not None:
             one.rejected_score = rejected
-            one.scores[kind].append(rejected if trial.score is None else trial.score)
+            score = evaluator.unrequired(trial)
+            if score is None:
+                score = rejected
+            elif trial.score is None:
+                score = (rejected + score) / 2.0
+            one.scores[kind].append(score)
             one.rejections.update(trial.evaluation.reasons)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
 from jumpcad.design import SEARCH_BOUNDS
+from jumpcad.drive.stock_spring import STIFFNESS
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, errors
 from jumpcad.plural import counted
@@ -54,7 +55,7 @@ def why_rejected(trials: Sequence[Trial], space: Space, model: RobotModel) -> li
     for (name, text), count in Counter(cause for trial in trials for cause in _causes(trial)).most_common(MOST):
         its = [trial for trial in trials if (name, text) in _causes(trial)]
         message, remedy = _told(name, max(its, key=lambda one: one.evaluation.margins.get(name, 0.0)), model)
-        met = ", ".join(_bounds(remedy, space))
+        met = ", ".join(_bounds(remedy, space, model))
         parts = (message, remedy, f"move what keeps it from that: {met}" if met else "")
         lines.append(f"{name}, {count} of {len(trials)}: {'; '.join(filter(None, parts))}")
     return lines
@@ -94,12 +95,16 @@ def _told(name: str, trial: Trial, model: RobotModel) -> tuple[str, str]:
     return next(((one.message, one.remedy) for one in found if one.name == name), ("", ""))
 
 
-def _bounds(remedy: str, space: Space) -> Iterator[str]:
+def _bounds(remedy: str, space: Space, model: RobotModel) -> Iterator[str]:
     """Yield the bounds that a remedy's number lies beyond; where it has none, those narrower than the usual ones."""
     from jumpcad.remedies import DIRECTIONS, asked
 
     parameters = {one.name: one for one in space.parameters if not one.names}
+    stock = model.workshop.stock_spring if isinstance(model, PrintedModel) and model.workshop else None
     for word, key in asked(remedy):
+        if key == STIFFNESS and stock:
+            yield f"bought.spring = {stock.name}, whose stiffness it is"
+            continue
         if (direction := DIRECTIONS[word]) and (one := parameters.pop(key, None)):
             usual, up = SEARCH_BOUNDS.get(key, one), direction > 0
             end, value = (one.upper, usual.upper) if up else (one.lower, usual.lower)
