@@ -50,7 +50,7 @@ def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> "dict[str, tr
 
 
 def _few(corners: Array) -> Array:
-    """Return few of a hull's corners, the farthest out first; of a template the others are at most 2 mm outside."""
+    """Return few of a hull's corners, the farthest out first; of a template the others are at most 2.5 mm outside."""
     from scipy.spatial import ConvexHull
 
     ways = np.array([way for way in itertools.product((-1.0, 0.0, 1.0), repeat=3) if sum(map(abs, way)) in (1, 3)])
