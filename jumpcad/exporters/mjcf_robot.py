@@ -2,8 +2,7 @@
 
 Names and classes follow MuJoCo Menagerie: class `visual` in group 2, `collision` in group 3, sites in group 5, the
 floor in `scene.xml` alone. The robot collides with everything in a scene, with its own friction and stiffness (priority
-1): spheres where it stands, and a convex hull of few corners of each body's parts. Its bodies do not collide with each
-other.
+1): spheres where it stands, and a hull of each body's parts, of few corners. Its bodies do not touch each other.
 
 The motor `cam` holds the loaded leg against a limit and releases it; the equality `latch` does the same as a constraint
 that is switched off. MuJoCo's key frames do not store whether a constraint is active, so `wound` uses the motor.

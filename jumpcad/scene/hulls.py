@@ -27,15 +27,10 @@ DIGITS = 4
 """Of a corner's coordinates (mm)."""
 CORNERS, OF_FACE, FLAT_MM = 32, 12, 0.001
 """Most corners of a hull, and of one of its faces, which are so flat: MJX takes 20 of a face, and time for each."""
-WAYS = np.array([way for way in itertools.product((-1.0, 0.0, 1.0), repeat=3) if sum(map(abs, way)) in (1, 3)])
-"""Directions in which a hull reaches as far as its parts."""
 
 
 def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> "dict[str, trimesh.Trimesh]":
-    """Return a convex hull of each body's parts in its own frame (mm), without the cage; no entry without parts.
-
-    It has few corners: the parts of a template stand out by at most 2 mm, in no direction of `WAYS`.
-    """
+    """Return a hull of few corners of each body's parts in its own frame (mm), without the cage; none without parts."""
     from trimesh.convex import convex_hull
 
     found = {}
@@ -50,16 +45,16 @@ def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> "dict[str, tr
         corners = np.concatenate(placed)
         if body == FOOT:
             corners[:, 2] = np.maximum(corners[:, 2], SOLE_MM - 1000.0 * mechanism.foot_depth_m)
-        whole = convex_hull(np.unique(np.round(corners, DIGITS), axis=0))
-        found[body] = convex_hull(_few(np.asarray(whole.vertices)))
+        found[body] = convex_hull(_few(np.asarray(convex_hull(np.unique(np.round(corners, DIGITS), axis=0)).vertices)))
     return found
 
 
 def _few(corners: Array) -> Array:
-    """Return few of a hull's corners: again and again the one that is farthest outside the others' hull."""
+    """Return few of a hull's corners, the farthest out first; of a template the others are at most 2.5 mm outside."""
     from scipy.spatial import ConvexHull
 
-    chosen = sorted(set(np.round(corners @ WAYS.T, DIGITS).argmax(axis=0)))
+    ways = np.array([way for way in itertools.product((-1.0, 0.0, 1.0), repeat=3) if sum(map(abs, way)) in (1, 3)])
+    chosen = sorted(set(np.round(corners @ ways.T, DIGITS).argmax(axis=0)))
     while len(chosen) < CORNERS:
         planes = ConvexHull(corners[chosen]).equations
         beyond = np.round(corners @ planes[:, :3].T + planes[:, 3], DIGITS)

@@ -148,9 +148,9 @@ class Pool:
         found: list[T] = []
         while len(others) < len(parts):
             # Few wait: loky ends with a traceback where one that waits was cancelled.
-            while len(others) < len(parts) and sum(not other.done() for other in others) < 2 * self.workers:
+            if sum(not other.done() for other in others) < 2 * self.workers:
                 others.append(self._submit(share, sent, parts[len(others)]))
-            if len(others) < len(parts):
+            else:
                 found = [*one_by_one(function, parts.pop()), *found]
         for part, other in zip(parts[::-1], others[::-1], strict=True):
             done = other.done() and not other.cancelled() and other.exception() is None
