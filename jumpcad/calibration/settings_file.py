@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from jumpcad.arguments import check_arguments
 from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import WEIGHED_SHARE
 from jumpcad.errors import JumpcadError
@@ -19,6 +20,7 @@ LIMITS = {"spring_efficiency": (0.1, 1.5), "pin_friction": (0.0, 2.0)}
 """What settings take."""
 
 
+@check_arguments
 def settings_toml(posterior: CalibrationPosterior) -> str:
     """Return the settings file of a calibration.
 
