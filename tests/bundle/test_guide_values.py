@@ -206,7 +206,7 @@ def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pyte
     robot = built("kenan-2.0")
 
     def told(**jump: object) -> tuple[object, ...]:
-        monkeypatch.setattr(module, "simulate", lambda robot, engine: SimpleNamespace(**jump))
+        monkeypatch.setattr(module, "simulate", lambda *_: SimpleNamespace(**jump))
         return tuple(_jump(robot)[name] for name in ("range_mm", "rise_mm", "far_m", "high_m"))
 
     assert told(verdict="jump", touchdown_distance_m=0.883, com_rise_m=0.634) == (880, 630, 2.0, 1.5)
@@ -214,7 +214,7 @@ def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pyte
     for verdict, reach, rise in (("no jump", 0.9, 0.6), ("jump", None, 0.6), ("jump", 0.9, None)):
         assert told(verdict=verdict, touchdown_distance_m=reach, com_rise_m=rise) == (None, None, 3.0, 2.0)
 
-    def refused(robot: object, engine: str) -> None:
+    def refused(*_: object) -> None:
         raise CannotBuildError("no engine")
 
     monkeypatch.setattr(module, "simulate", refused)
