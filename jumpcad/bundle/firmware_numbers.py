@@ -73,6 +73,7 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "LANDING_MS": LANDING_MS,
         "REST_MS": REST_MS,
         "BUTTON_DELAY_MS": BUTTON_DELAY_MS,
+        "RIGHTS_ITSELF": robot.layout.cage is not None,
         "RAMP_MS": RAMP_MS,
         "WATCHDOG_MS": WATCHDOG_MS,
     }

@@ -51,6 +51,7 @@ class Bench:
         self.hangs_ms = math.inf
         self.bites_ms = math.inf
         self.resets_by_watchdog = False
+        self.rights_itself = True
 
     def sleep_ms(self, ms: int) -> None:
         self.now_ms += ms
@@ -151,6 +152,9 @@ def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("robot", "winder"):
         module = ModuleType(name)
         exec(compile(FILES[f"firmware/{name}.py"], name, "exec"), module.__dict__)
+        if name == "robot":
+            assert not module.RIGHTS_ITSELF  # kenan-2.0 has no cage
+            module.RIGHTS_ITSELF = bench.rights_itself
         monkeypatch.setitem(sys.modules, name, module)
     for name, fake in modules.items():
         monkeypatch.setitem(sys.modules, name, fake)
@@ -333,6 +337,21 @@ def test_go_jumps_in_a_row_and_the_button_ends_it(
     assert said.count("jump 1;") == 1
     assert "jump 2" not in said
     assert bench.duty[5] == 0
+
+
+def test_what_does_not_roll_onto_its_feet_jumps_one_by_one(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    """Released lying, the leg's energy would go into its stop."""
+    bench = Bench({100: "go 5"})
+    bench.rights_itself = False
+    run_main(bench, monkeypatch)
+    assert bench.turned_ms == 0.0
+    assert "does not roll onto its feet" in capsys.readouterr().out
+    once = Bench({100: "go 1"})
+    once.rights_itself = False
+    run_main(once, monkeypatch)
+    assert capsys.readouterr().out.count("jump 1;") == 1
 
 
 @pytest.mark.parametrize("line", ["go", "go 0", "go ten", "go -1", "go 10000"])

@@ -322,6 +322,15 @@ def test_a_row_ends_on_a_low_battery_and_on_a_blocked_motor() -> None:
     assert (stuck.winder.state, stuck.power) == (WINDER.FAULT, 0.0)
 
 
+def test_a_row_that_begins_with_a_wound_robot_leaves_time_to_step_back() -> None:
+    world = wound()
+    world.wait(6.0)
+    row = WINDER.Row(world.winder)
+    row.begin(1, round(world.now_ms))
+    for waited, jumps in ((0, False), (2900, False), (3100, True)):
+        assert row.commands(round(world.now_ms) + waited) == (False, jumps)
+
+
 def test_a_row_that_is_ended_lets_nothing_begin() -> None:
     world = wound()
     row = WINDER.Row(world.winder)

@@ -134,8 +134,10 @@ def run():
             word, number = split(console.command())
             down = board.button is not None and not board.button.value()
             pressed = button.pressed(now, down)
-            if number:
-                row.begin(number)
+            if number > 1 and not robot.RIGHTS_ITSELF:
+                output.say("it does not roll onto its feet: set it on them, and give go 1")
+            elif number:
+                row.begin(number, now)
                 output.say("%d jumps in a row; stop or the button ends it" % number)
             ended = row.left and (pressed or word in ("stop", "wind", "jump"))
             if ended:

@@ -165,10 +165,11 @@ class Row:
         self.left = 0
         self._jumps = 0
         self._wait_ms = 0
+        self._begun_ms = 0
 
-    def begin(self, count):
-        """Begin a row of jumps; the first one waits as long as the button's, to step back."""
-        self.left, self._jumps = count, self.winder.jumps
+    def begin(self, count, now_ms=0):
+        """Begin a row of jumps; the first one waits as long as the button's, to step back, also where it is wound."""
+        self.left, self._jumps, self._begun_ms = count, self.winder.jumps, now_ms
         self._wait_ms = self.winder.numbers.BUTTON_DELAY_MS
 
     def end(self):
@@ -184,5 +185,6 @@ class Row:
         if not self.left or winder.state in (REFUSED, FAULT):
             self.left = 0
             return False, False
-        rested = winder.rests_ms(now_ms) >= (self._wait_ms if winder.state == READY else numbers.REST_MS)
+        rests_ms = min(winder.rests_ms(now_ms), now_ms - self._begun_ms)
+        rested = rests_ms >= (self._wait_ms if winder.state == READY else numbers.REST_MS)
         return winder.state == IDLE and (rested or not winder.jumps), winder.state == READY and rested

@@ -78,13 +78,14 @@ def _sheet(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> str:
 
 def requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> list[tuple[str, str]]:
     """Return what a drawing of one spring asks for: name and value of each requirement."""
+    stock = robot.workshop.stock_spring
     scatter = 100.0 * robot.workshop.safety.spring_rate_scatter
     free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
     narrower, wider = arms_off_deg(robot)
     least, most = (100.0 * abs(share - 1.0) for share in torque_shares(robot))
     return [
         ("robot", f"{robot.name}, spring on its {side} side: 1 needed, order {ORDERED} and choose"),
-        ("article", spring.stock or "torsion spring, close-coiled, made to order"),
+        ("article", stock.article(hand) if stock else "torsion spring, close-coiled, made to order"),
         ("hand", f"{hand}-hand wound"),
         (
             "LOADED (requirement)",
