@@ -140,8 +140,9 @@ idle` add to `one` its best designs keep."""
 
 def climb(method: Callable[..., None], seed: int, evaluations: int, model: RobotModel) -> Scores:
     """Return the best score so far after each evaluation."""
-    with StudyStore.write(None, {}) as store, local_pool(0) as pool:
-        evaluator = Evaluator(Request(SPACE, model, model.default_objective), store, pool)
+    request = Request(SPACE, model, model.default_objective)
+    with StudyStore.write(None, request.identity([])) as store, local_pool(0) as pool:
+        evaluator = Evaluator(request, store, pool)
         method(evaluator, seed, evaluations)
         return [*accumulate((trial.score or 0.0 for trial in evaluator.trials[:evaluations]), max)]
 

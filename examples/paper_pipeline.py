@@ -34,8 +34,9 @@ def main() -> None:
 
     # One parameter at a time, about the design that the study ended with.
     objective = find_objective("fitness")
-    with local_pool() as pool, StudyStore.write(None, {}) as store:
-        evaluator = Evaluator(Request(Space.default(), robot_model(arguments.model)), store, pool)
+    request = Request(Space.default(), robot_model(arguments.model))
+    with local_pool() as pool, StudyStore.write(None, request.identity([])) as store:
+        evaluator = Evaluator(request, store, pool)
         swept = sweep(evaluator, jumpcad.load_design("best-bo"), arguments.points)
     save_figure(plots.sweeps(swept, objective), arguments.folder, "sweeps")
 

@@ -52,9 +52,10 @@ def cells(page: str) -> dict[str, list[str]]:
 
 @pytest.mark.thorough
 def test_how_sure_agrees_with_other_jumps(robot: Robot) -> None:
+    """Quantiles of 64 jumps scatter by a few millimetres."""
     few, many = uncertainty_of(robot), uncertain_jump(robot, Settings(), "planar", seed=1, samples=128)
     assert few is not None
-    for figure, near_m in (("touchdown_distance_m", 0.004), ("com_rise_m", 0.002)):
+    for figure, near_m in (("touchdown_distance_m", 0.006), ("com_rise_m", 0.002)):
         assert few.quantiles[figure] == pytest.approx(many.quantiles[figure], abs=near_m)
 
 

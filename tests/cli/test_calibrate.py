@@ -46,7 +46,7 @@ def test_calibrated_settings_are_what_uncertain_takes(run: Run, tmp_path: Path) 
     assert (code, err) == (0, "")
     assert found["calibrated"] is True
     assert set(found["first_order"]) == {"calibration", "lengths", "springs", "mass", "floor"}
-    low, middle, high = found["quantiles"]["ballistic_range_m"]
+    low, middle, high = found["quantiles"]["touchdown_distance_m"]
     assert low < middle < high
 
 

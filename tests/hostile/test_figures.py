@@ -170,7 +170,7 @@ def with_figure(data: Any, place: Place, value: float | str) -> Any:
             with_figure(one, place[1:], value) if number == place[0] else one for number, one in enumerate(data)
         )
     key = next(iter(data)) if place[0] == "*" else place[0]
-    return {**data, key: with_figure(data[key], place[1:], value)}
+    return {**data, key: with_figure(data.get(key, value), place[1:], value)}
 
 
 @each("place", WORKSHOP)

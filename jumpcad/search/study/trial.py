@@ -209,6 +209,7 @@ def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) 
         write_atomically(path, _parquet(records), force)
 
 
+@check_arguments
 def to_frame(trials: Sequence[Trial]) -> Any:
     """Return trials as a `pandas.DataFrame` with the columns of `write_table`.
 

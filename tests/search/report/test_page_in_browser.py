@@ -99,7 +99,7 @@ def test_points_on_each_other_are_shown_by_one_click_after_the_other(driver: Any
         "return [...document.querySelectorAll('[data-of]')].filter(one => getComputedStyle(one).display != 'none')"
         ".map(one => one.dataset.of)"
     )
-    assert marked == ["3"] * 4  # in the chart and both slices, and its line
+    assert marked == ["3"] * 5  # in the chart, its side view, both slices, and its line
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
