@@ -20,7 +20,7 @@ from jumpcad.building import build
 from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.files import template_names
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.search import save_figure
 from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, labels, panels
 from jumpcad.simulation import Jump, Settings, simulate

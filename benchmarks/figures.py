@@ -25,7 +25,6 @@ from jumpcad import published
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
-from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
@@ -33,7 +32,8 @@ from jumpcad.landing.landing import distances_m, land, share_righted
 from jumpcad.landing.series import jumps
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
-from jumpcad.robot import Robot
+from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose import bayesian

@@ -13,13 +13,13 @@ from pathlib import Path
 from jumpcad.building import build
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
-from jumpcad.checks.electronics import links
 from jumpcad.design import load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
 from jumpcad.files import template_names
 from jumpcad.findings import errors
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.limits import links
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, own_workshop
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "kits.md"

@@ -16,7 +16,7 @@ from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 
 VALUES = 9

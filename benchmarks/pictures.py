@@ -30,7 +30,7 @@ from jumpcad.exporters import threemf
 from jumpcad.landing.series import jumps
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import View
 from jumpcad.scene.renderer import paletted
 from jumpcad.simulation import Settings, simulate

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from jumpcad.landing.landing import land as land
     from jumpcad.landing.series import jumps as jumps
     from jumpcad.paper import published as published
-    from jumpcad.robot import Robot as Robot
+    from jumpcad.robot.robot import Robot as Robot
     from jumpcad.search.optimization import optimize as optimize
     from jumpcad.settings import Settings as Settings
     from jumpcad.settings import load_settings as load_settings

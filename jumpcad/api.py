@@ -13,7 +13,7 @@ from jumpcad.evaluation import evaluate
 from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump
 from jumpcad.simulation import simulate as simulate_mechanism

@@ -21,7 +21,7 @@ from jumpcad.files.rendering import fill
 from jumpcad.files.templates import templates_folder
 from jumpcad.findings import Finding
 from jumpcad.landing.series import jumps
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump, simulate
 from jumpcad.studio.points import Points

@@ -19,7 +19,7 @@ from jumpcad.files.complaints import described
 from jumpcad.landing.arena import STILL_M_S, STILL_RAD_S, Arena, Floor
 from jumpcad.landing.landing import DROP_M, scattered_floor
 from jumpcad.mechanism.model import BODY, FOOT
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import aimed
 from jumpcad.scene.floor import with_floor
 from jumpcad.scene.renderer import Renderer

@@ -10,12 +10,12 @@ from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.building.refusal import statics_refusal
-from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.limits import jumps_per_charge
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import require_engine

@@ -47,7 +47,7 @@ class Finding:
     value, limit
         What was found and what is allowed, in `unit`; None where no single number is compared.
     grows
-        The factor of `jumpcad.strength.sizing.Growth` that makes the part stronger, if any does.
+        The factor of `jumpcad.robot.sizing.Growth` that makes the part stronger, if any does.
     """
 
     name: str

@@ -19,7 +19,7 @@ from jumpcad.bundle.renders import rest_picture
 from jumpcad.evaluation import EvaluationResult
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump
 
 PICTURE_SIZE = (420, 315)

@@ -15,7 +15,7 @@ from jumpcad.exporters.mjcf_robot import mjcf_files, write_robot
 from jumpcad.exporters.urdf import urdf_files, write_loop, write_urdf
 from jumpcad.files.csv_text import to_csv
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, Prior
 

@@ -29,7 +29,7 @@ from jumpcad.checks import Check, printability
 from jumpcad.design import Design
 from jumpcad.exporters import threemf
 from jumpcad.findings import Finding
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids import finish
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop

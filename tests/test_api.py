@@ -10,7 +10,7 @@ from support.pictures import with_few_pictures
 import jumpcad
 from jumpcad import checks
 from jumpcad.errors import JumpcadError
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.search.models import robot_model
 
 

@@ -14,20 +14,30 @@ from jumpcad.drive import Drive
 from jumpcad.drive.stock_spring import of_stock, springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.cage import with_cage
-from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
-from jumpcad.layout.electronics import Electronics
-from jumpcad.layout.layout import Layout, make_layout
-from jumpcad.layout.sensor import GEAR_PLAY_MM, SensorNeeds
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import five_bar
-from jumpcad.parts import axles, body_plate, cage, foot, links, sensor, shopping, small, stop, toes, train, trays
-from jumpcad.parts.pads import pads
+from jumpcad.parts import shopping, small
 from jumpcad.parts.part import Drawing, Part
-from jumpcad.robot import Robot
+from jumpcad.robot.axles import axles
+from jumpcad.robot.cage import drawing as cage
+from jumpcad.robot.cage.place import with_cage
+from jumpcad.robot.electronics import trays
+from jumpcad.robot.electronics.place import Electronics
+from jumpcad.robot.foot import drawing as foot
+from jumpcad.robot.foot import toes
+from jumpcad.robot.foot.pads import pads
+from jumpcad.robot.layout import Layout, make_layout
+from jumpcad.robot.leg import drawing as links
+from jumpcad.robot.plates import drawing as body_plate
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.sensor import drawing as sensor
+from jumpcad.robot.sensor.place import GEAR_PLAY_MM, SensorNeeds
+from jumpcad.robot.stop import drawing as stop
+from jumpcad.robot.stop.strength import StopBlow, stop_blow
+from jumpcad.robot.train import drawing as train
+from jumpcad.robot.train.place import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth, grown_mm
-from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.workshop import Workshop
 
 PIN_ROUNDS = 5

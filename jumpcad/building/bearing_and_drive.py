@@ -17,12 +17,13 @@ from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive, DriveLimits, synthesise
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.drive_places import PLATE_PINS_RAD
-from jumpcad.layout.stop import GIVE_ROOM_RAD
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
 from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot.sizing import RESERVE, TYPICAL_BODY, Sections, sections
+from jumpcad.robot.stop.place import GIVE_ROOM_RAD
+from jumpcad.robot.train.place import PLATE_PINS_RAD
 from jumpcad.strength.bearings import (
     allowed_n,
     bearing_load_n,
@@ -33,7 +34,6 @@ from jumpcad.strength.bearings import (
     roller_bearing,
 )
 from jumpcad.strength.growth import Growth
-from jumpcad.strength.sizing import RESERVE, TYPICAL_BODY, Sections, sections
 from jumpcad.workshop import Workshop
 
 

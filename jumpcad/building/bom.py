@@ -15,10 +15,10 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.files.csv_text import to_csv
-from jumpcad.parts.pads import printed_pads
-from jumpcad.parts.spring_wire import CHOOSE, ORDERED
 from jumpcad.plural import counted
-from jumpcad.robot import Robot, carried
+from jumpcad.robot.foot.pads import printed_pads
+from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.springs.wire import CHOOSE, ORDERED
 from jumpcad.workshop import Workshop
 
 COLUMNS = (

@@ -12,7 +12,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.files.names import composed
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
-from jumpcad.robot import Robot, require_name
+from jumpcad.robot.robot import Robot, require_name
 from jumpcad.strength.growth import Grown, Growth
 from jumpcad.workshop import Workshop, load_workshop, varied
 

@@ -8,12 +8,12 @@ from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
 from jumpcad.drive.release import ReleaseLimits
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
-from jumpcad.layout.drive_places import PLATE_PINS_RAD
-from jumpcad.layout.sensor import track_mm
-from jumpcad.layout.stop import GIVE_ROOM_RAD
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot.sensor.place import track_mm
+from jumpcad.robot.sizing import Sections
+from jumpcad.robot.stop.place import GIVE_ROOM_RAD
+from jumpcad.robot.train.place import PLATE_PINS_RAD
 from jumpcad.strength.fatigue import spring_share
-from jumpcad.strength.sizing import Sections
 from jumpcad.workshop import Workshop
 
 

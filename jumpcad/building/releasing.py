@@ -7,12 +7,12 @@ import numpy as np
 from jumpcad.building.limits import release_limits
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.drive.release import MovingParts, Release, release
-from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import Body, Spring
 from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.robot.layout import Layout
 from jumpcad.strength.stress import STATIONS, Beam, Shell, tip_stiffness_n_per_mm
 from jumpcad.transforms import Array, in_metres
 from jumpcad.workshop import Workshop

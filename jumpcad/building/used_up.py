@@ -1,7 +1,7 @@
 """What a builder uses up, and spares: rows of the bill without mass or price, since none of it stays on the robot."""
 
-from jumpcad.parts.pads import printed_pads
-from jumpcad.robot import Robot
+from jumpcad.robot.foot.pads import printed_pads
+from jumpcad.robot.robot import Robot
 
 ALWAYS = (
     "solder with flux core, 0.5 to 1 mm", "heat-shrink tube 4 mm, 0.1 m", "super glue (CA), thin", "isopropyl alcohol",

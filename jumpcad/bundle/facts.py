@@ -3,14 +3,14 @@
 import math
 from typing import Any
 
-from jumpcad.checks.electronics import jumps_per_charge, links
 from jumpcad.checks.sideways import play_rad, rolls
 from jumpcad.drive.release import Release
 from jumpcad.drive.rolling import ReleaseParts
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.limits import jumps_per_charge, links
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.hulls import CAGE
 from jumpcad.simulation import Jump
 

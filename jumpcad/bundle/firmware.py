@@ -6,7 +6,7 @@ from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.files import templates_folder
 from jumpcad.files.rendering import fill, render
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 FOLDER = "firmware"
 COPIED = ("main.py", "winder.py")

@@ -3,11 +3,11 @@
 import math
 
 from jumpcad.catalogue import Battery
-from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.nets import gpio
 from jumpcad.landing.series import LANDING_S, REST_S
-from jumpcad.layout.sensor import SensorPlace
-from jumpcad.robot import Robot, carried
+from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.sensor.limits import RUN_ON_S
+from jumpcad.robot.sensor.place import SensorPlace
 
 BUTTON_DELAY_MS = 3000
 """Time to step back after the button was pressed; judgement."""

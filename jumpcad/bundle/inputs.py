@@ -8,7 +8,7 @@ from jumpcad.bundle.manifest import Bundle, open_bundle
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import read_toml, template_names
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 
 DESIGN = "design.toml"

@@ -5,7 +5,7 @@ from typing import Any
 
 from jumpcad.checks import check
 from jumpcad.findings import SHOWN_AS, Finding, errors
-from jumpcad.robot import Robot, carried
+from jumpcad.robot.robot import Robot, carried
 from jumpcad.simulation import Jump
 
 JUST = "at the limit"

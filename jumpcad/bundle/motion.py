@@ -18,7 +18,7 @@ from jumpcad.exporters.animation import BodyMotion
 from jumpcad.landing.series import Series
 from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.transforms import Array, pose_at

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.bundle.renders import corners_of, gif
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.floor import STRIPE_M, with_floor
 from jumpcad.scene.renderer import Renderer

@@ -20,7 +20,7 @@ from jumpcad.files.rendering import fill
 from jumpcad.files.templates import templates_folder
 from jumpcad.findings import errors
 from jumpcad.landing.series import Series
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation.jump import ACCOUNT, Jump
 from jumpcad.simulation.published_robots import efficiency_band
 from jumpcad.simulation.uncertain import FIGURES, Uncertainty

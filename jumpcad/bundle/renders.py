@@ -10,7 +10,7 @@ from jumpcad.bundle.motion import recorded_poses
 from jumpcad.bundle.step_pictures import compass, step_pictures
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.floor import STRIPE_M, with_floor
 from jumpcad.scene.labels import labelled

@@ -2,7 +2,7 @@
 
 import math
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 ARMS_OFF_DEG = 10.0
 """By which relaxed arms may be off at most; makers of stock springs allow 10 to 15 either way."""

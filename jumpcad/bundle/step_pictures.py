@@ -4,7 +4,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled

@@ -15,7 +15,7 @@ from jumpcad.files.templates import templates_folder
 from jumpcad.landing.series import Series
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.extent import extent_m
 from jumpcad.scene.visuals import Visual, visuals

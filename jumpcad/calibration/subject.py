@@ -22,7 +22,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.landing.landing import distances_m
 from jumpcad.mechanism.variants import with_spring_factor
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.mechanics import Mechanics, loaded_state

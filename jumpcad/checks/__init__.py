@@ -10,28 +10,22 @@ from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from typing import Any
 
-from jumpcad.checks import (
-    assembly,
-    blocked,
-    cage,
-    drive,
-    electronics,
-    engraving,
-    ground,
-    holding,
-    interference,
-    leads,
-    printability,
-    sensor,
-    sideways,
-    stop,
-    strength,
-)
+from jumpcad.checks import assembly, interference, printability, sideways, strength
 from jumpcad.drive.stock_spring import of_stock
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.robot import Robot
+from jumpcad.robot.cage import limits as cage
+from jumpcad.robot.electronics import holding
+from jumpcad.robot.electronics import lead_limits as leads
+from jumpcad.robot.electronics import limits as electronics
+from jumpcad.robot.foot import limits as ground
+from jumpcad.robot.plates import limits as engraving
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.sensor import limits as sensor
+from jumpcad.robot.stop import limits as stop
+from jumpcad.robot.train import blocked
+from jumpcad.robot.train import limits as drive
 
 __all__ = [
     "CHECKS",

@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jumpcad.checks.cage import ELSEWHERE
 from jumpcad.checks.interference import Piece, may_share, shared_volume_mm3
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
-from jumpcad.robot import Robot
+from jumpcad.robot.cage.limits import ELSEWHERE
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.assembly_order import Tool
 from jumpcad.scene.assembly_steps import SIDES, MovedParts, Step, assembly_steps, travel
 from jumpcad.scene.visuals import Visual, visuals

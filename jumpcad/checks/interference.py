@@ -13,14 +13,14 @@ from functools import cached_property
 import numpy as np
 from manifold3d import Manifold
 
-from jumpcad.checks.cage import ELSEWHERE
 from jumpcad.findings import Basis, Finding
-from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Drawing, Shape, solid_of
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.robot import Robot
+from jumpcad.robot.cage.limits import ELSEWHERE
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.overlap import overlap_volume_mm3
 from jumpcad.solids.stack import Stack

@@ -16,7 +16,7 @@ from manifold3d import CrossSection, JoinType
 from jumpcad.dimensions import OVERHANG_LINES
 from jumpcad.findings import Basis, Finding, at_least, at_most, limit
 from jumpcad.parts.part import Drawing
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.finish import faults
 from jumpcad.solids.outline import Region, box_around, grown, hull, union
 from jumpcad.solids.stack import Stack

@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jumpcad.findings import Basis, Finding, at_least, at_most
-from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.feasibility import centre_of_mass_on_foot_mm
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.robot import Robot
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Robot
 from jumpcad.transforms import Array
 
 POSITIONS = 9

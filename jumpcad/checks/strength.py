@@ -12,12 +12,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.checks import foot, leg_bar, steel
-from jumpcad.checks.load_case import IN_PLANE, INTERLAYER, LANDING, LoadCase, stress_finding
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.findings import Basis, Finding, at_most, limit
-from jumpcad.robot import Robot
-from jumpcad.strength.sizing import leg_flex_share
+from jumpcad.robot.axles import steel
+from jumpcad.robot.foot import strength as foot
+from jumpcad.robot.leg import limits as leg_bar
+from jumpcad.robot.load_case import IN_PLANE, INTERLAYER, LANDING, LoadCase, stress_finding
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.sizing import leg_flex_share
 from jumpcad.strength.stress import (
     STATIONS,
     Beam,

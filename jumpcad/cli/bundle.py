@@ -25,7 +25,7 @@ from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle
-    from jumpcad.robot import Robot
+    from jumpcad.robot.robot import Robot
     from jumpcad.simulation import Jump
 
 EXPORTS = Path("exports")
@@ -195,7 +195,7 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return the figures that `build` prints."""
     from jumpcad.bundle.limits import limits_of, ordered, violation, with_verdict
-    from jumpcad.checks.engraving import engraving_findings
+    from jumpcad.robot.plates.limits import engraving_findings
     from jumpcad.simulation.uncertain import uncertainty_of
 
     train, sure = robot.layout.drive.train, uncertainty_of(robot) if printed.verdict == "jump" else None

@@ -18,7 +18,7 @@ from jumpcad.simulation.engines import ENGINE_HELP, GENERAL, default_engine
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
-    from jumpcad.robot import Robot
+    from jumpcad.robot.robot import Robot
     from jumpcad.simulation import Jump, Settings
     from jumpcad.simulation.jump import Trajectory
     from jumpcad.simulation.uncertain import Uncertainty
@@ -70,7 +70,7 @@ def simulate(
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.mechanism.capsule import capsule_robot
-    from jumpcad.robot import Robot
+    from jumpcad.robot.robot import Robot
     from jumpcad.simulation import load_settings, uncertain_jump
     from jumpcad.simulation import simulate as simulate_jump
     from jumpcad.simulation.chain import Chain

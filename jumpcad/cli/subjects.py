@@ -13,7 +13,7 @@ from jumpcad.errors import JumpcadError
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle
     from jumpcad.mechanism.model import Mechanism
-    from jumpcad.robot import Robot
+    from jumpcad.robot.robot import Robot
     from jumpcad.simulation.chain import Chain
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
-    from jumpcad.robot import Robot
+    from jumpcad.robot.robot import Robot
     from jumpcad.strength.growth import Grown
 
 

@@ -24,8 +24,8 @@ from jumpcad.coupon.pieces import (
 )
 from jumpcad.dimensions import AXLE_FLOOR_MM, SOCKET_WALL_MM, TAB_MM, TRAY_MM
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.toes import lying_hole
-from jumpcad.parts.train import ribbed_d_bore, sectors
+from jumpcad.robot.foot.toes import lying_hole
+from jumpcad.robot.train.drawing import ribbed_d_bore, sectors
 from jumpcad.solids.blocks import Bar, Blocks
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, ring, union
 from jumpcad.solids.stack import Stack

@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from jumpcad.parts.engraving import ENGRAVING_MM
 from jumpcad.parts.part import Part
-from jumpcad.robot import Robot
+from jumpcad.robot.plates.engraving import ENGRAVING_MM
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
 

@@ -13,7 +13,7 @@ import trimesh
 from trimesh.visual.material import PBRMaterial
 
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.shading import with_normals
 from jumpcad.scene.visuals import Colour, Visual, visuals
 

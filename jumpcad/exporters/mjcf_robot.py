@@ -18,7 +18,7 @@ from jumpcad.exporters.xml import Value, allowed, shortened, wxyz
 from jumpcad.files.rendering import fill, render
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.hulls import Capsule, body_hulls, cage_capsules
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients

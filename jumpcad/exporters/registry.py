@@ -12,7 +12,7 @@ from jumpcad.exporters.step import require_step, step_files
 from jumpcad.exporters.stl import stl_files
 from jumpcad.exporters.threemf import threemf_files
 from jumpcad.exporters.urdf import urdf_files
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 Files = Iterable[tuple[str, str | bytes]]
 """Paths, relative to a bundle's folder and written with '/', with their contents."""

@@ -14,7 +14,7 @@ from jumpcad.files.rendering import fill
 from jumpcad.mechanism.model import Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.hulls import cage_capsules
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Coefficients, Settings, coefficients

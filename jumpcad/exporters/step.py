@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.exporters.curves import Arc, Circle, Curve, Line, curves_of
 from jumpcad.parts.part import Drawing
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import Slab
 from jumpcad.solids.stack import Stack

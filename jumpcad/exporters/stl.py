@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from jumpcad.parts.pads import printed_pads
 from jumpcad.printing.plates import Printable
-from jumpcad.robot import Robot
+from jumpcad.robot.foot.pads import printed_pads
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.finish import require_part
 from jumpcad.solids.stl import write_stl
 

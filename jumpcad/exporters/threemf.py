@@ -21,10 +21,10 @@ from jumpcad.catalogue import Pad
 from jumpcad.exporters.xml import allowed
 from jumpcad.files import templates_folder
 from jumpcad.files.rendering import fill, render
-from jumpcad.parts.pads import printed_pads
 from jumpcad.printing.plates import Printable, PrintPlate, brim_mm, packed
 from jumpcad.printing.project import project_settings
-from jumpcad.robot import Robot, carried
+from jumpcad.robot.foot.pads import printed_pads
+from jumpcad.robot.robot import Robot, carried
 from jumpcad.scene.camera import View
 from jumpcad.scene.renderer import Renderer, png_of
 from jumpcad.scene.visuals import PRINTED_COLOURS, Colour

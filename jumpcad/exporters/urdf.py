@@ -21,7 +21,7 @@ from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings, coefficients
 
 if TYPE_CHECKING:
-    from jumpcad.robot import Robot
+    from jumpcad.robot.robot import Robot
     from jumpcad.scene.hulls import Capsule
     from jumpcad.scene.visuals import Visual
 

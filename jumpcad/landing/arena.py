@@ -13,7 +13,7 @@ import numpy as np
 from jumpcad.exporters.mjcf_robot import STEP_S, write_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.hulls import CAGE
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients

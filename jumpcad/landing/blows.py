@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jumpcad.checks.holding import holding_findings
-from jumpcad.checks.load_case import LoadCase
 from jumpcad.checks.strength import strength_findings
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.findings import Finding, at_most
 from jumpcad.mechanism.model import FOOT
-from jumpcad.parts.pads import TOE_AHEAD_MM, TOE_BACK_MM
-from jumpcad.robot import Robot
-from jumpcad.strength.cage import landing_n, ring_n_per_mm
+from jumpcad.robot.cage.strength import landing_n, ring_n_per_mm
+from jumpcad.robot.electronics.holding import holding_findings
+from jumpcad.robot.foot.pads import TOE_AHEAD_MM, TOE_BACK_MM
+from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.robot import Robot
 
 if TYPE_CHECKING:
     from jumpcad.landing.arena import Arena

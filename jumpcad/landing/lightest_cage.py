@@ -4,13 +4,13 @@ import math
 from collections.abc import Callable
 
 from jumpcad.building import built_and_checked
-from jumpcad.checks.cage import RIGHTED
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.landing.landing import Landings, land
-from jumpcad.layout.cage import plate_ends_mm
-from jumpcad.robot import Robot
+from jumpcad.robot.cage.limits import RIGHTED
+from jumpcad.robot.cage.place import plate_ends_mm
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.workshop import Workshop, varied
 

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from jumpcad.arguments import check_arguments
-from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.errors import CannotBuildError
 from jumpcad.landing.arena import QUIET_STEP_S, Arena
 from jumpcad.landing.landing import GROUNDED, disturb, scattered_floor
 from jumpcad.mechanism.model import BODY_NAMES
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.limits import jumps_per_charge
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.transforms import Array

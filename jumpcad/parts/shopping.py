@@ -8,17 +8,20 @@ import numpy as np
 
 from jumpcad.catalogue import Bearing, Catalogue
 from jumpcad.dimensions import ROLLER_WASHER_MM
-from jumpcad.layout.drive_places import arm_line
-from jumpcad.layout.lateral import Interval
-from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
-from jumpcad.parts import axles, sensor, toes, wired
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.motor_socket import ear_places
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.parts.simple import box_outline, placed_screw, round_outline
-from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
-from jumpcad.parts.train import gear_turns
+from jumpcad.robot.axles import axles
+from jumpcad.robot.electronics import wired
+from jumpcad.robot.foot import toes
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.sensor import drawing as sensor
+from jumpcad.robot.space.lateral import Interval
+from jumpcad.robot.springs.wire import coil_with_arm, leg_arm_wire, spring_article
+from jumpcad.robot.train.drawing import gear_turns
+from jumpcad.robot.train.motor_socket import ear_places
+from jumpcad.robot.train.place import arm_line
 from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring, stadium
 from jumpcad.strength.bearings import roller_washer
 from jumpcad.transforms import Array

@@ -3,9 +3,9 @@
 from functools import lru_cache
 
 from jumpcad.catalogue import Catalogue, Screw
-from jumpcad.layout.lateral import Interval
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.purchased import BoughtPart, bought
+from jumpcad.robot.space.lateral import Interval
 from jumpcad.solids.outline import Region, disc, rectangle, ring
 from jumpcad.transforms import Array
 

@@ -6,11 +6,11 @@ import numpy as np
 
 from jumpcad.dimensions import BUSHING_PLAY_MM, CAP_HEAD_MM, SPACER_RADIUS_MM
 from jumpcad.errors import JumpcadError
-from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.motor_socket import ear_reach_mm, socket_about_axis
 from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.train.motor_socket import ear_reach_mm, socket_about_axis
 from jumpcad.solids.outline import disc, hole, ring, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z

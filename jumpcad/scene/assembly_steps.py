@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.robot import Robot, carried
+from jumpcad.robot.robot import Robot, carried
 from jumpcad.scene.assembly_order import ORDER, ROBOT, Move, Plan
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.transforms import Array, chained

@@ -6,7 +6,7 @@ import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Shape
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.transforms import Array, chained, in_metres
 
 ROUND_OFF_M = 1e-9

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jumpcad.mechanism.model import BODY_NAMES, FOOT, Mechanism
-from jumpcad.robot import Robot
+from jumpcad.robot.cage.strength import ring_n_per_mm
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire
-from jumpcad.strength.cage import ring_n_per_mm
 from jumpcad.transforms import Array
 
 if TYPE_CHECKING:

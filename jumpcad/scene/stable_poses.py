@@ -7,7 +7,7 @@ import numpy as np
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.hulls import CAGE, cage_capsules, quick_corners_mm
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import Array, chained

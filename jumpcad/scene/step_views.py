@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.assembly_order import LEFT, LOWER, UPPER, Move
 from jumpcad.scene.assembly_steps import Step, assembly_steps, travel
 from jumpcad.scene.camera import View

@@ -11,7 +11,7 @@ import numpy as np
 
 from jumpcad.parts.part import Part, Shape
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.robot import Robot, carried
+from jumpcad.robot.robot import Robot, carried
 from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array, in_metres
 

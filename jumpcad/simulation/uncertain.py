@@ -17,7 +17,7 @@ from scipy.special import ndtri
 from jumpcad.arguments import check_arguments
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
 from jumpcad.simulation.simulator import simulate

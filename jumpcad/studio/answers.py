@@ -12,7 +12,7 @@ from jumpcad.files import read_toml, templates_folder
 from jumpcad.files.rendering import fill
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump, simulate
 from jumpcad.workshop import Workshop
 

@@ -13,7 +13,7 @@ from jumpcad.bundle.viewer import parts_facts
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import is_sealed, sealed, write_files
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.search.study.result import workshop_file
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
 from jumpcad.studio.playback import Playback, playback

@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.bundle.motion import motion, speed_in_words
 from jumpcad.bundle.viewer import turning_parts
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import BUNDLE_ENGINE
 from jumpcad.transforms import Array

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from jumpcad.bundle.viewer import turning_parts
 from jumpcad.design import Design
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.surface import seen
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.solids.tube import DrawnWire, tube

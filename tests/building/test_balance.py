@@ -11,7 +11,7 @@ from jumpcad.checks import check
 from jumpcad.checks.sideways import sideways_findings
 from jumpcad.design import load_design
 from jumpcad.findings import errors
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop, varied
 
 

@@ -22,10 +22,10 @@ from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.reflected import reflected_mass
+from jumpcad.robot.sizing import RESERVE, sections
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
 from jumpcad.strength.growth import Growth
 from jumpcad.strength.loads import MovingMass
-from jumpcad.strength.sizing import RESERVE, sections
 from jumpcad.transforms import turned_about_y
 from jumpcad.workshop import Workshop, load_workshop
 

@@ -15,7 +15,7 @@ from jumpcad.bundle.guide.markdown import bill_text
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.csv_text import BOM
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop
 
 

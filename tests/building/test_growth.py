@@ -20,7 +20,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, at_least, errors
 from jumpcad.mechanism.flight import Blow, leg_blow
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.strength.growth import OF_PARTS, Growth
 from jumpcad.workshop import Workshop, load_workshop, varied
 

@@ -14,7 +14,7 @@ from jumpcad.design import load_design
 from jumpcad.drive import DriveLimits
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.strength.sizing import sections
+from jumpcad.robot.sizing import sections
 from jumpcad.workshop import Workshop, load_workshop
 from jumpcad.workshop.workshop import Role
 

@@ -13,7 +13,7 @@ from support.workshops import workshop_with
 from jumpcad.building import releasing
 from jumpcad.building.releasing import release_of
 from jumpcad.drive.release import MovingParts
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.workshop import Role
 

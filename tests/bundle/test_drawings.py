@@ -13,8 +13,8 @@ from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
 from jumpcad.bundle.springs import arms_off_deg, torque_shares
-from jumpcad.parts.lead_ways import plate_of
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.lead_ways import plate_of
+from jumpcad.robot.robot import Robot
 
 SPACE = "{http://www.w3.org/2000/svg}"
 ROBOTS = {"kenan-2.0": lambda: built("kenan-2.0"), "two pairs": geared}

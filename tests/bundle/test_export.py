@@ -18,7 +18,7 @@ from jumpcad.bundle import export as bundle_module
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import Bundle, verify
 from jumpcad.errors import JumpcadError
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import uncertain
 
 

@@ -12,7 +12,7 @@ from jumpcad.bundle.firmware_numbers import numbers, release_share, start_v
 from jumpcad.catalogue import load_catalogue
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 
 @pytest.fixture(scope="module", params=["light-1s", "strong-2s"])

@@ -30,7 +30,7 @@ from jumpcad.files import template_names, templates_folder
 from jumpcad.files.rendering import environment, render
 from jumpcad.findings import errors, limit
 from jumpcad.mechanism.model import BODY
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.simulation import simulate

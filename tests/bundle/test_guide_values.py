@@ -25,7 +25,7 @@ from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring
 from jumpcad.errors import CannotBuildError
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 
 def values(robot: Robot) -> dict[str, Any]:

@@ -14,9 +14,9 @@ from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.guide.order_values import _screw_axles, order_values, strap_mm
 from jumpcad.exporters.threemf import plate_files
-from jumpcad.layout.leg_bars import END_PLAY_MM
-from jumpcad.parts import wired
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics import wired
+from jumpcad.robot.leg.bars import END_PLAY_MM
+from jumpcad.robot.robot import Robot
 
 
 def order(robot: Robot) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from support.built import built
 from jumpcad.bundle import renders as module
 from jumpcad.bundle.renders import exploded, jump_gif
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.floor import STRIPES
 from jumpcad.scene.visuals import visuals
 from jumpcad.simulation import Settings, simulate

@@ -16,7 +16,7 @@ from jumpcad.bundle.export import export
 from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, _modelled_grams, _StlPart, slice_bundle, write_times
 from jumpcad.errors import JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop
 
 

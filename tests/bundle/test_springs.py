@@ -17,7 +17,7 @@ from jumpcad.bundle.springs import (
     loaded_arms,
     torque_shares,
 )
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 
 def test_the_torque_that_is_accepted_is_between_weak_and_strong(robot: Robot) -> None:

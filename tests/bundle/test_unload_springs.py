@@ -7,7 +7,7 @@ from support.built import built, geared, of_kit, placed
 
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import chained
 

@@ -8,7 +8,7 @@ from support.built import built, geared, placed
 
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.viewer import _embedded, parts_facts, turning_parts
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 
 def test_what_is_bought_in_one_piece_and_seen_as_several_has_the_mass_of_the_whole() -> None:

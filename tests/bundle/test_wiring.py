@@ -10,7 +10,7 @@ from support.built import of_kit
 from jumpcad.bundle.drawings.wiring import wires, wiring_svg
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 SPACE = "{http://www.w3.org/2000/svg}"
 STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400",

@@ -11,7 +11,7 @@ from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
 from jumpcad.findings import at_most, limit
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.strength.growth import Growth
 
 

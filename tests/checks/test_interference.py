@@ -22,7 +22,7 @@ from jumpcad.checks.interference import (
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.parts.part import lying_on_left
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import disc, rectangle
 from jumpcad.solids.stack import Stack
 

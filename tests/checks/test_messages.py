@@ -7,7 +7,7 @@ from support.said import well_told
 from jumpcad.building import build
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop, varied
 
 ROBOTS = {

@@ -19,7 +19,7 @@ from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.part import Drawing, Part, Placement
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.blocks import Bar, Blocks
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle
 from jumpcad.solids.stack import Stack

@@ -15,7 +15,7 @@ from jumpcad.checks.sideways import play_rad, rolls, sideways_findings, stance_d
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 
 NARROW = load_design("best-bo").model_copy(update={"ground_link_angle_deg": 6.0})

@@ -11,13 +11,13 @@ from support.fits import LOADS, with_fits_apart
 from support.strengths import changed, helped, margins, with_own
 
 from jumpcad.building import build
-from jumpcad.checks.blocked import blocked_findings
-from jumpcad.checks.load_case import LoadCase
-from jumpcad.checks.stop import stop_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
-from jumpcad.robot import Robot
+from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.stop.limits import stop_findings
+from jumpcad.robot.train.blocked import blocked_findings
 from jumpcad.workshop.workshop import Role
 
 OF_ROLES = {

@@ -12,7 +12,7 @@ from support.proposals import with_less_work
 
 from jumpcad.bundle import export
 from jumpcad.exporters.registry import Exporter, Files
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump
 
 

@@ -14,7 +14,7 @@ from support.slicers import OBEDIENT, pretend_slicer, three_parts, with_seams_be
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle, verify
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop
 
 needs_slicer = needs.without("prusa-slicer")

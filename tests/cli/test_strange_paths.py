@@ -18,7 +18,7 @@ from support.slicers import three_parts
 from jumpcad.bundle.export import export
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop
 
 STRANGE = f"mein Käfer & Söhne (neu?) 机器人 'x' #1 50%25/{'ü' * 60}/{'long name ' * 9}end"

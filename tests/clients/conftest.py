@@ -9,7 +9,7 @@ from support.clients import Case
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 TEMPLATES = ("kenan-2.0", "best-printable")
 ON_BARS = "kenan-2.0 on carbon tubes"

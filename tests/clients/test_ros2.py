@@ -15,7 +15,7 @@ from support.built import built
 from support.clients import run
 
 from jumpcad.exporters.ros2 import ros2_files
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 xacro, yaml = needs.package("xacro"), needs.package("yaml")
 

@@ -17,7 +17,7 @@ from jumpcad.drive.release import Release, _kick_limit_nm
 from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")

@@ -18,7 +18,7 @@ from jumpcad.drive.spring_arms import ARM_BEYOND_MM
 from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 
 KENAN = load_design("kenan-1.0")

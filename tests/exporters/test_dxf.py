@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from jumpcad.exporters.dxf import MILLIMETRES, write_dxf, write_dxfs
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle
 
 

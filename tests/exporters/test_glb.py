@@ -8,7 +8,7 @@ import trimesh
 
 from jumpcad.exporters.glb import linear_light, write_glb
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 
 

@@ -16,7 +16,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
 

@@ -16,7 +16,7 @@ from jumpcad.bundle.manifest import verify
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters import step
 from jumpcad.parts.part import Drawing
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.blocks import Blocks, Finger
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack

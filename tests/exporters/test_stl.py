@@ -8,7 +8,7 @@ import trimesh
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.stl import stl_files
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import disc
 from jumpcad.solids.stack import Stack
 

@@ -13,7 +13,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.exporters.urdf import urdf_files, write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES, FOOT
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf

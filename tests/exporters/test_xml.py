@@ -13,7 +13,7 @@ from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.exporters.xml import add, allowed, document, rpy, written, wxyz
 from jumpcad.printing.plates import packed
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import simulate
 
 

@@ -22,7 +22,7 @@ from jumpcad.checks import quick_findings
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.from_urdf import LoopFile
 from jumpcad.workshop import Workshop, load_workshop

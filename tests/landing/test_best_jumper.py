@@ -14,7 +14,7 @@ from jumpcad.landing.arena import Arena
 from jumpcad.landing.blows import CAGE, NOSE, TOE, Blow, Blows, part_forces
 from jumpcad.landing.landing import land, share_righted
 from jumpcad.landing.series import jumps
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.engines import default_engine

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from jumpcad.checks.load_case import LoadCase
 from jumpcad.checks.strength import strength_findings
 from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import NOSE, TOE, Blow, Blows, hard_n, landing_strength, part_forces
-from jumpcad.robot import Robot
+from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.robot import Robot
 
 pytest.importorskip("mujoco")
 HEIGHT_M = 0.2

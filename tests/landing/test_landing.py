@@ -14,7 +14,7 @@ from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.landing import land, share_righted
 from jumpcad.landing.series import Hop, Recorder, Series, jumps
 from jumpcad.mechanism.model import BODY_NAMES
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate

@@ -21,9 +21,10 @@ from support.fits import (
     with_fits_apart,
 )
 
-from jumpcad.parts import foot, links
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.robot import Robot
+from jumpcad.robot.foot import drawing as foot
+from jumpcad.robot.leg import drawing as links
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack

@@ -6,7 +6,7 @@ import shapely
 from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, geared
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.finish import faults
 from jumpcad.solids.stl import write_stl
 

@@ -7,7 +7,7 @@ import pytest
 from support.built import built, cut, inscribed_diameter, placed
 from support.fits import RUNNING, TOLERANCE_MM
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

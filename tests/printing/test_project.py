@@ -4,7 +4,7 @@ import pytest
 
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.printing.project import project_settings
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop
 
 

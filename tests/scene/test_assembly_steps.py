@@ -13,7 +13,7 @@ from support.built import LONG_TOES, built
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.assembly_order import TOOLS, Move
 from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
 from jumpcad.scene.step_views import step_views

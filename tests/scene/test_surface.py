@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.surface import Piece, seen, surface
 from jumpcad.scene.visuals import visuals
 from jumpcad.solids.outline import rectangle

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jumpcad.mechanism.mass import combined
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 
 

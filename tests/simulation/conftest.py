@@ -8,7 +8,7 @@ from support.places import DATA
 
 from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 TABLE = DATA / "reference_flights.csv"
 

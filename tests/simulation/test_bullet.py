@@ -8,7 +8,7 @@ from support import needs
 from support.machines import let_go
 
 from jumpcad.mechanism.model import BODY
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.bullet import BulletEngine

@@ -13,7 +13,7 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, FOOT, Friction
 from jumpcad.mechanism.poses import release_pose
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation.bullet_robot import LINKS, BulletRobot
 from jumpcad.simulation.engines import engine_named

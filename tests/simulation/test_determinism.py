@@ -9,7 +9,7 @@ import pytest
 from support import needs
 from support.flights import Flight
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.bullet import RESET_EVERY
 

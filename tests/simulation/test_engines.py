@@ -14,7 +14,7 @@ from support.flights import Flight
 
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, engines, simulate
 from jumpcad.simulation.engines import default_engine, engine_named, require_engine
 from jumpcad.simulation.mechanics import Mechanics

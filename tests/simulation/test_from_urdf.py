@@ -18,7 +18,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation.from_urdf import robot_from_urdf
 
 KENAN = capsule_robot(load_design("kenan-2.0"))

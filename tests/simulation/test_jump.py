@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.jump import EnergyBudget, Jump
 

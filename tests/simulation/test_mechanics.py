@@ -11,7 +11,7 @@ from support.machines import let_go
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import release_pose
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics, State, loaded_state

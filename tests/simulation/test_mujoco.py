@@ -7,7 +7,7 @@ from support.machines import let_go, rubbing, stopped
 
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.mjcf import write_mjcf
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named
 from jumpcad.strength.loads import pin_torque_nm

@@ -8,7 +8,7 @@ from support.flights import Flight, base_distance_m
 from support.machines import one_sided
 
 from jumpcad.errors import JumpcadError
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.engines import default_engine

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.planar import FINE, NO_CONTACT, model_of, moving, with_damping, world_at
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import Mechanics
 from jumpcad.simulation.planar_state import Inertia, PlanarMotion, Stance

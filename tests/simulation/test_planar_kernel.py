@@ -13,7 +13,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import Mechanics, State

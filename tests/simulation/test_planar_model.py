@@ -7,7 +7,7 @@ import pytest
 from support import needs
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, ContactSphere
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.planar_model import planar_model
 

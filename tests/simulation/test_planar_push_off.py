@@ -6,7 +6,7 @@ import pytest
 from support.machines import let_go, one_sided, rubbing, stopped
 from support.planar import FINE, with_damping
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import Mechanics
 from jumpcad.simulation.planar import PlanarWorld

@@ -17,7 +17,7 @@ from support.machines import let_go, rubbing
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Mechanism
 from jumpcad.mechanism.poses import body_poses, release_pose
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics, State, loaded_state

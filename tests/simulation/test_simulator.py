@@ -6,7 +6,7 @@ from support import needs
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.variants import with_spring_factor
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 
 needs.package("pybullet")

@@ -9,7 +9,7 @@ from support.built import built
 from support.workshops import workshop_with
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
 from jumpcad.simulation import simulate, uncertain
 from jumpcad.simulation.uncertain import Uncertainty, _first_order, changed, uncertain_jump, varied_inputs

@@ -6,7 +6,7 @@ import shapely
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
-from jumpcad.parts.foot import foot
+from jumpcad.robot.foot.drawing import foot
 from jumpcad.solids.blocks import Bar, Blocks, Finger, Turned
 from jumpcad.solids.outline import disc, hole, rectangle
 from jumpcad.workshop import load_workshop

@@ -13,7 +13,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.findings import Finding
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Part
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 from jumpcad.workshop.varied import varied
 from support.workshops import workshop_with

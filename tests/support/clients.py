@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from support import needs
 

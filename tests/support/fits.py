@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 from support.built import cut, inscribed_diameter, part, placed
 from support.workshops import workshop_with

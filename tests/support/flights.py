@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.mechanism.model import BODY, Mechanism
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.transforms import Array

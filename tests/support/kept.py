@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from jumpcad.printing.plates import PrintPlate
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 
 def once(known: dict[object, Any], make: Callable[..., Any], key: Callable[..., object]) -> Callable[..., Any]:

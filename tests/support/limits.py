@@ -10,8 +10,8 @@ from jumpcad.drive import DriveLimits
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot.sizing import sections
 from jumpcad.strength.bearings import hub_bearings, hub_width_mm
-from jumpcad.strength.sizing import sections
 from jumpcad.workshop import load_workshop
 
 LP6 = tuple(name for name in load_catalogue().motors if name.count("-") == 1)

@@ -9,7 +9,7 @@ from jumpcad.mechanism.mass import combined
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body
 from jumpcad.parts.part import Drawing, Part, Placement, laid, lying_on_left, lying_on_right
 from jumpcad.parts.purchased import bought
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import in_metres

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from jumpcad.printing import prusaslicer
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop
 
 OBEDIENT = """

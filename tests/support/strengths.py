@@ -7,7 +7,7 @@ from jumpcad.checks.strength import strength_findings
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.workshop import Role
 from support.said import ways

@@ -14,12 +14,12 @@ from jumpcad.dimensions import TRAY_MM
 from jumpcad.electronics.nets import Terminal
 from jumpcad.exporters.dxf import sheet
 from jumpcad.files.rendering import fill
-from jumpcad.layout.lateral import Interval
-from jumpcad.layout.layout import Layout
-from jumpcad.parts.fittings import wire_hole_mm
-from jumpcad.parts.lead_ways import outer_way, plate_of
-from jumpcad.parts.leads import OWN_LEGS
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.fittings import wire_hole_mm
+from jumpcad.robot.electronics.lead_ways import outer_way, plate_of
+from jumpcad.robot.electronics.leads import OWN_LEGS
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.space.lateral import Interval
 from jumpcad.transforms import Array
 
 STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}

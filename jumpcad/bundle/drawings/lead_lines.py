@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.electronics.nets import Terminal
-from jumpcad.layout.layout import Layout
-from jumpcad.parts.lead_ways import battery_way, corners, outer_way, plate_of
-from jumpcad.parts.leads import OWN_LEGS, lead_lengths
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.lead_ways import battery_way, corners, outer_way, plate_of
+from jumpcad.robot.electronics.leads import OWN_LEGS, lead_lengths
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Robot
 from jumpcad.transforms import Array
 
 LANE_MM, PLATE_LANE_MM, GAP_LANE_MM, EDGE_MM = 1.0, 2.5, 0.35, 1.5

@@ -5,8 +5,8 @@ from typing import Any
 
 from jumpcad.electronics.nets import AT, Terminal, Wiring
 from jumpcad.files.rendering import fill
-from jumpcad.parts.leads import OWN_LEGS
-from jumpcad.robot import Robot, carried
+from jumpcad.robot.electronics.leads import OWN_LEGS
+from jumpcad.robot.robot import Robot, carried
 
 PITCH_MM, WIDE_MM, TOP_MM, BESIDE_MM, FREE_MM = 7.0, 46.0, 18.0, 80.0, 20.0
 ROW_MM, TRACK_MM, GAP_MM, BODY_MM = 9.0, 3.0, 15.0, (22.0, 4.0)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from jumpcad.bundle.drawings.spring_sheet import FOLDER, arms_of, requirements
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.dxf import dxf_document
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 from jumpcad.transforms import Array
 
 if TYPE_CHECKING:

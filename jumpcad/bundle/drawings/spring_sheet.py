@@ -13,8 +13,8 @@ from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, loaded_arms, torq
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.rendering import fill
-from jumpcad.parts.spring_wire import ORDERED
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.springs.wire import ORDERED
 from jumpcad.transforms import Array
 
 FOLDER = "order"

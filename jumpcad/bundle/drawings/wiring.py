@@ -7,8 +7,8 @@ from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.nets import Net, Terminal, Wiring
 from jumpcad.files.rendering import fill
-from jumpcad.parts.leads import has_own_legs, lead_lengths
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.leads import has_own_legs, lead_lengths
+from jumpcad.robot.robot import Robot
 
 ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),

@@ -16,15 +16,15 @@ from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
 from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg
-from jumpcad.checks.electronics import jumps_per_charge
 from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import window_mm
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.pads import printed_pads
-from jumpcad.parts.spring_wire import ORDERED
-from jumpcad.robot import Robot
+from jumpcad.robot.electronics.limits import jumps_per_charge
+from jumpcad.robot.foot.pads import printed_pads
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.springs.wire import ORDERED
 from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_steps import Step
 from jumpcad.scene.step_views import motor_sense

@@ -7,7 +7,7 @@ from jumpcad.bundle.drawings.spring_sheet import scale_in_words
 from jumpcad.bundle.springs import early_torque_share, least_energy_share, torque_shares
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive import TorsionSpring
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
 
 REAMED_MM = 0.1
 """Of a reamed bore over its rod, in diameter."""

@@ -8,8 +8,8 @@ from jumpcad.building.bom import Bill, bill_of_materials, euros
 from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.files.rendering import render
 from jumpcad.parts.part import Part
-from jumpcad.parts.spring_wire import CHOOSE
-from jumpcad.robot import Robot
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.springs.wire import CHOOSE
 from jumpcad.scene.assembly_steps import Step, assembly_steps
 from jumpcad.scene.step_views import label_of
 from jumpcad.scene.visuals import Visual

@@ -10,11 +10,11 @@ from jumpcad.bundle.firmware_numbers import (
     numbers,
 )
 from jumpcad.catalogue.electrical import DEAD_CELL_V
-from jumpcad.checks.stop import free_release_j
 from jumpcad.electronics.nets import LOWER_OHM, Wiring
 from jumpcad.electronics.supply import boards_beside_a
-from jumpcad.parts.leads import lead_lengths
-from jumpcad.robot import Robot, carried
+from jumpcad.robot.electronics.leads import lead_lengths
+from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.stop.limits import free_release_j
 
 STORED_V = 3.8
 """Per lithium polymer cell at rest, for storage; practice."""

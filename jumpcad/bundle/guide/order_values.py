@@ -10,11 +10,11 @@ import numpy as np
 from jumpcad.building.bom import Bill
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
 from jumpcad.exporters.threemf import print_plates
-from jumpcad.layout.cage import SOCKET_MM, hoop_mm
-from jumpcad.layout.leg_bars import END_PLAY_MM
-from jumpcad.parts.fittings import SWITCH_SLOT_MM
-from jumpcad.parts.pads import printed_pads
-from jumpcad.robot import Robot
+from jumpcad.robot.cage.place import SOCKET_MM, hoop_mm
+from jumpcad.robot.electronics.fittings import SWITCH_SLOT_MM
+from jumpcad.robot.foot.pads import printed_pads
+from jumpcad.robot.leg.bars import END_PLAY_MM
+from jumpcad.robot.robot import Robot
 from jumpcad.strength.axles import SCREW_THREAD_MM
 
 ROD_M = (0.33, 0.5, 1.0)

@@ -12,11 +12,11 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.drive.stock_spring import springs_on_leg
-from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
-from jumpcad.robot import Robot
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Robot
 from jumpcad.scene.extent import extent_m
 
 EXTENTS = ("extent_x_m", "extent_y_m", "extent_z_m")

@@ -6,8 +6,8 @@ A layout ends with its first refusal. Studies keep the missing millimetres, whic
 from jumpcad.dimensions import GAP_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, limit
-from jumpcad.layout.layout import Layout
-from jumpcad.layout.sweep import legs_apart_mm
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.space.sweep import legs_apart_mm
 
 
 def layout_findings(error: CannotBuildError) -> tuple[Finding, ...]:

@@ -1,1 +1,0 @@
-"""Where everything goes: across the robot, and in the plane of motion."""

@@ -1,0 +1,207 @@
+"""The cage: rods bent and landed on, bars under their moment, clearances, and whether it rights the robot (mm, MPa)."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.findings import Basis, Finding, at_least, at_most
+from jumpcad.robot.cage.place import BAR_MM, HORN_MM, HORN_MORE_MM, HORN_SIZE_MM, Cage, ground, plate_ends_mm
+from jumpcad.robot.cage.strength import (
+    FALLS,
+    FOLD,
+    bar_mpa,
+    bent_strain,
+    landing_n,
+    landing_strain,
+    ring_n_per_mm,
+    two_horns,
+)
+from jumpcad.robot.layout import Layout, moving_obstacles
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.space.room import EVERYWHERE, clearance
+from jumpcad.scene.stable_poses import least_share_on_feet
+from jumpcad.strength.stress import CREEP_MPA
+
+LANDING_FACTOR = 1.25
+"""On the breaking strain at a landing; judgement: hoop and bar touch together, and the body takes what is left."""
+SAG_MM = 25.0
+"""Most that a hoop gives under half of the robot; judgement: half of the height at which strong robots crouch."""
+FREE_MM = 3.0
+"""Least distance of rods and bars from what moves, and from the ground under the loaded robot; judgement."""
+RIGHTED = 90.0
+"""Least percentage of stable poses on its feet, wherever the centre of mass is within its shifts. Judgement: robots
+above it rose from every drop in simulation."""
+SIDE, AHEAD = (0.28, 0.6), 0.85
+"""Shares of the falling energy on one end of the rear or the front bar sideways, and on the front bar from ahead: the
+worst of 200 own landings of `best-jumper`, MuJoCo. None of them fell on its back."""
+WITHIN_MM = 100.0
+"""Larger distances are not measured."""
+MODEL = "a hoop as a ring: Roark, ch. 9, case 1"
+BASIS = {
+    "cage_bend": Basis(
+        "d/(2·R) ≤ sustained_share·breaking_strain of cage.rod (%), d its diameter, R the radius of a hoop or bow",
+        "bending of a round rod; strains: templates/hardware/cage_rods.toml",
+    ),
+    "cage_landing": Basis(
+        f"d/2·(1/R + √(V/(2.25·E·I·R))) ≤ breaking_strain/{LANDING_FACTOR:g} (%), V = U/3 the falling energy that one "
+        "hoop takes, of U two thirds fall",
+        f"{MODEL}; shares: simulated; factor: judgement",
+    ),
+    "cage_sag": Basis(f"m·g/2·0.149·R³/(E·I) ≤ {SAG_MM:g} mm, m the robot's mass", f"{MODEL}; limit: judgement"),
+    "cage_bar": Basis(
+        f"6·E·I/(R·b·h²) ≤ {CREEP_MPA:g} MPa, E·I of the rod, b = {BAR_MM:g} mm, h = cage.bar_mm",
+        "a beam bent by two moments (Shigley 3-10); limit: judgement, creep",
+    ),
+    "cage_horn": Basis(
+        f"6·F·x/(2·t·h²) ≤ strength_in_plane_mpa/s of the body (MPa), F = √(2·V·k) the hoop's force, V as in "
+        f"`cage_landing`, k = E·I/(0.149·R³), x from the bar, t = body.plate_mm + {HORN_MORE_MM:g} mm, h = "
+        f"{HORN_MM[0]:g} mm at the bar to {HORN_MM[1]:g} mm at the plates",
+        f"cantilever: Roark, ch. 8; {MODEL}",
+    ),
+    "cage_side": Basis(
+        f"{SIDE[0]:g}·2·U/3 on an end of the rear bar, {SIDE[1]:g}·2·U/3 of the front one (J) ≤ {FOLD:g}·E·I/R of the "
+        "hoop, and F²·∫x²/(E·I)dx of two horns of the body that bend sideways: F = strength_in_plane_mpa·h·t²/(6·x), "
+        "the least; x, h, t as in `cage_horn`; the bar that is nearer to it",
+        "cantilevers: Roark, ch. 8; a hoop: elastica; shares: the worst of 200 simulated landings, judgement",
+    ),
+    "cage_ahead": Basis(
+        f"{AHEAD:g}·2·U/3 on the front bar (J) ≤ F²·∫x²/(E·I)dx of two horns of the body that bend upwards: F = "
+        "strength_in_plane_mpa·t·h²/(6·x), the least, or at which 2.05·π²·E·I/x² buckles them sideways; the floor lies "
+        "along the front hoop; x, h, t as in `cage_horn`",
+        "cantilevers: Roark, ch. 8; columns: Roark, table 15.1; share: the worst of 200 simulated landings, judgement",
+    ),
+    "cage_clear": Basis(
+        f"least distance of rods and bars from what moves, and of rods and horns from the ground, springs loaded ≥ "
+        f"{FREE_MM:g} mm",
+        "geometry; limits: judgement, rods bend",
+    ),
+    "cage_rights": Basis(
+        f"least share of stable poses on the feet ≥ {RIGHTED:g} %, springs loaded, the centre of mass as computed and "
+        "moved by 3 mm up, 4 mm along, 2 mm across",
+        "Goldberg et al., Part pose statistics (1999); limit: judgement",
+    ),
+}
+ELSEWHERE = "change cage.front_ahead_mm, cage.rear_behind_mm or the radii, or leave them 0"
+SOFTER = "another cage.rod, or a larger cage.rear_radius_mm or cage.front_radius_mm"
+CROUCH = "raise compression_ratio, so that it crouches lower, or take the sizes that jumpcad cage DESIGN finds"
+
+
+def cage_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield bending, landing, sag, bar, horn, sideways fall and clearance of a cage; nothing without one."""
+    cage = robot.layout.cage
+    if cage is None:
+        return
+    rod, radii = cage.rod, [arc.radius_mm for arc in cage.arcs]
+    least, most = min(radii), max(radii[:2])
+    strain, bears = 100.0 * bent_strain(rod, least), 100.0 * rod.sustained_share * rod.breaking_strain
+    yield at_most(
+        "cage_bend", strain, bears, "%",
+        f"{rod.name} bent round {least:.0f} mm: a strain of {strain:.2f} %, and it bears {bears:.2f} % for months",
+        SOFTER,
+    )  # fmt: skip
+    energy, bears = FALLS / 2.0 * robot.spring.energy_j, 100.0 * rod.breaking_strain / LANDING_FACTOR
+    strain = 100.0 * landing_strain(rod, min(radii[:2]), energy)
+    yield at_most(
+        "cage_landing", strain, bears, "%",
+        f"{energy:.2f} J on a hoop of {rod.name} at a landing: a strain of {strain:.2f} %; {bears:.2f} % are allowed",
+        SOFTER,
+    )  # fmt: skip
+    sag = robot.mass_kg * GRAVITY_M_S2 / 2.0 / ring_n_per_mm(rod, most)
+    yield at_most(
+        "cage_sag", sag, SAG_MM, "mm",
+        f"a hoop of {most:.0f} mm gives by {sag:.1f} mm under half of the robot; {SAG_MM:g} mm are allowed",
+        "a thicker cage.rod, or a smaller cage.rear_radius_mm or cage.front_radius_mm",
+    )  # fmt: skip
+    height = robot.workshop.cage.bar_mm
+    stress = bar_mpa(rod, least, BAR_MM, height)
+    yield at_most(
+        "cage_bar", stress, CREEP_MPA, "MPa",
+        f"cross bars {BAR_MM:g} x {height:g} mm under their rods: {stress:.1f} of {CREEP_MPA:g} MPa",
+        "raise cage.bar_mm, or a thinner cage.rod",
+    )  # fmt: skip
+    ends = plate_ends_mm(robot.layout)
+    lengths = np.array([abs(bar.place_mm[0] - end) for bar, end in zip(cage.bars, ends, strict=True)])
+    forces = np.array([landing_n(rod, radius, energy) for radius in radii[:2]])
+    body, low = robot.workshop.material("body"), robot.layout.lateral.left_plate
+    along = cage.bars[1].horn_end_mm - robot.layout.front_mm
+    share, thick = abs(float(along @ cage.bars[1].up)) / math.hypot(*along), low[1] - low[0] + HORN_MORE_MM
+    horns = [two_horns(body, float(length), HORN_MM, thick, share) for length in lengths]
+    stress = max(horn[0] * force for horn, force in zip(horns, forces, strict=True))
+    allowed = body.strength_in_plane_mpa / robot.workshop.safety.printed_factor
+    yield at_most(
+        "cage_horn", stress, allowed, "MPa",
+        f"horns of the body plates at a landing on a hoop: {stress:.1f} of {allowed:.1f} MPa",
+        "raise body.plate_mm, or lower cage.front_ahead_mm",
+    )  # fmt: skip
+    yield from _falls(cage, horns, 2.0 * energy)
+    free, above = _free_mm(robot.layout, cage), _above_mm(robot.layout, cage)
+    yield at_least(
+        "cage_clear", min(free, above), FREE_MM, "mm",
+        f"the cage stays {free:.1f} mm from what moves, and {above:.1f} mm above the ground, springs loaded; "
+        f"{FREE_MM:g} mm are needed",
+        ELSEWHERE,
+    )  # fmt: skip
+
+
+def _falls(cage: Cage, horns: list[tuple[float, float, float]], falling_j: float) -> Iterator[Finding]:
+    """Yield what ends of bars and their horns bear in a fall sideways, and from ahead: warnings."""
+    remedy = "let it land on grass, a mat or a carpet, or raise body.plate_mm"
+    folded = FOLD * cage.rod.bending_nmm2 / 1000.0
+    bears = [folded / arc.radius_mm + horn[1] for arc, horn in zip(cage.arcs, horns, strict=False)]
+    hits = [share * falling_j for share in SIDE]
+    hit, bear, bar = max(zip(hits, bears, cage.bars, strict=True), key=lambda one: one[0] / one[1])
+    yield at_most(
+        "cage_side", hit, bear, "J",
+        f"an end of {bar.name} may land sideways with {hit:.2f} J; its hoop and horns bear {bear:.2f} J",
+        remedy, "warning",
+    )  # fmt: skip
+    yield at_most(
+        "cage_ahead", AHEAD * falling_j, horns[1][2], "J",
+        f"cage_bar_front may land from ahead with {AHEAD * falling_j:.2f} J; its horns bear {horns[1][2]:.2f} J",
+        remedy, "warning",
+    )  # fmt: skip
+
+
+def righting_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `cage_rights`, a warning; nothing without a cage."""
+    if robot.layout.cage is None:
+        return
+    share = 100.0 * least_share_on_feet(robot)
+    yield at_least(
+        "cage_rights", share, RIGHTED, "%",
+        f"from {share:.1f} % of all attitudes it rolls onto its feet while it winds, the worst centre of mass assumed; "
+        f"{RIGHTED:g} % are needed", CROUCH, "warning",
+    )  # fmt: skip
+
+
+def _free_mm(layout: Layout, cage: Cage) -> float:
+    """Return the least distance of rods and bars from what moves; rods beside everything that moves are left out."""
+    moving = moving_obstacles(layout)
+    reach = max(layout.toe_half_width_mm, *layout.lateral.outside)
+    found = []
+    for arc in cage.arcs:
+        points = arc.points_mm[np.abs(arc.points_mm[:, 1]) < reach][:, [0, 2]]
+        if len(points):
+            found.append(
+                float(clearance(moving, points, (0.0, 0.0), 0.0, EVERYWHERE, WITHIN_MM).min())
+                - cage.rod.diameter_mm / 2.0
+            )
+    for bar in cage.bars:
+        lean = float(np.arctan2(bar.up[0], bar.up[1]))
+        half = (BAR_MM / 2.0, cage.socket_mm / 2.0)
+        found.append(float(clearance(moving, bar.place_mm[None], half, -lean, EVERYWHERE, WITHIN_MM)[0]))
+    return min(found)
+
+
+def _above_mm(layout: Layout, cage: Cage) -> float:
+    """Return the least height of the cage above the ground, springs loaded."""
+    up, origin = ground(layout)
+    rods = np.concatenate([arc.points_mm[:, [0, 2]] for arc in cage.arcs]) - cage.rod.diameter_mm / 2.0 * up
+    horns = [
+        bar.horn_end_mm - HORN_SIZE_MM[1] / 2.0 * bar.up + side * np.array([bar.up[1], -bar.up[0]])
+        for bar in cage.bars
+        for side in (-HORN_SIZE_MM[0] / 2.0, HORN_SIZE_MM[0] / 2.0)
+    ]
+    return float(((np.vstack([rods, horns]) - origin) @ up).min())

@@ -1,0 +1,146 @@
+"""Pads that are cut from strip, or printed, and glued on: under nose and toes, and on the rest stop (mm)."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jumpcad.catalogue import Pad
+from jumpcad.dimensions import STOP_PAD_MM, TOE_TIP_WIDTH_MM
+from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.parts.purchased import BoughtPart, bought
+from jumpcad.robot.foot import toes
+from jumpcad.robot.foot.drawing import nose_outline
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.sizing import beside_leg_mm
+from jumpcad.solids.outline import Region, grown, rectangle
+from jumpcad.workshop import Workshop
+
+if TYPE_CHECKING:
+    import trimesh
+
+NOSE_BEHIND_SHARE, NOSE_UP_SHARE = 0.9, 0.7
+"""How far the nose's pad reaches behind the front eye and, around the nose, up to below it, in depths of the foot;
+judgement: the robot leaves the ground and lands over the nose, which rolls on the ground."""
+TOE_BACK_MM, TOE_AHEAD_MM = 8.0, 1.5
+"""How far a toe's pad reaches from the tip's middle towards the root, and beyond; judgement."""
+
+
+@dataclass(frozen=True)
+class PrintedPad:
+    """A pad that is printed, as packing needs it: its material is named as its kind of pad."""
+
+    item: BoughtPart
+    pad: Pad
+
+    @property
+    def name(self) -> str:
+        """The pad's name, also that of its STL file."""
+        return self.item.name
+
+    @property
+    def material(self) -> str:
+        """Name of the kind of pad."""
+        return self.pad.name
+
+    @property
+    def quantity(self) -> int:
+        """How many are needed."""
+        return self.item.units
+
+    @cached_property
+    def mesh(self) -> "trimesh.Trimesh":
+        """Mesh in printing orientation: it lies on its side (mm)."""
+        from jumpcad.solids.finish import to_trimesh
+
+        return to_trimesh(self.item.solid)
+
+    @property
+    def look(self) -> "trimesh.Trimesh":
+        """The mesh without fine detail, for pictures (mm)."""
+        return self.item.look
+
+
+def pads(layout: Layout, foot_pad: Pad | None) -> Iterator[BoughtPart]:
+    """Yield the rest stop's pad and, where the feet are not bare, those under nose and toes."""
+    yield _stop_pad(layout)
+    if foot_pad is not None:
+        yield from _nose_pads(layout, foot_pad)
+        yield from _toe_pads(layout, foot_pad)
+
+
+def printed_pads(hardware: Iterable[BoughtPart], workshop: Workshop) -> list[PrintedPad]:
+    """Return the pads among bought parts that are printed."""
+    foot, stop = workshop.foot_pad, workshop.stop_pad
+    return [
+        PrintedPad(item, stop if item.name == "stop_pad" or foot is None else foot)
+        for item in hardware
+        if is_printed(item, foot, stop)
+    ]
+
+
+def is_printed(item: BoughtPart, foot_pad: Pad | None, stop_pad: Pad) -> bool:
+    """Tell whether a part is a pad that is printed, of the kinds under the feet and on the rest stop."""
+    if "_pad" not in item.name:
+        return False
+    return stop_pad.printed if item.name == "stop_pad" else foot_pad is not None and foot_pad.printed
+
+
+def _stop_pad(layout: Layout) -> BoughtPart:
+    """Return the stop's pad: as wide as the leg, in its seat."""
+    stop, width = layout.stop, layout.sections.thickness_mm
+    box = rectangle((STOP_PAD_MM, stop.pad.thickness_mm)).rotate(float(np.degrees(stop.turn_rad)))
+    middle = stop.face_mm + stop.pad.thickness_mm / 2.0 * stop.behind
+    slabs = [(-width / 2.0, width / 2.0, box)]
+    return _pad("stop_pad", stop.pad, BODY, slabs, (width, STOP_PAD_MM), (middle[0], 0.0, middle[1]))
+
+
+def _nose_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
+    """Yield the pads around both lugs of the nose, from the sole up the round front."""
+    sections = layout.sections
+    depth, lug = sections.foot_depth_mm, sections.lug_thickness_mm
+    nose, inner = nose_outline(depth), beside_leg_mm(sections.thickness_mm)
+    reach = 2.0 * depth + pad.thickness_mm
+    low, high, back = -depth - pad.thickness_mm, -NOSE_UP_SHARE * depth, -NOSE_BEHIND_SHARE * depth
+    around = rectangle((reach - back, high - low), ((reach + back) / 2.0, (high + low) / 2.0))
+    region = (grown(nose, pad.thickness_mm) - nose) ^ around
+    length = region.area() / pad.thickness_mm
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        y = sorted((sign * inner, sign * (inner + lug)))
+        at = (layout.design.l4_mm, 0.0, 0.0)
+        yield _pad(f"nose_pad_{side}", pad, FOOT, [(y[0], y[1], region)], (lug, length), at)
+
+
+def _toe_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
+    """Yield the pads under the toes' tips, or under the bars that make them wider."""
+    length, width = TOE_BACK_MM + TOE_AHEAD_MM, TOE_TIP_WIDTH_MM
+    bottom = -layout.sections.foot_depth_mm - pad.thickness_mm / 2.0
+    tip_x, tip_y = toe_tip_mm(layout.design)
+    for toe in toes.toes(layout):
+        name = f"{toe.name}_pad"
+        if layout.toe_bar_mm > 0.0:
+            y = sorted((toe.sign * float(tip_y), toe.sign * (layout.toe_half_width_mm + TOE_AHEAD_MM)))
+            slabs = [(y[0], y[1], rectangle((width, pad.thickness_mm)))]
+            yield _pad(name, pad, FOOT, slabs, (width, y[1] - y[0]), (float(tip_x), 0.0, bottom))
+            continue
+        slabs = [(-width / 2.0, width / 2.0, rectangle((length, pad.thickness_mm)))]
+        x = toe.length_mm + (TOE_AHEAD_MM - TOE_BACK_MM) / 2.0
+        yield _pad(name, pad, FOOT, slabs, (width, length), (x, 0.0, bottom)).moved(toe.pose_mm)
+
+
+def _pad(
+    name: str,
+    pad: Pad,
+    body: str,
+    slabs: list[tuple[float, float, Region]],
+    size_mm: tuple[float, float],
+    at_mm: tuple[float, float, float],
+) -> BoughtPart:
+    """Return a pad with the size to cut, its mass from its volume."""
+    volume = sum((y1 - y0) * region.area() for y0, y1, region in slabs)
+    size = f"{size_mm[0]:.1f} x {size_mm[1]:.1f}"
+    article = name if pad.printed else f"{pad.description}, cut {size} mm"
+    return bought(name, article, body, pad.density_g_cm3 * volume / 1000.0, slabs, at_mm)

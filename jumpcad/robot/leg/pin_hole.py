@@ -1,0 +1,89 @@
+"""The way of the leg's springs' pin: a hole in the left plate opposite its seat, and the free room behind it (mm).
+
+The pin goes in last, when both plates hold the pin that the springs' other arms lie on. The hole is as long as the
+leg's pin moves from its rest pose to the stop, so that it is free in both.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.dimensions import CLEAR_MM, PIN_HOLE_EDGE_MM
+from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.robot.space.lateral import Interval, Lateral
+from jumpcad.robot.space.room import Obstacle, clearance, disc, shortfall
+from jumpcad.robot.stop.place import StopPlace, stop_obstacles, stop_tab_obstacle
+from jumpcad.transforms import Array, direction
+
+
+@dataclass(frozen=True)
+class PinHole:
+    """Where the left plate has its hole: the pin's places (2,) in the rest pose and with the leg at its stop.
+
+    `diameter_mm` is the width of the hole, which the pin's head or clip passes.
+    """
+
+    rest_mm: Array
+    stop_mm: Array
+    diameter_mm: float
+
+    @property
+    def places_mm(self) -> Array:
+        """Both ends (2, 2)."""
+        return np.stack([self.rest_mm, self.stop_mm])
+
+    @property
+    def pad_mm(self) -> float:
+        """Width of the plate's material around it."""
+        return self.diameter_mm + 2.0 * PIN_HOLE_EDGE_MM
+
+    def obstacle(self, y_mm: Interval) -> Obstacle:
+        """Return hole and way as an obstacle for what is placed after them."""
+        return Obstacle("way of the leg's pin", self.places_mm, self.pad_mm / 2.0, y_mm)
+
+
+def pin_hole(
+    linkage: Linkage, around_leg: list[Obstacle], stop: StopPlace, lateral: Lateral, radius_mm: float,
+    diameter_mm: float, axle_mm: float,
+) -> PinHole:  # fmt: skip
+    """Return the hole for the pin at a radius from the hub.
+
+    Parameters
+    ----------
+    around_leg
+        What stands beside the leg or sweeps past it, with a gap. Lever and front link move with the leg, beside its
+        pin, and are left out.
+    diameter_mm, axle_mm
+        Of the hole, and of the axles whose bores the plate has.
+
+    Raises
+    ------
+    CannotBuildError
+        If something is in the pin's way, or too close to the hole.
+    """
+    hub, plate = linkage.back_pivot_mm, lateral.left_plate
+    rest, at_stop = (
+        np.round(hub + radius_mm * direction(angle), 6) for angle in (linkage.rest_rad, stop.direction_rad)
+    )
+    found = PinHole(rest, at_stop, diameter_mm)
+    bores = [
+        disc(f"bore of the {name} axle", place, axle_mm / 2.0 + CLEAR_MM, plate)
+        for name, place in (("leg", hub), ("front", linkage.front_pivot_mm))
+    ]
+    others = [one for one in around_leg if one.name not in ("lever", "front link")]
+    others += [*bores, *stop_obstacles(stop, lateral.inside), stop_tab_obstacle(stop, plate)]
+    for y, reach in (((lateral.leg[1], plate[0]), diameter_mm / 2.0), (plate, found.pad_mm / 2.0)):
+
+        def room_mm(things: list[Obstacle], y: Interval = y, reach: float = reach) -> float:
+            return float(clearance(things, found.places_mm, (0.0, 0.0), 0.0, y, reach).min()) - reach
+
+        if (room := room_mm(others)) < 0.0:
+            blocker = min(others, key=lambda one: room_mm([one]))
+            raise CannotBuildError(
+                f"no way for the leg's springs' pin through the left plate: {shortfall(room)} too little beside the "
+                f"{blocker.name}: raise d_coef, or take a smaller spring (lower stiffness_nmm_per_deg, or another "
+                "bought.spring)",
+                "pin_way", room,
+            )  # fmt: skip
+    return found

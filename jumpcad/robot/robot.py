@@ -1,0 +1,115 @@
+"""`Robot`: a mechanism with the printed and bought parts that it is made of, its layout, and the workshop."""
+
+import os
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property, wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn, Self, TypeVar
+
+from jumpcad.drive.release import Release
+from jumpcad.electronics.chosen import Chosen, chosen_parts
+from jumpcad.electronics.nets import Wiring, wiring_of
+from jumpcad.electronics.supply import Supply, supply_of
+from jumpcad.errors import JumpcadError
+from jumpcad.files.complaints import shown
+from jumpcad.files.outputs import DEVICE
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.parts.part import Part
+from jumpcad.parts.purchased import BoughtPart
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.stop.strength import StopBlow
+from jumpcad.strength.growth import Grown
+from jumpcad.workshop import Workshop
+
+T = TypeVar("T")
+NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
+LONGEST_NAME = 200
+"""Longest name in bytes: file systems allow 255, with what file names add before and after it."""
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Robot(Mechanism):
+    """One printed robot; its bodies have the mass and inertia of its parts.
+
+    `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with;
+    `release` is the release of its springs by the cam, `stop_blow` the impact of its leg on the rest stop; `grown` says
+    what is stronger than its first sizing. Two robots
+    are equal where name, design, workshop and mechanism are, with the masses and inertias of all bodies.
+    """
+
+    parts: tuple[Part, ...] = field(compare=False)
+    hardware: tuple[BoughtPart, ...] = field(compare=False)
+    workshop: Workshop
+    layout: Layout = field(compare=False)
+    release: Release = field(compare=False)
+    stop_blow: StopBlow
+    grown: tuple[Grown, ...] = field(default=(), compare=False)
+
+    @cached_property
+    def electrical_parts(self) -> Chosen:
+        """Battery, boards and small electrical parts of its workshop."""
+        return chosen_parts(self.workshop)
+
+    @cached_property
+    def supply(self) -> Supply:
+        """Voltages and currents of its battery and boards."""
+        return supply_of(self.electrical_parts)
+
+    @cached_property
+    def wiring(self) -> Wiring:
+        """The net list of its electrical parts."""
+        return wiring_of(self.electrical_parts, self.workshop.bought.pins)
+
+    def __copy__(self) -> Self:
+        """Return the robot itself: it does not change."""
+        return self
+
+    def __deepcopy__(self, memo: object) -> Self:
+        """Return the robot itself: it does not change."""
+        return self
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse to be pickled: regions and solids live in a library that writes them with other last digits."""
+        raise JumpcadError(
+            "a Robot cannot be pickled or sent to another process: send its design and workshop and build it there; "
+            "evaluate(...).to_dict() is plain data"
+        )
+
+    if TYPE_CHECKING:
+
+        def show(self) -> Path | None:
+            """Show the robot's page; `jumpcad.notebook` gives this method to the class."""
+
+
+def carried(decide: Callable[[Robot], T]) -> Callable[[Robot], T]:
+    """Let what a function decides about a robot be decided once: the robot, which does not change, carries it."""
+
+    @wraps(decide)
+    def known(robot: Robot) -> T:
+        decided: dict[object, T] = vars(robot).setdefault("_carried", {})
+        if decide not in decided:
+            decided[decide] = decide(robot)
+        return decided[decide]
+
+    return known
+
+
+def require_name(name: str) -> None:
+    """Reject a robot's name that cannot be part of file names.
+
+    Raises
+    ------
+    JumpcadError
+        Saying what it may hold.
+    """
+    if not NAME.fullmatch(name):
+        wrong = next((f", not U+{ord(letter):04X}" for letter in name if not re.match(r"[\w .+-]", letter)), "")
+        raise JumpcadError(
+            f"{shown(name)} is used in file names: use letters, digits, spaces, '.', '-', '+' and '_'{wrong}"
+        )
+    if device := DEVICE.match(name):
+        raise JumpcadError(f"{shown(name)} is used in file names: {device[1]} is a device on Windows; use another name")
+    if len(os.fsencode(name)) > LONGEST_NAME:
+        raise JumpcadError(f"{shown(name)} is used in file names: use at most {LONGEST_NAME} bytes")

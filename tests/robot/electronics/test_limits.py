@@ -1,0 +1,213 @@
+"""Kits that fit, and what is said of those that do not: every finding with which range misses which."""
+
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+
+import pytest
+from support.built import built
+from support.each import each
+from support.said import well_told
+
+from jumpcad.building import build
+from jumpcad.design import load_design
+from jumpcad.electronics.chain import Link
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding
+from jumpcad.robot.electronics.limits import _voltage, electronics_findings, links
+from jumpcad.workshop import Workshop, load_workshop
+
+KITS = ("light-1s", "strong-2s")
+Write = Callable[[str], Workshop]
+
+
+@pytest.fixture
+def workshop(tmp_path: Path) -> Write:
+    """Return a function that reads a workshop from text."""
+
+    def write(text: str) -> Workshop:
+        path = tmp_path / "my.toml"
+        path.write_text(text, encoding="utf-8")
+        return load_workshop(path)
+
+    return write
+
+
+@lru_cache
+def found(shop_toml: str) -> dict[str, Finding]:
+    """Return the findings of Kenan 2.0 in a workshop, by name."""
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "my.toml"
+        path.write_text(shop_toml, encoding="utf-8")
+        robot = build(load_design("kenan-2.0"), load_workshop(path))
+    return {finding.name: finding for finding in electronics_findings(robot)}
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_both_kits_meet_every_limit(kit: str) -> None:
+    findings = found(f'[bought]\nkit = "{kit}"')
+    assert not [f"{f.name}: {f.message}" for f in findings.values() if f.severity != "info"]
+    assert [name for name, finding in findings.items() if not well_told(finding)] == []
+    assert {"supply_voltage_controller", "supply_voltage_driver", "supply_voltage_motor"} <= findings.keys()
+    assert ("supply_voltage_regulator" in findings) == (kit == "strong-2s")
+
+
+def test_two_cells_on_a_board_for_one_are_refused_with_both_ranges() -> None:
+    finding = found('[bought]\nbattery = "lipo-2s-180"')["supply_voltage_controller"]
+    assert finding.severity == "error"
+    assert (finding.value, finding.limit) == (8.4, 4.2)
+    assert finding.margin == pytest.approx(-4.2)
+    assert "to 8.40 V and bears 3.20 to 4.20 V" in finding.message
+    assert "bought.kit" in finding.remedy
+    assert "\n" not in finding.message + finding.remedy
+
+
+def test_one_cell_is_too_little_for_a_driver_that_needs_more() -> None:
+    """As the TB6612 or the A3144 do: 4.5 V at least, the empty cell has 3.3 V less what its resistance takes."""
+    text = '[bought]\ndriver = "mine"\n[boards.mine]\nlike = "drv8833"\nsource = "x"\nsupply_v = { VM = [4.5, 13.5] }'
+    finding = found(text)["supply_voltage_driver"]
+    assert finding.severity == "error"
+    assert finding.limit == 4.5
+    assert finding.value == pytest.approx(3.3, abs=0.1)
+    assert finding.value < 3.3
+
+
+def test_a_board_of_unknown_range_is_named() -> None:
+    text = '[bought]\ndriver = "mine"\n[boards.mine]\nlike = "drv8833"\nsource = "x"\nsupply_v = {}'
+    assert found(text)["supply_voltage_driver"].severity == "warning"
+
+
+def test_a_switch_that_burns_under_a_blocked_motor_is_an_error() -> None:
+    """The common slide switch bears 0.3 A; the MP motor draws 0.44 A when blocked on a full cell."""
+    finding = found("[bought]")["motor_current_switch"]
+    assert finding.value == pytest.approx(4.2 / (6.0 / 0.67 + 0.15 + 0.36))
+    text = '[bought]\nbattery = "weak"\n[batteries.weak]\nlike = "lipo-1s-300"\nsource = "x"\ndischarge_a = 0.3'
+    assert found(text)["motor_current_battery"].severity == "error"
+
+
+def test_a_battery_whose_current_nobody_states_is_named() -> None:
+    """Unknown is neither met nor violated."""
+    cell = 'description = "a cell"\nlength_mm = 35\nwidth_mm = 20\nheight_mm = 6\nmass_g = 8\nvoltage_v = 3.7\n'
+    text = f'[bought]\nbattery = "mine"\n[batteries.mine]\n{cell}capacity_mah = 300\nsource = "x"'
+    finding = found(text)["motor_current_battery"]
+    assert finding.severity == "warning"
+    assert "0.44 A" in finding.message
+    assert "not known" in finding.message
+
+
+def test_charging_is_measured_against_the_battery() -> None:
+    """The controller's charger gives 370 mA; a battery that is not said to bear more gets 1 C at most."""
+    assert found("[bought]")["charging_current"].severity == "info"
+    small = like("battery", "lipo-1s-300", "capacity_mah = 150.0\ncharge_ma = 150.0")
+    finding = found(small)["charging_current"]
+    assert (finding.severity, finding.value, finding.limit) == ("error", 370.0, 150.0)
+    assert "charges own with 370 mA; 150 mA are allowed" in finding.message
+    assert "bought.battery" in finding.remedy
+    text = small.replace("150.0\ncharge_ma = 150.0", "500.0\ncharge_ma = 500.0")
+    assert found(text)["charging_current"].severity == "info"
+    assert "charging_current" not in found('[bought]\nkit = "strong-2s"')
+
+
+def test_a_battery_without_a_rating_is_charged_with_1_c() -> None:
+    text = """[bought]
+battery = "plain"
+[batteries.plain]
+description = "cell"
+source = "x"
+length_mm = 35.0
+width_mm = 20.0
+height_mm = 6.0
+mass_g = 8.0
+voltage_v = 3.7
+capacity_mah = 350.0
+"""
+    finding = found(text)["charging_current"]
+    assert (finding.severity, finding.limit) == ("error", 350.0)
+    assert "1 C" in finding.message
+
+
+def test_a_pin_that_the_board_lacks_is_refused_in_one_line(workshop: Write) -> None:
+    from jumpcad.bundle.firmware import numbers
+
+    robot = build(load_design("kenan-2.0"), workshop('[bought.pins]\nmotor = "D77"'))
+    with pytest.raises(CannotBuildError, match=r"^xiao-esp32c3 has no GPIO at D77: name another pin in"):
+        numbers(robot)
+
+
+def like(kind: str, of: str, figures: str) -> str:
+    """Return a workshop whose battery or driver is a shipped one with other figures."""
+    table = {"battery": "batteries", "driver": "boards"}[kind]
+    return f'[bought]\n{kind} = "own"\n[{table}.own]\nlike = "{of}"\nsource = "x"\n{figures}'
+
+
+HIGH = like("battery", "lipo-1s-300", "voltage_v = 120.0\nempty_v = 110.0\nfull_v = 135.0\ncapacity_mah = 10.0")
+"""A battery whose voltage nothing here bears."""
+BLOCKED = '[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298-mp"\nsource = "x"\nstall_current_a = 6.0'
+"""A motor of 1 ohm, which draws 2.8 A when blocked."""
+
+
+@each(
+    ("name", "text"),
+    [
+        ("supply_voltage_controller", HIGH),
+        ("supply_voltage_driver", HIGH),
+        ("supply_voltage_switch", HIGH),
+        ("supply_voltage_plug", HIGH),
+        ("supply_voltage_capacitor", HIGH),
+        ("supply_voltage_regulator", HIGH.replace("[bought]", '[bought]\nkit = "strong-2s"')),
+        ("supply_voltage_motor", BLOCKED.replace("stall_current_a = 6.0", "bears_v = [3.4, 6.0]")),
+        ("motor_current_driver", BLOCKED),
+        ("motor_current_battery", BLOCKED),
+        ("motor_current_switch", BLOCKED),
+        ("motor_current_plug", BLOCKED),
+        ("motor_current_wire", BLOCKED),
+    ],
+)
+def test_every_link_is_refused_beyond_what_it_bears(name: str, text: str) -> None:
+    finding = found(text)[name]
+    assert finding.severity == "error"
+    assert finding.margin < 0.0
+    assert finding.remedy
+
+
+def test_a_board_of_unknown_inputs_is_a_warning_at_its_limit() -> None:
+    """What it bears is not known: neither room nor excess is claimed."""
+    (found,) = [_voltage(Link("controller", "my board", "", (3.0, 4.2), None, "x"))]
+    assert (found.severity, found.margin) == ("warning", 0.0)
+    assert "gets 3.00 to 4.20 V; what it bears is not known" in found.message
+    known = _voltage(Link("driver", "d", "VM", (3.0, 4.2), (2.7, 4.0), "x"))
+    assert (known.severity, known.value, known.limit) == ("error", 4.2, 4.0)
+    assert known.margin == pytest.approx(-0.2)
+    low = _voltage(Link("driver", "d", "VM", (3.0, 3.0), (3.4, 4.0), "x"))
+    assert (low.value, low.limit) == (3.0, 3.4)
+    assert low.margin == pytest.approx(-0.4)
+    assert "d at VM gets 3.00 V and bears 3.40 to 4.00 V" in low.message
+
+
+@pytest.mark.parametrize(
+    ("bears_v", "margin", "severity"),
+    [
+        ((3.3, 4.2), 0.0, "info"), ((3.3 + 1e-12, 4.2), 0.0, "info"), ((3.3, 4.2 - 1e-12), 0.0, "info"),
+        ((3.3, 4.1), -0.1, "error"), ((3.5, 5.0), -0.2, "error"), ((3.0, 4.7), 0.3, "info"), ((3.1, 4.7), 0.2, "info"),
+    ],
+)  # fmt: skip
+def test_a_board_that_gets_just_what_it_bears_has_nothing_left_and_is_no_error(
+    bears_v: tuple[float, float], margin: float, severity: str
+) -> None:
+    """But for the last digits of its volts; else what is left at the end that is nearer."""
+    finding = _voltage(Link("driver", "a driver", "VM", (3.3, 4.2), bears_v, "another"))
+    assert (finding.margin, finding.severity) == (pytest.approx(margin, abs=1e-9), severity)
+    assert finding.margin == 0.0 or abs(finding.margin) > 0.01
+
+
+def test_an_empty_battery_has_less_where_the_motor_draws_most() -> None:
+    """Its resistance times the largest current of winding, not the mean one; a full one may stand still."""
+    robot = built("kenan-2.0")
+    battery, train = chosen_parts(robot.workshop).battery, robot.layout.drive.train
+    assert train.peak_current_a > train.mean_current_a
+    empty, full = battery.range_v
+    (driver,) = (link for link in links(robot) if link.role == "driver")
+    assert driver.gets_v == pytest.approx((empty - train.peak_current_a * battery.ohm, full))
