@@ -28,7 +28,6 @@ from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
 from jumpcad.gc_tuning import collect_seldom
-from jumpcad.parts import shopping
 from jumpcad.workshop import load_workshop
 
 BEST = ("best-printable", "best-bo")
@@ -44,7 +43,6 @@ STAGES: dict[str, tuple[ModuleType, str]] = {
     "drawings": (assembly, "drawings"),
     "printed masses": (weighing, "mass_properties"),
     "checks": (building, "constraint_findings"),
-    "bought parts": (shopping, "bought_parts"),
     "simulation": (evaluation, "simulate"),
 }
 """Stages of `evaluate`: module, and name of the function in it."""

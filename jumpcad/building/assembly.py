@@ -9,33 +9,25 @@ from jumpcad.building.bodies import bodies_of, friction_of, outlines_m
 from jumpcad.building.releasing import release_of
 from jumpcad.building.weighing import require_parts, weighed_part
 from jumpcad.design import Design
-from jumpcad.dimensions import GAP_MM
 from jumpcad.drive import Drive
 from jumpcad.drive.stock_spring import of_stock, springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import five_bar
-from jumpcad.parts import shopping, small
 from jumpcad.parts.part import Drawing, Part
-from jumpcad.robot.axles import axles
-from jumpcad.robot.cage import drawing as cage
-from jumpcad.robot.cage.place import with_cage
-from jumpcad.robot.electronics import trays
+from jumpcad.robot.axles.axles import require_retention
+from jumpcad.robot.axles.spacers import require_axle
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.place import Electronics
-from jumpcad.robot.foot import drawing as foot
-from jumpcad.robot.foot import toes
-from jumpcad.robot.foot.pads import pads
+from jumpcad.robot.foot.drawing import in_one_piece
 from jumpcad.robot.layout import Layout, make_layout
-from jumpcad.robot.leg import drawing as links
-from jumpcad.robot.plates import drawing as body_plate
+from jumpcad.robot.leg.drawing import main_leg
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.sensor import drawing as sensor
-from jumpcad.robot.sensor.place import GEAR_PLAY_MM, SensorNeeds
-from jumpcad.robot.stop import drawing as stop
+from jumpcad.robot.sensor.place import SensorNeeds
+from jumpcad.robot.springs.place import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.robot.stop.strength import StopBlow, stop_blow
-from jumpcad.robot.train import drawing as train
-from jumpcad.robot.train.place import PLATE_PINS_RAD, NoPinRoomError
+from jumpcad.robot.things import THINGS
 from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth, grown_mm
 from jumpcad.workshop import Workshop
@@ -50,22 +42,17 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
     `before` is the robot of the same design, workshop and name with other factors: where only its lever differs, as in
     most robots that grow, all but the main leg is taken from it; else the masses of parts of one shape.
     """
-    layout = layout_of(design, workshop, growth)
+    layout = layout_of(design, workshop, growth, name)
     kept: tuple[Part, ...] = ()
     if before is not None and _same_but_for_lever(layout, before.layout):
-        drawn, hardware = links.main_leg(layout, workshop), before.hardware
+        drawn, hardware = main_leg(layout, workshop), before.hardware
         kept = before.parts[len(drawn) :]
     else:
-        drawn = drawings(layout, workshop, name)
-        hardware = (
-            *shopping.bought_parts(layout, workshop),
-            *pads(layout, workshop.foot_pad),
-            *links.bars(layout, workshop),
-            *cage.cage_hardware(layout),
-        )
+        drawn = drawings(layout, workshop)
+        hardware = tuple(item for thing in THINGS.values() for item in thing.bought(layout, workshop))
         require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
-        drawing.require_bed(workshop.printer.bed_mm, layout.cage is not None)
+        drawing.require_bed(workshop.printer.bed_mm, layout.of(Cage) is not None)
     known = {part.name: part for part in before.parts} if before is not None else {}
     parts = (*(_weighed(drawing, workshop, known.get(drawing.name)) for drawing in drawn), *kept)
     bodies = bodies_of(layout, parts, hardware)
@@ -109,24 +96,28 @@ def _weighed(drawing: Drawing, workshop: Workshop, known: Part | None) -> Part:
     return weighed_part(drawing, workshop)
 
 
-def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> Layout:
-    """Return the layout of a design in a workshop.
+def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth(), name: str = "") -> Layout:
+    """Return the layout of a design in a workshop, of things beside the machine too; the name is its label.
 
     If there is no room for the springs' pin, springs for a free direction of the pin are found instead.
     """
     try:
-        return _with_pin_room(design, workshop, growth)
+        layout = replace(_with_pin_room(design, workshop, growth), label=name)
     except CannotBuildError as refusal:
         if workshop.bought.spring:
             refusal.args = (of_stock(str(refusal)),)
         raise
+    for thing in THINGS.values():
+        if (place := thing.place(layout, workshop)) is not None:
+            layout = replace(layout, things=(*layout.things, place))
+    return layout
 
 
 def _with_pin_room(design: Design, workshop: Workshop, growth: Growth) -> Layout:
     """Return the layout with springs whose pin has room."""
     if workshop.bought.retention == "nuts":  # of all axles one is right: a thinner one is no way out
-        axles.require_retention(workshop.catalogue, workshop.bought)
-    small.require_axle(workshop)
+        require_retention(workshop.catalogue, workshop.bought)
+    require_axle(workshop)
     directions = PLATE_PINS_RAD
     for _ in range(PIN_ROUNDS):
         try:
@@ -141,7 +132,7 @@ def _with_pin_room(design: Design, workshop: Workshop, growth: Growth) -> Layout
 def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad: tuple[float, ...]) -> Layout:
     """Return the layout with springs for one of the directions of the plates' pin."""
     settled = solve_bearing_and_drive(design, workshop, growth, plate_pins_rad)
-    axles.require_retention(workshop.catalogue, workshop.bought)
+    require_retention(workshop.catalogue, workshop.bought)
     carried = chosen_parts(workshop)
     parts = carried.components
     electronics = Electronics(
@@ -156,7 +147,7 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
         side if (side := workshop.seats.battery) in ("left", "right") else None,
         "left" if workshop.seats.boards == "left" else "right",
     )
-    layout = make_layout(
+    return make_layout(
         settled.linkage,
         settled.sections,
         settled.drive,
@@ -164,15 +155,12 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
         workshop,
         hub_bearing=settled.holes.bearing,
         roller=settled.roller,
-        toes_apart=not foot.in_one_piece(
-            design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm
-        ),
+        toes_apart=not in_one_piece(design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm),
         plate_mm=grown_mm(workshop.body.plate_mm, growth.plate),
         leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, workshop.bought)),
         sensor=_sensor_needs(workshop, carried, settled.drive),
         switch=parts.get("switch"),
     )
-    return with_cage(layout, workshop)
 
 
 def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNeeds | None:
@@ -201,38 +189,6 @@ def _held(layout: Layout, blow: Blow) -> StopBlow:
     )
 
 
-def drawings(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
+def drawings(layout: Layout, workshop: Workshop) -> list[Drawing]:
     """Return every printed part of a layout, those of the main leg first."""
-    lateral = layout.lateral
-    half = layout.sections.thickness_mm / 2.0
-    low, high = lateral.inside
-    front_left = (layout.front_mm, half + GAP_MM / 2.0, high - GAP_MM / 2.0)
-    front_right = (layout.front_mm, low + GAP_MM / 2.0, -half - GAP_MM / 2.0)
-    cam_right = (layout.cam_axis_mm, low, lateral.cam[0] - GAP_MM / 2.0)
-    made = [
-        *links.main_leg(layout, workshop),
-        links.front_link(layout, workshop),
-        foot.foot(layout, workshop),
-        *toes.toes_apart(layout, workshop),
-        *body_plate.plates(layout, workshop, name),
-        train.cam(layout, workshop),
-        *train.gears(layout, workshop),
-        small.motor_cap(layout, workshop),
-        small.spring_bushing(layout, workshop, "left"),
-        small.spring_bushing(layout, workshop, "right"),
-        small.spacer(layout, workshop, "front_spacer_left", [front_left]),
-        small.spacer(layout, workshop, "front_spacer_right", [front_right]),
-        small.spacer(layout, workshop, "cam_spacer_right", [cam_right]),
-        *trays.trays(layout, workshop),
-        stop.stop_bar(layout, workshop),
-        *sensor.sensor_mount(layout, workshop),
-        *cage.cage_bars(layout, workshop),
-    ]
-    if layout.idler_mm is not None:
-        cam_left = (layout.cam_axis_mm, lateral.gears[0][1] + GEAR_PLAY_MM, high)
-        idler_right = (layout.idler_mm, low + GAP_MM / 2.0, lateral.gears[0][0] - GAP_MM / 2.0)
-        made += [
-            small.spacer(layout, workshop, "cam_spacer_left", [cam_left]),
-            small.spacer(layout, workshop, "idler_spacer_right", [idler_right]),
-        ]
-    return made
+    return [drawing for thing in THINGS.values() for drawing in thing.draw(layout, workshop)]

@@ -22,8 +22,8 @@ from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
 from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.sizing import RESERVE, TYPICAL_BODY, Sections, sections
+from jumpcad.robot.springs.place import PLATE_PINS_RAD
 from jumpcad.robot.stop.place import GIVE_ROOM_RAD
-from jumpcad.robot.train.place import PLATE_PINS_RAD
 from jumpcad.strength.bearings import (
     allowed_n,
     bearing_load_n,

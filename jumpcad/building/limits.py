@@ -11,8 +11,8 @@ from jumpcad.electronics.supply import supply_of
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.sensor.place import track_mm
 from jumpcad.robot.sizing import Sections
+from jumpcad.robot.springs.place import PLATE_PINS_RAD
 from jumpcad.robot.stop.place import GIVE_ROOM_RAD
-from jumpcad.robot.train.place import PLATE_PINS_RAD
 from jumpcad.strength.fatigue import spring_share
 from jumpcad.workshop import Workshop
 

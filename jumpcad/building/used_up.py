@@ -1,5 +1,6 @@
 """What a builder uses up, and spares: rows of the bill without mass or price, since none of it stays on the robot."""
 
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
 
@@ -20,7 +21,7 @@ def used_up(robot: Robot) -> tuple[str, ...]:
         found.append("second battery and socket like the robot's, leads insulated")
     if printed_pads(robot.hardware, robot.workshop):
         found.append("super glue (CA) that stays flexible")
-    if layout.cage is not None or layout.leg_bar is not None:
+    if layout.of(Cage) is not None or layout.leg_bar is not None:
         found += DUST
     if layout.leg_bar is not None:
         found += ["epoxy, two components, movable for 20 min or longer, 5 g", "baking paper"]

@@ -3,13 +3,14 @@
 import math
 from typing import Any
 
-from jumpcad.checks.sideways import play_rad, rolls
 from jumpcad.drive.release import Release
 from jumpcad.drive.rolling import ReleaseParts
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.limits import jumps_per_charge, links
+from jumpcad.robot.foot.sideways import play_rad, rolls
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.hulls import CAGE
 from jumpcad.simulation import Jump
@@ -163,7 +164,7 @@ def cage_facts(robot: Robot) -> dict[str, Any] | None:
 
     The horns belong to the body plates, and their mass to that of these.
     """
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     if cage is None:
         return None
     pieces: list[Part | BoughtPart] = [*robot.parts, *robot.hardware]

@@ -5,6 +5,7 @@ import math
 from jumpcad.catalogue import Battery
 from jumpcad.electronics.nets import gpio
 from jumpcad.landing.series import LANDING_S, REST_S
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.robot import Robot, carried
 from jumpcad.robot.sensor.limits import RUN_ON_S
 from jumpcad.robot.sensor.place import SensorPlace
@@ -73,7 +74,7 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "LANDING_MS": LANDING_MS,
         "REST_MS": REST_MS,
         "BUTTON_DELAY_MS": BUTTON_DELAY_MS,
-        "RIGHTS_ITSELF": robot.layout.cage is not None,
+        "RIGHTS_ITSELF": robot.layout.of(Cage) is not None,
         "RAMP_MS": RAMP_MS,
         "WATCHDOG_MS": WATCHDOG_MS,
     }

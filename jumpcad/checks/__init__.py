@@ -1,31 +1,23 @@
 """Checks of a finished robot: each is a function that returns findings, with signed margins and remedies.
 
-A new check is a function in a file of its own, a table `BASIS` beside it with formula and source of its findings, and a
-line in `CHECKS`. Its finding may name what grows where it fails (`Finding.grows`); `build` then makes that section
-stronger, if the check is cheap.
+A new check is a function in its thing's folder, a table `BASIS` beside it with formula and source of its findings, and
+a `Check` in the thing's line of `jumpcad.robot.things`; what looks at several things stands here, with a line in
+`CHECKS`. Its finding may name what grows where it fails (`Finding.grows`); `build` then makes that section stronger, if
+the check is cheap.
 """
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import replace
 from fnmatch import fnmatchcase
-from typing import Any
 
-from jumpcad.checks import assembly, interference, printability, sideways, strength
+from jumpcad.checks import assembly, foot_clearance, interference, printability, righting
 from jumpcad.drive.stock_spring import of_stock
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.robot.cage import limits as cage
-from jumpcad.robot.electronics import holding
-from jumpcad.robot.electronics import lead_limits as leads
-from jumpcad.robot.electronics import limits as electronics
-from jumpcad.robot.foot import limits as ground
-from jumpcad.robot.plates import limits as engraving
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.sensor import limits as sensor
-from jumpcad.robot.stop import limits as stop
-from jumpcad.robot.train import blocked
-from jumpcad.robot.train import limits as drive
+from jumpcad.robot.thing import Check
+from jumpcad.robot.things import THINGS
 
 __all__ = [
     "CHECKS",
@@ -48,41 +40,15 @@ SYMBOLS = (
 """What letters mean in the formulas of `basis`."""
 
 
-@dataclass(frozen=True)
-class Check:
-    """An entry of the registry.
-
-    `find` takes what the check `needs` (a Mechanism, or a Robot with its parts) and returns findings, whose names are
-    in `basis`. A `cheap` check looks at no mesh and at no motion, takes about a millisecond, and runs for every design
-    of a search.
-    """
-
-    find: Callable[[Any], Iterable[Finding]]
-    basis: Mapping[str, Basis]
-    needs: type[Mechanism] = Robot
-    cheap: bool = False
-
-
 CHECKS = (
-    Check(feasibility.feasibility_findings, feasibility.BASIS, needs=Mechanism, cheap=True),
-    Check(strength.strength_findings, strength.BASIS, cheap=True),
-    Check(stop.stop_findings, stop.BASIS, cheap=True),
-    Check(drive.drive_findings, drive.BASIS, cheap=True),
-    Check(blocked.blocked_findings, blocked.BASIS, cheap=True),
-    Check(electronics.electronics_findings, electronics.BASIS, cheap=True),
-    Check(sensor.sensor_findings, sensor.BASIS, cheap=True),
-    Check(holding.holding_findings, holding.BASIS, cheap=True),
-    Check(leads.lead_findings, leads.BASIS),
-    Check(ground.ground_findings, ground.BASIS, cheap=True),
-    Check(sideways.sideways_findings, sideways.BASIS, cheap=True),
-    Check(printability.bed_findings, printability.BASIS, cheap=True),
-    Check(cage.cage_findings, cage.BASIS, cheap=True),
-    Check(ground.foot_findings, ground.BASIS),
-    Check(printability.printability_findings, printability.BASIS),
-    Check(interference.interference_findings, interference.BASIS),
-    Check(engraving.engraving_findings, engraving.BASIS),
-    Check(assembly.assembly_findings, assembly.BASIS),
-    Check(cage.righting_findings, cage.BASIS),
+    Check(feasibility.feasibility_findings, feasibility.BASIS, needs=Mechanism),
+    *(check for thing in THINGS.values() for check in thing.checks),
+    Check(printability.bed_findings, printability.BASIS),
+    Check(foot_clearance.foot_findings, foot_clearance.BASIS, cheap=False),
+    Check(printability.printability_findings, printability.BASIS, cheap=False),
+    Check(interference.interference_findings, interference.BASIS, cheap=False),
+    Check(assembly.assembly_findings, assembly.BASIS, cheap=False),
+    Check(righting.righting_findings, righting.BASIS, cheap=False),
 )
 """Every check, in the order of its findings."""
 

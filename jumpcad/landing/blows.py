@@ -12,14 +12,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jumpcad.checks.strength import strength_findings
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.findings import Finding, at_most
 from jumpcad.mechanism.model import FOOT
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.cage.strength import landing_n, ring_n_per_mm
 from jumpcad.robot.electronics.holding import holding_findings
 from jumpcad.robot.foot.pads import TOE_AHEAD_MM, TOE_BACK_MM
-from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.foot.toe_limits import toe_findings
+from jumpcad.robot.leg.limits import leg_findings
+from jumpcad.robot.load_case import LoadCase, load_case
 from jumpcad.robot.robot import Robot
 
 if TYPE_CHECKING:
@@ -118,7 +120,7 @@ def part_forces(robot: Robot, blows: Iterable[Blow]) -> list[PartForce]:
     hardest: dict[str, Blow] = {}
     for blow in blows:
         hardest[blow.part] = max(hardest.get(blow.part, blow), blow, key=lambda one: one.energy_j)
-    case, stop_mm, cage = LoadCase(robot), robot.workshop.safety.landing_stop_mm, robot.layout.cage
+    case, stop_mm, cage = load_case(robot), robot.workshop.safety.landing_stop_mm, robot.layout.of(Cage)
     found = []
     for blow in sorted(hardest.values(), key=lambda one: -one.energy_j):
         if blow.energy_j < LEAST_J:
@@ -132,7 +134,7 @@ def part_forces(robot: Robot, blows: Iterable[Blow]) -> list[PartForce]:
 
 def hard_n(case: LoadCase, part: str, energy_nmm: float) -> float:
     """Return the largest force (N) of a blow of some energy on a floor that gives nothing."""
-    sections, shell, workshop, cage = case.layout.sections, case.shell, case.workshop, case.layout.cage
+    sections, shell, workshop, cage = case.layout.sections, case.shell, case.workshop, case.layout.of(Cage)
     if part == CAGE and cage is not None:
         return landing_n(cage.rod, cage.tightest_mm, energy_nmm / 1000.0)
     if part not in (NOSE, TOE):
@@ -160,9 +162,9 @@ def landing_strength(robot: Robot, forces: Sequence[PartForce]) -> Finding | Non
     The floor must absorb what the part does not when the check of the part is at its limit: with the force F that it
     bears there, and Fh on a hard floor, it gives E/F·(1 - (F/Fh)ⁿ): n is 2 for what springs back, 3 for a dent.
     """
-    case, hardest = LoadCase(robot), {one.part: one for one in forces}
+    case, hardest = load_case(robot), {one.part: one for one in forces}
     needed: list[tuple[float, PartForce, str, float]] = []
-    for found in (*strength_findings(robot), *holding_findings(robot)):
+    for found in (*leg_findings(robot), *toe_findings(robot), *holding_findings(robot)):
         hit = hardest.get(BEARS.get(found.name, ""))
         if hit is not None and found.value and found.limit:
             borne = (case.toe_blow_n if hit.part == TOE else case.landing_n) * found.limit / found.value

@@ -4,12 +4,12 @@ import math
 from collections.abc import Callable
 
 from jumpcad.building import built_and_checked
+from jumpcad.checks.righting import RIGHTED
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.landing.landing import Landings, land
-from jumpcad.robot.cage.limits import RIGHTED
-from jumpcad.robot.cage.place import plate_ends_mm
+from jumpcad.robot.cage.place import Cage, plate_ends_mm
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.workshop import Workshop, varied
@@ -107,7 +107,7 @@ def _judged(design: Design, workshop: Workshop, sizes: dict[str, float]) -> tupl
 
 def _sizes(robot: Robot) -> dict[str, float]:
     """Return the sizes of a robot's cage by the workshop's keys."""
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     assert cage is not None
     (rear, front), ends = cage.bars, plate_ends_mm(robot.layout)
     return {

@@ -1,12 +1,12 @@
-"""Bought parts of simple shape: boxes, and screws."""
+"""Bought parts of simple shape: boxes, bearings and screws."""
 
 from functools import lru_cache
 
-from jumpcad.catalogue import Catalogue, Screw
-from jumpcad.mechanism.model import BODY
+from jumpcad.catalogue import Bearing, Catalogue, Screw
+from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart, bought
-from jumpcad.robot.space.lateral import Interval
-from jumpcad.solids.outline import Region, disc, rectangle, ring
+from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring
+from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
 
@@ -41,3 +41,22 @@ def placed_screw(
     slabs = [(0.0, length, round_outline(screw.diameter_mm)), (seat, seat + height, round_outline(width))]
     at = (centre[0], shank[0], centre[1])
     return bought(name, f"screw {screw.name} x {length:g} {screw.norm}", body, volume_mass, slabs, at)
+
+
+@lru_cache(maxsize=64)
+def hexagon_outline(across_flats_mm: float, bore_mm: float) -> Region:
+    """Return a hexagon with a bore, about the origin."""
+    return hexagon(across_flats_mm) - hole(bore_mm)
+
+
+def interval(a: float, b: float) -> Interval:
+    """Return both ends of an interval, the lower one first."""
+    return (a, b) if a < b else (b, a)
+
+
+def bearing_part(name: str, centre: Array, right_mm: float, bearing: Bearing) -> BoughtPart:
+    """Return a bearing whose right side is at `right_mm` along y."""
+    slabs = [(0.0, bearing.width_mm, round_outline(bearing.outer_mm, bearing.bore_mm))]
+    at = (centre[0], right_mm, centre[1])
+    size = f"{bearing.bore_mm:g} x {bearing.outer_mm:g} x {bearing.width_mm:g} mm"
+    return bought(name, f"ball bearing {bearing.name} ZZ, {size}", MAIN_LEG, bearing.mass_g, slabs, at)

@@ -5,7 +5,7 @@ In-plane places are in the body frame's x-z plane; intervals of y come from the 
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal, TypeVar
 
 from jumpcad.catalogue import Bearing, Component, LegBar
 from jumpcad.design import Design
@@ -32,24 +32,14 @@ from jumpcad.robot.space.lateral import Lateral, lateral_stack
 from jumpcad.robot.space.obstacles import axle_obstacle, cam_obstacles, hub_obstacles, swept_obstacles
 from jumpcad.robot.space.room import Obstacle, disc, shortfall
 from jumpcad.robot.space.sweep import legs_apart_mm
+from jumpcad.robot.springs.place import spring_boss_mm, spring_obstacles, spring_pin_place
 from jumpcad.robot.stop.place import GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
-from jumpcad.robot.train.place import (
-    idler_obstacles,
-    require_gear_room,
-    require_shaft,
-    spring_boss_mm,
-    spring_obstacles,
-    spring_pin_place,
-    train_obstacles,
-    train_places,
-)
+from jumpcad.robot.train.place import idler_obstacles, require_gear_room, require_shaft, train_obstacles, train_places
 from jumpcad.strength.bearings import roller_screw_mm
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop
 
-if TYPE_CHECKING:
-    from jumpcad.robot.cage.place import Cage
-
+Placed = TypeVar("Placed")
 Retention = Literal["plates", "clips", "nuts"]
 """What keeps the axles in place: blind bores of the plates, clips in grooves, or screws as axles with lock nuts."""
 
@@ -63,6 +53,7 @@ class Layout:
     separate parts. `toe_half_width_mm` is how far from the middle the toes touch the ground: at their tips, or at the
     ends of bars across them. `leg_bar` is what main leg and front link are made of between printed ends, if anything.
     `cap_ear_mm` is how far the ears for the motor cap's screws reach beyond the socket,
+    `things` are the places of what has found room on this machine (`jumpcad.robot.things`), `label` is engraved.
     `spring_boss_mm` the height of the boss for the springs' pin inside the right plate; 0 without.
     """
 
@@ -93,12 +84,17 @@ class Layout:
     fittings: Fittings
     sensor: SensorPlace | None = None
     leg_bar: LegBar | None = None
-    cage: "Cage | None" = None
+    things: tuple[object, ...] = ()
+    label: str = ""
 
     @property
     def design(self) -> Design:
         """The eight numbers."""
         return self.linkage.design
+
+    def of(self, kind: type[Placed]) -> Placed | None:
+        """Return the place of a thing, by its type; None where the robot goes without."""
+        return next((place for place in self.things if isinstance(place, kind)), None)
 
     @property
     def axles(self) -> dict[str, Array]:

@@ -13,7 +13,7 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.axles.loads import axle_beams
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.robot import Robot
+from jumpcad.robot.robot import Robot, carried
 from jumpcad.robot.sizing import dog_inside_mm
 from jumpcad.strength.axle_beam import AxleBeam
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM, RoundBar, axle_bar, pin_bar
@@ -40,6 +40,8 @@ ONE_TOE = (
     "pose, with its radii of gyration k"
 )
 """Loads, for formulas."""
+PUSH_OFF = "loads: inverse dynamics of the push-off (Norton, Design of Machinery, ch. 11)"
+WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the links"
 
 
 @dataclass(frozen=True)
@@ -177,6 +179,12 @@ class LoadCase:
         on_leg, on_lever = loaded_forces_n(self.robot.design, self.layout.drive)
         on_pin = 2.0 * spring.pin_force_n * direction(-(spring.plate_pin_rad + spring.arms.turn_rad))
         return (on_leg, on_pin), on_lever
+
+
+@carried
+def load_case(robot: Robot) -> LoadCase:
+    """Return a robot under load."""
+    return LoadCase(robot)
 
 
 def stress_finding(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jumpcad.mechanism.model import BODY_NAMES, FOOT, Mechanism
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.cage.strength import ring_n_per_mm
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual
@@ -104,7 +105,7 @@ class Capsule:
 
 def cage_capsules(mechanism: Mechanism) -> list[Capsule]:
     """Return the cage as capsules in the body's frame, along the pieces of its rods and along its bars."""
-    cage = mechanism.layout.cage if isinstance(mechanism, Robot) else None
+    cage = mechanism.layout.of(Cage) if isinstance(mechanism, Robot) else None
     if cage is None:
         return []
     found = []

@@ -18,7 +18,7 @@ from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
 from jumpcad.drive import SpringLimits
 from jumpcad.drive.stock_spring import STIFFNESS, rest_angles_deg
 from jumpcad.errors import JumpcadError
-from jumpcad.robot.train.place import PLATE_PINS_RAD
+from jumpcad.robot.springs.place import PLATE_PINS_RAD
 from jumpcad.search.parameter import (
     Kind,
     SearchParameter,

@@ -14,6 +14,8 @@ from jumpcad.solids.outline import Region, corners_key
 from jumpcad.transforms import Array
 
 Numbers = npt.NDArray[np.int64]
+Interval = tuple[float, float]
+"""Lower and upper end (mm)."""
 
 Z_DIGITS = 4  # heights are rounded to this many decimals of a mm: faces meant to meet do, in 32-bit floats too
 SMALLEST_AREA_MM2 = 1e-6  # what clipping leaves where two regions only touch

@@ -8,13 +8,13 @@ from typing import Any
 
 import pytest
 from support.built import built
+from support.strengths import strength_findings
 from support.workshops import workshop_with
 
 from jumpcad import checks
 from jumpcad.building import assembly, build, growth
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.checks import check, constraint_findings
-from jumpcad.checks.strength import strength_findings
 from jumpcad.cli.verdict import notes
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError

@@ -12,7 +12,6 @@ from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.checks import constraint_findings
-from jumpcad.checks.sideways import rolls
 from jumpcad.coupon.pieces import coupon_holes, coupon_pair, pinion, series_of
 from jumpcad.coupon.readings import LEAST_PLAY_MM, Readings, floor_breaks_n, measured_workshop
 from jumpcad.design import load_design
@@ -20,6 +19,7 @@ from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot.foot.sideways import rolls
 from jumpcad.solids.outline import polygon
 from jumpcad.workshop import Workshop, load_workshop
 

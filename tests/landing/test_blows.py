@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from support.strengths import strength_findings
 
-from jumpcad.checks.strength import strength_findings
 from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import NOSE, TOE, Blow, Blows, hard_n, landing_strength, part_forces

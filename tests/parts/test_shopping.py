@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 import trimesh
+from jumpcad.parts.shopping import _d_shaft
 from support.built import LONG_TOES, body_in_plane, built, cut, placed, region
 from support.workshops import workshop_with
 
@@ -14,7 +15,6 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.parts.shopping import _d_shaft
 from jumpcad.robot.robot import Robot
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import load_workshop

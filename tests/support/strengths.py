@@ -3,14 +3,27 @@
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 
-from jumpcad.checks.strength import strength_findings
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
+from jumpcad.robot.axles.steel import steel_findings
+from jumpcad.robot.foot.toe_limits import toe_findings
+from jumpcad.robot.leg.limits import leg_findings
+from jumpcad.robot.plates.limits import seat_finding
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.train.limits import drive_findings
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.workshop import Role
 from support.said import ways
+
+
+def strength_findings(robot: Robot) -> list[Finding]:
+    """Return a finding for every way in which a robot could break when it jumps."""
+    rooms = (leg_findings, toe_findings, steel_findings, seat_finding)
+    return [
+        *(one for room in rooms for one in room(robot)),
+        *(one for one in drive_findings(robot) if "dog" in one.name),
+    ]
 
 
 def changed(robot: Robot, role: str, **figures: float) -> Robot:

@@ -19,7 +19,7 @@ from jumpcad.robot.electronics.lead_ways import outer_way, plate_of
 from jumpcad.robot.electronics.leads import OWN_LEGS
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.space.lateral import Interval
+from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
 STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}

@@ -12,6 +12,7 @@ from jumpcad.bundle.firmware_numbers import (
 from jumpcad.catalogue.electrical import DEAD_CELL_V
 from jumpcad.electronics.nets import LOWER_OHM, Wiring
 from jumpcad.electronics.supply import boards_beside_a
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.leads import lead_lengths
 from jumpcad.robot.robot import Robot, carried
 from jumpcad.robot.stop.limits import free_release_j
@@ -101,7 +102,7 @@ def operation_values(robot: Robot) -> dict[str, Any]:
 
 def _box_mm(robot: Robot) -> tuple[float, float] | None:
     """Return the most length and the least height of a box on which a plate lies between hoops; None without a cage."""
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     if cage is None:
         return None
     (rear, front), (low, high) = cage.bars, robot.layout.lateral.outside

@@ -10,7 +10,7 @@ import numpy as np
 from jumpcad.building.bom import Bill
 from jumpcad.dimensions import AXLE_END_PLAY_MM, STRAP_SLOT_MM, TRAY_MM
 from jumpcad.exporters.threemf import print_plates
-from jumpcad.robot.cage.place import SOCKET_MM, hoop_mm
+from jumpcad.robot.cage.place import SOCKET_MM, Cage, hoop_mm
 from jumpcad.robot.electronics.fittings import SWITCH_SLOT_MM
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.leg.bars import END_PLAY_MM
@@ -76,7 +76,7 @@ def _cage(robot: Robot) -> dict[str, Any] | None:
 
     None without a cage.
     """
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     if cage is None:
         return None
     cut = {arc.name.removeprefix("cage_").replace("_", " "): round(arc.length_mm) for arc in cage.arcs}

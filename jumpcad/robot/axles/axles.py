@@ -17,11 +17,11 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.space.lateral import Interval
 from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring, union
+from jumpcad.solids.slab import Interval
 from jumpcad.strength.axles import clipped_pins
 from jumpcad.transforms import Array
-from jumpcad.workshop import BoughtParts
+from jumpcad.workshop import BoughtParts, Workshop
 
 COTTER_SPAN_MM = 5.0
 """Across a split pin's bent ends; judgement: cut and bent around a pin of 3 mm, no wider than the pin's head."""
@@ -45,9 +45,15 @@ class Place:
     turn_rad: float = 0.0
 
 
-def axles(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
+def axles_and_pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
+    """Yield every axle and pin with what keeps it."""
+    yield from axles(layout, workshop)
+    yield from pins(layout, workshop)
+
+
+def axles(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     """Yield the axles across the plates and the springs' pin, with their clips or nuts."""
-    outside = layout.lateral.outside
+    outside, catalogue, chosen = layout.lateral.outside, workshop.catalogue, workshop.bought
     places = {f"{name}_axle": place for name, place in layout.axles.items()} | {"spring_pin": layout.spring_pin_mm}
     for name, centre in places.items():
         place = Place(name, BODY, centre, outside)
@@ -60,7 +66,7 @@ def axles(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator
             yield _rod(place, (outside[0] + less, outside[1] - less), layout.axle_mm, catalogue, chosen)
 
 
-def pins(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
+def pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     """Yield the pins of ankle, front eye and springs' inner arms, with their retention."""
     ankle, lug = layout.ankle_face_mm, layout.lateral.lug_left[1]
     arm = layout.lateral.leg[1] + GAP_MM + 2.0 * layout.drive.spring.wire_mm
@@ -71,8 +77,9 @@ def pins(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[
             "leg_spring_pin", MAIN_LEG, np.array([layout.leg_pin_mm, 0.0]), (-arm, arm), np.pi / 2.0
         ),  # across the leg
     )
+    catalogue = workshop.catalogue
     for place in places:
-        if rod := clipped_pins(catalogue, chosen):
+        if rod := clipped_pins(catalogue, workshop.bought):
             yield from _clipped(place, layout.axle_mm, catalogue, rod)
         else:
             yield from _clevis(place, layout.axle_mm, catalogue)

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.findings import Basis, Finding, at_most
-from jumpcad.robot.load_case import LoadCase, stress_finding
+from jumpcad.robot.load_case import LoadCase, load_case, stress_finding
+from jumpcad.robot.robot import Robot
 from jumpcad.strength.axles import SCREW_AREA_MM2, SCREW_YIELD_MPA, clipped_pins
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
 from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
@@ -89,8 +90,9 @@ BASIS = {
 }
 
 
-def steel_findings(case: LoadCase) -> Iterator[Finding]:
+def steel_findings(robot: Robot) -> Iterator[Finding]:
     """Yield a finding for every way in which a bought part could break."""
+    case = load_case(robot)
     yield from (*_pins(case), *_retention(case), *_fatigue(case), *_bearings(case))
 
 

@@ -48,7 +48,7 @@ SLOT_BELOW_MM = 4.5
 
 def cage_bars(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
     """Yield both cross bars."""
-    cage, holes = layout.cage, HoleSizes.of(workshop, layout.hub_bearing)
+    cage, holes = layout.of(Cage), HoleSizes.of(workshop, layout.hub_bearing)
     if cage is None:
         return
     for bar in cage.bars:
@@ -98,11 +98,11 @@ def horns(layout: Layout, blank: Region | None = None) -> Region:
 
     With a blank of the plates it is what is thicker, between that and the ends.
     """
-    if layout.cage is None:
+    if (cage := layout.of(Cage)) is None:
         return union([])
     regions = []
     axles = (layout.hub_mm, layout.front_mm)
-    for bar, axle, x in zip(layout.cage.bars, axles, plate_ends_mm(layout), strict=True):
+    for bar, axle, x in zip(cage.bars, axles, plate_ends_mm(layout), strict=True):
         end, low = bar.horn_end_mm, HORN_MM[0]
         root = axle + (end - axle) * (x - axle[0]) / (end[0] - axle[0])
         strip = hull([disc(HORN_MM[1], root), disc(low, end)])
@@ -116,7 +116,8 @@ def horn_openings(layout: Layout, holes: HoleSizes) -> Region:
     width = BAR_MM + 2.0 * holes.fits.press_mm
     notch = rectangle((width, 4.0 * LAP_MM), (0.0, SEAT_MM + 2.0 * LAP_MM))
     slot = rectangle((TIE_SLOT_MM[1], TIE_SLOT_MM[0]), (0.0, SEAT_MM - SLOT_BELOW_MM))
-    return union(_leaning(cut, bar) for bar in (layout.cage.bars if layout.cage else ()) for cut in (notch, slot))
+    cage = layout.of(Cage)
+    return union(_leaning(cut, bar) for bar in (cage.bars if cage else ()) for cut in (notch, slot))
 
 
 def _leaning(region: Region, bar: CageBar) -> Region:
@@ -127,9 +128,9 @@ def _leaning(region: Region, bar: CageBar) -> Region:
     return polygon(*(place + flat[:, :1] * forwards + flat[:, 1:] * up for flat in corners))
 
 
-def cage_hardware(layout: Layout) -> Iterator[BoughtPart]:
+def cage_hardware(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     """Yield the rods, each with the length to cut, and the ties of the bars."""
-    cage = layout.cage
+    cage = layout.of(Cage)
     if cage is None:
         return
     for arc in cage.arcs:

@@ -1,4 +1,4 @@
-"""The cage: rods bent and landed on, bars under their moment, clearances, and whether it rights the robot (mm, MPa)."""
+"""The cage: rods bent and landed on, bars under their moment, clearances (mm, MPa)."""
 
 import math
 from collections.abc import Iterator
@@ -21,7 +21,6 @@ from jumpcad.robot.cage.strength import (
 from jumpcad.robot.layout import Layout, moving_obstacles
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.space.room import EVERYWHERE, clearance
-from jumpcad.scene.stable_poses import least_share_on_feet
 from jumpcad.strength.stress import CREEP_MPA
 
 LANDING_FACTOR = 1.25
@@ -30,9 +29,6 @@ SAG_MM = 25.0
 """Most that a hoop gives under half of the robot; judgement: half of the height at which strong robots crouch."""
 FREE_MM = 3.0
 """Least distance of rods and bars from what moves, and from the ground under the loaded robot; judgement."""
-RIGHTED = 90.0
-"""Least percentage of stable poses on its feet, wherever the centre of mass is within its shifts. Judgement: robots
-above it rose from every drop in simulation."""
 SIDE, AHEAD = (0.28, 0.6), 0.85
 """Shares of the falling energy on one end of the rear or the front bar sideways, and on the front bar from ahead: the
 worst of 200 own landings of `best-jumper`, MuJoCo. None of them fell on its back."""
@@ -77,20 +73,14 @@ BASIS = {
         f"{FREE_MM:g} mm",
         "geometry; limits: judgement, rods bend",
     ),
-    "cage_rights": Basis(
-        f"least share of stable poses on the feet ≥ {RIGHTED:g} %, springs loaded, the centre of mass as computed and "
-        "moved by 3 mm up, 4 mm along, 2 mm across",
-        "Goldberg et al., Part pose statistics (1999); limit: judgement",
-    ),
 }
 ELSEWHERE = "change cage.front_ahead_mm, cage.rear_behind_mm or the radii, or leave them 0"
 SOFTER = "another cage.rod, or a larger cage.rear_radius_mm or cage.front_radius_mm"
-CROUCH = "raise compression_ratio, so that it crouches lower, or take the sizes that jumpcad cage DESIGN finds"
 
 
 def cage_findings(robot: Robot) -> Iterator[Finding]:
     """Yield bending, landing, sag, bar, horn, sideways fall and clearance of a cage; nothing without one."""
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     if cage is None:
         return
     rod, radii = cage.rod, [arc.radius_mm for arc in cage.arcs]
@@ -161,18 +151,6 @@ def _falls(cage: Cage, horns: list[tuple[float, float, float]], falling_j: float
         "cage_ahead", AHEAD * falling_j, horns[1][2], "J",
         f"cage_bar_front may land from ahead with {AHEAD * falling_j:.2f} J; its horns bear {horns[1][2]:.2f} J",
         remedy, "warning",
-    )  # fmt: skip
-
-
-def righting_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield `cage_rights`, a warning; nothing without a cage."""
-    if robot.layout.cage is None:
-        return
-    share = 100.0 * least_share_on_feet(robot)
-    yield at_least(
-        "cage_rights", share, RIGHTED, "%",
-        f"from {share:.1f} % of all attitudes it rolls onto its feet while it winds, the worst centre of mass assumed; "
-        f"{RIGHTED:g} % are needed", CROUCH, "warning",
     )  # fmt: skip
 
 

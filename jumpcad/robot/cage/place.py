@@ -165,7 +165,7 @@ def hoop_mm(cage: Cage, bar: CageBar, arc: CageArc) -> tuple[float, float]:
     return 2.0 * half + cage.rod.diameter_mm, centre + arc.radius_mm + (cage.rod.diameter_mm + cage.bar_mm) / 2.0
 
 
-def with_cage(layout: Layout, workshop: Workshop) -> Layout:
+def cage_place(layout: Layout, workshop: Workshop) -> Cage | None:
     """Return a layout with the cage of its workshop, if that has one.
 
     Raises
@@ -175,7 +175,7 @@ def with_cage(layout: Layout, workshop: Workshop) -> Layout:
     """
     rod, table = workshop.cage_rod, workshop.cage
     if rod is None:
-        return layout
+        return None
     up, origin = ground(layout)
     crouch, usual = float(-origin @ up), WITH_BOW if table.bow else HOOPS
     lean, angle = (math.radians(value) for value in (table.lean_deg or usual.lean_deg, table.arc_deg or usual.arc_deg))
@@ -209,7 +209,7 @@ def with_cage(layout: Layout, workshop: Workshop) -> Layout:
     if table.bow:
         rear, front, bow = _bow(rear, front, lean, level)
         arcs.append(bow)
-    return replace(layout, cage=Cage(rod, table.bar_mm, socket, (rear, front), tuple(arcs)))
+    return Cage(rod, table.bar_mm, socket, (rear, front), tuple(arcs))
 
 
 def plate_ends_mm(layout: Layout) -> tuple[float, float]:

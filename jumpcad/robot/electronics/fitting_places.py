@@ -10,9 +10,10 @@ import numpy as np
 from jumpcad.catalogue import Component
 from jumpcad.dimensions import CLEAR_MM, TRAY_MM
 from jumpcad.robot.electronics.place import TAPE_MM, Electronics, Side
-from jumpcad.robot.space.lateral import Interval, Lateral
+from jumpcad.robot.space.lateral import Lateral
 from jumpcad.robot.space.places import best_place, grid_candidates
 from jumpcad.robot.space.room import Obstacle, box_obstacle, disc
+from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
 HOLE_MM = 5.0

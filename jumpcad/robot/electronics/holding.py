@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from jumpcad.findings import Basis, Finding, at_most
-from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
 
 BASIS = {
@@ -21,7 +21,7 @@ def holding_findings(robot: Robot) -> Iterator[Finding]:
     The landing's force over the robot's mass is the acceleration of everything on the body; a part that is suddenly
     stopped by an elastic strap is loaded twice as much.
     """
-    seats, case = robot.workshop.seats, LoadCase(robot)
+    seats, case = robot.workshop.seats, load_case(robot)
     acceleration = case.landing_n / robot.mass_kg
     held = {"battery": ("strap", seats.strap_n)}
     held |= dict.fromkeys((*robot.layout.electronics.boards, "plug", "capacitor"), ("cable tie", seats.tie_n))

@@ -16,7 +16,7 @@ from jumpcad.dimensions import (
     TRAY_LENGTH_MIN_MM,
     TRAY_MM,
 )
-from jumpcad.robot.space.lateral import Interval
+from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
 Side = Literal["left", "right"]

@@ -4,9 +4,9 @@ import numpy as np
 
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, STANDOFF_RADIUS_MM
 from jumpcad.robot.electronics.place import Electronics
-from jumpcad.robot.space.lateral import Interval
 from jumpcad.robot.space.places import best_place, grid_candidates
 from jumpcad.robot.space.room import EVERYWHERE, Obstacle, box_obstacle, disc
+from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
 GRID_MM = 2.0

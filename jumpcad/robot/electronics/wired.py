@@ -17,7 +17,7 @@ from jumpcad.robot.electronics.leads import metres_by_colour
 from jumpcad.robot.electronics.place import BALANCE_MM, TAPE_MM, Electronics
 from jumpcad.robot.layout import Layout
 from jumpcad.solids.outline import hexagon, hole
-from jumpcad.workshop import BoughtParts
+from jumpcad.workshop import Workshop
 
 SWITCH_EAR_MM, SWITCH_BODY_MM = 0.5, 10.0
 """Thickness of the ears of a slide switch (usual), and length of the body between them (SS-12F15)."""
@@ -33,9 +33,10 @@ HEAT_SHRINK, HEAT_SHRINK_G, RESISTOR_G, WIRE_LENGTH_MM = "heat-shrink tube 2 mm,
 """What holds battery and boards: order text, width and thickness, mass or density; what is soldered; from memory."""
 
 
-def electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
+def electronics(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     """Yield battery, boards, plug and capacitor on their seats, what holds them, and the small parts in the wires."""
     electronics, inside = layout.electronics, layout.lateral.inside
+    catalogue, chosen = workshop.catalogue, workshop.bought
     x, z = layout.tray_mm
     items: dict[str, Battery | Board | Component] = {
         "battery": electronics.battery,

@@ -15,7 +15,7 @@ from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
 from jumpcad.printing.bed import fit_to_bed
-from jumpcad.robot.foot.toes import PIN_END_MM, lying_hole, on_the_foot
+from jumpcad.robot.foot.toes import PIN_END_MM, lying_hole, on_the_foot, toes_apart
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.sizing import Sections, beside_leg_mm
 from jumpcad.solids.blocks import Bar, Block, Blocks
@@ -41,6 +41,11 @@ SOLE_LENGTH, NOSE_AHEAD = 1.6, 0.42
 Judgement for the first; a flank of 45° that touches the round nose reaches the sole 0.42 depths ahead."""
 SOLE_HEIGHT_MM = 1.0
 """Height of a lug's straight sole; judgement."""
+
+
+def foot_and_toes(layout: Layout, workshop: Workshop) -> list[Drawing]:
+    """Return the foot, and the toes where they are separate parts."""
+    return [foot(layout, workshop), *toes_apart(layout, workshop)]
 
 
 def foot(layout: Layout, workshop: Workshop) -> Drawing:

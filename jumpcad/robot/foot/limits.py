@@ -1,31 +1,23 @@
-"""Clearance of body, legs and lever above the ground, and of the body above the foot, while the legs move (mm)."""
+"""Clearance of body, legs and lever above the ground while the legs move (mm)."""
 
 import numpy as np
 
-from jumpcad.checks.interference import Position, box_of, pieces_of, pose_of
 from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, STOP_PAD_MM
 from jumpcad.drive.socket import socket_half_mm
-from jumpcad.findings import Basis, Finding, at_least, limit
-from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.findings import Basis, Finding, at_least
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.stop.place import TAB_MM
 from jumpcad.robot.train.motor_socket import ear_places, motor_box
 from jumpcad.transforms import Array, direction
 
-GROUND_GAP_MM = FOOT_GAP_MM = 0.5
-"""Least gaps to the ground and to the foot; judgement: play of the joints and the flexing of legs and foot."""
+GROUND_GAP_MM = 0.5
+"""Least gap to the ground; judgement: play of the joints and the flexing of legs and foot."""
 POSITIONS = 9
-SEARCH_MM = 3.0
-"""Larger gaps are not measured."""
 BASIS = {
     "ground_clearance": Basis(
         f"least height above the ground of body, roller and legs' ends, from loaded to rest ≥ {GROUND_GAP_MM:g} mm + "
         "safety.gap_reserve_mm (mm), the foot flat",
         f"geometry; {GROUND_GAP_MM:g} mm: judgement, play of the joints and flexing of legs and foot",
-    ),
-    "foot_clearance": Basis(
-        f"least distance of the foot from what the body carries, springs loaded ≥ {FOOT_GAP_MM:g} mm",
-        f"solids, exact; {FOOT_GAP_MM:g} mm: judgement, as for the ground",
     ),
 }
 
@@ -54,39 +46,6 @@ def ground_findings(robot: Robot) -> list[Finding]:
             "lower compression_ratio, or raise rest_angle_deg",
         )
     ]  # fmt: skip
-
-
-def foot_findings(robot: Robot) -> list[Finding]:
-    """Return `foot_clearance`: the gap between the foot and what the body carries, springs loaded (exact)."""
-    layout = robot.layout
-    linkage = robot.linkage
-    loaded = Position("springs loaded", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
-
-    body, foot = (
-        [(piece, pose_of(piece, layout, linkage, loaded)) for piece in pieces_of(robot) if piece.body == name]
-        for name in (BODY, FOOT)
-    )
-    gaps = (
-        (one.solid.transform(T_one[:3]).min_gap(other.solid.transform(T_other[:3]), SEARCH_MM), one.name)
-        for one, T_one in body
-        for other, T_other in foot
-        if _near(box_of(one, T_one), box_of(other, T_other))
-    )
-    gap, name = min(gaps, default=(SEARCH_MM, ""))
-    found = f"{name} comes within {gap:.1f} mm" if gap < SEARCH_MM else f"nothing comes within {gap:g} mm"
-    return [
-        limit(
-            "foot_clearance", gap - FOOT_GAP_MM, "mm",
-            f"{found} of the foot with loaded springs; {FOOT_GAP_MM:g} mm are needed",
-            "lower compression_ratio, or raise ground_link_angle_deg",
-            value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
-        )
-    ]  # fmt: skip
-
-
-def _near(a: Array, b: Array) -> bool:
-    """Whether two boxes (2, 3) may be nearer to each other than is searched."""
-    return bool((a[0] < b[1] + SEARCH_MM).all() and (b[0] < a[1] + SEARCH_MM).all())
 
 
 def _along(vector: Array, unit: Array) -> Array:

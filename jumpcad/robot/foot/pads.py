@@ -64,12 +64,11 @@ class PrintedPad:
         return self.item.look
 
 
-def pads(layout: Layout, foot_pad: Pad | None) -> Iterator[BoughtPart]:
-    """Yield the rest stop's pad and, where the feet are not bare, those under nose and toes."""
-    yield _stop_pad(layout)
-    if foot_pad is not None:
-        yield from _nose_pads(layout, foot_pad)
-        yield from _toe_pads(layout, foot_pad)
+def foot_pads(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
+    """Yield the pads under nose and toes, where these are not bare."""
+    if workshop.foot_pad is not None:
+        yield from _nose_pads(layout, workshop.foot_pad)
+        yield from _toe_pads(layout, workshop.foot_pad)
 
 
 def printed_pads(hardware: Iterable[BoughtPart], workshop: Workshop) -> list[PrintedPad]:
@@ -89,13 +88,13 @@ def is_printed(item: BoughtPart, foot_pad: Pad | None, stop_pad: Pad) -> bool:
     return stop_pad.printed if item.name == "stop_pad" else foot_pad is not None and foot_pad.printed
 
 
-def _stop_pad(layout: Layout) -> BoughtPart:
-    """Return the stop's pad: as wide as the leg, in its seat."""
+def stop_pad(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
+    """Yield the stop's pad: as wide as the leg, in its seat."""
     stop, width = layout.stop, layout.sections.thickness_mm
     box = rectangle((STOP_PAD_MM, stop.pad.thickness_mm)).rotate(float(np.degrees(stop.turn_rad)))
     middle = stop.face_mm + stop.pad.thickness_mm / 2.0 * stop.behind
     slabs = [(-width / 2.0, width / 2.0, box)]
-    return _pad("stop_pad", stop.pad, BODY, slabs, (width, STOP_PAD_MM), (middle[0], 0.0, middle[1]))
+    yield _pad("stop_pad", stop.pad, BODY, slabs, (width, STOP_PAD_MM), (middle[0], 0.0, middle[1]))
 
 
 def _nose_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:

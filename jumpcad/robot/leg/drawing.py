@@ -4,7 +4,6 @@ Printed whole, or as ends with sockets into which a bought bar is glued. The two
 """
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -12,7 +11,6 @@ from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, OVERHANG_LINES, STOP_PAD_MM
 from jumpcad.mechanism.model import FRONT_LINK, MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, laid
-from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.leg.bars import BarPlace, bar_place
 from jumpcad.solids.outline import Region, disc, filleted, hole, rectangle, stadium, tapered_bar, union
@@ -25,6 +23,11 @@ FAR_MM = 1000.0
 """Farther than any leg reaches."""
 FILLET_MM = 3.0
 """Radius between eyes and beam; judgement: half of the least height."""
+
+
+def legs(layout: Layout, workshop: Workshop) -> list[Drawing]:
+    """Return main leg and front link."""
+    return [*main_leg(layout, workshop), front_link(layout, workshop)]
 
 
 def main_leg(layout: Layout, workshop: Workshop) -> list[Drawing]:
@@ -113,19 +116,6 @@ def front_bar_place(layout: Layout, holes: HoleSizes) -> BarPlace | None:
         return None
     first = holes.eye(layout.axle_mm) / 2.0 + 2.0 * holes.fits.wall_mm
     return bar_place("front link", layout.leg_bar, first, 0.0, layout.design.l3_mm - first, bends=False)
-
-
-def bars(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield the bars of main leg and front link, with the length to cut."""
-    holes = HoleSizes.of(workshop, layout.hub_bearing)
-    places = {MAIN_LEG: leg_bar_place(layout, holes), FRONT_LINK: front_bar_place(layout, holes)}
-    for body, place in places.items():
-        if place is None:
-            continue
-        bar, length = place.bar, place.length_mm
-        slabs = [(y0, y1, rectangle((length, height))) for y0, y1, height in bar.slabs_mm()]
-        article = f"{bar.description}, cut {length:.1f} mm long"
-        yield bought(f"{body}_bar", article, body, bar.mass_g(length), slabs, (place.middle_mm, 0.0, 0.0))
 
 
 def _leg_beam(layout: Layout) -> Region:

@@ -11,7 +11,7 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, laid
 from jumpcad.robot.cage.drawing import horn_openings, horns
-from jumpcad.robot.cage.place import HORN_MORE_MM
+from jumpcad.robot.cage.place import HORN_MORE_MM, Cage
 from jumpcad.robot.electronics.fittings import fitting_openings
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.plates.engraving import ENGRAVING_MM, letters_on
@@ -24,17 +24,17 @@ from jumpcad.solids.text import engravable
 from jumpcad.workshop import Workshop
 
 
-def plates(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
+def plates(layout: Layout, workshop: Workshop) -> list[Drawing]:
     """Return the left plate, at the side of the gears, and the right one with the socket that holds the motor.
 
     The socket has a floor at the motor's rear end, open in the middle for terminals and wires, and ends a little below
     the motor's front: the cap clamps the motor between the floor and itself. What closes the bores outside, and bosses,
     have no thickness in a robot without them.
 
-    Without a name nothing is engraved; letters that the engraving's font lacks are left out.
+    Without a label nothing is engraved; letters that the engraving's font lacks are left out.
     """
     holes = HoleSizes.of(workshop, layout.hub_bearing)
-    label = engravable(name).strip() if name else ""
+    label = engravable(layout.label).strip()
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm
     blank, bores = blank_of(layout, holes.fits.wall_min_mm), _bores(layout, holes)
@@ -46,9 +46,9 @@ def plates(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
         shaft, covered = shaft + plate_opening(layout.sensor, holes), plate_pad(layout.sensor)
     slabs = [(y0, y1 - floor, whole - union([through, shaft, bores])), (y1 - floor, y1, whole - (through + shaft))]
     slabs.append(_boss(layout, holes, y0 - layout.boss_mm, y0))
-    thicker = horns(layout, blank.hull) if layout.cage else None
+    thicker = horns(layout, blank.hull) if layout.of(Cage) else None
     slabs += [(y0 - HORN_MORE_MM, y0, thicker)] if thicker else []
-    words = name and f"{label} L".strip()
+    words = layout.label and f"{label} L".strip()
     left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
     whole, through = outline(layout, blank, "right"), _openings(layout, holes, "right")
@@ -65,7 +65,9 @@ def plates(layout: Layout, workshop: Workshop, name: str) -> list[Drawing]:
         socket = around - (window if high <= seat else cavity)
         slabs.append((low, high, union([socket, *(region for _, top, region in bosses if top >= high)])))
     slabs += [(y1, y1 + HORN_MORE_MM, thicker)] if thicker else []
-    right = _drawing("body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), name and f"{label} R".strip(), "right")
+    right = _drawing(
+        "body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), layout.label and f"{label} R".strip(), "right"
+    )
     return [left, right]
 
 
@@ -78,7 +80,7 @@ def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
     cut += fitting_openings(layout.fittings, holes, side)
     cut.append(stop_slot(layout, 2.0 * holes.fits.press_mm))
     cut += [pin_hole(layout, layout.pin_hole.diameter_mm)] if side == "left" else []
-    cut += [horn_openings(layout, holes)] if layout.cage else []
+    cut += [horn_openings(layout, holes)] if layout.of(Cage) else []
     return union(cut)
 
 

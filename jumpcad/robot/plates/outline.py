@@ -10,6 +10,7 @@ from scipy.spatial import Delaunay
 from jumpcad.dimensions import PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, TAB_MM, TRAY_MM
 from jumpcad.parts.part import Face
 from jumpcad.robot.cage.drawing import horns
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.fittings import fitting_pads
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.sensor.drawing import plate_pad
@@ -132,7 +133,7 @@ def outline(layout: Layout, blank: Blank, side: Face) -> Region:
     slot = rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)
     stop = hull([disc(axle, layout.hub_mm), base, slot, *around_pin])
     whole = blank.hull + stop - (blank.pockets - stop)
-    return whole + horns(layout) if layout.cage else whole
+    return whole + horns(layout) if layout.of(Cage) else whole
 
 
 def pin_hole(layout: Layout, width_mm: float) -> Region:

@@ -17,8 +17,7 @@ from jumpcad.dimensions import (
     TERMINALS_MM,
 )
 from jumpcad.drive.socket import front_length_mm
-
-Interval = tuple[float, float]
+from jumpcad.solids.slab import Interval
 
 HEAD_GAP_MM = GAP_MM + 2.0 * BUSHING_PLAY_MM + 0.2
 """From the roller's screw to the cam gear: the play of cam and gear, each half a gap, towards the leg, half of the

@@ -8,7 +8,7 @@ import numpy as np
 from jumpcad.catalogue import StockSpring
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.spring_arms import FULL_TURN_RAD
-from jumpcad.robot.train.place import arm_line
+from jumpcad.robot.springs.place import arm_line
 from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array
 

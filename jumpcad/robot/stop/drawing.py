@@ -1,5 +1,7 @@
 """The rest stop's bar between the plates: it prints lying, so that the impact bends it along its layers (mm)."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
@@ -21,8 +23,8 @@ GLUE_MM = 0.02
 """Gap between pad and seat."""
 
 
-def stop_bar(layout: Layout, workshop: Workshop) -> Drawing:
-    """Return the bar: its face towards the leg with the pad's seat, deepest in the middle, a tab through each plate.
+def stop_bar(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
+    """Yield the bar: its face towards the leg with the pad's seat, deepest in the middle, a tab through each plate.
 
     In its printing frame x is the robot's left, y points towards the leg, z along the leg.
     """
@@ -40,7 +42,7 @@ def stop_bar(layout: Layout, workshop: Workshop) -> Drawing:
     tabs = _box(outer_low, outer_high, -TAB_MM[1], 0.0)
     seat = _box(-pad / 2.0, pad / 2.0, -STOP_SEAT_MM - GLUE_MM, 1.0)
     shape = Stack.of([(0.0, TAB_MM[0], union([body, tabs]) - seat), (TAB_MM[0], STOP_PAD_MM, body - seat)])
-    return Drawing("stop_bar", "links", holes.chamfered(shape), (Placement(BODY, _pose(layout)),))
+    yield Drawing("stop_bar", "links", holes.chamfered(shape), (Placement(BODY, _pose(layout)),))
 
 
 def stop_slot(layout: Layout, play_mm: float, edge_mm: float = 0.0) -> Region:

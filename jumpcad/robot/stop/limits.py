@@ -14,7 +14,7 @@ import numpy as np
 from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.mechanism.flight import Blow
-from jumpcad.robot.load_case import LoadCase, stress_finding
+from jumpcad.robot.load_case import LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.stop.place import EAR_MM, GIVE_ROOM_RAD
 from jumpcad.robot.stop.strength import BLOW_FACTOR, stop_blow
@@ -71,7 +71,7 @@ FEET_FIRST = "release it only standing on its feet; the guide says how to slacke
 
 def stop_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `stop_strength`, `stop_plates`, `stop_leg`, `stop_pad`, `stop_clearance`, `free_release`; `stop_creep`."""
-    case, blow, stop = LoadCase(robot), robot.stop_blow, robot.layout.stop
+    case, blow, stop = load_case(robot), robot.stop_blow, robot.layout.stop
     bar, plates, leg = _stresses_mpa(robot, case, BLOW_FACTOR * blow.force_n, BLOW_FACTOR * blow.torque_nm)
     links, body = (robot.workshop.material(role).strength_in_plane_mpa for role in ("links", "body"))
     remedy = f"choose a softer body.stop_pad, or {SOFTER.partition(', or ')[2]}"
@@ -114,7 +114,7 @@ def free_release_j(robot: Robot) -> tuple[float, float]:
     rate = stop.pad_n_per_mm(robot.layout.sections.thickness_mm)
     joule = stop_blow(Blow(0.0, math.sqrt(2.0), 1.0), stop.angle_rad, stop.radius_mm, rate)
     strengths = [robot.workshop.material(role).strength_in_plane_mpa for role in ("links", "body", "links")]
-    stresses = _stresses_mpa(robot, LoadCase(robot), joule.force_n, joule.torque_nm)
+    stresses = _stresses_mpa(robot, load_case(robot), joule.force_n, joule.torque_nm)
     use = max(joule.give_mm / (PAD_STRAIN * stop.pad.thickness_mm), *np.divide(stresses, strengths))
     return spring.stored_j(-spring.wind_rad) - spring.stored_j(stop.angle_rad), float(use) ** -2.0
 

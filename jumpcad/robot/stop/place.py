@@ -15,9 +15,9 @@ from jumpcad.dimensions import CLEAR_MM, GAP_MM, STOP_EDGE_MM, STOP_PAD_MM, STOP
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot.sizing import Sections
-from jumpcad.robot.space.lateral import Interval
 from jumpcad.robot.space.room import Obstacle, box_obstacle, clearance, shortfall
 from jumpcad.robot.space.sweep import legs_apart_mm
+from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop.workshop import STOP_PAD_MIN_MM
 

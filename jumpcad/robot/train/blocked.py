@@ -6,7 +6,7 @@ Warnings: it takes a fault to block the motor, and neither part grows for it.
 from collections.abc import Iterator
 
 from jumpcad.findings import Basis, Finding, at_most
-from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
 
 BLOCKED_FACTOR = 1.5
@@ -28,7 +28,7 @@ BASIS = {
 
 def blocked_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `gear_blocked` and `cam_dog_blocked`."""
-    case, train = LoadCase(robot), robot.layout.drive.train
+    case, train = load_case(robot), robot.layout.drive.train
     supply, allowed = robot.supply, robot.workshop.safety.motor_torque_max_nm
     torque = supply.driven(train.motor, supply.full_v, allowed).stall_torque_nm
     gears, worst = robot.workshop.material("gears"), 0.0

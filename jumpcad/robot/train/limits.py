@@ -3,16 +3,40 @@
 from dataclasses import replace
 
 from jumpcad.drive import cam_findings, release, spring, stock_spring, train
-from jumpcad.findings import Finding, Severity
+from jumpcad.findings import Basis, Finding, Severity
+from jumpcad.robot.load_case import INTERLAYER, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 
 ROUND_OFF = 1e-6
-BASIS = spring.BASIS | cam_findings.BASIS | train.BASIS | release.BASIS | stock_spring.BASIS
+BASIS = {
+    "cam_dog_strength": Basis(
+        f"max(√(σ² + 3·τ²) of a jaw, √3·16·T·D/(π·(D⁴ - d⁴)) of its boss) ≤ the gears' {INTERLAYER}; T larger of "
+        "the cam's torque and the blow at the end of the dog's play; σ = 3·F·L/(b·h²), τ = 1.5·F/(b·h), F = "
+        "T/(2·mean radius)",
+        "bending, transverse shear, torsion: Shigley 3-10 to 3-12; blow: jumpcad/drive/blows.py",
+    ),
+    **spring.BASIS,
+    **cam_findings.BASIS,
+    **train.BASIS,
+    **release.BASIS,
+    **stock_spring.BASIS,
+}
 
 
 def drive_findings(robot: Robot) -> list[Finding]:
     """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*`, `motor_*`, `release_*` by what they limit."""
-    return [_judged(found) for found in (*robot.layout.drive.findings, *robot.release.findings)]
+    return [*(_judged(found) for found in (*robot.layout.drive.findings, *robot.release.findings)), _dog(robot)]
+
+
+def _dog(robot: Robot) -> Finding:
+    """Return the finding of the cam's dog, loaded and at the impact."""
+    case, gears = load_case(robot), robot.workshop.material("gears")
+    stress = case.dog_stress_mpa(max(robot.layout.drive.cam.peak_torque_nm, robot.release.blow_nm))
+    allowable = gears.strength_interlayer_mpa / robot.workshop.safety.printed_factor
+    remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
+    return stress_finding(
+        "cam_dog_strength", "the cam's dog, across its layers at release", stress, allowable, remedy, "dog"
+    )
 
 
 def _judged(found: Finding) -> Finding:

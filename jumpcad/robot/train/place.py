@@ -1,10 +1,7 @@
-"""Places of the drive in the body: spring pin, idler and motor, beside cam and springs (mm).
+"""Places of the drive in the body: idler and motor, beside cam and springs (mm).
 
 In-plane places are in the body frame's x-z plane.
 """
-
-import math
-from typing import Literal
 
 import numpy as np
 
@@ -14,106 +11,22 @@ from jumpcad.dimensions import (
     CLEAR_MM,
     GAP_MM,
     SPACER_RADIUS_MM,
-    SPRING_BOSS_MIN_MM,
-    SPRING_BOSS_MM,
-    SPRING_BOSS_WALL_MM,
 )
-from jumpcad.drive import Drive, TorsionSpring
+from jumpcad.drive import Drive
 from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
-from jumpcad.robot.space.lateral import Interval, Lateral
-from jumpcad.robot.space.places import around, best_place, ring_candidates
-from jumpcad.robot.space.room import Obstacle, bar, box_obstacle, clearance, disc, shortfall
+from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.places import best_place, ring_candidates
+from jumpcad.robot.space.room import Obstacle, box_obstacle, clearance, disc, shortfall
+from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
-PIN_FROM_DEG, PIN_UP_TO_DEG, PIN_WANTED_DEG = 20.0, 131.0, 40.0
-"""Directions of that pin from the hub, counter-clockwise from forward; judgement: between leg and cam."""
-PIN_STEPS_DEG = (5.0, 1.0)
-"""Between the directions tried, the second where the first finds no room; judgement."""
 MOTOR_WANTED_MM = np.array([0.0, 14.0])
 """Where the motor is wanted in the body frame; judgement: between the pivots, its socket just above their line."""
 ROUND_OFF_MM = 1e-5
 """Larger than the error of a rounded place."""
 IDLER_STEP = 2
 """Every second free place of an idler is tried: 10° apart; judgement."""
-
-
-def pin_directions_rad(step_deg: float) -> tuple[float, ...]:
-    """Return directions of the springs' pin in the plates, the nearest to the wanted one first."""
-    degrees = np.arange(PIN_FROM_DEG, PIN_UP_TO_DEG, step_deg).tolist()
-    return tuple(math.radians(angle) for angle in sorted(degrees, key=lambda angle: abs(angle - PIN_WANTED_DEG)))
-
-
-PLATE_PINS_RAD = pin_directions_rad(PIN_STEPS_DEG[0])
-"""The directions that are tried at first."""
-
-
-class NoPinRoomError(CannotBuildError):
-    """Something stands where the springs want their pin; `free_rad` are directions in which nothing does."""
-
-    def __init__(self, message: str, free_rad: tuple[float, ...]) -> None:
-        super().__init__(message)
-        self.free_rad = free_rad
-
-
-def spring_pin_place(obstacles: list[Obstacle], hub: Array, spring: TorsionSpring, inside: Interval) -> Array:
-    """Return the place (2,) of the pin that holds the springs' body arms: across both plates, in front of the hub.
-
-    The springs' turns fit one direction only.
-
-    Raises
-    ------
-    NoPinRoomError
-        With the other directions that are free: springs for one of them may fit.
-    """
-    half, radius = (spring.arms.pin_mm / 2.0,) * 2, spring.pin_radius_mm
-    (place,) = places = around(hub, radius, np.array([spring.plate_pin_rad]))
-    remedy = "lower stiffness_nmm_per_deg (a smaller spring) or raise carrying_link_mm"
-    try:
-        best_place("spring pin", obstacles, places, half, 0.0, inside, lambda p: np.zeros(len(p)), remedy)
-    except CannotBuildError as refusal:
-        free: list[float] = []
-        for step in PIN_STEPS_DEG:
-            directions = np.array(pin_directions_rad(step))
-            room = clearance(obstacles, around(hub, radius, directions), half, 0.0, inside)
-            free = free or directions[room >= 0.0].tolist()
-        raise NoPinRoomError(str(refusal), tuple(free)) from None
-    return np.asarray(place)
-
-
-def spring_obstacles(hub: Array, pin: Array, spring: TorsionSpring, inside: Interval) -> list[Obstacle]:
-    """Return the springs' body arms, from their coils to a little beyond their pin, and the pin."""
-    arm = bar(*arm_line(hub, spring, "plate"))
-    return [
-        Obstacle("spring arm", arm, spring.wire_mm / 2.0 + CLEAR_MM, inside),
-        disc("spring pin", pin, spring.arms.pin_mm / 2.0 + CLEAR_MM, inside),
-    ]
-
-
-def spring_boss_mm(obstacles: list[Obstacle], pin: Array, axle_mm: float, lateral: Lateral) -> float:
-    """Return how high the boss for the springs' pin can be on the right plate: 0 where it would be of no use.
-
-    It may grow together with the motor's socket, which is part of that plate too.
-    """
-    low, radius = lateral.inside[0], axle_mm / 2.0 + SPRING_BOSS_WALL_MM
-    top = min(low + SPRING_BOSS_MM, lateral.spring_right[0] - GAP_MM)
-    for one in obstacles:
-        if one.y_mm[0] < top and one.name not in ("spring arm", "spring pin", "motor"):
-            near = clearance([one], pin[None], (0.0, 0.0), 0.0, (low, low + SPRING_BOSS_MM), radius)[0] < radius
-            top = min(top, one.y_mm[0]) if near else top
-    return round(top - low, 6) if top - low >= SPRING_BOSS_MIN_MM else 0.0
-
-
-def arm_line(hub: Array, spring: TorsionSpring, pin: Literal["plate", "leg"]) -> tuple[Array, Array]:
-    """Return where an arm's middle line leaves its coil (2,) and where it ends (2,), at rest.
-
-    For the leg's arm in a frame whose x axis points to its pin.
-    """
-    sign = 1.0 if pin == "plate" else -1.0
-    angle = sign * spring.arms.turn_rad + (spring.plate_pin_rad if pin == "plate" else 0.0)
-    outwards, along = np.array([math.cos(angle), math.sin(angle)]), np.array([math.sin(angle), -math.cos(angle)])
-    start = hub + spring.arms.mean_mm / 2.0 * outwards
-    return np.round(start, 6), np.round(start + sign * spring.arm_length_mm * along, 6)
 
 
 def require_shaft(motor: Motor, lateral: Lateral) -> None:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from support.built import built, geared
+from support.strengths import strength_findings
 
-from jumpcad.checks.strength import strength_findings
 from jumpcad.robot.axles.loads import axle_beams
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.transforms import Array

@@ -6,10 +6,9 @@ from dataclasses import replace
 
 import pytest
 from support.fits import LOADS
-from support.strengths import changed, helped, margins
+from support.strengths import changed, helped, margins, strength_findings
 
 from jumpcad.building import build
-from jumpcad.checks.strength import strength_findings
 from jumpcad.robot.axles import steel
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
@@ -120,7 +119,7 @@ def test_the_rollers_screw_is_a_cantilever_beside_the_lever(robot: str, request:
 
 def test_what_is_advised_to_lower_or_to_raise_helps_the_steel(strongest: Robot) -> None:
     """Of what the landing's force bends; the springs' own arms and the cam stay as they are."""
-    assert "foot_pin_strength" in helped(strongest, lambda robot: steel.steel_findings(LoadCase(robot)))
+    assert "foot_pin_strength" in helped(strongest, lambda robot: steel.steel_findings(robot))
 
 
 @pytest.mark.parametrize("jumps", [1e3, 3000.0, 1e6])

@@ -19,7 +19,7 @@ from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot.cage.place import SOCKET_MM
+from jumpcad.robot.cage.place import SOCKET_MM, Cage
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.hulls import quick_corners_mm
@@ -45,7 +45,7 @@ def robot() -> Robot:
 
 
 def test_a_hoop_is_an_arc_whose_chord_is_twice_r_sin_of_half_its_angle(robot: Robot) -> None:
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     assert cage is not None
     for arc in cage.arcs:
         mouths = arc.points_mm[[1, -2]]
@@ -70,7 +70,7 @@ def test_rods_weigh_what_their_length_weighs_and_lie_in_the_body(robot: Robot) -
 
 def test_the_outline_that_lands_first_is_that_of_the_arcs(robot: Robot) -> None:
     """A bow is round: no corner of its bounding box counts."""
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     assert cage is not None
     seen = robot.outline_m[BODY]
     bow = cage.arcs[-1].points_mm
@@ -80,7 +80,7 @@ def test_the_outline_that_lands_first_is_that_of_the_arcs(robot: Robot) -> None:
 
 
 def test_the_loaded_robot_stands_on_its_feet_alone(robot: Robot) -> None:
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     assert cage is not None
     pose = body_poses(robot, 1.0)[BODY]
     points = np.concatenate([arc.points_mm for arc in cage.arcs]) / 1000.0
@@ -95,7 +95,7 @@ def test_two_hoops_make_its_feet_the_pose_in_which_it_lies() -> None:
 
 def test_every_simulation_file_has_the_rods(robot: Robot) -> None:
     """Chords along every rod with its ends in the sockets, and both bars, welded to the body."""
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     assert cage is not None
     number = len(cage.arcs) * (len(cage.arcs[0].points_mm) - 1) + 2
     mjcf, urdf, sdf = (
@@ -117,7 +117,7 @@ def test_every_simulation_file_has_the_rods(robot: Robot) -> None:
 
 
 def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
-    cage, steps = robot.layout.cage, {step.key: step for step in assembly_steps(robot)}
+    cage, steps = robot.layout.of(Cage), {step.key: step for step in assembly_steps(robot)}
     assert cage is not None
     guide, names = "".join(write_guide(robot).values()), [line.name for line in bill_of_materials(robot).items]
     for arc in cage.arcs:
@@ -139,7 +139,7 @@ def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
 
 
 def test_a_caged_robot_is_laid_on_a_box_that_lifts_its_hoops_off_the_table(robot: Robot) -> None:
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     texts = (write_guide(robot)["trouble.md"], dict(firmware_files(robot))["firmware/README.md"])
     assert cage is not None
     rear, front = (bar.place_mm[0] for bar in cage.bars)
@@ -156,7 +156,7 @@ def test_bill_facts_and_steps_of_a_robot_without_a_cage_have_none(robot: Robot) 
     assert cage_facts(bare) is None
     facts = cage_facts(robot)
     assert facts is not None
-    cage = robot.layout.cage
+    cage = robot.layout.of(Cage)
     assert cage is not None
     assert [rod["length_mm"] for rod in facts["rods"]] == [pytest.approx(arc.length_mm, abs=0.05) for arc in cage.arcs]
     added = robot.mass_kg - bare.mass_kg

@@ -8,11 +8,12 @@ from manifold3d import Manifold
 from support.built import body_in_plane
 from support.said import ways, well_told
 
+from jumpcad.checks.foot_clearance import foot_findings
 from jumpcad.checks.interference import Piece, Position, pieces_of, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot.foot import limits as ground
-from jumpcad.robot.foot.limits import foot_findings, ground_findings
+from jumpcad.robot.foot.limits import ground_findings
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack

@@ -14,8 +14,8 @@ from jumpcad.checks import check
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot.leg.bar_limits import _socket
 from jumpcad.robot.leg.drawing import front_bar_place, leg_bar_place, main_leg
-from jumpcad.robot.leg.limits import _socket
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop

@@ -12,15 +12,9 @@ from jumpcad.drive import TorsionSpring
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.robot.space.room import EVERYWHERE, disc
+from jumpcad.robot.springs.place import NoPinRoomError, arm_line, spring_obstacles, spring_pin_place
 from jumpcad.robot.train import place as drive_places
-from jumpcad.robot.train.place import (
-    NoPinRoomError,
-    arm_line,
-    spring_obstacles,
-    spring_pin_place,
-    train_obstacles,
-    train_places,
-)
+from jumpcad.robot.train.place import train_obstacles, train_places
 
 HUB, INSIDE = np.array([-40.0, 0.0]), (-20.0, 20.0)
 

@@ -9,13 +9,13 @@ from support.built import LONG_TOES, built
 from support.strengths import changed, helped
 
 from jumpcad.findings import errors
-from jumpcad.robot.foot.strength import _toe_joint_mpa, foot_findings
+from jumpcad.robot.foot.toe_limits import _toe_joint_mpa, toe_findings
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
 
 
 def found(case: LoadCase) -> dict[str, float | None]:
-    return {finding.name: finding.value for finding in foot_findings(case)}
+    return {finding.name: finding.value for finding in toe_findings(case.robot)}
 
 
 def tapered_mpa(force_n: float, length_mm: float, widths_mm: tuple[float, float], heights_mm: tuple[float, float]):
@@ -51,7 +51,7 @@ def test_a_rail_is_twisted_by_what_its_toes_tip_is_beside_it(solid: LoadCase) ->
     beside = design.l5_mm * math.sin(math.radians(design.ground_link_angle_deg)) - sections.thickness_mm / 2.0 - 2.5
     short, long = sorted((4.0, sections.rail_root_mm))
     twisted = math.sqrt(3.0) * solid.toes_n / 2.0 * beside / (long * short**2) * (3.0 + 1.8 * short / long)
-    (twist,) = (finding for finding in foot_findings(solid) if finding.name == "rail_twist")
+    (twist,) = (finding for finding in toe_findings(solid.robot) if finding.name == "rail_twist")
     assert twist.value == pytest.approx(twisted)
     assert twist.margin == pytest.approx(45.0 / 2.0 - twisted)
     assert twist.grows == "rail"
@@ -116,10 +116,10 @@ def test_toes_that_are_screwed_on_bear_beside_the_workshops_own_holes(kenan: Rob
 
 
 def test_what_is_advised_to_lower_or_to_raise_helps_the_foot(strongest: Robot) -> None:
-    found = helped(strongest, lambda robot: foot_findings(LoadCase(robot)))
+    found = helped(strongest, toe_findings)
     assert {"toe_strength", "rail_strength", "rail_twist", "toe_landing", "leg_sideways"} <= found
 
 
 def test_weak_plastic_does_not_hold_toes_that_are_screwed_on() -> None:
     weak = changed(built(LONG_TOES), "links", strength_in_plane_mpa=0.3)
-    assert "toe_joint_strength" in {one.name for one in errors(foot_findings(LoadCase(weak)))}
+    assert "toe_joint_strength" in {one.name for one in errors(toe_findings(weak))}

@@ -1,4 +1,4 @@
-"""Strength of toes and rails, and of the main leg bent sideways by one of them (N, N·mm, mm, MPa).
+"""Strength of lugs, toes and rails, and of the main leg bent sideways by a toe (N, N·mm, mm, MPa).
 
 At release the ground pushes on both toes' tips; at landing one of them may touch the ground first.
 """
@@ -11,24 +11,29 @@ import numpy as np
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.findings import Basis, Finding
 from jumpcad.robot.foot.toes import SCREWS_MM, joint_height_mm
-from jumpcad.robot.load_case import IN_PLANE, ONE_TOE, LoadCase, stress_finding
+from jumpcad.robot.load_case import IN_PLANE, INTERLAYER, ONE_TOE, PUSH_OFF, WEAKER, LoadCase, load_case, stress_finding
+from jumpcad.robot.robot import Robot
 from jumpcad.robot.sizing import TWIST_FACTOR, rail_middle_mm
 from jumpcad.strength.loads import rail_moment_nmm, rail_twist_nmm, toe_moment_nmm
 from jumpcad.strength.stress import STATIONS, VON_MISES, Beam, bar_shear_mpa, eye_stress_mpa, tapered_stress_mpa
 
-WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the links"
 SOFTER = f"raise e_coef (longer toes), or {WEAKER}"
 """A tip that is farther from the body's mass is met by less of it."""
 TIPS = "F largest load of both toes' tips in the push-off"
 BASIS = {
+    "foot_lug_strength": Basis(
+        f"max(F/(d·t), √3·F/((D - d)·t)) ≤ {INTERLAYER}; F half of the larger force of ankle and front link in the "
+        "push-off, t a lug's thickness, D twice the foot's depth, d bore",
+        f"joints loaded in shear: Shigley 8-12; distortion energy; {PUSH_OFF}",
+    ),
     "toe_strength": Basis(
         f"largest M·h/(2·I) along a toe ≤ {IN_PLANE}; M falls evenly from F·l5/2 at its root to 0, {TIPS}",
-        "Shigley 3-10; loads: inverse dynamics of the push-off (Norton, Design of Machinery, ch. 11)",
+        f"Shigley 3-10; {PUSH_OFF}",
     ),
     "rail_strength": Basis(
         f"largest M·h/(2·I) along a rail ≤ {IN_PLANE}; M falls evenly from F·x/2 at the ankle to 0, {TIPS}, x its "
         "distance behind the ankle",
-        "Shigley 3-10; loads: inverse dynamics of the push-off (Norton, Design of Machinery, ch. 11)",
+        f"Shigley 3-10; {PUSH_OFF}",
     ),
     "rail_twist": Basis(
         f"√3·T/(b·c²)·(3 + 1.8·c/b) ≤ strength_in_plane_mpa/{TWIST_FACTOR:g} (MPa); T = F·(y - y0)/2, {TIPS}, y and y0 "
@@ -58,9 +63,21 @@ BASIS = {
 }
 
 
-def foot_findings(case: LoadCase) -> Iterator[Finding]:
+def toe_findings(robot: Robot) -> Iterator[Finding]:
     """Yield the findings of `BASIS`; those of bars and screws of toes only where there are any."""
-    yield from (*_foot(case), *_sideways(case))
+    case = load_case(robot)
+    yield from (_lugs(case), *_foot(case), *_sideways(case))
+
+
+def _lugs(case: LoadCase) -> Finding:
+    """Return the finding of the lugs at the ankle: the foot prints on its sole, and they are pulled across layers."""
+    sections, bore = case.layout.sections, case.holes.lying(case.layout.axle_mm)
+    pull = max(case.ankle_n, case.front_n) / 2.0
+    stress = eye_stress_mpa(pull, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, bore)
+    interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.printed_factor
+    return stress_finding(
+        "foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER, "lug"
+    )
 
 
 def _foot(case: LoadCase) -> Iterator[Finding]:

@@ -11,10 +11,10 @@ from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.checks.interference import Position, pieces_of, pose_of
-from jumpcad.checks.sideways import play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot.foot.sideways import play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 

@@ -1,0 +1,51 @@
+"""Clearance of the body above the foot, springs loaded (mm)."""
+
+from jumpcad.checks.interference import Position, box_of, pieces_of, pose_of
+from jumpcad.findings import Basis, Finding, limit
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.robot.robot import Robot
+from jumpcad.transforms import Array
+
+FOOT_GAP_MM = 0.5
+"""Least gap; judgement: play of the joints and the flexing of legs and foot."""
+SEARCH_MM = 3.0
+"""Larger gaps are not measured."""
+BASIS = {
+    "foot_clearance": Basis(
+        f"least distance of the foot from what the body carries, springs loaded ≥ {FOOT_GAP_MM:g} mm",
+        f"solids, exact; {FOOT_GAP_MM:g} mm: judgement, as for the ground",
+    ),
+}
+
+
+def foot_findings(robot: Robot) -> list[Finding]:
+    """Return `foot_clearance`: the gap between the foot and what the body carries, springs loaded (exact)."""
+    layout = robot.layout
+    linkage = robot.linkage
+    loaded = Position("springs loaded", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
+
+    body, foot = (
+        [(piece, pose_of(piece, layout, linkage, loaded)) for piece in pieces_of(robot) if piece.body == name]
+        for name in (BODY, FOOT)
+    )
+    gaps = (
+        (one.solid.transform(T_one[:3]).min_gap(other.solid.transform(T_other[:3]), SEARCH_MM), one.name)
+        for one, T_one in body
+        for other, T_other in foot
+        if _near(box_of(one, T_one), box_of(other, T_other))
+    )
+    gap, name = min(gaps, default=(SEARCH_MM, ""))
+    found = f"{name} comes within {gap:.1f} mm" if gap < SEARCH_MM else f"nothing comes within {gap:g} mm"
+    return [
+        limit(
+            "foot_clearance", gap - FOOT_GAP_MM, "mm",
+            f"{found} of the foot with loaded springs; {FOOT_GAP_MM:g} mm are needed",
+            "lower compression_ratio, or raise ground_link_angle_deg",
+            value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
+        )
+    ]  # fmt: skip
+
+
+def _near(a: Array, b: Array) -> bool:
+    """Whether two boxes (2, 3) may be nearer to each other than is searched."""
+    return bool((a[0] < b[1] + SEARCH_MM).all() and (b[0] < a[1] + SEARCH_MM).all())
