@@ -78,7 +78,7 @@ def test_parts_of_which_a_workshops_choice_decides_may_be_weighed_for_all_robots
     """Ends of legs of bars, and the mount of a sensor: for a robot without them their weights are of no use."""
     whole = layout_of(load_design("kenan-2.0"), shop := load_workshop())
     barred = layout_of(load_design("kenan-2.0"), workshop_with(bought={"leg": "carbon-tube-4x2"}))
-    few, more = ({one.name for one in drawings(layout, shop, "")} for layout in (replace(whole, sensor=None), barred))
+    few, more = ({one.name for one in drawings(layout, shop)} for layout in (replace(whole, sensor=None), barred))
     assert more - few == {"main_leg_end", "sensor_mount"}
     require_parts(more, sorted(few))
 

@@ -58,7 +58,7 @@ def test_tubes_are_not_ground_and_aluminium_gives_no_sparks() -> None:
 def test_a_strip_gives_its_pieces_one_behind_the_other() -> None:
     """Toes' pads: 2 x (10.4 + 2) + 2 x (9.5 + 2) = 47.8 mm; the stop's: 8 + 2 = 10 mm."""
     robot = with_article(built("kenan-2.0"), r"(polyurethane.*, cut )4\.0 x 10\.\d( mm)", r"\g<1>4.0 x 10.4\2")
-    stop, toes = order(robot)["strips"]
+    toes, stop = order(robot)["strips"]
     assert (stop["cut"], stop["long_mm"], stop["wide_mm"]) == ([(1, 6.0, 8.0)], 10.0, 6.0)
     assert (toes["cut"], toes["long_mm"], toes["wide_mm"]) == ([(2, 4.0, 10.4), (2, 5.0, 9.5)], 50.0, 5.0)
 

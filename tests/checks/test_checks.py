@@ -37,7 +37,7 @@ def test_a_check_of_the_registry_is_run_by_all_that_is_cheap(kenan: Robot, monke
     monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight], {}, cheap=True),))
     assert checks.check(kenan) == checks.quick_findings(kenan) == constraint_findings(kenan) == [weight]
     assert checks.costly_findings(kenan) == []
-    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight], {}),))
+    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight], {}, cheap=False),))
     assert (checks.check(kenan), checks.quick_findings(kenan), constraint_findings(kenan)) == ([weight], [], [])
     assert checks.costly_findings(kenan) == [weight]
     assert checks.check(capsule_robot(kenan.design)) == []

@@ -10,7 +10,7 @@ from support.strengths import changed, helped, margins, strength_findings
 
 from jumpcad.building import build
 from jumpcad.robot.axles import steel
-from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
 
 
@@ -87,23 +87,23 @@ def test_what_tires_first_is_not_what_bears_the_largest_stress(robot: str, reque
     """Pins of 400 MPa beside axles of 1370 MPa, here a tenth as strong: the nearest to its yield stress."""
     strong = request.getfixturevalue(robot)
     for pins_mpa in (1370.0, 137.0):
-        case = LoadCase(strong)
+        case = load_case(replace(strong))
         weak = {name: replace(case.bars[name], yield_mpa=pins_mpa) for name in ("foot_pin", "leg_pin")}
         case.__dict__["bars"] = case.bars | weak
         used = {name: stress / case.bars[name].yield_mpa for name, stress in case.steel_stresses_mpa.items()}
         worst = max(used, key=used.__getitem__)
-        (axle,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
+        (axle,) = (found for found in steel.steel_findings(case.robot) if found.name == "axle_fatigue")
         assert axle.message.startswith(f"the {worst.replace('_', ' ')}: ")
         assert axle.value == case.steel_stresses_mpa[worst]
 
 
 def test_the_axle_nearest_to_its_own_fatigue_limit_counts(kenan: Robot) -> None:
     """Hard steel loses more of its yield stress to a million jumps than soft steel does."""
-    case = LoadCase(changed(kenan, "safety", jumps=1e6))
+    case = load_case(changed(kenan, "safety", jumps=1e6))
     hard, soft = (case.bars[name].yield_mpa for name in ("leg_axle", "leg_pin"))
     assert hard > 2.0 * soft
     vars(case)["steel_stresses_mpa"] = {"leg_axle": 0.49 * hard, "leg_pin": 0.50 * soft}
-    (finding,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
+    (finding,) = (found for found in steel.steel_findings(case.robot) if found.name == "axle_fatigue")
     assert (finding.severity, finding.value) == ("warning", pytest.approx(0.49 * hard))
 
 
@@ -119,14 +119,14 @@ def test_the_rollers_screw_is_a_cantilever_beside_the_lever(robot: str, request:
 
 def test_what_is_advised_to_lower_or_to_raise_helps_the_steel(strongest: Robot) -> None:
     """Of what the landing's force bends; the springs' own arms and the cam stay as they are."""
-    assert "foot_pin_strength" in helped(strongest, lambda robot: steel.steel_findings(robot))
+    assert "foot_pin_strength" in helped(strongest, steel.steel_findings)
 
 
 @pytest.mark.parametrize("jumps", [1e3, 3000.0, 1e6])
 def test_a_rod_has_its_yield_stress_over_0_78_as_tensile_strength(kenan: Robot, jumps: float) -> None:
     """Goodman's line by hand, for a stress that is half mean, half amplitude (Shigley 6-12, figure 6-18)."""
-    case = LoadCase(changed(kenan, "safety", jumps=jumps))
-    (finding,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
+    case = load_case(changed(kenan, "safety", jumps=jumps))
+    (finding,) = (found for found in steel.steel_findings(case.robot) if found.name == "axle_fatigue")
     name = finding.message.removeprefix("the ").partition(":")[0].replace(" ", "_")
     tensile = case.bars[name].yield_mpa / 0.78
     endless = min(tensile / 2.0, 700.0) * min(1.0, 4.51 * tensile**-0.265)

@@ -10,9 +10,9 @@ from support.each import each
 import jumpcad
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check, quick_findings
+from jumpcad.checks.righting import righting_findings
 from jumpcad.findings import Finding
 from jumpcad.remedies import Remedies
-from jumpcad.robot.cage.limits import righting_findings
 from jumpcad.robot.cage.strength import bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm, two_horns
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop, varied

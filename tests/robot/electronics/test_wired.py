@@ -17,14 +17,14 @@ from jumpcad.workshop import load_workshop
 
 def test_what_has_no_place_hangs_in_its_wires() -> None:
     """A switch that is not behind the plate, a sensor that is not over the cam gear."""
-    robot, catalogue = built("kenan-2.0"), load_catalogue()
-    layout, bought = robot.layout, robot.workshop.bought
+    robot = built("kenan-2.0")
+    layout = robot.layout
     for changed, hanging in (
         ({"fittings": replace(layout.fittings, switch_mm=None)}, {"wiring_switch"}),
         ({"fittings": replace(layout.fittings, usb_mm=None)}, set()),
         ({"sensor": None}, {"wiring_sensor"}),
     ):
-        names = {item.name for item in electronics(replace(layout, **changed), catalogue, bought)}
+        names = {item.name for item in electronics(replace(layout, **changed), robot.workshop)}
         assert names & {"wiring_switch", "wiring_sensor", "wiring_plug", "wiring_capacitor"} == hanging
 
 

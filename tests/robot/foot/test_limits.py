@@ -8,11 +8,11 @@ from manifold3d import Manifold
 from support.built import body_in_plane
 from support.said import ways, well_told
 
+from jumpcad.checks import foot_clearance
 from jumpcad.checks.foot_clearance import foot_findings
 from jumpcad.checks.interference import Piece, Position, pieces_of, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
-from jumpcad.robot.foot import limits as ground
 from jumpcad.robot.foot.limits import ground_findings
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import rectangle
@@ -107,8 +107,8 @@ def test_gaps_of_up_to_3_mm_are_measured_on_all_sides_of_the_foot(
     cube, far, shift = Stack.of([(0.0, 10.0, rectangle((10.0, 10.0)))]), np.eye(4), abs(gap_mm) + 10.0
     far[axis, 3] = np.copysign(shift, gap_mm)
     cubes = [Piece("sole", FOOT, cube, np.eye(4)), Piece("cube", BODY, cube, far)]
-    monkeypatch.setattr(ground, "pieces_of", lambda _: cubes)
-    monkeypatch.setattr(ground, "pose_of", lambda piece, *_: piece.T_body_part)
+    monkeypatch.setattr(foot_clearance, "pieces_of", lambda _: cubes)
+    monkeypatch.setattr(foot_clearance, "pose_of", lambda piece, *_: piece.T_body_part)
     (finding,) = foot_findings(kenan)
     assert finding.value == (pytest.approx(2.9, abs=1e-4) if abs(gap_mm) < 3.0 else None)
     assert ("cube" in finding.message) == (abs(gap_mm) < 3.0)

@@ -135,7 +135,7 @@ def test_bores_are_closed_outside_where_plates_keep_the_axles(
 ) -> None:
     """By four layers of 0.2 mm; nuts and clips are outside the plates, whose seat of the leg's axle is not thicker."""
     layout = replace(kenan.layout, retention=retention)
-    left, right = plates(layout, kenan.workshop, "")
+    left, right = plates(layout, kenan.workshop)
     drawing, plate = (left, layout.lateral.left_plate) if side == "left" else (right, layout.lateral.right_plate)
     at = np.linalg.inv(drawing.placements[0].T_body_part)
     thick = plate[1] - plate[0]

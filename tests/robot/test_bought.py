@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 import trimesh
-from jumpcad.parts.shopping import _d_shaft
 from support.built import LONG_TOES, body_in_plane, built, cut, placed, region
 from support.workshops import workshop_with
 
@@ -16,6 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.train.bought import _d_shaft
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import load_workshop
 
