@@ -10,13 +10,13 @@ import numpy as np
 
 from jumpcad.building import build
 from jumpcad.checks import quick_findings
+from jumpcad.collision.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names
 from jumpcad.findings import errors
 from jumpcad.landing.landing import land, share_righted
 from jumpcad.landing.series import jumps
-from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop, varied
 

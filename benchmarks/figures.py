@@ -25,6 +25,7 @@ from jumpcad import published
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
+from jumpcad.collision.stable_poses import share_on_feet
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
@@ -34,7 +35,6 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose import bayesian
 from jumpcad.search.study.objective import find_objective

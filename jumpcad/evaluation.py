@@ -100,7 +100,7 @@ class EvaluationResult(ByValue):
     @cached_property
     def rights_itself(self) -> float:
         """Share of attitudes from which the wound robot rolls onto its feet, by its stable poses."""
-        from jumpcad.scene.stable_poses import share_on_feet
+        from jumpcad.collision.stable_poses import share_on_feet
 
         return share_on_feet(self.robot)
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from jumpcad.collision.hulls import CAGE
 from jumpcad.dimensions import PAD_WALL_MM
 from jumpcad.mechanism.linkage import Complex, toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
@@ -14,7 +15,6 @@ from jumpcad.mechanism.planar import points
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.layout import Layout
-from jumpcad.scene.hulls import CAGE
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 

@@ -24,6 +24,7 @@ from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.weigh_sheet import weigh_sheet
+from jumpcad.collision.stable_poses import share_on_feet
 from jumpcad.coupon.contents import coupon_files, coupon_pieces
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.animation import animated
@@ -33,7 +34,6 @@ from jumpcad.findings import errors
 from jumpcad.landing.series import Series
 from jumpcad.robot.electronics.limits import electronics_findings
 from jumpcad.robot.robot import Robot, require_name
-from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import BUNDLE_ENGINE
 from jumpcad.simulation.uncertain import Uncertainty, uncertainty_of

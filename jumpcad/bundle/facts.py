@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+from jumpcad.collision.hulls import CAGE
 from jumpcad.drive.release import Release
 from jumpcad.drive.rolling import ReleaseParts
 from jumpcad.parts.holes import HoleSizes
@@ -12,7 +13,6 @@ from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.limits import jumps_per_charge, links
 from jumpcad.robot.foot.sideways import play_rad, rolls
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.hulls import CAGE
 from jumpcad.simulation import Jump
 
 DIGITS, ROLL_DIGITS = 6, 3

@@ -5,12 +5,12 @@ from types import MappingProxyType
 import numpy as np
 
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled
 from jumpcad.scene.renderer import COMPRESSION, Renderer, paletted, png_of
-from jumpcad.scene.step_views import StepView, step_views
 from jumpcad.scene.visuals import Visual
+from jumpcad.steps.assembly_steps import assembly_steps
+from jumpcad.steps.step_views import StepView, step_views
 from jumpcad.transforms import Array
 
 SIZE = (560, 520)

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
+from jumpcad.collision.stable_poses import least_share_on_feet
 from jumpcad.findings import Basis, Finding, at_least
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.stable_poses import least_share_on_feet
 
 RIGHTED = 90.0
 """Least percentage of stable poses on its feet, wherever the centre of mass is within its shifts. Judgement: robots

@@ -35,7 +35,7 @@ from jumpcad.cli import (
 )
 from jumpcad.cli.output import OutputClosed, complain, print_json, standard_output
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.interrupts import raise_if_seen
+from jumpcad.process.interrupts import raise_if_seen
 
 WRONG_REQUEST, BUG = 2, 3
 OUTPUT_CLOSED = 141

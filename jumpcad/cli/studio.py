@@ -32,7 +32,7 @@ def studio(
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
     from jumpcad.files.templates import template_names
-    from jumpcad.gc_tuning import collect_usually
+    from jumpcad.process.gc_tuning import collect_usually
     from jumpcad.studio import Studio
 
     is_study = design.endswith(STUDY) and not Path(design).is_dir()

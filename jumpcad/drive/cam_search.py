@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 from scipy import optimize
 
-from jumpcad.blas_threads import one_thread
 from jumpcad.drive.cam import Cam, CamGeometry
 from jumpcad.drive.cam_findings import SCALES, cam_findings, missed
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits, axis_range, measure
 from jumpcad.errors import CannotBuildError
+from jumpcad.process.blas_threads import one_thread
 from jumpcad.transforms import Array
 
 FTOL = 1e-5

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from jumpcad.collision.hulls import CAGE, Capsule
 from jumpcad.exporters.mjcf_robot import HOLD
 from jumpcad.exporters.sdf import write_config, write_sdf
 from jumpcad.exporters.urdf import cage_cylinders, tree
@@ -21,7 +22,6 @@ from jumpcad.files import templates_folder
 from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.mechanism.poses import body_poses, standing
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.hulls import CAGE, Capsule
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.solids.stl import write_stl

@@ -8,6 +8,7 @@ hinge pulls the leg back. Pin friction is one dry torque at the leg joint.
 import math
 from collections.abc import Iterator, Sequence
 
+from jumpcad.collision.hulls import cage_capsules
 from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
 from jumpcad.files.rendering import fill
@@ -15,7 +16,6 @@ from jumpcad.mechanism.model import Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.hulls import cage_capsules
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.transforms import Array

@@ -21,8 +21,8 @@ from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings, coefficients
 
 if TYPE_CHECKING:
+    from jumpcad.collision.hulls import Capsule
     from jumpcad.robot.robot import Robot
-    from jumpcad.scene.hulls import Capsule
     from jumpcad.scene.visuals import Visual
 
 
@@ -92,7 +92,7 @@ def tree(
 
 def cage_cylinders(mechanism: Mechanism) -> "dict[str, Capsule]":
     """Return the cage's rods and bars, which touch the ground, by name."""
-    from jumpcad.scene.hulls import cage_capsules
+    from jumpcad.collision.hulls import cage_capsules
 
     return {f"cage_{number}": capsule for number, capsule in enumerate(cage_capsules(mechanism), start=1)}
 

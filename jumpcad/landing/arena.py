@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from jumpcad.collision.hulls import CAGE
 from jumpcad.exporters.mjcf_robot import STEP_S, write_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.hulls import CAGE
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.ballistics import drag_m_s2, drag_per_m

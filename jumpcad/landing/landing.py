@@ -8,12 +8,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.arguments import check_arguments
+from jumpcad.collision.stable_poses import share_on_feet
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import Blow, Blows, PartForce, landing_strength, part_forces
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.settings import Settings
 from jumpcad.simulation.prior import FLOOR_SHARE
 

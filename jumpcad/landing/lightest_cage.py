@@ -5,13 +5,13 @@ from collections.abc import Callable
 
 from jumpcad.building import built_and_checked
 from jumpcad.checks.righting import RIGHTED
+from jumpcad.collision.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.landing.landing import Landings, land
 from jumpcad.robot.cage.place import Cage, plate_ends_mm
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.workshop import Workshop, varied
 
 ROD = "glass-1.5"

@@ -15,6 +15,7 @@ import numpy as np
 from pydantic import Field
 from scipy.spatial.transform import Rotation
 
+from jumpcad.collision.hulls import CAGE
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, read_bytes, read_json
@@ -34,7 +35,6 @@ from jumpcad.mechanism.model import (
     five_bar,
 )
 from jumpcad.mechanism.planar import points
-from jumpcad.scene.hulls import CAGE
 from jumpcad.transforms import Array
 
 Length = Annotated[float, Field(ge=-10, le=10)]

@@ -23,10 +23,10 @@ from jumpcad.checks.printability import printability_findings
 from jumpcad.design import Design, load_design
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
-from jumpcad.scene import assembly_order, assembly_steps
-from jumpcad.scene.assembly_order import Tool
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
+from jumpcad.steps import assembly_order, assembly_steps
+from jumpcad.steps.assembly_order import Tool
 
 STEEP_TOES = Design.from_vector([135.2, 0.88, 0.71, 1.25, 0.22, 59.6, 28.0, 66.4])
 SHORT_BODY = Design.from_vector([79.2, 0.8807, 0.4388, 1.2223, 0.7436, 55.55, 28.06, 15.0])

@@ -9,13 +9,13 @@ import pytest
 from support.built import built
 
 from jumpcad.bundle.motion import series_motion
+from jumpcad.collision.stable_poses import share_on_feet
 from jumpcad.errors import JumpcadError
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.landing import land, share_righted
 from jumpcad.landing.series import Hop, Recorder, Series, jumps
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.mechanics import Mechanics, loaded_state

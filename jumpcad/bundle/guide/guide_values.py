@@ -25,11 +25,11 @@ from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import ORDERED
-from jumpcad.scene.assembly_order import ORDER
-from jumpcad.scene.assembly_steps import Step
-from jumpcad.scene.step_views import motor_sense
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import BUNDLE_ENGINE
+from jumpcad.steps.assembly_order import ORDER
+from jumpcad.steps.assembly_steps import Step
+from jumpcad.steps.step_views import motor_sense
 
 TORQUE_M3_NM, TORQUE_M2_NM, TORQUE_PLASTIC_NM = 0.5, 0.1, 0.3
 """Judgement: a third of what M3 and M2 of strength 8.8 bear in steel, and hand-tight in plastic."""

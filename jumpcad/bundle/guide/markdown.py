@@ -10,9 +10,9 @@ from jumpcad.files.rendering import render
 from jumpcad.parts.part import Part
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import CHOOSE
-from jumpcad.scene.assembly_steps import Step, assembly_steps
-from jumpcad.scene.step_views import label_of
 from jumpcad.scene.visuals import Visual
+from jumpcad.steps.assembly_steps import Step, assembly_steps
+from jumpcad.steps.step_views import label_of
 
 PARTS = ("order", "arrival", "wiring", "assembly", "trouble")
 """The guide's documents, in the order in which a builder needs them."""

@@ -1,0 +1,1 @@
+"""The cage that rights the robot: where it goes, how it is drawn, what is bought for it, what limits it."""

@@ -1,0 +1,1 @@
+"""Foot, toes and their pads: where it goes, how it is drawn, what is bought for it, what limits it."""

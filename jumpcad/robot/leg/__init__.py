@@ -1,0 +1,1 @@
+"""Main leg and front link: where it goes, how it is drawn, what is bought for it, what limits it."""

@@ -1,0 +1,1 @@
+"""Both body plates: where it goes, how it is drawn, what is bought for it, what limits it."""

@@ -1,0 +1,1 @@
+"""The switch that feels the wound spring: where it goes, how it is drawn, what is bought for it, what limits it."""

@@ -1,0 +1,1 @@
+"""Room: obstacles, places among them, and the lateral stack."""

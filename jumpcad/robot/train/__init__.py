@@ -1,0 +1,1 @@
+"""Motor, gears and cam: where it goes, how it is drawn, what is bought for it, what limits it."""

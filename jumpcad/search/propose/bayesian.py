@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.blas_threads import one_thread
 from jumpcad.plural import counted
+from jumpcad.process.blas_threads import one_thread
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun

@@ -18,11 +18,11 @@ from typing import Any
 import cloudpickle
 
 from jumpcad.arguments import check_arguments
-from jumpcad.beside import A, T, cores, one_by_one
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
-from jumpcad.interrupts import raise_if_seen
+from jumpcad.process.cores import A, T, cores, one_by_one
+from jumpcad.process.interrupts import raise_if_seen
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.variant import Variant

@@ -18,11 +18,11 @@ from typing import Any
 import cloudpickle
 import loky
 
-from jumpcad.beside import one_by_one
-from jumpcad.blas_threads import ONE_THREAD, one_thread
 from jumpcad.errors import JumpcadError
-from jumpcad.gc_tuning import collect_seldom
-from jumpcad.interrupts import deferred_interrupts
+from jumpcad.process.blas_threads import ONE_THREAD, one_thread
+from jumpcad.process.cores import one_by_one
+from jumpcad.process.gc_tuning import collect_seldom
+from jumpcad.process.interrupts import deferred_interrupts
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.variant import Variant

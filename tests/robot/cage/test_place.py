@@ -13,6 +13,8 @@ from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.facts import cage_facts
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide
+from jumpcad.collision.hulls import quick_corners_mm
+from jumpcad.collision.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.exporters.sdf import write_sdf
@@ -21,11 +23,9 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.cage.place import SOCKET_MM, Cage
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.scene.hulls import quick_corners_mm
-from jumpcad.scene.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.scene.visuals import visuals
 from jumpcad.solids.stack import Stack
+from jumpcad.steps.assembly_steps import assembly_steps
 from jumpcad.workshop import load_workshop, varied
 
 FLAT = jumpcad.Design.from_vector([100, 0.9595, 0.7772, 0.8377, 0.8, 70, 30, 16.808])

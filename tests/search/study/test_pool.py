@@ -16,8 +16,8 @@ from support import needs
 from support.hills import Hill, Trap
 from support.places import TESTS
 
-from jumpcad import interrupts
 from jumpcad.errors import JumpcadError
+from jumpcad.process import interrupts
 from jumpcad.search.space import Space
 from jumpcad.search.study import pool as pool_module
 from jumpcad.search.study.objective import QUARANTINED

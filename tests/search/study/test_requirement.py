@@ -8,12 +8,12 @@ from support.built import built
 from support.studies import IDENTITY
 
 import jumpcad
+from jumpcad.collision.stable_poses import share_on_feet
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES
 from jumpcad.findings import errors
 from jumpcad.landing.landing import land
-from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.search.models import COSTLY, robot_model
 from jumpcad.search.study import summary
 from jumpcad.search.study.objective import Evaluation

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.robot.robot import Robot, carried
-from jumpcad.scene.assembly_order import ORDER, ROBOT, Move, Plan
 from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.steps.assembly_order import ORDER, ROBOT, Move, Plan
 from jumpcad.transforms import Array, chained
 
 SIDES: dict[str, Array] = {

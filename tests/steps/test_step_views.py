@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.built import built, geared
 
-from jumpcad.scene.step_views import StepView, motor_sense, step_views
+from jumpcad.steps.step_views import StepView, motor_sense, step_views
 
 
 @pytest.fixture(scope="module")

@@ -6,12 +6,12 @@ import sys
 
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from jumpcad.blas_threads import one_thread
+from jumpcad.process.blas_threads import one_thread
 
 FIRST_OF_ALL = """
 import numpy
 from threadpoolctl import threadpool_info
-from jumpcad.blas_threads import one_thread
+from jumpcad.process.blas_threads import one_thread
 with one_thread():
     import scipy.linalg, sklearn.gaussian_process
     print(*{pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"})

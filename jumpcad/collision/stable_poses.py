@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 
+from jumpcad.collision.hulls import CAGE, cage_capsules, quick_corners_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.hulls import CAGE, cage_capsules, quick_corners_mm
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import Array, chained
 

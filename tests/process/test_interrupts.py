@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from jumpcad import interrupts
-from jumpcad.interrupts import deferred_interrupts, raise_if_seen
+from jumpcad.process import interrupts
+from jumpcad.process.interrupts import deferred_interrupts, raise_if_seen
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="no masks of signals on Windows")
 

@@ -8,12 +8,12 @@ import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.assembly_order import LEFT, LOWER, UPPER, Move
-from jumpcad.scene.assembly_steps import Step, assembly_steps, travel
 from jumpcad.scene.camera import View
-from jumpcad.scene.step_insets import BEHIND, INSETS, Inset
 from jumpcad.scene.visuals import Visual
 from jumpcad.solids.tube import DrawnWire
+from jumpcad.steps.assembly_order import LEFT, LOWER, UPPER, Move
+from jumpcad.steps.assembly_steps import Step, assembly_steps, travel
+from jumpcad.steps.step_insets import BEHIND, INSETS, Inset
 from jumpcad.transforms import Array, chained, pose_at
 
 FROM_LEFT = View(yaw_deg=62.0, pitch_deg=28.0)

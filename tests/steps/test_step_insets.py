@@ -5,8 +5,8 @@ import re
 import pytest
 from support.built import built
 
-from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.scene.step_insets import INSETS, Inset
+from jumpcad.steps.assembly_steps import assembly_steps
+from jumpcad.steps.step_insets import INSETS, Inset
 
 
 @pytest.mark.parametrize("inset", INSETS, ids=lambda inset: inset.name)

@@ -1,0 +1,1 @@
+"""Steps of the assembly: their order, parts and pictures."""
