@@ -49,7 +49,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
         kept = before.parts[len(drawn) :]
     else:
         drawn = drawings(layout, workshop)
-        hardware = tuple(item for thing in THINGS.values() for item in thing.bought(layout, workshop))
+        hardware = tuple(item for thing in THINGS for item in thing.bought(layout, workshop))
         require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm, layout.of(Cage) is not None)
@@ -107,7 +107,7 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth(), nam
         if workshop.bought.spring:
             refusal.args = (of_stock(str(refusal)),)
         raise
-    for thing in THINGS.values():
+    for thing in THINGS:
         if (place := thing.place(layout, workshop)) is not None:
             layout = replace(layout, things=(*layout.things, place))
     return layout
@@ -191,4 +191,4 @@ def _held(layout: Layout, blow: Blow) -> StopBlow:
 
 def drawings(layout: Layout, workshop: Workshop) -> list[Drawing]:
     """Return every printed part of a layout, those of the main leg first."""
-    return [drawing for thing in THINGS.values() for drawing in thing.draw(layout, workshop)]
+    return [drawing for thing in THINGS for drawing in thing.draw(layout, workshop)]

@@ -42,7 +42,7 @@ SYMBOLS = (
 
 CHECKS = (
     Check(feasibility.feasibility_findings, feasibility.BASIS, needs=Mechanism),
-    *(check for thing in THINGS.values() for check in thing.checks),
+    *(check for thing in THINGS for check in thing.checks),
     Check(printability.bed_findings, printability.BASIS),
     Check(foot_clearance.foot_findings, foot_clearance.BASIS, cheap=False),
     Check(printability.printability_findings, printability.BASIS, cheap=False),

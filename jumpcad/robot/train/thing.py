@@ -1,0 +1,15 @@
+"""Its doors."""
+
+from jumpcad.robot.thing import Check, Thing
+from jumpcad.robot.train import blocked, limits
+from jumpcad.robot.train.bought import motor
+from jumpcad.robot.train.drawing import train
+
+TRAIN = Thing(
+    train,
+    motor,
+    (
+        Check(limits.drive_findings, limits.BASIS),
+        Check(blocked.blocked_findings, blocked.BASIS),
+    ),
+)
