@@ -40,7 +40,7 @@ def apply(diff: str, root: Path) -> None:
 
 
 def test_every_kind_of_addition_is_shown() -> None:
-    kinds = {"a printed part", "an exporter", "a check that makes a section grow", "a search method", "an engine"}
+    kinds = {"a thing", "an exporter", "a check that makes a section grow", "a search method", "an engine"}
     assert set(EXAMPLES) == {f"Add {kind}" for kind in (*kinds, "a bought part")}
 
 
@@ -90,6 +90,7 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
                 apply(block, root)
             else:
                 assert not (root / heading[1]).exists()
+                (root / heading[1]).parent.mkdir(exist_ok=True)
                 (root / heading[1]).write_text(block.removeprefix(heading[0]), encoding="utf-8")
         (found[title],) = programs
     return found | {"folder": str(root)}
