@@ -83,7 +83,7 @@ def read_text(path: Path, kind: str = "a text file") -> str:
         raise JumpcadError(f"{path}: not a text file in UTF-8") from None
 
 
-def read_bytes(path: Path, kind: str = "a file") -> bytes:
+def read_bytes(path: Path, kind: str = "a file", most: int = LARGEST_BYTES) -> bytes:
     """Return the content of a regular file of moderate size; `kind` says what it should be, such as `a TOML file`.
 
     Raises
@@ -98,10 +98,10 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
         if not stat.S_ISREG(mode):
             raise JumpcadError(f"{path}: is a pipe or a device, not {kind}")
         with open(path, "rb", opener=_open_at_once) as stream:
-            data: bytes | None = stream.read(LARGEST_BYTES + 1)  # None: it waits for more
+            data: bytes | None = stream.read(most + 1)  # None: it waits for more
             size = os.fstat(stream.fileno()).st_size
-        if data is not None and len(data) > LARGEST_BYTES:
-            raise JumpcadError(f"{path}: is larger than {LARGEST_BYTES >> 20} MiB, too large for {kind}")
+        if data is not None and len(data) > most:
+            raise JumpcadError(f"{path}: is larger than {most >> 20} MiB, too large for {kind}")
         if data is None or len(data) != size:  # as in /proc and /sys, which have no sizes
             raise JumpcadError(f"{path}: is made by the system as it is read, or still being written: not {kind}")
         return data
