@@ -161,9 +161,9 @@ def locked(path: Path) -> Iterator[None]:
         If the file cannot be written, or is locked by another process.
     """
     require_path(path)
-    require_own_sides(path)
     lock = _lock(path)
     try:
+        require_own_sides(path)
         os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o644))
         lock.acquire()
     except Timeout:

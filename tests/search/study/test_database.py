@@ -56,6 +56,18 @@ def test_a_study_is_written_while_its_lock_is_held(tmp_path):
     assert [one.name for one in tmp_path.iterdir()] == ["s.db"]
 
 
+def test_a_name_that_leaves_no_room_for_the_files_beside_it_is_one_line(tmp_path):
+    longest = os.pathconf(tmp_path, "PC_NAME_MAX")
+    for length in range(longest - 12, longest + 3):
+        name = "x" * (length - 3) + ".db"
+        if length + len("-journal") <= longest:
+            StudyStore.write(tmp_path / name, IDENTITY).close()
+        else:
+            with pytest.raises(JumpcadError, match="cannot be written: File name too long$"):
+                StudyStore.write(tmp_path / name, IDENTITY)
+            assert name not in os.listdir(tmp_path)
+
+
 def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):
     (tmp_path / "old.db").touch()
     for fine in (None, tmp_path / "new.db", tmp_path / "old.db"):
