@@ -63,7 +63,7 @@ def test_a_name_that_leaves_no_room_for_the_files_beside_it_is_one_line(tmp_path
         if length + len("-journal") <= longest:
             StudyStore.write(tmp_path / name, IDENTITY).close()
         else:
-            with pytest.raises(JumpcadError, match="cannot be written: File name too long$"):
+            with pytest.raises(JumpcadError, match=r"cannot be written: File name too long$"):
                 StudyStore.write(tmp_path / name, IDENTITY)
             assert name not in os.listdir(tmp_path)
 
