@@ -26,9 +26,9 @@ def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
 
 def warn_of_no_jump(robot: "Robot") -> None:
     """Print on standard error why a robot does not jump, if so."""
-    from jumpcad.simulation import simulate
+    from jumpcad.simulation import headline
 
-    jump = simulate(robot)
+    jump = headline(robot)
     if jump.verdict != "jump":
         print(f"jumpcad: {robot.name} {jump_in_words(jump.to_dict())}", file=sys.stderr)
 
