@@ -70,7 +70,7 @@ class ComparedRobot:
         train, jump = self.robot.layout.drive.train, self.jump
         made = uncertainty_of(self.robot) if jump.verdict == "jump" else None
         way = jumps(self.robot, HOPS).metres_per_charge if jump.verdict == "jump" else None
-        found = {"as_made_m": made and made.quantiles["touchdown_distance_m"][1],
+        found = {"as_made_m": made.quantiles["touchdown_distance_m"][1] if made else None,
                  "spring_stiffness_nm_per_rad": self.robot.spring.stiffness_nm_per_rad,
                  "electrical_energy_j": train.electrical_j, "winding_time_s": train.winding_s,
                  "metres_per_charge": way, "cost_eur": bill_of_materials(self.robot).cost_eur}  # fmt: skip
