@@ -34,8 +34,7 @@ from jumpcad.findings import errors
 from jumpcad.landing.series import Series
 from jumpcad.robot import Robot, require_name
 from jumpcad.scene.stable_poses import share_on_feet
-from jumpcad.simulation import Jump, Settings, simulate
-from jumpcad.simulation.engines import BUNDLE_ENGINE
+from jumpcad.simulation import Jump, headline
 from jumpcad.simulation.uncertain import Uncertainty, uncertainty_of
 
 
@@ -79,7 +78,7 @@ def export(
     if wrong := errors(electronics_findings(robot)):
         raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
     exporters = chosen([name for name, wanted in (("step", step), ("ros2", ros2)) if wanted])
-    jump = _jump(robot, pictures)
+    jump = headline(robot, pictures)
     return write_folder(folder, robot.name, _facts(robot, jump), contents(robot, exporters, pictures, jump), force)
 
 
@@ -116,11 +115,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
 
 def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:
     """Return report.html alone, with links to `files` relative to it; it shows recorded jumps in a row if given."""
-    return _page(robot, _jump(robot, True), renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
-
-
-def _jump(robot: Robot, trajectory: bool) -> Jump:
-    return simulate(robot, Settings(flight="simulated", trajectory=trajectory), BUNDLE_ENGINE)
+    return _page(robot, headline(robot, True), renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
 
 
 def _page(

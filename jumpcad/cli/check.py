@@ -65,7 +65,7 @@ def check(
     from jumpcad.errors import CannotBuildError
     from jumpcad.findings import errors
     from jumpcad.remedies import Remedies
-    from jumpcad.simulation import simulate
+    from jumpcad.simulation import headline
     from jumpcad.workshop import load_workshop, own_workshop
 
     note_template(design)
@@ -78,7 +78,7 @@ def check(
     except CannotBuildError as refusal:
         raise remedies.of_refusal(refusal) from None
     bill_of_materials(robot)  # rejects prices of what it does not have
-    jump = simulate(robot)
+    jump = headline(robot)
     findings = remedies.of_findings(ordered(with_verdict(limits_of(robot), jump)))
     count = counted_limits(findings)
     if explain:

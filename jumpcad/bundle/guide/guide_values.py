@@ -28,8 +28,7 @@ from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import ORDER
 from jumpcad.scene.assembly_steps import Step
 from jumpcad.scene.step_views import motor_sense
-from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.engines import BUNDLE_ENGINE
+from jumpcad.simulation import headline
 
 TORQUE_M3_NM, TORQUE_M2_NM, TORQUE_PLASTIC_NM = 0.5, 0.1, 0.3
 """Judgement: a third of what M3 and M2 of strength 8.8 bear in steel, and hand-tight in plastic."""
@@ -166,7 +165,7 @@ def _jump(robot: Robot) -> dict[str, Any]:
     """Return touchdown and rise as computed, to 10 mm, and the free room (m): no engine's last digits."""
     unknown = {"range_mm": None, "rise_mm": None, "far_m": 3.0, "high_m": 2.0}
     try:
-        jump = simulate(robot, Settings(flight="simulated"), BUNDLE_ENGINE)
+        jump = headline(robot)
     except JumpcadError:
         return unknown
     reach, rise = jump.touchdown_distance_m, jump.com_rise_m
