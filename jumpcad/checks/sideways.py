@@ -22,13 +22,16 @@ WIDEST_MM, HALVINGS = 200, 12
 """Largest half width of the toes that is tried, the limit of the workshop's key; and bisection steps."""
 WIDER_MM = 1.0
 """Added to the half width that the remedy names; judgement: wider bars are heavier."""
+EYE_MM = 0.1
+"""Play of an eye on either side at most: what is drawn wider came out smaller, and a drill 0.1 mm wider than the pin
+opens it. Judgement: the drill, and its wobble by hand."""
 LANDING_PLAYS = 2.0
 """Factor on the play at landing: the body lands tilted to one end of it and swings to the other."""
 BASIS = {
     "sideways_tipping": Basis(
         "atan(w/h) - n·play ≥ safety.roll_reserve_deg (°), least of rest, springs loaded (n = 1) and landing (n = "
         "2); w from the centre of mass to the line from toe's tip to nose, h its height, play = least of leg's and "
-        "front link's Σ(bore - pin)/length of the eye",
+        f"front link's Σ(bore - pin)/length of the eye, of an eye's play {EYE_MM:g} mm a side at most",
         "statics; reserve and twice the play at landing: judgement",
     ),
     "lateral_balance": Basis(
@@ -67,7 +70,7 @@ def sideways_findings(robot: Robot) -> list[Finding]:
             f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
             f"takes {worst.play_deg:.1f}°; {worst.margin_deg:.1f}° are left, of {reserve:g}° at least",
             f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm "
-            "(holes that come out small: fits.holes_small_mm)",
+            f"where that is below {EYE_MM:g}",
         )
     ]  # fmt: skip
     if limit := robot.workshop.safety.lateral_offset_mm:
@@ -136,6 +139,7 @@ def play_rad(layout: Layout, holes: HoleSizes) -> float:
     """
     pin, width = layout.axle_mm, layout.sections.thickness_mm
     eye, loose, lug = (size(pin) - pin for size in (holes.eye, holes.running, holes.lying))
+    eye = min(eye, 2.0 * EYE_MM)
     outside = layout.lateral.outside
     axle = loose / (outside[1] - outside[0] - 2.0 * layout.floor_mm)
     hub = loose / width if layout.hub_bearing is None else 0.0

@@ -48,12 +48,14 @@ def test_play_adds_up_along_the_leg(kenan: Robot) -> None:
     assert play_rad(kenan.layout, holes) == pytest.approx(by_hand, rel=0.02)
     fine = replace(holes, fits=holes.fits.model_copy(update={"eye_mm": 0.05}))
     assert play_rad(kenan.layout, fine) < play_rad(kenan.layout, holes)
+    shrunk = replace(holes, fits=holes.fits.model_copy(update={"eye_mm": 0.2}))  # drawn wider, drilled as wide
+    assert play_rad(kenan.layout, shrunk) == play_rad(kenan.layout, holes)
 
 
 @pytest.mark.parametrize(
     ("fit", "bearing", "eye_mm", "lengths_mm"),
     [
-        ("eye_mm", True, 0.1, [6.0]),  # the ankle's eye; both eyes of the front link have more play
+        ("eye_mm", True, 0.08, [6.0]),  # the ankle's eye; both eyes of the front link have more play
         ("lying_mm", True, 0.1, [21.0]),  # the ankle's pin in the foot
         ("sliding_mm", True, 0.1, [36.2]),  # the axle in both plates
         ("sliding_mm", False, 0.3, [6.0, 36.2]),  # the hub without a bearing too
