@@ -109,7 +109,9 @@ def rolls(robot: Robot, layout: Layout | None = None) -> tuple[Roll, ...]:
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
     com = centre_of_mass_on_foot_mm(robot, linkage, linkage.pose(leg))
     stance = stance_deg(layout, com, robot.lateral_offset_mm)
-    printed = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), fits=robot.workshop.fits)
+    fits = robot.workshop.fits
+    fits = fits.model_copy(update={"eye_mm": min(fits.eye_mm, EYE_MM)})
+    printed = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), fits=fits)
     play = math.degrees(play_rad(layout, printed))
     return (
         Roll("at rest", float(stance[-1]), play),
@@ -139,7 +141,6 @@ def play_rad(layout: Layout, holes: HoleSizes) -> float:
     """
     pin, width = layout.axle_mm, layout.sections.thickness_mm
     eye, loose, lug = (size(pin) - pin for size in (holes.eye, holes.running, holes.lying))
-    eye = min(eye, 2.0 * EYE_MM)
     outside = layout.lateral.outside
     axle = loose / (outside[1] - outside[0] - 2.0 * layout.floor_mm)
     hub = loose / width if layout.hub_bearing is None else 0.0
