@@ -93,8 +93,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
         files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
         for exporter in exporters:
             files |= dict(exporter.files(robot))
-        bearing = robot.layout.hub_bearing
-        shop = varied(robot.workshop, {"bought.leg_bearing": bearing.name if bearing else ""})
+        shop = varied(robot.workshop, {"bought.leg_bearing": getattr(robot.layout.hub_bearing, "name", "")})
         made = coupon_pieces(shop)
         files |= {f"coupon/{path}": content for path, content in coupon_files(shop, made, pictures)}
         files["bom.csv"] = write_bom(bill_of_materials(robot))

@@ -166,16 +166,11 @@ def fall_findings(robot: Robot, hits_j: Mapping[tuple[str, str], float] | None =
         return
     hits = hits_j or {fall: share * FALLS * robot.spring.energy_j for fall, share in SHARES.items()}
     folded = FOLD * cage.rod.bending_nmm2 / 1000.0
-    bears: dict[tuple[str, str], float] = {}
-    for name, arc, (_, sideways, upwards) in zip(("rear", "front"), cage.arcs, _horns(robot, cage), strict=False):
-        bears |= {
-            (name, "side"): folded / arc.radius_mm + sideways,
-            (name, "ahead"): upwards,
-            (name, "behind"): upwards,
-        }
+    horns = zip(("rear", "front"), cage.arcs, _horns(robot, cage), strict=False)
+    bears = {name: (folded / arc.radius_mm + sideways, upwards) for name, arc, (_, sideways, upwards) in horns}
     for way in ("side", "ahead", "behind"):
         hit, bear, name = max(
-            ((hits.get(fall, 0.0), bears[fall], fall[0]) for fall in SHARES if fall[1] == way),
+            ((hits.get(fall, 0.0), bears[fall[0]][way != "side"], fall[0]) for fall in SHARES if fall[1] == way),
             key=lambda one: one[0] / one[1],
         )
         yield at_most(

@@ -109,8 +109,7 @@ def rolls(robot: Robot, layout: Layout | None = None) -> tuple[Roll, ...]:
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
     com = centre_of_mass_on_foot_mm(robot, linkage, linkage.pose(leg))
     stance = stance_deg(layout, com, robot.lateral_offset_mm)
-    fits = robot.workshop.fits
-    fits = fits.model_copy(update={"eye_mm": min(fits.eye_mm, EYE_MM)})
+    fits = robot.workshop.fits.model_copy(update={"eye_mm": min(robot.workshop.fits.eye_mm, EYE_MM)})
     printed = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), fits=fits)
     play = math.degrees(play_rad(layout, printed))
     return (

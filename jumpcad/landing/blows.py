@@ -21,7 +21,6 @@ from jumpcad.layout.cage import CageBar
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.parts.pads import TOE_AHEAD_MM, TOE_BACK_MM
 from jumpcad.robot import Robot
-from jumpcad.scene.hulls import cage_capsules
 from jumpcad.strength.cage import landing_n, ring_n_per_mm
 from jumpcad.transforms import Array
 
@@ -70,12 +69,7 @@ class Blows:
         self.all: list[Blow] = []
         self.falls: dict[tuple[str, str], list[Blow]] = {}
         """Blows on a cage, hoop and bar together, by bar and direction, as `fall_findings` takes them."""
-        self._bars = (
-            {bar.name.rpartition("_")[2]: bar for bar in cage.bars} if (cage := arena.robot.layout.cage) else {}
-        )
-        parts = {f"cage_{number}_collision": one.part for number, one in enumerate(cage_capsules(arena.robot), 1)}
-        geoms = (arena.model.geom(index).name for index in range(arena.model.ngeom))
-        self._side = [parts.get(name, "").rpartition("_")[2] for name in geoms]
+        self._cage = [arena.model.geom(index).name.startswith(CAGE) for index in range(arena.model.ngeom)]
 
     def __call__(self) -> None:
         """Add what the floor did in the last step."""
@@ -94,9 +88,10 @@ class Blows:
             part = CAGE if rods[number] else name if name != FOOT else NOSE if ahead[number] else TOE
             push = float(data.efc_force[contact.efc_address[number]]) if contact.efc_address[number] >= 0 else 0.0
             hits: list[tuple[str | tuple[str, str], list[Blow]]] = [(part, self.all)]
-            if bar := self._bars.get(side := self._side[shape[number]]):
-                way = _way(bar, -self._arena.pose(BODY)[2, :3])
-                hits += [((side, way), self.falls.setdefault((side, way), []))]
+            if self._cage[shape[number]] and (cage := self._arena.robot.layout.cage):
+                front = int(model.geom_pos[shape[number], 0] > 0.0)
+                fall = ("rear", "front")[front], _way(cage.bars[front], -self._arena.pose(BODY)[2, :3])
+                hits.append((fall, self.falls.setdefault(fall, [])))
             for key, found in hits:
                 blow, last = self._now.get(key, (None, 0.0))
                 lasts_s = BLOW_S if key in (name, NOSE, TOE) else ROD_BLOW_S
@@ -112,10 +107,8 @@ class Blows:
 
 def _way(bar: CageBar, down: Array) -> str:
     """Return from where a floor hits a bar and its hoop; both are in the body's frame."""
-    along, up, forwards = bar.T_body_bar[:3, :3].T @ down
-    if abs(up) > max(abs(along), abs(forwards)):
-        return "top"
-    return "side" if abs(along) > abs(forwards) else "ahead" if forwards > 0.0 else "behind"
+    turned = bar.T_body_bar[:3, :3].T @ down
+    return ("side", "top", "ahead" if turned[2] > 0.0 else "behind")[int(np.argmax(np.abs(turned)))]
 
 
 @dataclass(frozen=True)

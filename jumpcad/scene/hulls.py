@@ -83,16 +83,12 @@ def quick_corners_mm(thing: Visual) -> Array:
 
 @dataclass(frozen=True)
 class Capsule:
-    """A cylinder with rounded ends: its ends (3,) and radius (m), in its body's frame, and the part that it stands for.
-
-    `n_per_m` is how stiff it is.
-    """
+    """A cylinder with rounded ends: its ends (3,) and radius (m), in its body's frame; `n_per_m` is how stiff it is."""
 
     start_m: Array
     end_m: Array
     radius_m: float
     n_per_m: float = math.inf
-    part: str = ""
 
     @property
     def length_m(self) -> float:
@@ -116,9 +112,9 @@ def cage_capsules(mechanism: Mechanism) -> list[Capsule]:
         points = np.round(arc.points_mm, DIGITS) / 1000.0
         radius = cage.rod.diameter_mm / 2000.0
         stiffness = 1000.0 * ring_n_per_mm(cage.rod, arc.radius_mm)
-        found += [Capsule(one, other, radius, stiffness, arc.name) for one, other in itertools.pairwise(points)]
+        found += [Capsule(one, other, radius, stiffness) for one, other in itertools.pairwise(points)]
     for bar in cage.bars:
         along = (bar.reach_mm(cage.socket_mm) - cage.socket_mm / 2.0) * bar.T_body_bar[:3, 0]
         ends = np.round(bar.T_body_bar[:3, 3] + np.array([-along, along]), DIGITS) / 1000.0
-        found.append(Capsule(ends[0], ends[1], cage.socket_mm / 2000.0, part=bar.name))
+        found.append(Capsule(ends[0], ends[1], cage.socket_mm / 2000.0))
     return found

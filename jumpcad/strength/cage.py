@@ -7,6 +7,8 @@ import numpy as np
 from jumpcad.catalogue import CageRod
 from jumpcad.workshop import Material
 
+Two = tuple[float, float]
+
 RING = 0.149
 """Of a ring's compliance R³/(E·I) between two opposite forces (Roark, ch. 9, case 1)."""
 ENERGY = 2.25
@@ -22,12 +24,7 @@ EULER = 2.05
 
 
 def two_horns(
-    material: Material,
-    length_mm: tuple[float, float],
-    high_mm: tuple[float, float],
-    thick_mm: tuple[float, float],
-    share: float,
-    held_n: float = math.inf,
+    material: Material, length_mm: Two, high_mm: Two, thick_mm: Two, share: float, held_n: float = math.inf
 ) -> tuple[float, float, float]:
     """Return what two tapers bear, clamped at the plates, free to turn at the bar; heights from there on.
 

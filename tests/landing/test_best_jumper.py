@@ -88,7 +88,7 @@ def test_upside_down_its_hoops_land_first_and_softly(robot: Robot) -> None:
     arena.step(0.3)
     assert blows.all[0].part == CAGE
     assert {way for _, way in blows.falls} == {"top"}
-    assert 0.0 < sum(one.work_j for hits in blows.falls.values() for one in hits) < robot.mass_kg * 9.81 * 0.25
+    assert 0.02 < sum(one.work_j for hits in blows.falls.values() for one in hits) < robot.mass_kg * 9.81 * 0.25
     (on_hoop,) = (one for one in part_forces(robot, blows.all) if one.part == CAGE)
     assert 0.02 < on_hoop.energy_j < robot.mass_kg * 9.81 * 0.25
     assert on_hoop.hard_n == pytest.approx((2.0 * on_hoop.energy_j * 50.0) ** 0.5, rel=0.5)
