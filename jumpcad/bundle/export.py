@@ -36,6 +36,7 @@ from jumpcad.robot import Robot, require_name
 from jumpcad.scene.stable_poses import share_on_feet
 from jumpcad.simulation import Jump, headline
 from jumpcad.simulation.uncertain import Uncertainty, uncertainty_of
+from jumpcad.workshop import varied
 
 
 def export(
@@ -91,8 +92,9 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
         files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
         for exporter in exporters:
             files |= dict(exporter.files(robot))
-        made = coupon_pieces(robot.workshop)
-        files |= {f"coupon/{path}": content for path, content in coupon_files(robot.workshop, made, pictures)}
+        shop = varied(robot.workshop, {"bought.leg_bearing": getattr(robot.layout.hub_bearing, "name", "")})
+        made = coupon_pieces(shop)
+        files |= {f"coupon/{path}": content for path, content in coupon_files(shop, made, pictures)}
         files["bom.csv"] = write_bom(bill_of_materials(robot))
         files["weigh.csv"] = weigh_sheet(robot)
         files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
