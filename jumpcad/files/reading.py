@@ -92,14 +92,17 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
         If it is no regular file, is too large, or cannot be read.
     """
     try:
-        mode = os.stat(path).st_mode  # before it is opened, since some devices act then
+        there = os.stat(path)  # before it is opened, since some devices act then
+        mode = there.st_mode
         if stat.S_ISDIR(mode):
             raise JumpcadError(f"{path}: is a folder, not {kind}")
         if not stat.S_ISREG(mode):
             raise JumpcadError(f"{path}: is a pipe or a device, not {kind}")
-        with open(path, "rb", opener=_open_at_once) as stream:
-            data: bytes | None = stream.read(LARGEST_BYTES + 1)  # None: it waits for more
-            size = os.fstat(stream.fileno()).st_size
+        data: bytes | None = None
+        if there.st_size or not _without_blocks(path):
+            with open(path, "rb", opener=_open_at_once) as stream:
+                data = stream.read(LARGEST_BYTES + 1)  # None: it waits for more
+                size = os.fstat(stream.fileno()).st_size
         if data is not None and len(data) > LARGEST_BYTES:
             raise JumpcadError(f"{path}: is larger than {LARGEST_BYTES >> 20} MiB, too large for {kind}")
         if data is None or len(data) != size:  # as in /proc and /sys, which have no sizes
@@ -113,6 +116,11 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
         raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError:
         raise JumpcadError(f"{shown(str(path))} cannot be the name of a file") from None
+
+
+def _without_blocks(path: Path) -> bool:
+    """Tell whether a file's system stores nothing, as /proc, where to open a file may already do something."""
+    return hasattr(os, "statvfs") and not os.statvfs(path).f_blocks
 
 
 def _open_at_once(path: str, flags: int) -> int:
