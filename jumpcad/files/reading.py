@@ -99,7 +99,8 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
         if not stat.S_ISREG(mode):
             raise JumpcadError(f"{path}: is a pipe or a device, not {kind}")
         data: bytes | None = None
-        if there.st_size or not _without_blocks(path):
+        blocks = os.statvfs(path).f_blocks if hasattr(os, "statvfs") else 1
+        if there.st_size or blocks:  # what has neither is no stored file, as in /proc, where opening may do something
             with open(path, "rb", opener=_open_at_once) as stream:
                 data = stream.read(LARGEST_BYTES + 1)  # None: it waits for more
                 size = os.fstat(stream.fileno()).st_size
@@ -116,11 +117,6 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
         raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError:
         raise JumpcadError(f"{shown(str(path))} cannot be the name of a file") from None
-
-
-def _without_blocks(path: Path) -> bool:
-    """Tell whether a file's system stores nothing, as /proc, where to open a file may already do something."""
-    return hasattr(os, "statvfs") and not os.statvfs(path).f_blocks
 
 
 def _open_at_once(path: str, flags: int) -> int:
