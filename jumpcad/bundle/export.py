@@ -92,13 +92,18 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
         files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
         for exporter in exporters:
             files |= dict(exporter.files(robot))
+<<<<<<< HEAD
         shop = varied(robot.workshop, {"bought.leg_bearing": getattr(robot.layout.hub_bearing, "name", "")})
         made = coupon_pieces(shop)
         files |= {f"coupon/{path}": content for path, content in coupon_files(shop, made, pictures)}
+=======
+        limits_of(robot)  # for guide and report; as long as the faults of the files above are remembered
+        made = coupon_pieces(robot.workshop)
+        files |= {f"coupon/{path}": content for path, content in coupon_files(robot.workshop, made, pictures)}
+>>>>>>> s51
         files["bom.csv"] = write_bom(bill_of_materials(robot))
         files["weigh.csv"] = weigh_sheet(robot)
         files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
-        limits_of(robot)  # for guide and report
         motion, sure = (jump_motion(robot), uncertainty_of(robot)) if pictures else (None, None)
         seen = drawn.result() if drawn else {}
     scene = next((path for path in files if path.endswith(".glb")), "")

@@ -166,6 +166,9 @@ def locked(path: Path) -> Iterator[None]:
         require_own_sides(path)
         os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o644))
         lock.acquire()
+        while not os.path.exists(lock.lock_file):  # who held it removed it as it was opened here: it locks nobody out
+            lock.release()
+            lock.acquire()
     except Timeout:
         raise JumpcadError(f"{path}: is being written by another run; wait for it, or name another file") from None
     except OSError as error:

@@ -9,12 +9,30 @@ import sys
 import textwrap
 
 import pytest
+from filelock import FileLock
 from support.each import each
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.study.database import SIDES, is_written, locked, require_study
 from jumpcad.search.study.store import StudyStore
+
+
+def test_a_lock_that_was_let_go_while_it_was_opened_locks_others_out_too(tmp_path, monkeypatch):
+    """The first to hold it removes its file between another's opening and locking."""
+    acquire, opened = FileLock.acquire, []
+
+    def late(lock):
+        acquire(lock)
+        opened.append(lock)
+        if len(opened) == 1:
+            os.unlink(lock.lock_file)
+
+    monkeypatch.setattr(FileLock, "acquire", late)
+    refused = pytest.raises(JumpcadError, match="is being written by another run")
+    with locked(tmp_path / "s.db"), refused, locked(tmp_path / "s.db"):
+        pass
+    assert os.listdir(tmp_path) == ["s.db"]
 
 
 @pytest.mark.thorough
