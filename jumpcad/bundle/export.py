@@ -92,15 +92,10 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
         files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
         for exporter in exporters:
             files |= dict(exporter.files(robot))
-<<<<<<< HEAD
+        limits_of(robot)  # for guide and report; as long as the faults of the files above are remembered
         shop = varied(robot.workshop, {"bought.leg_bearing": getattr(robot.layout.hub_bearing, "name", "")})
         made = coupon_pieces(shop)
         files |= {f"coupon/{path}": content for path, content in coupon_files(shop, made, pictures)}
-=======
-        limits_of(robot)  # for guide and report; as long as the faults of the files above are remembered
-        made = coupon_pieces(robot.workshop)
-        files |= {f"coupon/{path}": content for path, content in coupon_files(robot.workshop, made, pictures)}
->>>>>>> s51
         files["bom.csv"] = write_bom(bill_of_materials(robot))
         files["weigh.csv"] = weigh_sheet(robot)
         files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
