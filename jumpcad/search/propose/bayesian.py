@@ -76,7 +76,7 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
             admits = unproposed(evaluator, proposals, loop.may_hold)
             ask = partial(propose, evaluator.space, best=best, elite=elite, generator=generator, admits=admits)
             beside = loop.beside(trials, admits, generator) if stalled else None
-            proposal = beside or loop.propose(ask, best)
+            proposal = beside or loop.propose(ask, best, generator)
             if proposal is None:
                 break
             if polls and beside is None and proposal.promised_gain(best) < HOPELESS:

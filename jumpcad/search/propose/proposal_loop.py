@@ -17,7 +17,7 @@ from jumpcad.search.propose.acquisition import DIGITS, HELD_BONUS, Proposal
 from jumpcad.search.propose.dry_run import DryRun
 from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.study.trial import Trial, best_trial
+from jumpcad.search.study.trial import Trial, best_trial, feasible_trials, nearest_to_required
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
@@ -35,6 +35,8 @@ STEP = 0.02
 """Distance of a neighbour, in the unit cube; judgement: 0.8 % of a link's length, 1.4° of the toes' angle."""
 DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
+FAR = 8
+"""Best designs so far from which far points are bred too."""
 WITHIN = 0.005
 """Of a neighbour's estimate: how much less than the best's it may be; judgement: about what it is wrong by."""
 
@@ -72,15 +74,19 @@ class ProposalLoop:
     def _estimates(self) -> bool:
         return self._dry_run is not None and self._dry_run.estimator.ready
 
-    def propose(self, ask: Callable[..., Proposal | None], best: float) -> Proposal | None:
+    def propose(
+        self, ask: Callable[..., Proposal | None], best: float, generator: np.random.Generator | None = None
+    ) -> Proposal | None:
         """Return a proposal of `ask`, which is called with a posterior and the points that held in a dry run for it.
 
         Its own mean is then believed, as if it had been measured, until the step is over. `best` is the score to be
-        improved.
+        improved. With a generator, all of the space is looked at now and then.
         """
         held: list[Proposal] = []
         self._look_around()
         posterior = self._learned()
+        if self._estimates and generator is not None and not self.tried:
+            posterior = self._look_far(posterior, generator)
         proposal = ask(posterior, held=[])
         for _ in range(ROUNDS if self._dry_run else 0):
             assert self._dry_run is not None
@@ -152,6 +158,15 @@ class ProposalLoop:
         self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
         assert self._dry_run is not None
         self._dry_run.look_at(map(self._space.to_variant, self.tried))
+
+    def _look_far(self, posterior: SearchPosterior, generator: np.random.Generator) -> SearchPosterior:
+        """Try points of the whole space with good rough estimates, now and then; return what is then learned."""
+        assert self._dry_run is not None
+        known = feasible_trials(self._trials) or nearest_to_required(self._trials)
+        elite = np.array([self._space.to_unit(one.variant) for one in known[:FAR]]).reshape(-1, self._space.dimension)
+        points = self._dry_run.far_points(self._trials, posterior.log_feasible, np.clip(elite, 0.0, 1.0), generator)
+        self.tried += points
+        return self._learned() if points else posterior
 
     def may_hold(self, variant: Variant) -> bool:
         """Whether a variant may be proposed: it has not failed in a dry run of this step, nor has no room."""
