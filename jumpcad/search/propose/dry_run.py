@@ -88,9 +88,8 @@ class DryRun:
             self.look_at([*map(self._variant, self.ranked[:FIRST]), *tried, *jumped])
 
     def far_points(
-        self, trials: Sequence[Trial], log_feasible: Callable[[Array], Array], elite: Array,
-        generator: np.random.Generator,
-    ) -> list[Array]:  # fmt: skip
+        self, trials: Sequence[Trial], log_feasible: Callable[[Array], Array], generator: np.random.Generator
+    ) -> list[Array]:
         """Return points (d,) of the whole space with the best rough estimates; none unless robots are many more.
 
         What misses a requirement is worth less, by what it lacks.
@@ -107,7 +106,7 @@ class DryRun:
             missed = (min(found.margins.get(name, 0.0), 0.0) / size for name, size in sizes.items())
             return max(found.score, 0.0) * math.exp(sum(missed))
 
-        points = far_points(self._space, rough, log_feasible, elite, generator)
+        points = far_points(self._space, rough, log_feasible, generator)
         self.look_at(map(self._space.to_variant, points))
         return points
 

@@ -17,7 +17,7 @@ from jumpcad.search.propose.acquisition import DIGITS, HELD_BONUS, Proposal
 from jumpcad.search.propose.dry_run import DryRun
 from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.study.trial import Trial, best_trial, feasible_trials, nearest_to_required
+from jumpcad.search.study.trial import Trial, best_trial
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
@@ -35,8 +35,6 @@ STEP = 0.02
 """Distance of a neighbour, in the unit cube; judgement: 0.8 % of a link's length, 1.4° of the toes' angle."""
 DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
-FAR = 8
-"""Best designs so far from which far points are bred too."""
 WITHIN = 0.005
 """Of a neighbour's estimate: how much less than the best's it may be; judgement: about what it is wrong by."""
 
@@ -162,9 +160,7 @@ class ProposalLoop:
     def _look_far(self, posterior: SearchPosterior, generator: np.random.Generator) -> SearchPosterior:
         """Try points of the whole space with good rough estimates, now and then; return what is then learned."""
         assert self._dry_run is not None
-        known = feasible_trials(self._trials) or nearest_to_required(self._trials)
-        elite = np.array([self._space.to_unit(one.variant) for one in known[:FAR]]).reshape(-1, self._space.dimension)
-        points = self._dry_run.far_points(self._trials, posterior.log_feasible, np.clip(elite, 0.0, 1.0), generator)
+        points = self._dry_run.far_points(self._trials, posterior.log_feasible, generator)
         self.tried += points
         return self._learned() if points else posterior
 
