@@ -57,7 +57,8 @@ def random_design(rng: np.random.Generator) -> Design:
 def refusal_share(seed: int) -> float:
     """Return the mean CPU time of refused designs of a search over that of a published simulation."""
     rng, model, known = np.random.default_rng(seed), robot_model(), load_design("kenan-2.0")
-    refused, simulated = [], []
+    refused: list[float] = []
+    simulated: list[float] = []
     while len(refused) < TURNS:
         design, start = random_design(rng), process_time()
         found, middle = model(design), process_time()

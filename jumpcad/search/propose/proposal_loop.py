@@ -66,6 +66,7 @@ class ProposalLoop:
         self._refit = refit
         self.tried: list[Array] = []
         self._proposed: list[Array] = []
+        self._far: list[Array] = []
         self._failed: set[Key] = set()
 
     @property
@@ -162,7 +163,18 @@ class ProposalLoop:
         assert self._dry_run is not None
         points = self._dry_run.far_points(self._trials, posterior.log_feasible, generator)
         self.tried += points
+        self._far = points
         return self._learned() if points else posterior
+
+    def far(self, admits: Callable[[Variant], bool]) -> list[Proposal]:
+        """Return the points of the whole space that were tried for this step and held, and are admitted.
+
+        All are evaluated: a robot costs less than a proposal, and their limits say what rejects good designs.
+        """
+        proposals = [Proposal(self._space.to_variant(point), point, 0.0, 0.0) for point in self._far]
+        return [
+            one for one in proposals if self._dry_run and not self._dry_run.failure(one.variant) and admits(one.variant)
+        ]
 
     def may_hold(self, variant: Variant) -> bool:
         """Whether a variant may be proposed: it has not failed in a dry run of this step, nor has no room."""
