@@ -48,10 +48,8 @@ class NextStep:
     def __str__(self) -> str:
         if not self.limit:
             return f"a gram less of the body: {self.gain_mm:+.1f} mm"
-        move = f"{self.number} {100.0 * self.change:+.1f} %"
-        return (
-            f"{self.limit} ({100.0 * self.used:.0f} % used), {100.0 * MORE:.0f} % more: {self.gain_mm:+.1f} mm, {move}"
-        )
+        more = f"{self.limit} ({self.used:.0%} used), {MORE:.0%} more"
+        return f"{more}: {self.gain_mm:+.1f} mm, {self.number} {100.0 * self.change:+.1f} %"
 
 
 def next_steps(robot: Robot, findings: Sequence[Finding]) -> tuple[list[NextStep], float]:
@@ -61,16 +59,12 @@ def next_steps(robot: Robot, findings: Sequence[Finding]) -> tuple[list[NextStep
     little is explained, the design is not at its limits, and a search would gain more. No steps without a jump.
     """
     uses = {one.name: one.use for one in reversed(findings) if one.use and one.use >= TIGHT and not one.grows}
-    here = np.array([_way_m(robot), *uses.values()])
-    vector, sides = np.array(robot.design.to_vector()), []
-    for index, sign in ((index, sign) for index in range(len(vector)) for sign in (1.0, -1.0)):
-        moved = vector.copy()
-        moved[index] *= 1.0 + sign * STEP
-        sides.append(_figures(moved, robot, list(uses)))
-    if not here[0]:
+    here, vector = np.array([_way_m(robot), *uses.values()]), np.array(robot.design.to_vector())
+    moves = STEP * np.diag(vector) if here[0] else []
+    sides = [[_figures(vector + sign * move, robot, list(uses)) for sign in (1.0, -1.0)] for move in moves]
+    rates = np.array([_rate(here, up, down) for up, down in sides]).T
+    if not rates.size or not rates[0].any():  # it does not jump, or no other can be built
         return [], 0.0
-    pairs = zip(sides[::2], sides[1::2], strict=True)
-    rates = np.array([_rate(here, up, down) for up, down in pairs]).T
     steep = np.flatnonzero(np.abs(rates[1:]).max(axis=1, initial=0.0) > STEEP)
     limits, goal = rates[1:][steep].T, rates[0]
     price, missed = nnls(limits, goal) if len(steep) else (np.zeros(0), float(np.linalg.norm(goal)))
@@ -83,12 +77,11 @@ def next_steps(robot: Robot, findings: Sequence[Finding]) -> tuple[list[NextStep
         gain_mm = 1000.0 * MORE * float(worth)
         found.append(NextStep(name, uses[name] or 0.0, gain_mm, PARAMETERS[most], float(way[most])))
     body = robot.bodies[BODY]
-    share = 1.0 - 0.001 / body.mass_kg
-    light = replace(body, mass_kg=share * body.mass_kg, inertia_kg_m2=share * body.inertia_kg_m2)
+    light_kg, share = body.mass_kg - 0.001, 1.0 - 0.001 / body.mass_kg
+    light = replace(body, mass_kg=light_kg, inertia_kg_m2=share * body.inertia_kg_m2)
     lighter = replace(robot, bodies={**robot.bodies, BODY: light})
     gram = NextStep("", 0.0, 1000.0 * (_way_m(lighter) - float(here[0])))
-    explained = 1.0 - missed**2 / float(goal @ goal)
-    return [*sorted(found, key=lambda one: -one.gain_mm)[:ROWS], gram], explained
+    return [*sorted(found, key=lambda one: -one.gain_mm)[:ROWS], gram], 1.0 - missed**2 / float(goal @ goal)
 
 
 def steps_in_words(steps: Sequence[NextStep], explained: float) -> list[str]:
