@@ -86,7 +86,7 @@ def check(
     jump = simulate(robot)
     findings = remedies.of_findings(ordered(with_verdict(limits_of(robot), jump)))
     count = counted_limits(findings)
-    steps, explained = next_steps(robot, findings) if what_next else ([], 0.0)
+    steps, usual_mm = next_steps(robot, findings) if what_next else ([], 0.0)
     if explain:
         findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]
     if as_json:
@@ -95,7 +95,7 @@ def check(
                 "ballistic_range_m": jump.ballistic_range_m, "com_rise_m": jump.com_rise_m,
                 "mass_kg": robot.mass_kg, "limits": count, "grown": [vars(one) for one in robot.grown]}  # fmt: skip
         if what_next:
-            said |= {"next": [vars(one) for one in steps], "explained": explained}
+            said |= {"next": [vars(one) for one in steps], "within_limits_mm": usual_mm}
         print_json({"design": design, "workshop": workshop or own_workshop(design), **said, "findings": data})
     elif explain:
         _print_explained(explain, findings)
@@ -104,7 +104,7 @@ def check(
         for note in notes(robot, findings):
             print(wrapped(f"note: {note}", 6))
         _print_findings(findings, every)
-        for line in steps_in_words(steps, explained):
+        for line in steps_in_words(steps, usual_mm):
             print(wrapped(line, 2))
     if jump.verdict != "jump" or errors(findings):
         raise typer.Exit(1)
