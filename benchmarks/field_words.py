@@ -169,6 +169,7 @@ WORDS = {
     "touchdown_distance_m": "way of the centre of mass from the loaded pose until any part touches the floor",
     "touchdown_gap_m": "what the ballistic range counts after it; negative where it lands lower than it stood",
     "as_made.touchdown_distance_m": "10, 50, 90 % of robots as they may be made, by the planar engine",
+    "as_made_m": "median touchdown of robots as they may be made, by the planar engine",
     "as_made.com_rise_m": "the same of the rise",
     "began_with": "figures of the design of `--around`, in this workshop; empty without",
     "forward_j": "kinetic energy of the centre of mass, along x",

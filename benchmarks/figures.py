@@ -54,7 +54,7 @@ SHOWN = ("kenan-1.0", "kenan-2.0", "best-printable")
 """The templates of the README."""
 STRONG = ("best-ga", "best-bo", "best-printable")
 PROTOTYPES = tuple(row for row in PUBLISHED_RESULTS if row.measured is not None)
-SEARCH = ("optimize", "--seed", "7")
+SEARCH = ("optimize", "--bound", "study", "--seed", "7")
 RIVALS = ("pybullet", "mujoco", "planar")
 """The engines that are compared."""
 PUBLISHED_MS = 40.0
@@ -320,12 +320,11 @@ def _of_jumper() -> dict[str, str]:
 def of_assumptions() -> dict[str, str]:
     """Return what the docs say of settings, of the search's call in Python, and of what may differ elsewhere."""
     study = coefficients(capsule_robot(load_design("kenan-2.0")), Settings())
-    given = ", ".join(f"{option[2:]}={value}" for option, value in zip(SEARCH[1::2], SEARCH[2::2], strict=True))
     return {
         "assumptions": f"A friction of {study.ground * study.foot:g} and a joint damping of "
         f"{study.joint_damping_nms_per_rad:g} N·m·s/rad",
         "blind time": f"{published.IGNORED_S:g} s",
-        "search in Python": f"`best = jumpcad.optimize({given})`",
+        "search in Python": f"`best = jumpcad.optimize(bounds=jumpcad.SEARCH_BOUNDS, seed={SEARCH[-1]})`",
         "search slack": percent([SEARCH_SLACK]),
         "idle steps": f"{bayesian.IDLE}",
         "lone steps": f"{bayesian.IDLE_ALONE}",

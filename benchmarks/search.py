@@ -1,8 +1,8 @@
 """How fast each method improves a robot: best score after numbers of evaluations, over several seeds.
 
 The capsule robot's fitness, or with `--model printed` the printed robot's body lengths (0.1 to 0.3 s an evaluation).
-Default bounds; a rejected design scores 0; the best known of the capsule robot is 11.87. Random search and the
-published settings of the genetic algorithm are run too, and CMA-ES (pycma) and TPE (Optuna) as references from other
+The usual bounds of the robot; a rejected design scores 0; the best known of the capsule robot is 11.87. Random search
+and the published settings of the genetic algorithm are run too, and CMA-ES (pycma) and TPE (Optuna) as references from other
 projects. "GP-EI, spread start" has no designs ranked by the capsule robot first; on the capsule robot it is "GP-EI".
 Run `python benchmarks/search.py [--seeds N] [--methods a,b] [--model printed] [--evaluations N] [--json]`; in a
 method's name, write `;` for a comma. All of it takes about a quarter of an hour on the capsule robot.
@@ -36,22 +36,22 @@ from jumpcad.search.study.request import Request, Stage, default_initial
 from jumpcad.search.study.store import StudyStore
 
 MARKS = (40, 60, 100, 200, 250, 500, 1000)
-SPACE = Space.default()
 
 Scores = list[float]
 
 
 def random_search(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Evaluate uniformly random designs."""
-    points = np.random.default_rng(seed).random((evaluations, SPACE.dimension))
-    evaluator.evaluate([SPACE.to_design(point) for point in points], "sample", 0)
+    space = evaluator.space
+    points = np.random.default_rng(seed).random((evaluations, space.dimension))
+    evaluator.evaluate([space.to_design(point) for point in points], "sample", 0)
 
 
 def stage(
     evaluator: Evaluator, method: str, seed: int, evaluations: int, initial: int = 0, preset: str = "recommended"
 ) -> Stage:
     """Return what a method is asked for."""
-    asked = Request(SPACE, evaluator.model, evaluator.objective.name, method, evaluations, seed, preset)
+    asked = Request(evaluator.space, evaluator.model, evaluator.objective.name, method, evaluations, seed, preset)
     return Stage(asked, method, evaluations, initial)
 
 
@@ -62,7 +62,7 @@ def genetic(evaluator: Evaluator, seed: int, evaluations: int, preset: str = "re
 
 def bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run GP-EI."""
-    initial = default_initial(SPACE, evaluations, estimated=isinstance(evaluator.model, PrintedModel))
+    initial = default_initial(evaluator.space, evaluations, estimated=isinstance(evaluator.model, PrintedModel))
     run_bayesian(evaluator, stage(evaluator, "bo", seed, evaluations, initial))
 
 
@@ -82,7 +82,7 @@ def genetic_then_bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> 
 
 def score_of(evaluator: Evaluator, step: int, point: npt.ArrayLike) -> float:
     """Evaluate one point of the unit cube for an outside optimiser."""
-    (trial,) = evaluator.evaluate([SPACE.to_design(np.asarray(point, dtype=float))], "sample", step)
+    (trial,) = evaluator.evaluate([evaluator.space.to_design(np.asarray(point, dtype=float))], "sample", step)
     return trial.score or 0.0 if trial is not None else 0.0
 
 
@@ -91,7 +91,7 @@ def cma_es(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     import cma
 
     options = {"bounds": [0, 1], "seed": seed + 1, "maxfevals": evaluations, "verbose": -9}
-    search = cma.CMAEvolutionStrategy([0.5] * SPACE.dimension, 0.3, options)
+    search = cma.CMAEvolutionStrategy([0.5] * evaluator.space.dimension, 0.3, options)
     step = 0
     while len(evaluator.trials) < evaluations and step < 2 * evaluations:
         points = search.ask()
@@ -107,7 +107,7 @@ def tpe(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     study = optuna.create_study(direction="maximize", sampler=optuna.samplers.TPESampler(seed=seed))
 
     def objective(trial: optuna.Trial) -> float:
-        point = [trial.suggest_float(parameter.name, 0.0, 1.0) for parameter in SPACE.free]
+        point = [trial.suggest_float(parameter.name, 0.0, 1.0) for parameter in evaluator.space.free]
         return score_of(evaluator, trial.number, point)
 
     study.optimize(objective, n_trials=evaluations)
@@ -140,7 +140,7 @@ idle` add to `one` its best designs keep."""
 
 def climb(method: Callable[..., None], seed: int, evaluations: int, model: RobotModel) -> Scores:
     """Return the best score so far after each evaluation."""
-    request = Request(SPACE, model, model.default_objective)
+    request = Request(Space.make(workshop=model.workshop), model, model.default_objective)
     with StudyStore.write(None, request.identity([])) as store, local_pool(0) as pool:
         evaluator = Evaluator(request, store, pool)
         method(evaluator, seed, evaluations)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from jumpcad.api import simulate as simulate
     from jumpcad.bundle.manifest import Bundle as Bundle
     from jumpcad.comparison import compare as compare
+    from jumpcad.design import PRINTED_BOUNDS as PRINTED_BOUNDS
     from jumpcad.design import SEARCH_BOUNDS as SEARCH_BOUNDS
     from jumpcad.design import Design as Design
     from jumpcad.design import load_design as load_design

@@ -22,8 +22,8 @@ from jumpcad.files.templates import templates_folder
 from jumpcad.findings import Finding
 from jumpcad.landing.series import jumps
 from jumpcad.robot.robot import Robot
-from jumpcad.settings import Settings
-from jumpcad.simulation import Jump, simulate
+from jumpcad.simulation import Jump, headline
+from jumpcad.simulation.uncertain import uncertainty_of
 from jumpcad.studio.points import Points
 from jumpcad.transforms import ByValue
 from jumpcad.version import __version__
@@ -34,6 +34,7 @@ HOPS = 10
 """Jumps in a row from which the metres of a charge are computed."""
 FIGURES = {
     "touchdown_distance_m": ("touchdown", "mm", 1000.0, 0),
+    "as_made_m": ("touchdown as made, median", "mm", 1000.0, 0),
     "ballistic_range_m": ("range, floor or not", "mm", 1000.0, 0),
     "com_rise_m": ("rise", "mm", 1000.0, 0),
     "turn_deg": ("turn forwards", "°", 1.0, 0),
@@ -67,8 +68,10 @@ class ComparedRobot:
     def figures(self) -> dict[str, float | None]:
         """Return `FIGURES` of the robot; None where it has none, as the way of one that stays on the ground."""
         train, jump = self.robot.layout.drive.train, self.jump
+        made = uncertainty_of(self.robot) if jump.verdict == "jump" else None
         way = jumps(self.robot, HOPS).metres_per_charge if jump.verdict == "jump" else None
-        found = {"spring_stiffness_nm_per_rad": self.robot.spring.stiffness_nm_per_rad,
+        found = {"as_made_m": made.quantiles["touchdown_distance_m"][1] if made else None,
+                 "spring_stiffness_nm_per_rad": self.robot.spring.stiffness_nm_per_rad,
                  "electrical_energy_j": train.electrical_j, "winding_time_s": train.winding_s,
                  "metres_per_charge": way, "cost_eur": bill_of_materials(self.robot).cost_eur}  # fmt: skip
         return {name: found[name] if name in found else getattr(jump, name) for name in FIGURES}
@@ -122,7 +125,7 @@ class Comparison(ByValue):
 
     def rows(self) -> Iterator[list[str]]:
         """Yield the table: a label and what it says of each robot."""
-        yield ["verdict", *(one.jump.verdict for one in self.robots)]
+        yield ["verdict", *(f"{one.jump.verdict} ({one.jump.engine})" for one in self.robots)]
         for name, (label, unit, factor, digits) in FIGURES.items():
             figures = [one.figures[name] for one in self.robots]
             shown = ["–" if value is None else f"{factor * value:.{digits}f}" for value in figures]
@@ -203,8 +206,7 @@ def compare(robots: Sequence[Robot | Design | str | Path], workshop: Workshop | 
         except CannotBuildError as refusal:
             refused[label] = str(refusal)
             continue
-        jump = simulate(robot, Settings(flight="simulated", trajectory=True))
-        found[label] = ComparedRobot(label, robot, jump)
+        found[label] = ComparedRobot(label, robot, headline(robot, trajectory=True))
     if not found:
         raise CannotBuildError("; ".join(f"{label}: {why}" for label, why in refused.items()))
     return Comparison(tuple(found.values()), refused)

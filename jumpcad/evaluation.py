@@ -56,6 +56,8 @@ FIGURES = JUMP_FIGURES | {
     "cost_eur": "parts and filament, partly estimated, in euros",
     "jumps_per_charge": "jumps of a full battery",
     "rest_distance_m": "median way to where it comes to rest, of simulated landings; where asked for",
+    "robust_touchdown_m": "touchdown that nine of ten robots as made reach, on any floor; where asked for",
+    "robust_pitch_deg": "worst pitch at touchdown of robots as made, either way, on any floor; where asked for",
     "rights_itself": "share of attitudes from which it rolls onto its feet (stable poses); where asked for",
     "body_mass_kg": "mass of the body",
     "main_leg_mass_kg": "mass of the main leg",

@@ -71,6 +71,8 @@ def judged_once(of_all_workers: Path) -> Iterator[None]:
         patch.setattr(threemf, "write_threemf", once_of(seen, threemf.write_threemf, threemf_key))
         for name in ("uncertainty_of", "renders"):
             patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
+        coupon = once_of(seen, bundle_export.coupon_files, lambda shop, _, pictures: (shop.to_toml(), pictures))
+        patch.setattr(bundle_export, "coupon_files", coupon)
         patch.setattr(limits, "check", once_of(seen, limits.check, robot_key))
         yield
 

@@ -34,9 +34,9 @@ from jumpcad.findings import errors
 from jumpcad.landing.series import Series
 from jumpcad.robot.electronics.limits import electronics_findings
 from jumpcad.robot.robot import Robot, require_name
-from jumpcad.simulation import Jump, Settings, simulate
-from jumpcad.simulation.engines import BUNDLE_ENGINE
+from jumpcad.simulation import Jump, headline
 from jumpcad.simulation.uncertain import Uncertainty, uncertainty_of
+from jumpcad.workshop import varied
 
 
 def export(
@@ -79,7 +79,7 @@ def export(
     if wrong := errors(electronics_findings(robot)):
         raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
     exporters = chosen([name for name, wanted in (("step", step), ("ros2", ros2)) if wanted])
-    jump = _jump(robot, pictures)
+    jump = headline(robot, pictures)
     return write_folder(folder, robot.name, _facts(robot, jump), contents(robot, exporters, pictures, jump), force)
 
 
@@ -92,12 +92,13 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
         files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}
         for exporter in exporters:
             files |= dict(exporter.files(robot))
-        made = coupon_pieces(robot.workshop)
-        files |= {f"coupon/{path}": content for path, content in coupon_files(robot.workshop, made, pictures)}
+        limits_of(robot)  # for guide and report; as long as the faults of the files above are remembered
+        shop = varied(robot.workshop, {"bought.leg_bearing": getattr(robot.layout.hub_bearing, "name", "")})
+        made = coupon_pieces(shop)
+        files |= {f"coupon/{path}": content for path, content in coupon_files(shop, made, pictures)}
         files["bom.csv"] = write_bom(bill_of_materials(robot))
         files["weigh.csv"] = weigh_sheet(robot)
         files |= {**dict(firmware_files(robot)), **dict(spring_sheets(robot)), **dict(spring_dxfs(robot))}
-        limits_of(robot)  # for guide and report
         motion, sure = (jump_motion(robot), uncertainty_of(robot)) if pictures else (None, None)
         seen = drawn.result() if drawn else {}
     scene = next((path for path in files if path.endswith(".glb")), "")
@@ -116,11 +117,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
 
 def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:
     """Return report.html alone, with links to `files` relative to it; it shows recorded jumps in a row if given."""
-    return _page(robot, _jump(robot, True), renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
-
-
-def _jump(robot: Robot, trajectory: bool) -> Jump:
-    return simulate(robot, Settings(flight="simulated", trajectory=trajectory), BUNDLE_ENGINE)
+    return _page(robot, headline(robot, True), renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
 
 
 def _page(

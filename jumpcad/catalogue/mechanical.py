@@ -100,10 +100,11 @@ class StockSpring(Article):
         if abs(self.wound_turns - self.turns) > TURNS_OFF:
             angle = (180.0 - 360.0 * self.turns) % 360.0
             other = self.model_copy(update={"arm_angle_deg": 360.0 - self.arm_angle_deg})
+            seen = f", and {other.arm_angle_deg:g}°, measured on the other side, {other.wound_turns:g}"
             reason = (
                 f"{self.turns:g} turns with tangent arms have {angle:.0f}° between them; {self.arm_angle_deg:g}° take "
-                f"{self.wound_turns:g} turns, and {other.arm_angle_deg:g}°, measured on the other side, "
-                f"{other.wound_turns:g}: look at the spring and correct one of the two"
+                f"{self.wound_turns:g} turns{seen if other.arm_angle_deg != self.arm_angle_deg else ''}: look at the "
+                "spring and correct one of the two"
             )
             yield ("arm_angle_deg",), self.arm_angle_deg, reason
 

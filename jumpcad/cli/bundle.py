@@ -60,8 +60,7 @@ def build(
     from jumpcad.bundle.export import export
     from jumpcad.files.outputs import require_apart, require_writable
     from jumpcad.mechanism.capsule import capsule_robot
-    from jumpcad.simulation import Settings, simulate
-    from jumpcad.simulation.engines import BUNDLE_ENGINE
+    from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
     if output is None:
@@ -76,7 +75,7 @@ def build(
         _require_same_design_file(robot, design_file(design), folder)
     with status(f"simulating {robot.name} …"):
         plain = replace(capsule_robot(robot.design), spring=replace(robot.spring, one_sided=False))
-        printed, capsule = (simulate(one, Settings(flight="simulated"), BUNDLE_ENGINE) for one in (robot, plain))
+        printed, capsule = (headline(one) for one in (robot, plain))
     if printed.verdict != "jump" and not anyway:
         raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
     with status(f"writing {robot.name} …"):
@@ -106,8 +105,7 @@ def render(
     from jumpcad.bundle.viewer import viewer_data
     from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
     from jumpcad.landing.series import jumps
-    from jumpcad.simulation import Settings, simulate
-    from jumpcad.simulation.engines import BUNDLE_ENGINE
+    from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     note_template(subject)
@@ -124,7 +122,7 @@ def render(
         robot = printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True), BUNDLE_ENGINE)
+    jump = headline(robot, trajectory=True)
     if row and jump.trajectory is not None:
         with status(f"drawing {counted(row, 'jump')} of {robot.name} …"):
             files[GIF] = motion_gif(robot, viewer_data(robot, jump, jumps(robot, row, record=True)))

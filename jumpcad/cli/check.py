@@ -47,6 +47,10 @@ def check(
     explain: Annotated[
         str, typer.Option("--explain", help="Show one limit alone, with formula and source.", metavar="NAME")
     ] = "",
+    what_next: Annotated[
+        bool,
+        typer.Option("--next", help="Say what each limit costs in range, and a gram of the body: seconds of work."),
+    ] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Check the robot of a design: its jump, printing, strength, drive, clearances.
@@ -64,8 +68,9 @@ def check(
     from jumpcad.design import load_design
     from jumpcad.errors import CannotBuildError
     from jumpcad.findings import errors
+    from jumpcad.next_step import next_steps, steps_in_words
     from jumpcad.remedies import Remedies
-    from jumpcad.simulation import simulate
+    from jumpcad.simulation import headline
     from jumpcad.workshop import load_workshop, own_workshop
 
     note_template(design)
@@ -78,9 +83,10 @@ def check(
     except CannotBuildError as refusal:
         raise remedies.of_refusal(refusal) from None
     bill_of_materials(robot)  # rejects prices of what it does not have
-    jump = simulate(robot)
+    jump = headline(robot)
     findings = remedies.of_findings(ordered(with_verdict(limits_of(robot), jump)))
     count = counted_limits(findings)
+    steps, usual_mm = next_steps(robot, findings) if what_next else ([], 0.0)
     if explain:
         findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]
     if as_json:
@@ -88,6 +94,8 @@ def check(
         said = {"verdict": jump.verdict, "touchdown_distance_m": jump.touchdown_distance_m,
                 "ballistic_range_m": jump.ballistic_range_m, "com_rise_m": jump.com_rise_m,
                 "mass_kg": robot.mass_kg, "limits": count, "grown": [vars(one) for one in robot.grown]}  # fmt: skip
+        if what_next:
+            said |= {"next": [vars(one) for one in steps], "within_limits_mm": usual_mm}
         print_json({"design": design, "workshop": workshop or own_workshop(design), **said, "findings": data})
     elif explain:
         _print_explained(explain, findings)
@@ -96,6 +104,8 @@ def check(
         for note in notes(robot, findings):
             print(wrapped(f"note: {note}", 6))
         _print_findings(findings, every)
+        for line in steps_in_words(steps, usual_mm):
+            print(wrapped(line, 2))
     if jump.verdict != "jump" or errors(findings):
         raise typer.Exit(1)
 

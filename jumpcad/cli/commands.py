@@ -130,6 +130,8 @@ def run(arguments: Sequence[str]) -> int:
         raise_if_seen()  # else it is no bug
         if isinstance(error, OSError) and error.errno in (errno.EMFILE, errno.ENFILE):
             return complain("too many files are open at once: raise the limit, as with ulimit -n 256", WRONG_REQUEST)
+        if isinstance(error, PermissionError) and error.filename:  # Python asks for rights also to tell what is there
+            return complain(f"{os.fsdecode(error.filename)}: may not be used (permission denied)", WRONG_REQUEST)
         print(traceback.format_exc(), end="", file=sys.stderr)
         return BUG
 
@@ -148,8 +150,8 @@ def _carry_out(arguments: list[str]) -> int:
     """Parse and run; not with `app()`, which has other exit codes for interrupts and closed outputs."""
     try:
         os.getcwd()
-    except FileNotFoundError:
-        raise JumpcadError("the current folder was deleted: change into another one") from None
+    except OSError:
+        raise JumpcadError("the current folder was deleted, or may not be entered: change into another one") from None
     command = _parser(app)
     if asked := os.environ.get(COMPLETE):
         from typer.completion import shell_complete

@@ -13,7 +13,7 @@ from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, wit
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
 from jumpcad.errors import without_controls
 from jumpcad.plural import counted
-from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
+from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, PAPER, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
@@ -132,7 +132,8 @@ def optimize(
     names = [] if only is None else [name.strip() for name in only.split(",")]
     robot = options.robot_model().requiring(require or ())
     changes = (options.fix or (), options.bound or (), options.choose or ())
-    space = Space.parse(*changes, around=centre, only=names, within_percent=within, workshop=robot.workshop)
+    of_study, shop = PAPER in (methods or ()), robot.workshop
+    space = Space.parse(*changes, around=centre, only=names, within_percent=within, workshop=shop, study=of_study)
     source = context.get_parameter_source("seed")
     asked = seeds_of(seeds, methods or (), source is not None and source.name == "COMMANDLINE")
     requests = [

@@ -1,5 +1,6 @@
 """`jumpcad report`: a page with a robot's motion, limits and parts, or a page on a study."""
 
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -35,7 +36,7 @@ def report(
     as_json: JsonFlag = False,
 ) -> None:
     """Write report.html: one file, without network, with the robot in 3-D; of a study, its designs and plots."""
-    if subject.endswith(STUDY) and not Path(subject).is_dir():
+    if subject.endswith(STUDY) and not os.path.isdir(subject):
         if row:
             raise JumpcadError(f"--jumps {row}: {subject} is a study, which does not jump; leave it out")
         written = _study_page(Path(subject), output, workshop, force)

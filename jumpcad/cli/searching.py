@@ -47,7 +47,10 @@ class SearchOptions:
     ] = None
     bound: Annotated[
         list[str] | None,
-        typer.Option(help="Search a parameter, or a value of the workshop, in a range.", metavar="NAME=LO:HI"),
+        typer.Option(
+            help="Search a parameter, or a value of the workshop, in a range; study: within the study's bounds.",
+            metavar="NAME=LO:HI",
+        ),
     ] = None
     choose: Annotated[
         list[str] | None, typer.Option(help="Allow some values only: bought.battery=a,b.", metavar="NAME=a,b,c")

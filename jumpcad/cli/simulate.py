@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import os
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -117,7 +118,7 @@ def simulate(
     for option, words in (("--trajectory", "records"), ("--uncertain", "takes")):
         if len(engines) > 1 and (trajectory if option == "--trajectory" else uncertain):
             raise JumpcadError(f"{option} {words} one engine: choose --engine pybullet, mujoco or planar")
-    if (uncertain or landed) and written and not Path(design).is_dir():
+    if (uncertain or landed) and written and not os.path.isdir(design):
         asked_for = "--uncertain is" if uncertain else "--landing and --jumps are"
         raise JumpcadError(f"{design}: {asked_for} for printed robots: give the design, or its bundle")
     changes = ({"flight": "simulated"} if flight else {}) | ({"trajectory": True} if trajectory else {})

@@ -1,5 +1,6 @@
 """`jumpcad studio`: sliders and the robot in a browser."""
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -35,7 +36,7 @@ def studio(
     from jumpcad.process.gc_tuning import collect_usually
     from jumpcad.studio import Studio
 
-    is_study = design.endswith(STUDY) and not Path(design).is_dir()
+    is_study = design.endswith(STUDY) and not os.path.isdir(design)
     if trial is not None and not is_study:
         raise JumpcadError(f"--trial {trial}: {design} is no study (F.db)")
     opened, own, points, number = (

@@ -26,9 +26,9 @@ def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
 
 def warn_of_no_jump(robot: "Robot") -> None:
     """Print on standard error why a robot does not jump, if so."""
-    from jumpcad.simulation import simulate
+    from jumpcad.simulation import headline
 
-    jump = simulate(robot)
+    jump = headline(robot)
     if jump.verdict != "jump":
         print(f"jumpcad: {robot.name} {jump_in_words(jump.to_dict())}", file=sys.stderr)
 
@@ -43,16 +43,15 @@ def notes(robot: "Robot", findings: "Sequence[Finding]") -> Iterator[str]:
 
 
 def _cost(robot: "Robot") -> str:
-    """Return what the strength that was asked for costs in mass and range."""
+    """Return what the strength that was asked for costs in mass and distance."""
     from jumpcad.building import build
-    from jumpcad.simulation import simulate
-    from jumpcad.simulation.engines import default_engine
+    from jumpcad.simulation import headline
     from jumpcad.workshop import varied
 
     plain = {f"strength.{part}": 1.0 for part, _ in robot.workshop.strength}
     before = build(robot.design, varied(robot.workshop, plain), robot.name)
-    far = [1000.0 * (simulate(one, engine=default_engine()).ballistic_range_m or 0.0) for one in (robot, before)]
-    return f"{1000.0 * (robot.mass_kg - before.mass_kg):+.1f} g and {far[0] - far[1]:+.0f} mm of range"
+    far = [1000.0 * (headline(one).touchdown_distance_m or 0.0) for one in (robot, before)]
+    return f"{1000.0 * (robot.mass_kg - before.mass_kg):+.1f} g and {far[0] - far[1]:+.0f} mm of touchdown"
 
 
 def grown_in_words(grown: "Sequence[Grown]") -> str:

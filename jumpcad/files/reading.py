@@ -83,7 +83,7 @@ def read_text(path: Path, kind: str = "a text file") -> str:
         raise JumpcadError(f"{path}: not a text file in UTF-8") from None
 
 
-def read_bytes(path: Path, kind: str = "a file") -> bytes:
+def read_bytes(path: Path, kind: str = "a file", most: int = LARGEST_BYTES) -> bytes:
     """Return the content of a regular file of moderate size; `kind` says what it should be, such as `a TOML file`.
 
     Raises
@@ -92,16 +92,20 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
         If it is no regular file, is too large, or cannot be read.
     """
     try:
-        mode = os.stat(path).st_mode  # before it is opened, since some devices act then
+        there = os.stat(path)  # before it is opened, since some devices act then
+        mode = there.st_mode
         if stat.S_ISDIR(mode):
             raise JumpcadError(f"{path}: is a folder, not {kind}")
         if not stat.S_ISREG(mode):
             raise JumpcadError(f"{path}: is a pipe or a device, not {kind}")
-        with open(path, "rb", opener=_open_at_once) as stream:
-            data: bytes | None = stream.read(LARGEST_BYTES + 1)  # None: it waits for more
-            size = os.fstat(stream.fileno()).st_size
-        if data is not None and len(data) > LARGEST_BYTES:
-            raise JumpcadError(f"{path}: is larger than {LARGEST_BYTES >> 20} MiB, too large for {kind}")
+        data: bytes | None = None
+        blocks = os.statvfs(path).f_blocks if hasattr(os, "statvfs") else 1
+        if there.st_size or blocks:  # what has neither is no stored file, as in /proc, where opening may do something
+            with open(path, "rb", opener=_open_at_once) as stream:
+                data = stream.read(most + 1)  # None: it waits for more
+                size = os.fstat(stream.fileno()).st_size
+        if data is not None and len(data) > most:
+            raise JumpcadError(f"{path}: is larger than {most >> 20} MiB, too large for {kind}")
         if data is None or len(data) != size:  # as in /proc and /sys, which have no sizes
             raise JumpcadError(f"{path}: is made by the system as it is read, or still being written: not {kind}")
         return data

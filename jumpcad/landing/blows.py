@@ -14,8 +14,8 @@ import numpy as np
 
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.findings import Finding, at_most
-from jumpcad.mechanism.model import FOOT
-from jumpcad.robot.cage.place import Cage
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.robot.cage.place import Cage, CageBar
 from jumpcad.robot.cage.strength import landing_n, ring_n_per_mm
 from jumpcad.robot.electronics.holding import holding_findings
 from jumpcad.robot.foot.pads import TOE_AHEAD_MM, TOE_BACK_MM
@@ -23,6 +23,7 @@ from jumpcad.robot.foot.toe_limits import toe_findings
 from jumpcad.robot.leg.limits import leg_findings
 from jumpcad.robot.load_case import LoadCase, load_case
 from jumpcad.robot.robot import Robot
+from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
     from jumpcad.landing.arena import Arena
@@ -46,12 +47,13 @@ BEARS = {
 
 @dataclass
 class Blow:
-    """A hit on a part: speed (m/s) before it, impulse (N·s), and when (s)."""
+    """A hit on a part: speed (m/s) before it, when (s), impulse (N·s), and work of the floor while it goes in (J)."""
 
     part: str
     speed_m_s: float
     begun_s: float
     impulse_ns: float = 0.0
+    work_j: float = 0.0
 
     @property
     def energy_j(self) -> float:
@@ -64,8 +66,11 @@ class Blows:
 
     def __init__(self, arena: "Arena") -> None:
         self._arena, self._names = arena, {number: name for name, number in arena.bodies.items()}
-        self._now: dict[str, tuple[Blow, float]] = {}
+        self._now: dict[str | tuple[str, str], tuple[Blow, float]] = {}
         self.all: list[Blow] = []
+        self.falls: dict[tuple[str, str], list[Blow]] = {}
+        """Blows on a cage, hoop and bar together, by bar and direction, as `fall_findings` takes them."""
+        self._cage = [arena.model.geom(index).name.startswith(CAGE) for index in range(arena.model.ngeom)]
 
     def __call__(self) -> None:
         """Add what the floor did in the last step."""
@@ -83,15 +88,28 @@ class Blows:
             name = self._names[int(body)]
             part = CAGE if rods[number] else name if name != FOOT else NOSE if ahead[number] else TOE
             push = float(data.efc_force[contact.efc_address[number]]) if contact.efc_address[number] >= 0 else 0.0
-            blow, last = self._now.get(part, (None, 0.0))
-            lasts_s = ROD_BLOW_S if part == CAGE else BLOW_S
-            if blow is None or time - last > lasts_s:
-                blow = Blow(part, 0.0, time)
-                self.all.append(blow)
-            self._now[part] = blow, time
-            if time - blow.begun_s < lasts_s:
-                blow.impulse_ns += push * float(model.opt.timestep)
-                blow.speed_m_s = max(blow.speed_m_s, float(falling[number]))
+            hits: list[tuple[str | tuple[str, str], list[Blow]]] = [(part, self.all)]
+            if self._cage[shape[number]] and (cage := self._arena.robot.layout.of(Cage)):
+                front = int(model.geom_pos[shape[number], 0] > 0.0)
+                fall = ("rear", "front")[front], _way(cage.bars[front], -self._arena.pose(BODY)[2, :3])
+                hits.append((fall, self.falls.setdefault(fall, [])))
+            for key, found in hits:
+                blow, last = self._now.get(key, (None, 0.0))
+                lasts_s = BLOW_S if key in (name, NOSE, TOE) else ROD_BLOW_S
+                if blow is None or time - last > lasts_s:
+                    blow = Blow(part, 0.0, time)
+                    found.append(blow)
+                self._now[key] = blow, time
+                if time - blow.begun_s < lasts_s:
+                    blow.impulse_ns += push * float(model.opt.timestep)
+                    blow.work_j += push * max(float(falling[number]), 0.0) * float(model.opt.timestep)
+                    blow.speed_m_s = max(blow.speed_m_s, float(falling[number]))
+
+
+def _way(bar: CageBar, down: Array) -> str:
+    """Return from where a floor hits a bar and its hoop; both are in the body's frame."""
+    turned = bar.T_body_bar[:3, :3].T @ down
+    return ("side", "top", "ahead" if turned[2] > 0.0 else "behind")[int(np.argmax(np.abs(turned)))]
 
 
 @dataclass(frozen=True)

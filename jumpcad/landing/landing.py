@@ -13,6 +13,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import Blow, Blows, PartForce, landing_strength, part_forces
+from jumpcad.robot.cage.limits import fall_findings
 from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.prior import FLOOR_SHARE
@@ -49,7 +50,7 @@ class Landing:
 
 @dataclass(frozen=True)
 class Landings:
-    """Landings of a robot's own jumps, the forces of their hardest blows, and what the part hit hardest bears.
+    """Landings of a robot's own jumps, the forces of their hardest blows, what the part hit hardest bears, and a cage.
 
     `drops_righted` is the share of as many drops in any attitude after which the winding robot stands on its feet;
     `share_on_feet_static` that by its stable poses, without any motion.
@@ -59,6 +60,7 @@ class Landings:
     drops_righted: float = 0.0
     forces: tuple[PartForce, ...] = ()
     strength: Finding | None = None
+    falls: tuple[Finding, ...] = ()
     share_on_feet_static: float = 0.0
 
     @property
@@ -91,7 +93,8 @@ class Landings:
         }
         strength = None if self.strength is None else self.strength.to_dict()
         forces = [asdict(one) for one in self.forces]
-        return figures | {"forces": forces, "landing_strength": strength, "tries": tries}
+        falls = {one.name: one.to_dict() for one in self.falls}
+        return figures | {"forces": forces, "landing_strength": strength, **falls, "tries": tries}
 
 
 @check_arguments
@@ -117,10 +120,12 @@ def land(robot: Robot, tries: int = 20, seed: int = 0, settings: Settings | None
         If MuJoCo is not installed.
     """
     arena, rng = Arena(robot, settings), np.random.default_rng(seed)
-    found = tuple(_land(arena, rng) for _ in range(tries))
+    hits_j: dict[tuple[str, str], float] = {("", ""): 0.0}
+    found = tuple(_land(arena, rng, hits_j) for _ in range(tries))
     forces = part_forces(robot, (blow for one in found for blow in one.blows))
     righted = share_righted(robot, tries, rng, settings)
-    return Landings(found, righted, tuple(forces), landing_strength(robot, forces), share_on_feet(robot))
+    strength, falls = landing_strength(robot, forces), tuple(fall_findings(robot, hits_j))
+    return Landings(found, righted, tuple(forces), strength, falls, share_on_feet(robot))
 
 
 def rest_distance_m(robot: Robot, settings: Settings | None = None) -> float:
@@ -158,9 +163,12 @@ def share_righted(robot: Robot, drops: int, rng: np.random.Generator, settings: 
     return stood / drops
 
 
-def _land(arena: Arena, rng: np.random.Generator) -> Landing:
+def _land(arena: Arena, rng: np.random.Generator, hits_j: dict[tuple[str, str], float]) -> Landing:
+    """Jump and come to rest, and raise the hardest falls on a cage so far."""
     blows = Blows(arena)
     touchdown_m, rest_m = _fly_and_rest(arena, rng, blows)
+    for fall, hits in blows.falls.items():
+        hits_j[fall] = max(hits_j.get(fall, 0.0), *(one.work_j for one in hits))
     return Landing(touchdown_m, rest_m, arena.rests_on, _righted(arena), tuple(blows.all))
 
 

@@ -67,6 +67,12 @@ class Linkage:
         """Leg angles with the springs loaded and at rest (rad)."""
         return -self.design.compression_rad, 0.0
 
+    @property
+    def open_rad(self) -> float:
+        """Leg angle just before foot and front link come into line, or main leg and body do."""
+        cosine = (self.l1**2 + self.l2**2 - (self.l3 + self.l4) ** 2) / (2.0 * self.l1 * self.l2)
+        return 0.999 * math.acos(max(cosine, -1.0)) - self.rest_rad
+
     def diagonal_mm(self, leg_rad: npt.ArrayLike) -> Array:
         """Return the distance (n,) from ankle to front pivot at leg angles (n,)."""
         return np.asarray(np.abs(self.l1 - self._ankle(leg_rad)))

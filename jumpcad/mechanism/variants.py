@@ -13,6 +13,7 @@ from jumpcad.mechanism.model import BODY, FOOT, Body, ContactSphere, Mechanism, 
 from jumpcad.transforms import Array
 
 Robot = TypeVar("Robot", bound=Mechanism)
+LIMITS = np.array([limits_of(name) for name in PARAMETERS]).T
 
 
 def with_spring_factor(mechanism: Robot, factor: float) -> Robot:
@@ -64,8 +65,7 @@ def with_length_errors(design: Design, error_mm: Array) -> Design:
 
 def design_within_limits(vector: Array) -> Design:
     """Return the design nearest to a vector (8,)."""
-    limits = np.array([limits_of(name) for name in PARAMETERS])
-    return Design.from_vector(np.clip(vector, limits[:, 0], limits[:, 1]).tolist())
+    return Design.from_vector(np.clip(vector, *LIMITS).tolist())
 
 
 def _moved(body: Body, by_mm: Callable[[ContactSphere], float]) -> Body:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from jumpcad.catalogue import Pad
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files.reading import read_bytes
 from jumpcad.workshop import Material, Printer, Process
 
 PROGRAM = "prusa-slicer"
@@ -20,6 +21,10 @@ FILAMENT_MM = 1.75
 REMARK = re.compile(r"^; ([\w \[\]()]+?) = (.*)$", re.MULTILINE)
 """A closing comment of its G-code: a setting, the time, the filament."""
 USED, TIME = "filament used [mm]", "estimated printing time (normal mode)"
+USUAL = {USED: re.compile(r"\d{1,9}(\.\d+)?"), TIME: re.compile(r"(\d{1,4}[dhms] ?)+")}
+"""How its remarks say a length and a duration."""
+LARGEST_GCODE, LARGEST_SAID = 1 << 28, 1 << 20
+"""Bytes of its file, and of what it prints, that are read."""
 REFUSED = 1
 """PrusaSlicer's exit code for input that it will not print; any other means a crash."""
 
@@ -123,9 +128,9 @@ def _sliced(model: Path, place: list[str], asked: dict[str, str], material: Mate
                 raise CannotBuildError(f"{PROGRAM} refused {model.name}: {words[-1]}")
             said = words[-1] if words else "it printed no message"
             raise JumpcadError(f"{PROGRAM} crashed on {model.name} with exit code {done.returncode}: {said}")
-        gcode = output.read_text(encoding="utf-8", errors="replace")
+        gcode = read_bytes(output, "G-code", LARGEST_GCODE).decode(errors="replace")
     remarks = dict(REMARK.findall(gcode))
-    if not {USED, TIME} <= remarks.keys():
+    if not all(usual.fullmatch(remarks.get(key, "")) for key, usual in USUAL.items()):
         raise JumpcadError(
             f"{PROGRAM} wrote G-code without its usual remarks for {model.name}: another version or program?"
         )
@@ -144,15 +149,20 @@ def _run(arguments: list[str], purpose: str) -> subprocess.CompletedProcess[str]
     if program is None:
         raise JumpcadError(f"{PROGRAM} is not installed: install PrusaSlicer, or leave the printed masses as modelled")
     try:
-        return subprocess.run(
-            [program, *arguments],
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            encoding="utf-8",
-            errors="replace",
-            timeout=TIMEOUT_S,
-            check=False,
-        )
+        with (
+            tempfile.TemporaryFile() as said,
+            tempfile.TemporaryFile() as errors,
+        ):  # children may hold a pipe
+            done = subprocess.run(
+                [program, *arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=said,
+                stderr=errors,
+                timeout=TIMEOUT_S,
+                check=False,
+            )
+            texts = [(one.seek(0), one.read(LARGEST_SAID).decode(errors="replace"))[1] for one in (said, errors)]
+            return subprocess.CompletedProcess(done.args, done.returncode, *texts)
     except subprocess.TimeoutExpired:
         raise JumpcadError(f"{PROGRAM} did not finish {purpose} within {TIMEOUT_S} s") from None
     except OSError as error:

@@ -28,6 +28,7 @@ from jumpcad.search.study.variant import NOTHING, Variant
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
 from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE, floors
+from jumpcad.simulation.uncertain import ROBUST_PITCH, ROBUST_TOUCHDOWN, robust_figures
 from jumpcad.version import __version__
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 from jumpcad.workshop.varied import Value
@@ -36,10 +37,12 @@ MODELS = ("printed", "capsule", "published")
 PUBLISHED_FIGURES = ("fitness", "base_distance_m", "base_height_m", "spring_energy_j")
 """Figures of a jump of the published robot."""
 RIGHTS_ITSELF, RESTS = "rights_itself", "rest_distance_m"
-COSTLY = (RIGHTS_ITSELF, RESTS)
+COSTLY = (RIGHTS_ITSELF, RESTS, ROBUST_TOUCHDOWN, ROBUST_PITCH)
 """Figures of a printed robot that are computed where a requirement or the objective asks for them alone."""
 ESTIMATE_STEP_S = 0.002
 """Time step of the planar engine for an estimate: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
+BEYOND_LINK_M = 0.07
+"""By how much a printed robot is larger than its longest link, about: within a third for nine in ten of 211."""
 LENGTH_MM = 0.2
 """Error of a link's length of a robot that is made in no workshop; judgement."""
 
@@ -250,7 +253,7 @@ class PrintedModel(RobotModel):
         if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
         figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
-        asked = {name for name in COSTLY if name in self.scored or (self.requires(name) and not self.perturbation)}
+        asked = self.asked
         if RIGHTS_ITSELF in asked:
             figures[RIGHTS_ITSELF] = result.rights_itself  # a fifth of an evaluation more
         if RESTS in asked:
@@ -258,10 +261,25 @@ class PrintedModel(RobotModel):
 
             resting, settings = perturbed(robot, self.settings or Settings(), self.perturbation)
             figures[RESTS] = rest_distance_m(resting, settings) if result.verdict == "jump" else 0.0
+        figures |= self.robust(robot, self.settings or Settings())
         others: list[dict[str, float]] = []
         if not self.perturbation:  # of what is made otherwise the floor is one
             others = self.on_floors(robot, self.settings or Settings(), self.estimate_engine)
         return self.required(Evaluation(result.verdict, figures, findings), others)
+
+    @property
+    def asked(self) -> set[str]:
+        """Those of `COSTLY` that are computed."""
+        return {name for name in COSTLY if name in self.scored or (self.requires(name) and not self.perturbation)}
+
+    def robust(self, robot: Mechanism, settings: Settings) -> dict[str, float]:
+        """Return the figures of a robot as it may be made, if they are asked for."""
+        asked = self.asked & {ROBUST_TOUCHDOWN, ROBUST_PITCH}
+        if not asked:
+            return {}
+        scatter = (self.workshop or load_workshop()).safety.spring_rate_scatter
+        found = robust_figures(*perturbed(robot, settings, self.perturbation), scatter)
+        return {name: found[name] for name in asked}
 
     def refused_first(self, design: Design) -> Evaluation | None:
         """Return the outcome of a design that an estimate of the robot's masses refuses; None of others."""
@@ -301,15 +319,17 @@ class PrintedModel(RobotModel):
     def quick_score(self, design: Design, objective: Objective) -> float:
         """Return about what the capsule robot of the design scores; -inf where it does not jump.
 
-        Where it has no such figure, its fitness ranks the designs: it has no size but that of its links.
+        Its size is about that of the printed robot. Where it has no such figure, its fitness ranks the designs.
         """
         if not self._quick.admits(design):
             return -math.inf
         found = self._quick(design)
         if found.verdict != "jump":
             return -math.inf
+        size = design.l_max_mm / 1000.0 + BEYOND_LINK_M
+        sized = {"size_m": size, "body_lengths": found.metrics["touchdown_distance_m"] / size}
         try:
-            return objective.score(replace(found, findings=())) or 0.0
+            return objective.score(Evaluation("jump", {**found.metrics, **sized})) or 0.0
         except JumpcadError:
             return found.metrics["fitness"]
 

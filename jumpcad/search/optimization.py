@@ -7,7 +7,7 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design, load_design
 from jumpcad.search.models import robot_model
-from jumpcad.search.phases import DEFAULT, EVALUATIONS, UNTIL_PERCENT
+from jumpcad.search.phases import DEFAULT, EVALUATIONS, PAPER, UNTIL_PERCENT
 from jumpcad.search.space import Space
 from jumpcad.search.study.database import require_study
 from jumpcad.search.study.pool import open_pool
@@ -72,7 +72,8 @@ def optimize(
     study
         A file (.db) in which every trial is kept, and from which the same call continues; none if None.
     fixed, bounds, choices
-        By parameter: a value, a pair of limits in place of `SEARCH_BOUNDS`, allowed values. A key of the workshop is
+        By parameter: a value, a pair of limits in place of `PRINTED_BOUNDS`, allowed values. Robots that are not
+        printed, and `paper`, have the study's, `SEARCH_BOUNDS`, which may be given as well. A key of the workshop is
         a parameter too: ``bounds={"body.plate_mm": (1.6, 2.4)}``, ``choices={"bought.spring": ["", "9271K619"]}``.
     around, only, within_percent
         Free only some parameters, or search near a design; see `Space.make`. That design is evaluated first.
@@ -115,7 +116,7 @@ def optimize(
     centre = load_design(around) if isinstance(around, str | Path) else around
     begun = [load_design(one) if isinstance(one, str | Path) else one for one in start]
     robot = robot_model(model, workshop, settings, engine).requiring(require)
-    space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop)
+    space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop, method == PAPER)
     request = Request.make(
         space, robot, method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),

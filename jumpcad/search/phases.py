@@ -53,6 +53,8 @@ class Method:
         return bool(getattr(importlib.import_module(f"jumpcad.search.propose.{module}"), name)(evaluator, stage))
 
 
+PAPER = "paper"
+"""The method that repeats the study's stages, within its bounds."""
 METHODS = {
     method.name: method
     for method in (
@@ -65,7 +67,7 @@ METHODS = {
             front=True,
             learns=True,
         ),
-        Method("paper", "paper.run_paper", "the published study's stages", shares=True, least=7),
+        Method(PAPER, "paper.run_paper", "the published study's stages", shares=True, least=7),
         Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
     )
 }

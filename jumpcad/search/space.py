@@ -14,7 +14,7 @@ from typing import Any, Self
 import numpy as np
 
 from jumpcad.arguments import check_arguments, check_fields
-from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
+from jumpcad.design import PARAMETERS, PRINTED_BOUNDS, SEARCH_BOUNDS, Bounds, Design
 from jumpcad.drive import SpringLimits
 from jumpcad.drive.stock_spring import STIFFNESS, rest_angles_deg
 from jumpcad.errors import JumpcadError
@@ -40,7 +40,11 @@ ROOM_UP_TO_RAD = math.radians(75.0)
 cam begins at 40 to 80°."""
 
 
-def _with_springs(workshop: Workshop) -> dict[str, SearchParameter]:
+STUDY = "study"
+"""What `--bound` takes for the bounds of the study."""
+
+
+def _with_springs(workshop: Workshop, lowest_deg: float) -> dict[str, SearchParameter]:
     """Return stiffness and rest angle as springs from stock have them; nothing where they are made to order."""
     stock, angle = workshop.stock_spring, "rest_angle_deg"
     if stock is None:
@@ -50,7 +54,7 @@ def _with_springs(workshop: Workshop) -> dict[str, SearchParameter]:
     free = tuple(pin for pin in PLATE_PINS_RAD if pin <= ROOM_UP_TO_RAD)
     anywhere = SpringLimits(0.0, 0.0, workshop.bought.axle_mm, 1.0, free)
     reached = rest_angles_deg(stock, math.radians(workshop.spring.preload_deg), anywhere)
-    angles = [one for one in reached if one >= SEARCH_BOUNDS[angle].lower]
+    angles = [one for one in reached if one >= lowest_deg]
     return found | ({angle: SearchParameter(angle, float(angles[0]), float(angles[-1]))} if len(angles) > 1 else {})
 
 
@@ -84,8 +88,9 @@ class Space:
         only: Iterable[str] = (),
         within_percent: float | None = None,
         workshop: Workshop | None = None,
+        study: bool = False,
     ) -> Self:
-        """Return the default space with changes.
+        """Return the usual space with changes: `PRINTED_BOUNDS` in a workshop, else the study's `SEARCH_BOUNDS`.
 
         Where the workshop has springs from stock, the stiffness is theirs, and the rest angle, unless the search is
         `around` a design, one at which their arms may reach their pins.
@@ -94,7 +99,7 @@ class Space:
         ----------
         fixed, bounds, choices
             By name of a parameter, or by a key of the workshop such as `body.plate_mm`: its value, its lower and upper
-            limit, its allowed values. Each is in at most one of them.
+            limit, its allowed values. Each is in at most one of them. Bounds that are `SEARCH_BOUNDS` are as `study`.
         around
             A design that gives the values of what is not free and the middle of `within_percent`.
         only
@@ -103,6 +108,8 @@ class Space:
             Narrow every range of a design to this percentage of its width on either side of `around`.
         workshop
             The workshop whose values may be varied; None for a robot that is made in none.
+        study
+            Whether the study's bounds are the usual ones, whatever the workshop.
 
         Raises
         ------
@@ -111,6 +118,9 @@ class Space:
             free.
         """
         only = [known_name(name) for name in only]
+        usual: Mapping[str, Bounds] = PRINTED_BOUNDS
+        if workshop is None or study or bounds == SEARCH_BOUNDS:
+            usual, bounds = SEARCH_BOUNDS, {} if bounds == SEARCH_BOUNDS else bounds
         if around is None and (only or within_percent is not None):
             raise JumpcadError(
                 "to free only some parameters, or search near a design, say around which (around, or --around DESIGN)"
@@ -130,8 +140,9 @@ class Space:
                     raise JumpcadError(f"{name}: the workshop has no cage: fix cage.rod too, cage.rod=glass-1.5")
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
-        with_springs = _with_springs(workshop) if workshop and "bought.spring" not in changed else {}
-        for name, limits in SEARCH_BOUNDS.items():
+        lowest_deg = usual["rest_angle_deg"].lower
+        with_springs = _with_springs(workshop, lowest_deg) if workshop and "bought.spring" not in changed else {}
+        for name, limits in usual.items():
             parameter = SearchParameter(name, limits.lower, limits.upper)
             if name in with_springs and (around is None or not with_springs[name].free):
                 parameter = with_springs[name]
@@ -151,7 +162,9 @@ class Space:
         choose: Iterable[str] = (),
         **others: Any,
     ) -> Self:
-        """Return the default space with changes ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``; the rest as `make`.
+        """Return the usual space with changes ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``; the rest as `make`.
+
+        The bound ``study`` stands for all of the study's.
 
         Raises
         ------
@@ -159,7 +172,8 @@ class Space:
             As `make`, and for a text of another form.
         """
         fixed = {name: value for name, (value,) in read_changes("fix", fix).items()}
-        bounds: dict[str, Any] = read_changes("bound", bound)
+        others["study"] = others.get("study", False) or STUDY in (bound := list(bound))
+        bounds: dict[str, Any] = read_changes("bound", (one for one in bound if one != STUDY))
         return cls.make(fixed, bounds, read_changes("choose", choose), **others)
 
     @cached_property

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from jumpcad.simulation.engines import default_engine as default_engine
     from jumpcad.simulation.jump import Jump as Jump
     from jumpcad.simulation.simulator import Settings as Settings
+    from jumpcad.simulation.simulator import headline as headline
     from jumpcad.simulation.simulator import load_settings as load_settings
     from jumpcad.simulation.simulator import simulate as simulate
     from jumpcad.simulation.uncertain import Uncertainty as Uncertainty

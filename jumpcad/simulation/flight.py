@@ -1,8 +1,8 @@
 """The flight from take-off to the first touch of the ground, in closed form: how far the robot turns, how it arrives.
 
 In flight the angular momentum about the common centre of mass is conserved (SI units; angles about +y, so that a turn
-forwards is positive). The leg opens until its stop holds it, or until its springs are at rest where it has none;
-friction in the pins is left out. Points in x-z are complex numbers x + iz.
+forwards is positive). The leg opens until its stop holds it; without a stop its springs let it swing about their rest.
+Friction in the pins is left out. Points in x-z are complex numbers x + iz.
 """
 
 import math
@@ -22,6 +22,8 @@ SWING_POINTS = 9
 """Leg angles between take-off and stop; with 33, turns of the templates change by less than 0.1°."""
 MOMENTS = 200
 """Moments of the flight at which the lowest part's height is looked up, with linear interpolation between them."""
+TABLE = 65
+"""Leg angles at which the inertias of a leg that swings freely are tabled."""
 SLOWEST = 0.05
 """Least share of the leg's rate at take-off that is left before the stop, where friction would let it creep."""
 
@@ -48,7 +50,9 @@ class Flight:
     step_distance_mm: float
 
 
-def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: State, path: Ballistics) -> Flight:
+def flight(
+    mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: State, path: Ballistics, damping_nms: float
+) -> Flight:
     """Return the flight that follows from the state at take-off.
 
     Parameters
@@ -59,23 +63,25 @@ def flight(mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: S
         Its state when the last contact ends, rising.
     path
         Of its centre of mass.
+    damping_nms
+        Of each of the four joints, over their rates: what stills a leg that swings freely.
     """
     about_y = mechanics.inertia_kg_m2[:, 1, 1]
     velocity, rate = points(takeoff.velocity_m_s[:, [0, 2]]), takeoff.angular_rad_s[:, 1]
     place = points(takeoff.com_m[:, [0, 2]])
     momentum = float(about_common_centre(mechanics.mass_kg, about_y, place, velocity, rate)[0])
     leg_rad_s = float(rate[BODY_NAMES.index(MAIN_LEG)] - rate[BODY_NAMES.index(BODY)])
-    swing = _swing(mechanism, takeoff.leg_rad, leg_rad_s, momentum)
-    pitch = _pitch_rad(takeoff)
-    time = np.linspace(swing.time_s, max(path.deepest_s, swing.time_s), MOMENTS)
-    turn = swing.turn_rad + swing.rate_rad_s * (time - swing.time_s)
+    started = mechanism, takeoff.leg_rad, leg_rad_s, momentum
+    free = mechanism.stop is None and not mechanism.spring.one_sided
+    swing = _free_swing(*started, path.deepest_s, damping_nms) if free else _swing(*started, path.deepest_s)
+    pitch, time, turn = _pitch_rad(takeoff), swing.time_s, swing.turn_rad
     centre, around = path.place_m(time), surface(mechanism)
     bottoms = centre[:, None] + _arms_m(mechanism, mechanics, around, swing.leg_rad, pitch + turn)
     air = _first_touch_s(time, bottoms.imag.min(axis=1))
-    turned = swing.turn_rad + swing.rate_rad_s * (air - swing.time_s)
+    turned = float(np.interp(air, time, turn))
     arrived = math.degrees(pitch + turned - _pitch_rad(loaded))
     stood = complex(*mechanics.centre_of_mass_m(loaded)[[0, 2]])
-    standing = _arms_m(mechanism, mechanics, around, loaded.leg_rad, np.array([_pitch_rad(loaded)]))
+    standing = _arms_m(mechanism, mechanics, around, np.array([loaded.leg_rad]), np.array([_pitch_rad(loaded)]))
     flown = time <= air
     away_m = float(path.place_m(np.array([air]))[0].real) - stood.real
     return Flight(
@@ -126,16 +132,46 @@ def obstacles(bottoms_m: Complex, centre_m: Array, nose_m: float) -> tuple[float
 
 @dataclass(frozen=True)
 class _Swing:
-    """The leg's motion to where it stays: how long it takes, how far the body turns, and its rate from then on."""
+    """Moments of the flight (n,), the leg's angle at them (n,) or all (1,), the body's turn, and its mean rate."""
 
-    time_s: float
-    turn_rad: float
+    time_s: Array
+    leg_rad: Array
+    turn_rad: Array
     rate_rad_s: float
-    leg_rad: float
 
 
-def _swing(mechanism: Mechanism, leg_rad: float, leg_rad_s: float, momentum: float) -> _Swing:
-    """Return how the leg comes to rest beside the body.
+def _free_swing(
+    mechanism: Mechanism, leg_rad: float, leg_rad_s: float, momentum: float, until_s: float, damping_nms: float
+) -> _Swing:
+    """Return how a leg without a stop swings on its springs, by leapfrog steps.
+
+    With m = M - K²/J of `_swing`: m·q'' = torque - damping·q' - m'·q'²/2 - H²·(1/J)'/2, by q what has a mark.
+    """
+    spring, linkage, rest_rad = mechanism.spring, mechanism.linkage, mechanism.spring.preload_rad
+    angles = np.linspace(-spring.wind_rad, min(spring.wind_rad + 2.0 * rest_rad, linkage.open_rad), TABLE)
+    coupling, leg, whole = flying_inertias(mechanism, angles)
+    free, (foot, front), step = leg - coupling**2 / whole, linkage.turning(angles), angles[1] - angles[0]
+    torque = spring.stiffness_nm_per_rad * (rest_rad - angles) - np.gradient(0.5 * momentum**2 / whole, step)
+    decay = damping_nms * (1.0 + front**2 + (foot - 1.0) ** 2 + (front - foot) ** 2) / free
+    table = np.stack([torque / free, decay, 0.5 * np.gradient(free, step) / free])
+    waves = until_s * math.sqrt(spring.stiffness_nm_per_rad / float(free.min()))
+    time = np.linspace(0.0, until_s, max(MOMENTS, math.ceil(2.0 * waves)))
+    found, rate, gone = [leg_rad], leg_rad_s, 0.5 * time[1]
+    for _ in time[1:]:
+        push, slow, curve = (np.interp(found[-1], angles, column) for column in table)
+        rate += gone * (push - slow * rate - curve * rate**2)
+        swung = found[-1] + time[1] * rate
+        found.append(min(max(swung, angles[0]), angles[-1]))
+        rate, gone = rate if found[-1] == swung else 0.0, time[1]  # foot and front link in line hold it
+    swung = np.array(found)
+    turned = momentum * time[1] * _sums(np.interp(swung, angles, 1.0 / whole))
+    by_leg = np.interp(swung, angles, step * _sums(coupling / whole))
+    mean = momentum / float(np.interp(rest_rad, angles, whole))
+    return _Swing(time, swung, turned - by_leg + by_leg[0], mean)
+
+
+def _swing(mechanism: Mechanism, leg_rad: float, leg_rad_s: float, momentum: float, until_s: float) -> _Swing:
+    """Return the flight from when the leg has come to rest beside the body, until a time or that moment.
 
     With the body's rate w and the leg's q', H = J·w + K·q' and 2·T = J·w² + 2·K·w·q' + M·q'², so that
     (M - K²/J)·q'² + H²/J + 2·V is constant. The body turns by the integral of (H - K·q')/J.
@@ -151,25 +187,25 @@ def _swing(mechanism: Mechanism, leg_rad: float, leg_rad_s: float, momentum: flo
     step = (end_rad - leg_rad) / (SWING_POINTS - 1)
     time = 0.0
     if step != 0.0 and speed.min() > 0.0:
-        time = abs(_integral(1.0 / speed, step))
-    turn = -_integral(coupling / whole, step) + time * momentum * float(np.mean(1.0 / whole))
+        time = abs(step * float(_sums(1.0 / speed)[-1]))
+    turn = -step * float(_sums(coupling / whole)[-1]) + time * momentum * float(np.mean(1.0 / whole))
     if stop:  # the pad gives way until the leg stands still, a quarter of its swing, and does not throw it back
         quarter = math.sqrt(float(free[-1]) / stop.stiffness_nm_per_rad)
         give, give_s = float(speed[-1]) * quarter, 0.5 * math.pi * quarter
         turn += (momentum * give_s - float(coupling[-1]) * give) / float(whole[-1])
         time, end_rad = time + give_s, end_rad + give
         *_, whole = flying_inertias(mechanism, np.array([end_rad]))
-    return _Swing(time, turn, momentum / float(whole[-1]), end_rad)
+    moments, rate = np.linspace(time, max(until_s, time), MOMENTS), momentum / float(whole[-1])
+    return _Swing(moments, np.array([end_rad]), turn + rate * (moments - time), rate)
 
 
-def _arms_m(mechanism: Mechanism, mechanics: Mechanics, around: Points, leg_rad: float, pitch_rad: Array) -> Complex:
-    """Return the lowest points, x + iz from the common centre (n, k), at pitches of the body (n,)."""
-    angle = np.array([leg_rad])
-    placed, (com,) = frames(mechanism.linkage, angle), seen_from_body(mechanism.bodies, mechanism.linkage, angle)[0]
-    centre = mechanics.mass_kg @ com / mechanics.total_mass_kg
-    arms = [placed[name][0][0] + at * np.exp(-1j * placed[name][1][0]) for name, (at, _) in around.items()]
+def _arms_m(mechanism: Mechanism, mechanics: Mechanics, around: Points, leg_rad: Array, pitch_rad: Array) -> Complex:
+    """Return the lowest points, x + iz from the common centre (n, k), at leg angles (n,) or (1,) and pitches (n,)."""
+    placed, (com, _) = frames(mechanism.linkage, leg_rad), seen_from_body(mechanism.bodies, mechanism.linkage, leg_rad)
+    centre = com @ mechanics.mass_kg / mechanics.total_mass_kg
+    arms = [placed[name][0][:, None] + at * np.exp(-1j * placed[name][1])[:, None] for name, (at, _) in around.items()]
     radii = np.concatenate([radius for _, radius in around.values()])
-    return np.asarray((np.concatenate(arms) - centre) * np.exp(-1j * pitch_rad)[:, None] - 1j * radii)
+    return np.asarray((np.concatenate(arms, axis=1) - centre[:, None]) * np.exp(-1j * pitch_rad)[:, None] - 1j * radii)
 
 
 def _first_touch_s(time_s: Array, clearance_m: Array) -> float:
@@ -188,6 +224,6 @@ def _pitch_rad(state: State) -> float:
     return math.atan2(turn[0, 2], turn[0, 0])
 
 
-def _integral(values: Array, step: float) -> float:
-    """Return the integral of values (n,) at even steps, by trapezia."""
-    return float(step * (values.sum() - 0.5 * (values[0] + values[-1])))
+def _sums(values: Array) -> Array:
+    """Return the integral of values (n,) at steps of 1 up to each of them, by trapezia."""
+    return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]))])

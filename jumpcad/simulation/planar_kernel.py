@@ -535,3 +535,72 @@ def rising(model: PlanarModel, moment: StepState) -> bool:
     """Tell whether the centre of mass rises."""
     turn = complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
     return centre_speed(inertia_at(model, links_at(model, moment.leg_rad), turn), moment.speed).imag > 0.0
+
+
+@compiled
+def touchdown(
+    model: PlanarModel, moment: StepState, loaded_rad: float, corners: tuple[Any, Any, Any], below_m: float,
+    swing_points: int, moments: int, slowest: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Return way (m) and pitch (rad) of a robot at its first touch of the ground, from its take-off.
+
+    The closed form of `jumpcad.simulation.flight`, which has the last four parameters, for thousands of jumps.
+    `loaded_rad` is the leg's angle where the robot stands loaded, against which way and pitch count; `corners` are
+    points x + iz of the bodies, in their frames, with the index of the body and a radius of each.
+    """
+    stood, links, speed = links_at(model, loaded_rad), links_at(model, moment.leg_rad), moment.speed
+    stand, turn = inertia_at(model, stood, 1.0 + 0j), complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
+    inertia = inertia_at(model, links, turn)
+    place, velocity = moment.ankle_m + 1j * inertia.by_foot / inertia.mass, centre_speed(inertia, speed)
+    momentum = inertia.foot * speed.foot + inertia.both * speed.leg
+    free0, whole0 = inertia.leg - inertia.both * inertia.both / inertia.foot, inertia.foot
+    stored0 = spring_torque(model, moment.leg_rad) * (model.preload_rad - moment.leg_rad)
+    stops = math.isfinite(model.stop_rad)
+    end_rad = max(model.stop_rad, moment.leg_rad) if stops else model.preload_rad
+    apart = (end_rad - moment.leg_rad) / (swing_points - 1)
+    time, turned, mean, rate, coupling, whole, free = 0.0, 0.0, 0.0, 0.0, 0.0, whole0, free0
+    for index in range(swing_points):
+        angle, share = moment.leg_rad + index * apart, 0.5 if index in (0, swing_points - 1) else 1.0
+        at = links_at(model, angle)
+        flying = inertia_at(model, at, 1.0 + 0j)
+        whole, free = flying.foot, flying.leg - flying.both * flying.both / flying.foot
+        coupling = flying.both - at.turn1[0] * whole  # with the body's rate, not the foot's
+        gained = stored0 - spring_torque(model, angle) * (model.preload_rad - angle)
+        square = free0 * speed.leg * speed.leg + momentum * momentum * (1.0 / whole0 - 1.0 / whole) + gained
+        rate = math.sqrt(max(square, slowest * slowest * speed.leg * speed.leg * free) / free)
+        time += share * abs(apart) / rate if rate > 0.0 else 0.0
+        turned -= share * apart * coupling / whole
+        mean += 1.0 / (whole * swing_points)
+    turned += time * momentum * mean
+    if stops:
+        quarter = math.sqrt(free / model.stop_nm_per_rad)
+        turned += (0.5 * math.pi * momentum - coupling * rate) * quarter / whole
+        time, end_rad = time + 0.5 * math.pi * quarter, end_rad + rate * quarter
+    at = links_at(model, end_rad)
+    flying = inertia_at(model, at, 1.0 + 0j)
+    rate, centre = momentum / flying.foot, 1j * flying.by_foot / flying.mass
+    axes = (at.pitch, -at.back_pivot / model.l2_m, (model.l4_m - at.front_pivot) / model.l3_m, 1.0 + 0j)
+    points, owners, radii = corners
+    arms = points.copy()
+    for index in range(len(points)):
+        owner = owners[index]
+        arm = at.place[owner] - centre + (points[index] - model.com_m[owner]) * axes[owner]
+        arms[index] = arm * at.pitch.conjugate()
+    leaving, loaded = links.pitch * turn, stood.pitch
+    pitch = turned - math.atan2(leaving.imag, leaving.real)
+    gravity, up = model.gravity_m_s2, velocity.imag
+    fallen_s = (up + math.sqrt(max(up * up + 2.0 * gravity * (place.imag + below_m), 0.0))) / gravity
+    between = max(fallen_s - time, 0.0) / (moments - 1)
+    before, air, above = 0.0, time, False
+    for index in range(moments):
+        after, low = index * between, math.inf
+        here, turn = time + after, complex(math.cos(pitch + rate * after), -math.sin(pitch + rate * after))
+        for corner in range(len(arms)):
+            low = min(low, (arms[corner] * turn).imag - radii[corner])
+        low += place.imag + (up - 0.5 * gravity * here) * here
+        if above and low <= 0.0:
+            air = here - between * low / (low - before)
+            break
+        air, above, before = air if above or low <= 0.0 else here, above or low > 0.0, low
+    way = place.real + velocity.real * air + (stand.by_foot / stand.mass).imag
+    return way, pitch + rate * (air - time) + math.atan2(loaded.imag, loaded.real)

@@ -49,11 +49,11 @@ class PlanarModel(NamedTuple):
     belly_radius_m: tuple[float, ...]
 
 
-def planar_model(mechanism: Mechanism, settings: Settings) -> PlanarModel:
+def planar_model(mechanism: Mechanism, settings: Settings, pins_nm: float | None = None) -> PlanarModel:
     """Return a robot's mechanism in the plane, left and right sides coinciding.
 
-    Dry friction of the pins is the constant torque at the leg joint that the other engines have. Every number is a
-    float or a complex: a tuple with integers would be another type, compiled anew.
+    Dry friction of the pins is the constant torque at the leg joint that the other engines have, or the given one.
+    Every number is a float or a complex: a tuple with integers would be another type, compiled anew.
     """
     design, spring, stop = mechanism.design, mechanism.spring, mechanism.stop
     rubs = coefficients(mechanism, settings)
@@ -78,7 +78,7 @@ def planar_model(mechanism: Mechanism, settings: Settings) -> PlanarModel:
         one_sided_spring=spring.one_sided,
         damping_nms_per_rad=rubs.joint_damping_nms_per_rad,
         joint_friction_nm=settings.joint_friction_nm,
-        pins_nm=pin_torque_nm(mechanism, rubs.pin),
+        pins_nm=pin_torque_nm(mechanism, rubs.pin) if pins_nm is None else pins_nm,
         stop_rad=float(stop.angle_rad) if stop else math.inf,
         stop_nm_per_rad=float(stop.stiffness_nm_per_rad) if stop else 0.0,
         friction=rubs.contact(foot.surface),

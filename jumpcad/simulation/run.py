@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
-from jumpcad.settings import Settings, takeoff_clearance_m
+from jumpcad.settings import Settings, coefficients, takeoff_clearance_m
 from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_m_s2, drag_per_m
 from jumpcad.simulation.flight import Flight, flight
 from jumpcad.simulation.jump import EnergyBudget, Trajectory
@@ -296,4 +296,6 @@ class Run:
         )
         reach = 2.0 * self.mechanism.design.l_max_mm / 1000.0  # farther than any contact is from the centre
         path = ballistics(start, here, velocity, self.settings.gravity_m_s2, self.drag_per_m, reach)
-        return Takeoff(time_s, path, flight(self.mechanism, mechanics, self.loaded, state, path), budget, left / wound)
+        damping = coefficients(self.mechanism, self.settings).joint_damping_nms_per_rad
+        flown = flight(self.mechanism, mechanics, self.loaded, state, path, damping)
+        return Takeoff(time_s, path, flown, budget, left / wound)

@@ -9,7 +9,7 @@ from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings as Settings
 from jumpcad.settings import load_settings as load_settings
 from jumpcad.simulation.chain import Chain, simulate_chain
-from jumpcad.simulation.engines import default_engine, engine_named
+from jumpcad.simulation.engines import BUNDLE_ENGINE, default_engine, engine_named
 from jumpcad.simulation.jump import Jump
 from jumpcad.simulation.run import Run
 
@@ -63,6 +63,11 @@ def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, eng
         run = maker.run(world, mechanism, settings)
         run.go()
         return _jump(run, engine, tuple(findings))
+
+
+def headline(mechanism: Mechanism, trajectory: bool = False) -> Jump:
+    """Return the jump that commands and pages tell of a robot: in the bundle's engine, flown to the touchdown."""
+    return simulate(mechanism, Settings(flight="simulated", trajectory=trajectory), BUNDLE_ENGINE)
 
 
 def divided(mechanism: Mechanism, settings: Settings) -> Settings:

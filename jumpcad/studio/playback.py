@@ -9,8 +9,7 @@ import numpy as np
 from jumpcad.bundle.motion import motion, speed_in_words
 from jumpcad.bundle.viewer import turning_parts
 from jumpcad.robot.robot import Robot
-from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.engines import BUNDLE_ENGINE
+from jumpcad.simulation import headline
 from jumpcad.transforms import Array
 
 CAM = "cam"
@@ -102,5 +101,5 @@ def _posed(first: Array, second: Array, share: float) -> Array:
 
 def playback(robot: Robot) -> Playback:
     """Return the motion of a robot, by the engine of its report."""
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True), BUNDLE_ENGINE)
+    jump = headline(robot, trajectory=True)
     return Playback(motion(robot, jump.trajectory, jump.takeoff_time_s), turning_parts(robot))

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from jumpcad.bundle.motion import SHOWN_S
-from jumpcad.design import SEARCH_BOUNDS, limits_of
+from jumpcad.design import PRINTED_BOUNDS, limits_of
 from jumpcad.errors import JumpcadError
 from jumpcad.studio.playback import Playback
 from jumpcad.studio.stage import StudioStage
@@ -129,7 +129,7 @@ def when_changed(handle: Any, act: Callable[[], object]) -> None:
 
 def slider_ends(key: str, value: float) -> tuple[float, float]:
     """Return the ends of a parameter's slider: the search's bounds, widened, within what a design may be."""
-    bounds, (lowest, highest) = SEARCH_BOUNDS[key], limits_of(key)
+    bounds, (lowest, highest) = PRINTED_BOUNDS[key], limits_of(key)
     more = WIDER * (bounds.upper - bounds.lower)
     low = max(lowest, min(bounds.lower - more, value))
     high = min(highest, max(bounds.upper + more, value))

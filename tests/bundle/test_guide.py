@@ -145,7 +145,7 @@ def test_steps_that_others_refer_to_are_those_in_which_it_is_done() -> None:
     """The springs' pin, the battery, the sensor's ends and the wood of the press."""
     steps = {title: int(number) for number, title in re.findall(r"(?m)^## (\d+)\. (.*)$", guide())}
     for pattern, title in (
-        (r"pushes it in; it stays out until step (\d+)", "The springs' pin in the leg"),
+        (r"pushes it in; it stays out until step (\d+)", "The leg pin"),
         (r"Lay all aside until step (\d+)", "Trays into the right plate"),
         (r"Strap it in as in step (\d+)", "Lower tray with the battery"),
         (r"sensor's ends stay free until step (\d+)", "Left plate with the sensor"),
@@ -157,7 +157,7 @@ def test_steps_that_others_refer_to_are_those_in_which_it_is_done() -> None:
 
 
 def test_both_plates_hold_the_springs_pin_before_an_arm_is_pushed() -> None:
-    titles = ("plate for good", "without springs\n", "The springs' pin in the leg\n")
+    titles = ("plate for good", "without springs\n", "The leg pin\n")
     places = [guide().index(title) for title in titles]
     assert places == sorted(places)
 
@@ -339,7 +339,7 @@ def test_clips_and_screws_of_axles_are_put_on_where_the_robot_has_them() -> None
     lean = replace(lean, layout=replace(lean.layout, spring_boss_mm=0.0))
     assert whole(lean).count("strip of") == 2  # of tape, in place of the boss, and off again
     assert "its boss holds it" in guide()
-    assert nuts.index("The bores are open") < nuts.index("Stand axles and springs' pin in their bores")
+    assert nuts.index("The bores are open") < nuts.index("Stand axles and plate pin")
 
 
 @pytest.mark.thorough
@@ -351,7 +351,7 @@ def test_preloaded_and_stock_springs_are_handled_as_such() -> None:
     assert "asks for 4.60 N·mm/°; the robot is computed with 26.36 N·mm/°" in text
     assert "by the preload|132 N·mm|" in text  # 26.36 · 5
     assert text.count("On the stop, too, the springs are loaded by 2.0°") == 1  # which is 3° past rest
-    assert "the springs' pin of the leg first" in text
+    assert "the leg pin first" in text
     assert "On the stop, too" not in guide()
 
 

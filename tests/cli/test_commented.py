@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from jumpcad.cli.commented import commented_design, commented_workshop
-from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
+from jumpcad.design import PARAMETERS, PRINTED_BOUNDS, load_design
 from jumpcad.workshop import Workshop, load_workshop, varied
 
 DEFAULT = load_workshop("default")
@@ -47,6 +47,6 @@ def test_a_design_s_numbers_stand_with_what_they_do_and_their_searched_range() -
     assert "jumpcad simulate frog.toml" in text
     lines = [line for line in text.splitlines() if " = " in line]
     assert [line.split(" = ")[0] for line in lines] == list(PARAMETERS)
-    for line, bounds in zip(lines, SEARCH_BOUNDS.values(), strict=True):
+    for line, bounds in zip(lines, PRINTED_BOUNDS.values(), strict=True):
         assert line.endswith(f"# searches go through {bounds.lower:g} to {bounds.upper:g}")
     assert len({line.index("#") for line in lines}) == 1  # one below the other

@@ -1,10 +1,13 @@
 """Any kind of standard output, any file name, Ctrl-C at any time: one line and one exit code."""
 
+import errno
 import os
 import subprocess
 import sys
+from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from support.commands import Run
@@ -84,7 +87,23 @@ def test_a_deleted_folder_is_one_line(tmp_path: Path) -> None:
         env=SURROUNDINGS,
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "jumpcad: the current folder was deleted: change into another one\n"
+    assert done.stderr == "jumpcad: the current folder was deleted, or may not be entered: change into another one\n"
+
+
+def test_a_folder_that_may_not_be_entered_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As the system answers anybody but root, of a folder of somebody else."""
+    true = os.stat
+
+    def stat(path: Any, *given: Any, **options: Any) -> os.stat_result:
+        if str(path).startswith("theirs/"):
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return true(path, *given, **options)
+
+    monkeypatch.setattr(os, "stat", stat)
+    for command, name in product(("study", "report", "studio", "check", "simulate"), ("theirs/e.db", "theirs/e.toml")):
+        if command != "study" or name.endswith(".db"):
+            found = run(command, name)
+            assert found == (2, "", f"jumpcad: {name}: may not be read (permission denied)\n"), command
 
 
 def test_an_error_is_one_line_whatever_the_file_is_called(run: Run) -> None:

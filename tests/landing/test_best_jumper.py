@@ -14,6 +14,7 @@ from jumpcad.landing.arena import Arena
 from jumpcad.landing.blows import CAGE, NOSE, TOE, Blow, Blows, part_forces
 from jumpcad.landing.landing import land, share_righted
 from jumpcad.landing.series import jumps
+from jumpcad.robot.cage.limits import fall_findings
 from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
@@ -86,6 +87,8 @@ def test_upside_down_its_hoops_land_first_and_softly(robot: Robot) -> None:
     arena.watch = blows = Blows(arena)
     arena.step(0.3)
     assert blows.all[0].part == CAGE
+    assert {way for _, way in blows.falls} == {"top"}
+    assert 0.02 < sum(one.work_j for hits in blows.falls.values() for one in hits) < robot.mass_kg * 9.81 * 0.25
     (on_hoop,) = (one for one in part_forces(robot, blows.all) if one.part == CAGE)
     assert 0.02 < on_hoop.energy_j < robot.mass_kg * 9.81 * 0.25
     assert on_hoop.hard_n == pytest.approx((2.0 * on_hoop.energy_j * 50.0) ** 0.5, rel=0.5)
@@ -106,7 +109,12 @@ def test_it_rights_itself(robot: Robot) -> None:
     pytest.importorskip("mujoco")
     assert not errors(check(robot))
     assert share_righted(robot, 200, np.random.default_rng(0)) >= 0.98
-    assert land(robot, 40).share_righted >= 0.95
+    landed = land(robot, 40)
+    assert landed.share_righted >= 0.95
+    assumed = {one.name: one for one in fall_findings(robot)}  # by shares of the springs' energy
+    for one in landed.falls:
+        assert (one.value or 0.0) <= (assumed[one.name].value or 0.0), one
+        assert one.margin > 0.0, one
     for seed in (0, 1, 2):
         series = jumps(robot, 10, seed)
         assert series.stood == 10, seed

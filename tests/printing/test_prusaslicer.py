@@ -104,6 +104,32 @@ def test_a_slicer_that_does_not_finish_is_ended(stand_in, monkeypatch, tmp_path)
         sliced(tmp_path)
 
 
+STRANGE = {
+    "comma": GCODE.replace("10.00", "10,00"),
+    "no number": GCODE.replace("10.00", "much"),
+    "infinite": GCODE.replace("10.00", "9" * 400),
+    "no time": GCODE.replace("1h 2m 3s", "soon"),
+    "endless": GCODE.replace("1h", "9" * 400 + "d"),
+}
+
+
+def test_what_is_no_gcode_of_the_slicer_is_told_in_one_line(stand_in, tmp_path):
+    scripts = {name: writing(gcode) for name, gcode in STRANGE.items()}
+    place = 'while [ "$1" != --output ]; do shift; done; '
+    scripts |= {"of the kernel": f'{place}ln -s /proc/kallsyms "$2"', "huge": f'{place}truncate -s 1G "$2"'}
+    for name, script in scripts.items():
+        stand_in(script)
+        with pytest.raises(JumpcadError, match=r"usual remarks|not G-code|for G-code") as wrong:
+            sliced(tmp_path)
+        assert "\n" not in str(wrong.value), name
+
+
+def test_a_child_of_the_slicer_is_not_waited_for(stand_in, monkeypatch, tmp_path):
+    monkeypatch.setattr(prusaslicer, "TIMEOUT_S", 3.0)
+    stand_in(f"sleep 5 &\n{writing(GCODE)}")
+    assert sliced(tmp_path).time_s == 3723.0
+
+
 def test_versions_of_which_settings_are_known_are_taken(stand_in):
     stand_in("echo PrusaSlicer-2.5.0+linux-x64")
     assert slicer_version().startswith("2.5.0")

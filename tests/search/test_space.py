@@ -223,8 +223,19 @@ def test_the_box_follows_springs_from_stock() -> None:
     for outside in (20.0, angle.lower - 3.0):
         with pytest.raises(CannotBuildError, match="the plate's pin must be"):
             build(load_design("kenan-2.0").model_copy(update={"rest_angle_deg": outside}), shop)
-    assert Space.make(workshop=load_workshop()) == Space.default()
     asked = Space.make(bounds={"rest_angle_deg": (30, 40)}, fixed={"stiffness_nmm_per_deg": 9.2}, workshop=shop)
     assert {p.name: (p.lower, p.upper) for p in asked.parameters}["rest_angle_deg"] == (30.0, 40.0)
     near = Space.make(around=load_design("kenan-2.0"), within_percent=25, workshop=shop)
-    assert {p.name: (p.lower, p.upper) for p in near.parameters}["rest_angle_deg"] == pytest.approx((75.7, 90.0))
+    assert {p.name: (p.lower, p.upper) for p in near.parameters}["rest_angle_deg"] == pytest.approx((69.45, 90.0))
+
+
+def test_the_box_of_a_printed_robot_is_wider_than_the_study_s_unless_that_is_asked_for() -> None:
+    """`--bound study` and the table itself are the same, also beside a value that is fixed; so is a capsule search."""
+    shop = load_workshop()
+    wide, study = Space.make(workshop=shop), Space.default()
+    for wider, narrower in zip(wide.parameters, study.parameters, strict=True):
+        assert wider.lower < narrower.lower < narrower.upper < wider.upper
+    assert Space.parse(bound=["study"], workshop=shop) == Space.make(bounds=SEARCH_BOUNDS, workshop=shop) == study
+    assert Space.make() == study == Space.make(workshop=shop, study=True)
+    mixed = Space.parse(bound=["study", "c_coef=1:1.3"], fix=["d_coef=0.7"], workshop=shop)
+    assert [(one.lower, one.upper) for one in mixed.parameters[1:4]] == [(1.0, 1.3), (0.7, 0.7), (0.6, 1.4)]

@@ -12,7 +12,7 @@ from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.engines import default_engine
-from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld
+from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld, touchdown
 from jumpcad.simulation.planar_state import PlanarMotion
 
 FINE = load_settings("fine")
@@ -40,6 +40,17 @@ def test_jumps_of_the_table(jumping: list[Flight]) -> None:
         assert jump.com_rise_m == pytest.approx(table["com_rise_m"], rel=0.003), flight.name
         assert jump.takeoff_energy_ratio == pytest.approx(table["takeoff_energy_ratio"], abs=0.007), flight.name
         assert base_distance_m(jump) == pytest.approx(table["touchdown_distance_m"], abs=0.003), flight.name
+
+
+def test_the_compiled_flight_is_that_of_all_engines(kenan: Robot, jumping: list[Flight]) -> None:
+    """The same closed form, from other equations of motion: with stop and parts, and without."""
+    for robot in (kenan, *(flight.robot for flight in jumping)):
+        for friction in (0.5, 1.2):
+            settings = Settings(ground_friction=friction, push_off_steps=0)
+            jump, found = simulate(robot, settings, "planar"), touchdown(robot, settings)
+            assert (found is None) == (jump.verdict != "jump")
+            if found:
+                assert found == pytest.approx((jump.touchdown_distance_m, jump.touchdown_pitch_deg), abs=1e-9)
 
 
 def test_range_converges(jumping: list[Flight]) -> None:

@@ -1,5 +1,6 @@
 """Propagation: indices of functions whose indices are known, and the robot's interval."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,14 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.robot.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
 from jumpcad.simulation import simulate, uncertain
-from jumpcad.simulation.uncertain import Uncertainty, _first_order, changed, uncertain_jump, varied_inputs
+from jumpcad.simulation.uncertain import (
+    Uncertainty,
+    _first_order,
+    changed,
+    robust_figures,
+    uncertain_jump,
+    varied_inputs,
+)
 from jumpcad.workshop import varied
 
 
@@ -129,3 +137,24 @@ def test_a_draw_that_cannot_be_built_counts_as_no_jump(robot: Robot, monkeypatch
     assert (found.jumps, found.jumps_share) == (16, 0.75)
     assert all(quantiles[0] == 0.0 < quantiles[1] for quantiles in found.quantiles.values())
     assert found.to_dict()["jumps_share"] == 0.75
+
+
+def test_robust_figures_are_of_robots_that_differ(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without differences they are those of the robot, on slippery floors alone those of the jump there."""
+    settings, least = Settings(), robust_figures(robot, Settings(), 0.1)
+    for share in (0.0, -1.0):
+        points = np.zeros((16, 8))
+        points[:, 7] = share
+        monkeypatch.setattr(uncertain, "_differences", lambda points=points: points)
+        floor = coefficients(robot, settings).ground * math.exp(0.3 * share)
+        jump = simulate(robot, settings.model_copy(update={"ground_friction": floor}), "planar")
+        found = robust_figures(robot, settings, 0.1)
+        assert found["robust_touchdown_m"] == pytest.approx(jump.touchdown_distance_m, rel=1e-6)
+        assert found["robust_pitch_deg"] == pytest.approx(abs(jump.touchdown_pitch_deg), abs=1e-3)
+        assert least["robust_touchdown_m"] < found["robust_touchdown_m"] or share
+        assert least["robust_pitch_deg"] > found["robust_pitch_deg"] or share
+
+
+def test_a_robot_as_made_that_does_not_jump_has_fallen(robot: Robot) -> None:
+    found = robust_figures(robot, Settings(takeoff_clearance_m=0.1), 0.1)
+    assert found == {"robust_touchdown_m": 0.0, "robust_pitch_deg": 180.0}

@@ -25,8 +25,7 @@ from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import ORDERED
-from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.engines import BUNDLE_ENGINE
+from jumpcad.simulation import headline
 from jumpcad.steps.assembly_order import ORDER
 from jumpcad.steps.assembly_steps import Step
 from jumpcad.steps.step_views import motor_sense
@@ -166,7 +165,7 @@ def _jump(robot: Robot) -> dict[str, Any]:
     """Return touchdown and rise as computed, to 10 mm, and the free room (m): no engine's last digits."""
     unknown = {"range_mm": None, "rise_mm": None, "far_m": 3.0, "high_m": 2.0}
     try:
-        jump = simulate(robot, Settings(flight="simulated"), BUNDLE_ENGINE)
+        jump = headline(robot)
     except JumpcadError:
         return unknown
     reach, rise = jump.touchdown_distance_m, jump.com_rise_m

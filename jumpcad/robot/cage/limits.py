@@ -1,13 +1,13 @@
 """The cage: rods bent and landed on, bars under their moment, clearances (mm, MPa)."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.dimensions import GRAVITY_M_S2, PAD_WALL_MM
 from jumpcad.findings import Basis, Finding, at_least, at_most
-from jumpcad.robot.cage.place import BAR_MM, HORN_MM, HORN_MORE_MM, HORN_SIZE_MM, Cage, ground, plate_ends_mm
+from jumpcad.robot.cage.place import BAR_MM, HORN_MM, HORN_MORE_MM, HORN_SIZE_MM, LAP_MM, Cage, ground, plate_ends_mm
 from jumpcad.robot.cage.strength import (
     FALLS,
     FOLD,
@@ -29,9 +29,9 @@ SAG_MM = 25.0
 """Most that a hoop gives under half of the robot; judgement: half of the height at which strong robots crouch."""
 FREE_MM = 3.0
 """Least distance of rods and bars from what moves, and from the ground under the loaded robot; judgement."""
-SIDE, AHEAD = (0.28, 0.6), 0.85
-"""Shares of the falling energy on one end of the rear or the front bar sideways, and on the front bar from ahead: the
-worst of 200 own landings of `best-jumper`, MuJoCo. None of them fell on its back."""
+SHARES = {("rear", "side"): 0.28, ("front", "side"): 0.6, ("front", "ahead"): 0.85, ("rear", "behind"): 0.03}
+"""Of the falling energy, by the bar that takes it and the direction, at most; `simulate --landing` says what its own
+landings bring a robot. Above the worst of 200 of `best-jumper`, MuJoCo."""
 WITHIN_MM = 100.0
 """Larger distances are not measured."""
 MODEL = "a hoop as a ring: Roark, ch. 9, case 1"
@@ -57,16 +57,22 @@ BASIS = {
         f"cantilever: Roark, ch. 8; {MODEL}",
     ),
     "cage_side": Basis(
-        f"{SIDE[0]:g}·2·U/3 on an end of the rear bar, {SIDE[1]:g}·2·U/3 of the front one (J) ≤ {FOLD:g}·E·I/R of the "
-        "hoop, and F²·∫x²/(E·I)dx of two horns of the body that bend sideways: F = strength_in_plane_mpa·h·t²/(6·x), "
-        "the least; x, h, t as in `cage_horn`; the bar that is nearer to it",
+        f"{SHARES['rear', 'side']:g}·2·U/3 on an end of the rear bar, {SHARES['front', 'side']:g}·2·U/3 of the front "
+        f"one (J) ≤ {FOLD:g}·E·I/R of the hoop, and F²·∫x²/(E·I)dx of two horns of the body that bend sideways: F = "
+        "strength_in_plane_mpa·h·t²/(6·x), the least; x, h, t as in `cage_horn`; the bar that is nearer to it",
         "cantilevers: Roark, ch. 8; a hoop: elastica; shares: the worst of 200 simulated landings, judgement",
     ),
     "cage_ahead": Basis(
-        f"{AHEAD:g}·2·U/3 on the front bar (J) ≤ F²·∫x²/(E·I)dx of two horns of the body that bend upwards: F = "
-        "strength_in_plane_mpa·t·h²/(6·x), the least, or at which 2.05·π²·E·I/x² buckles them sideways; the floor lies "
-        "along the front hoop; x, h, t as in `cage_horn`",
+        f"{SHARES['front', 'ahead']:g}·2·U/3 on the front bar (J) ≤ F²·∫x²/(E·I)dx of two horns of the body that bend "
+        "upwards: F = strength_in_plane_mpa·t·h²/(6·x), the least, or at which 2.05·π²·E·I/x² buckles them sideways, "
+        "or strength_in_plane_mpa·p·w²/(3·l) breaks what is beside their notch: w wide, l deep, p = body.plate_mm; the "
+        "floor lies along the front hoop; x, h, t as in `cage_horn`",
         "cantilevers: Roark, ch. 8; columns: Roark, table 15.1; share: the worst of 200 simulated landings, judgement",
+    ),
+    "cage_behind": Basis(
+        f"{SHARES['rear', 'behind']:g}·2·U/3 on the rear bar (J) as in `cage_ahead`, and F²·x/(E·A) of horns pressed; "
+        "they reach to the leg's axle, t = body.plate_mm where the plates begin",
+        "as `cage_ahead`",
     ),
     "cage_clear": Basis(
         f"least distance of rods and bars from what moves, and of rods and horns from the ground, springs loaded ≥ "
@@ -111,21 +117,16 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
         f"cross bars {BAR_MM:g} x {height:g} mm under their rods: {stress:.1f} of {CREEP_MPA:g} MPa",
         "raise cage.bar_mm, or a thinner cage.rod",
     )  # fmt: skip
-    ends = plate_ends_mm(robot.layout)
-    lengths = np.array([abs(bar.place_mm[0] - end) for bar, end in zip(cage.bars, ends, strict=True)])
     forces = np.array([landing_n(rod, radius, energy) for radius in radii[:2]])
-    body, low = robot.workshop.material("body"), robot.layout.lateral.left_plate
-    along = cage.bars[1].horn_end_mm - robot.layout.front_mm
-    share, thick = abs(float(along @ cage.bars[1].up)) / math.hypot(*along), low[1] - low[0] + HORN_MORE_MM
-    horns = [two_horns(body, float(length), HORN_MM, thick, share) for length in lengths]
-    stress = max(horn[0] * force for horn, force in zip(horns, forces, strict=True))
+    stress = max(horn[0] * force for horn, force in zip(_horns(robot, cage), forces, strict=True))
+    body = robot.workshop.material("body")
     allowed = body.strength_in_plane_mpa / robot.workshop.safety.printed_factor
     yield at_most(
         "cage_horn", stress, allowed, "MPa",
         f"horns of the body plates at a landing on a hoop: {stress:.1f} of {allowed:.1f} MPa",
         "raise body.plate_mm, or lower cage.front_ahead_mm",
     )  # fmt: skip
-    yield from _falls(cage, horns, 2.0 * energy)
+    yield from fall_findings(robot)
     free, above = _free_mm(robot.layout, cage), _above_mm(robot.layout, cage)
     yield at_least(
         "cage_clear", min(free, above), FREE_MM, "mm",
@@ -135,23 +136,48 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
     )  # fmt: skip
 
 
-def _falls(cage: Cage, horns: list[tuple[float, float, float]], falling_j: float) -> Iterator[Finding]:
-    """Yield what ends of bars and their horns bear in a fall sideways, and from ahead: warnings."""
-    remedy = "let it land on grass, a mat or a carpet, or raise body.plate_mm"
+def _horns(robot: Robot, cage: Cage) -> list[tuple[float, float, float]]:
+    """Return what the rear and the front horns bear, see `two_horns`.
+
+    The rear ones are clamped where the plates are wide: at the leg's axle, which the cam's may stand behind.
+    """
+    layout, body = robot.layout, robot.workshop.material("body")
+    plate, end = float(np.ptp(layout.lateral.left_plate)), plate_ends_mm(layout)
+    beside = (HORN_SIZE_MM[0] - BAR_MM) / 2.0 - robot.workshop.fits.drawn.press_mm
+    holds = body.strength_in_plane_mpa * plate * beside**2 / (3.0 * LAP_MM)
+    wide = (float(layout.hub_mm[0]) - layout.axle_mm / 2.0 - PAD_WALL_MM, end[1])
+    found = []
+    for bar, axle, ends, clamped in zip(cage.bars, (layout.hub_mm, layout.front_mm), end, wide, strict=True):
+        along = bar.horn_end_mm - axle
+        share = abs(float(along @ bar.up)) / math.hypot(*along)
+        lengths = (abs(float(bar.place_mm[0]) - ends), abs(float(bar.place_mm[0]) - clamped))
+        found.append(two_horns(body, lengths, HORN_MM, (plate + HORN_MORE_MM, plate), share, holds))
+    return found
+
+
+def fall_findings(robot: Robot, hits_j: Mapping[tuple[str, str], float] | None = None) -> Iterator[Finding]:
+    """Yield what bars, hoops and horns bear in falls sideways, from ahead and behind: warnings; nothing without a cage.
+
+    `hits_j` are the hardest by bar and direction, as in `SHARES`; None: these shares.
+    """
+    cage = robot.layout.of(Cage)
+    if cage is None:
+        return
+    hits = hits_j or {fall: share * FALLS * robot.spring.energy_j for fall, share in SHARES.items()}
     folded = FOLD * cage.rod.bending_nmm2 / 1000.0
-    bears = [folded / arc.radius_mm + horn[1] for arc, horn in zip(cage.arcs, horns, strict=False)]
-    hits = [share * falling_j for share in SIDE]
-    hit, bear, bar = max(zip(hits, bears, cage.bars, strict=True), key=lambda one: one[0] / one[1])
-    yield at_most(
-        "cage_side", hit, bear, "J",
-        f"an end of {bar.name} may land sideways with {hit:.2f} J; its hoop and horns bear {bear:.2f} J",
-        remedy, "warning",
-    )  # fmt: skip
-    yield at_most(
-        "cage_ahead", AHEAD * falling_j, horns[1][2], "J",
-        f"cage_bar_front may land from ahead with {AHEAD * falling_j:.2f} J; its horns bear {horns[1][2]:.2f} J",
-        remedy, "warning",
-    )  # fmt: skip
+    horns = zip(("rear", "front"), cage.arcs, _horns(robot, cage), strict=False)
+    bears = {name: (folded / arc.radius_mm + sideways, upwards) for name, arc, (_, sideways, upwards) in horns}
+    for way in ("side", "ahead", "behind"):
+        hit, bear, name = max(
+            ((hits.get(fall, 0.0), bears[fall[0]][way != "side"], fall[0]) for fall in SHARES if fall[1] == way),
+            key=lambda one: one[0] / one[1],
+        )
+        yield at_most(
+            f"cage_{way}", hit, bear, "J",
+            f"cage_bar_{name} may land {'on an end' if way == 'side' else f'from {way}'} with {hit:.2f} J; its "
+            f"{'hoop and horns' if way == 'side' else 'horns'} bear {bear:.2f} J",
+            "let it land on grass, a mat or a carpet, or raise body.plate_mm", "warning",
+        )  # fmt: skip
 
 
 def _free_mm(layout: Layout, cage: Cage) -> float:

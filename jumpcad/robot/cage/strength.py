@@ -7,6 +7,8 @@ import numpy as np
 from jumpcad.catalogue import CageRod
 from jumpcad.workshop import Material
 
+Two = tuple[float, float]
+
 RING = 0.149
 """Of a ring's compliance R³/(E·I) between two opposite forces (Roark, ch. 9, case 1)."""
 ENERGY = 2.25
@@ -22,23 +24,27 @@ EULER = 2.05
 
 
 def two_horns(
-    material: Material, length_mm: float, high_mm: tuple[float, float], thick_mm: float, share: float
+    material: Material, length_mm: Two, high_mm: Two, thick_mm: Two, share: float, held_n: float = math.inf
 ) -> tuple[float, float, float]:
-    """Return what two even tapers bear, clamped at the plates, free to turn at the bar; heights from there on.
+    """Return what two tapers bear, clamped at the plates, free to turn at the bar; heights from there on.
 
-    The stress for each newton upwards on a bar (MPa), and the energies (J) to their strength: pushed along the bar, and
-    by a force of which that share bends them upwards, the rest buckles them sideways.
+    Lengths are that of the taper, and the whole one; thicknesses that of the taper, and beyond. The stress for each
+    newton upwards on a bar (MPa), and the energies (J) to their strength: pushed along the bar, and by a force of which
+    that share bends them upwards, the rest shortens and buckles them; of it their ends hold `held_n` each.
     """
-    along = length_mm * (np.arange(100) + 0.5) / 100.0
-    high = np.interp(along, (0.0, length_mm), high_mm)
+    taper, whole = length_mm
+    along = whole * (np.arange(100) + 0.5) / 100.0
+    high, thick = np.interp(along, (0.0, taper), high_mm), np.where(along < taper, *thick_mm)
     modulus, strength, found = material.modulus_mpa, material.strength_in_plane_mpa, []
-    for section, half in ((high * thick_mm**2 / 6.0, thick_mm / 2.0), (thick_mm * high**2 / 6.0, high / 2.0)):
+    for section, half in ((high * thick**2 / 6.0, thick / 2.0), (thick * high**2 / 6.0, high / 2.0)):
         force = strength * float((section / along).min())
-        gives = float((along**2 / (section * half)).mean()) * length_mm / modulus
+        gives = float((along**2 / (section * half)).mean()) * whole / modulus
         found.append((force, force**2 * gives / 1000.0))
     (_, sideways), (force, upwards) = found
-    buckles = EULER * math.pi**2 * modulus * float(high.mean()) * thick_mm**3 / 12.0 / length_mm**2
-    return strength / force / 2.0, sideways, upwards * min(1.0, buckles * share / force) ** 2
+    buckles = EULER * math.pi**2 * modulus * float((high * thick**3).mean()) / 12.0 / whole**2
+    each = min(buckles, held_n, force / share)
+    shortens = each**2 * (1.0 - share**2) * float((1.0 / (high * thick)).mean()) * whole / modulus / 1000.0
+    return strength / force / 2.0, sideways, upwards * (each * share / force) ** 2 + shortens
 
 
 def bent_strain(rod: CageRod, radius_mm: float) -> float:

@@ -1,1 +1,1 @@
-"""Battery, boards, their trays, switch and leads: where it goes, how it is drawn, what is bought for it, what limits it."""
+"""Battery, boards, trays, switch and leads: where they go, how they are drawn, what is bought, what limits them."""

@@ -22,13 +22,16 @@ WIDEST_MM, HALVINGS = 200, 12
 """Largest half width of the toes that is tried, the limit of the workshop's key; and bisection steps."""
 WIDER_MM = 1.0
 """Added to the half width that the remedy names; judgement: wider bars are heavier."""
+EYE_MM = 0.1
+"""Play of an eye on either side at most: what is drawn wider came out smaller, and a drill 0.1 mm wider than the pin
+opens it. Judgement: the drill, and its wobble by hand."""
 LANDING_PLAYS = 2.0
 """Factor on the play at landing: the body lands tilted to one end of it and swings to the other."""
 BASIS = {
     "sideways_tipping": Basis(
         "atan(w/h) - n·play ≥ safety.roll_reserve_deg (°), least of rest, springs loaded (n = 1) and landing (n = "
         "2); w from the centre of mass to the line from toe's tip to nose, h its height, play = least of leg's and "
-        "front link's Σ(bore - pin)/length of the eye",
+        f"front link's Σ(bore - pin)/length of the eye, of an eye's play {EYE_MM:g} mm a side at most",
         "statics; reserve and twice the play at landing: judgement",
     ),
     "lateral_balance": Basis(
@@ -67,7 +70,7 @@ def sideways_findings(robot: Robot) -> list[Finding]:
             f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
             f"takes {worst.play_deg:.1f}°; {worst.margin_deg:.1f}° are left, of {reserve:g}° at least",
             f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm "
-            "(holes that come out small: fits.holes_small_mm)",
+            f"where that is below {EYE_MM:g}",
         )
     ]  # fmt: skip
     if limit := robot.workshop.safety.lateral_offset_mm:
@@ -106,7 +109,8 @@ def rolls(robot: Robot, layout: Layout | None = None) -> tuple[Roll, ...]:
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
     com = centre_of_mass_on_foot_mm(robot, linkage, linkage.pose(leg))
     stance = stance_deg(layout, com, robot.lateral_offset_mm)
-    printed = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), fits=robot.workshop.fits)
+    fits = robot.workshop.fits.model_copy(update={"eye_mm": min(robot.workshop.fits.eye_mm, EYE_MM)})
+    printed = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), fits=fits)
     play = math.degrees(play_rad(layout, printed))
     return (
         Roll("at rest", float(stance[-1]), play),

@@ -18,7 +18,7 @@ STEPS_MAX = 400
 """Chords of a whole coil at most, so that its mesh stays small."""
 ORDERED = 2
 """Springs of each hand to order, of which one is chosen by its torque; judgement."""
-CHOOSE = f"; order {ORDERED}"
+CHOOSE = f"; {ORDERED} in all, to choose from"
 """End of the name of an article of which more are ordered than the robot needs."""
 
 

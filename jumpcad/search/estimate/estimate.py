@@ -128,6 +128,7 @@ class Estimator:
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
         size = max(design.l_max_mm / 1000.0, *(figures[name] for name in EXTENTS))
         found = {**figures, **found, "size_m": size, "body_lengths": found["touchdown_distance_m"] / size}
+        found |= self._model.robust(robot, self._model.estimate_settings)
         others = self._model.on_floors(robot, self._model.estimate_settings, self._model.estimate_engine)
         asked = self._model.required(Evaluation("jump", found), others)
         score = self._objective.unrequired(asked) or 0.0

@@ -76,10 +76,10 @@ def best_so_far(results: Sequence[Result]) -> Figure:
         low, middle, high = (np.where(np.isfinite(one), one, np.nan) for one in
                              (best.min(axis=0), np.median(best, axis=0), best.max(axis=0)))  # fmt: skip
         number = np.arange(1, scores.shape[1] + 1)
-        axes.fill_between(number, low, high, color=colour, alpha=0.2, lw=0)
-        axes.plot(number, middle, ":", color=colour)
+        axes.fill_between(number, low, high, color=colour, alpha=0.2, lw=0, step="post")
+        axes.plot(number, middle, ":", color=colour, drawstyle="steps-post")
         whole = np.where(np.isfinite(low), middle, np.nan)
-        axes.plot(number, whole, color=colour, label=f"{method}, {len(searches)} searches")
+        axes.plot(number, whole, color=colour, drawstyle="steps-post", label=f"{method}, {len(searches)} searches")
     objective = results[0].request.aim
     labels(axes, "designs evaluated by the search", f"{objective.meaning} ({objective.unit})")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))

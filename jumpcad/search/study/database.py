@@ -161,11 +161,14 @@ def locked(path: Path) -> Iterator[None]:
         If the file cannot be written, or is locked by another process.
     """
     require_path(path)
-    require_own_sides(path)
     lock = _lock(path)
     try:
+        require_own_sides(path)
         os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o644))
         lock.acquire()
+        while not os.path.exists(lock.lock_file):  # who held it removed it as it was opened here: it locks nobody out
+            lock.release()
+            lock.acquire()
     except Timeout:
         raise JumpcadError(f"{path}: is being written by another run; wait for it, or name another file") from None
     except OSError as error:

@@ -200,6 +200,7 @@ OBJECTIVES: dict[str, Objective] = {
     for objective in (
         Objective("body_lengths", "touchdown over the robot's size", "body lengths", lambda m: m["body_lengths"]),
         Objective("touchdown", "way to the touchdown", "m", lambda m: m["touchdown_distance_m"]),
+        Objective("robust", "touchdown that nine of ten robots as made reach", "m", lambda m: m["robust_touchdown_m"]),
         Objective("rest", "way to where it comes to rest", "m", lambda m: m["rest_distance_m"]),
         Objective("fitness", "range over the longest link", "link lengths", lambda m: m["fitness"]),
         Objective("range", "range of the jump", "m", _range_m),

@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
+from threading import Thread
 from typing import Any
 
 import cloudpickle
@@ -270,7 +271,17 @@ def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
             warnings.simplefilter("ignore")  # of other versions: they are looked at below
             # First, because a client with a wrong address prints an error again when it is garbage-collected.
             distributed.comm.resolve_address(address)
-            client = distributed.Client(address, timeout=ANSWER_S, set_as_default=False)
+            opened: Future[Any] = Future()
+
+            def open_client() -> None:
+                try:
+                    opened.set_result(distributed.Client(address, timeout=ANSWER_S, set_as_default=False))
+                except Exception as error:
+                    opened.set_exception(error)
+
+            # Its timeout does not hold where somebody else listens, who says nothing.
+            Thread(target=open_client, daemon=True).start()
+            client = opened.result(3.0 * ANSWER_S)
     except Exception as error:  # each protocol has its own
         reason = str(error).split("\n")[0] or type(error).__name__
         raise JumpcadError(f"no Dask scheduler answers at {address}: {reason}") from None

@@ -99,8 +99,13 @@ class StudyStore:
         path = Path(path)
         require_path(path)
         if not os.path.isfile(path):  # unlike Path.is_file, False for a name that is too long
-            there = os.path.exists(path)
-            reason = "is a folder, a pipe or a device, not a study file" if there else "no such study file"
+            reason = "is a folder, a pipe or a device, not a study file"
+            try:
+                os.stat(path)
+            except PermissionError:
+                reason = "may not be read (permission denied)"
+            except OSError:
+                reason = "no such study file"
             raise JumpcadError(f"{path}: {reason}")
         store = cls(path)
         with ExitStack() as on_error, plain_errors(path):
@@ -251,7 +256,10 @@ class StudyStore:
             return
         self._check_format()
         held = self.identity
-        differs = difference(held, json.loads(json.dumps(identity)))
+        asked = json.loads(json.dumps(identity))
+        differs = difference(held, asked)
+        if differs.startswith("space."):  # the usual bounds are another program's
+            differs = difference(held.get("versions"), asked.get("versions"), "versions") or differs
         said = f"holds another study ({differs}); repeat its own request or name another file"
         if differs.startswith("versions."):
             said = (

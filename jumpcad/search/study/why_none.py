@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
-from jumpcad.design import SEARCH_BOUNDS
+from jumpcad.design import PRINTED_BOUNDS, SEARCH_BOUNDS
 from jumpcad.drive.stock_spring import STIFFNESS
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, errors
@@ -100,13 +100,14 @@ def _bounds(remedy: str, space: Space, model: RobotModel) -> Iterator[str]:
     from jumpcad.remedies import DIRECTIONS, asked
 
     parameters = {one.name: one for one in space.parameters if not one.names}
+    bounds = PRINTED_BOUNDS if isinstance(model, PrintedModel) else SEARCH_BOUNDS
     stock = model.workshop.stock_spring if isinstance(model, PrintedModel) and model.workshop else None
     for word, key in asked(remedy):
         if key == STIFFNESS and stock:
             yield f"bought.spring = {stock.name}, whose stiffness it is"
             continue
         if (direction := DIRECTIONS[word]) and (one := parameters.pop(key, None)):
-            usual, up = SEARCH_BOUNDS.get(key, one), direction > 0
+            usual, up = bounds.get(key, one), direction > 0
             end, value = (one.upper, usual.upper) if up else (one.lower, usual.lower)
             if said := re.search(rf"{re.escape(key)}(?: to| =) ({NUMBERS.pattern})", remedy):
                 value = float(said[1].rstrip("."))

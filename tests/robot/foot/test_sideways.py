@@ -111,6 +111,14 @@ def test_rolling_by_the_stance_brings_the_centre_of_mass_over_the_edge(
     assert turned @ outwards == pytest.approx(0.0, abs=0.05)
 
 
+def test_an_eye_that_is_drawn_wider_than_the_drill_shrinks_and_has_its_play(kenan: Robot) -> None:
+    """Alone, as the coupon says it, and with a finer one there is less."""
+    plays = [
+        rolls(replace(kenan, workshop=workshop_with(fits={"eye_mm": eye})))[0].play_deg for eye in (0.05, 0.1, 0.2)
+    ]
+    assert plays[0] < plays[1] == plays[2]
+
+
 def test_a_centre_of_mass_to_the_right_tips_as_one_to_the_left(kenan: Robot) -> None:
     """The foot is its own mirror image; whatever is heavier on one side, the nearer edge counts."""
     com = np.array([[10.0, 40.0], [20.0, 60.0]])

@@ -9,12 +9,30 @@ import sys
 import textwrap
 
 import pytest
+from filelock import FileLock
 from support.each import each
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.study.database import SIDES, is_written, locked, require_study
 from jumpcad.search.study.store import StudyStore
+
+
+def test_a_lock_that_was_let_go_while_it_was_opened_locks_others_out_too(tmp_path, monkeypatch):
+    """The first to hold it removes its file between another's opening and locking."""
+    acquire, opened = FileLock.acquire, []
+
+    def late(lock):
+        acquire(lock)
+        opened.append(lock)
+        if len(opened) == 1:
+            os.unlink(lock.lock_file)
+
+    monkeypatch.setattr(FileLock, "acquire", late)
+    refused = pytest.raises(JumpcadError, match="is being written by another run")
+    with locked(tmp_path / "s.db"), refused, locked(tmp_path / "s.db"):
+        pass
+    assert os.listdir(tmp_path) == ["s.db"]
 
 
 @pytest.mark.thorough
@@ -54,6 +72,18 @@ def test_a_study_is_written_while_its_lock_is_held(tmp_path):
             pass
     assert not is_written(tmp_path / "s.db")
     assert [one.name for one in tmp_path.iterdir()] == ["s.db"]
+
+
+def test_a_name_that_leaves_no_room_for_the_files_beside_it_is_one_line(tmp_path):
+    longest = os.pathconf(tmp_path, "PC_NAME_MAX")
+    for length in range(longest - 12, longest + 3):
+        name = "x" * (length - 3) + ".db"
+        if length + len("-journal") <= longest:
+            StudyStore.write(tmp_path / name, IDENTITY).close()
+        else:
+            with pytest.raises(JumpcadError, match=r"cannot be written: File name too long$"):
+                StudyStore.write(tmp_path / name, IDENTITY)
+            assert name not in os.listdir(tmp_path)
 
 
 def test_a_study_is_a_file_or_will_be_one_in_a_folder_that_is_there(tmp_path):

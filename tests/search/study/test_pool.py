@@ -3,6 +3,7 @@
 import contextlib
 import os
 import select
+import socket
 import subprocess
 import sys
 import textwrap
@@ -173,9 +174,12 @@ def wait_for_workers(known):
 def test_dask_that_does_not_answer(monkeypatch):
     monkeypatch.setattr("jumpcad.search.study.pool.ANSWER_S", 0.5)
     needs.package("distributed")
-    for address in ("tcp://127.0.0.1:1", "tls://127.0.0.1:1", "ucx://127.0.0.1:1", "inproc://a", "tcp://127.0.0.1:x"):
+    silent = socket.create_server(("127.0.0.1", 0))  # somebody else, who listens and says nothing
+    wrong = "tcp://127.0.0.1:1", "tls://127.0.0.1:1", "ucx://127.0.0.1:1", "inproc://a", "tcp://127.0.0.1:x"
+    for address in (*wrong, f"tcp://127.0.0.1:{silent.getsockname()[1]}"):
         with pytest.raises(JumpcadError, match=f"^no Dask scheduler answers at {address}: [^\n]+$"):
             dask_pool(address)
+    silent.close()
 
 
 def test_other_versions_are_named_before_anything_is_sent():

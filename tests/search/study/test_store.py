@@ -104,6 +104,7 @@ def test_another_study_is_not_overwritten_and_how_one_goes_on_is_said(tmp_path):
         ({}, {"seed": 2}, r"holds another study \(seed: 1 there, 2 here\)"),
         ({}, {"space": Space.parse(fix=["c_coef=1.1"]).describe()}, r"space.c_coef.fixed: 1.0 there, 1.1 here"),
         (*of_numpy, r"was made by another program \(versions.numpy: \"1.26.4\" there, .*`--from-study .*s\.db`"),
+        (of_numpy[0], of_numpy[1] | {"space": Space.parse().describe()}, "was made by another program .*from-study"),
         (of_numpy[0], of_numpy[1] | {"seed": 2}, r"holds another study \(seed: 1 there, 2 here\)"),
         ({}, {"against": "mass"}, front.format("spring-energy", "mass", "spring-energy")),
         ({"against": "mass"}, {}, front.format("mass", "spring-energy", "mass")),

@@ -61,7 +61,8 @@ def test_what_is_to_relax_admits_the_nearest_design() -> None:
 
 def test_the_most_frequent_refusals_have_the_bound_that_a_cure_lies_beyond() -> None:
     """By two evaluations: wound by a tenth it stays on the ground; as far as is told, it does not."""
-    model, space = robot_model(), Space.parse(bound=["compression_ratio=0.1:0.2"])
+    model = robot_model()
+    space = Space.parse(bound=["compression_ratio=0.1:0.2"], workshop=model.workshop)
     weak = load_design("kenan-2.0").model_copy(update={"compression_ratio": 0.1})
     trials = [Trial("bo", 0, place, weak, model(weak).bare, None, "m", 0.0) for place in range(3)]
     assert trials[0].evaluation.reasons == ("no_takeoff",)
