@@ -19,7 +19,7 @@ from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
-from jumpcad.search.study.evaluator import TOGETHER, Evaluator
+from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED
 from jumpcad.search.study.request import Stage
 from jumpcad.search.study.trial import Trial, feasible_trials, is_flat, nearest_to_required
@@ -76,14 +76,14 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
             admits = unproposed(evaluator, proposals, loop.may_hold)
             ask = partial(propose, evaluator.space, best=best, elite=elite, generator=generator, admits=admits)
             beside = loop.beside(trials, admits, generator) if stalled else None
-            proposal = beside or loop.propose(ask, best, generator)
+            proposal = beside or loop.propose(ask, best)
             if proposal is None:
                 break
             if polls and beside is None and proposal.promised_gain(best) < HOPELESS:
                 wider = FARTHEST ** generator.random()
                 proposal = loop.beside(trials, admits, generator, wider) or proposal
             proposals.append(proposal)
-        return [*proposals, *loop.far(unproposed(evaluator, proposals, loop.may_hold))]
+        return proposals
 
     estimated = isinstance(evaluator.model, PrintedModel) and not evaluator.space.varies_workshop
 
@@ -151,15 +151,13 @@ def run_steps(
                 loop = ProposalLoop(space, learned, dry_run, thetas, refit, evaluator.unrequired)
                 proposals = proposer(loop, known, count, np.random.default_rng([seed, 2, RUN_SEED * stage.run + step]))
             thetas = loop.thetas
-            proposals = proposals[:left]
-            more = {TOGETHER: float(len(proposals))} if len(proposals) > count else {}
-            notes: list[dict[str, Any]] = [{**proposal.note(), **more, "theta": thetas} for proposal in proposals]
+            notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
             if notes and loop.tried:
                 notes[0] |= {TRIED: [point.tolist() for point in loop.tried]}
             evaluator.evaluate(
                 [proposal.variant for proposal in proposals], phase, step, proposals=notes, run=stage.run
             )
-        count = len(finished or proposals)
+            count = len(proposals)
         if count == 0:
             found = len(evaluator.trials) - start
             if found < space.size:
