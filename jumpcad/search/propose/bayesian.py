@@ -34,9 +34,9 @@ LEARNED, LEARNED_BEST = 400, 100
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
 RUN_SEED = 1_000_000
 """Above any number of steps: added to the seed of the steps of each further run."""
-IDLE, IDLE_ALONE, IDLE_REQUIRED = 10, 25, 20
-"""The search ends after so many steps in a row that gain too little: where robots are estimated, where not, and where
-they are with requirements, which part the good designs; judgement."""
+IDLE, IDLE_ALONE = 20, 25
+"""The search ends after so many steps in a row that gain too little: where robots are estimated, and where not. After
+ten, one of two searches of everything that can be built had ended at 25 designs."""
 HOPELESS, FARTHEST = 1e-8, 6.25
 """Of the best score: what a proposal promises that promises nothing. Neighbours are then up to so many times as far
 away, an eighth of the unit cube along an axis; judgement."""
@@ -88,8 +88,7 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
     estimated = isinstance(evaluator.model, PrintedModel) and not evaluator.space.varies_workshop
 
     def ended() -> bool:  # scores that are all alike have not converged
-        usual = IDLE_REQUIRED if evaluator.model.requirements else IDLE
-        enough = idle() >= (usual if estimated else IDLE_ALONE)
+        enough = idle() >= (IDLE if estimated else IDLE_ALONE)
         return stage.least_gain > 0.0 and enough and not is_flat(evaluator.trials)
 
     return run_steps(evaluator, "bo", stage, proposer, ended)

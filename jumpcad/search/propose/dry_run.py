@@ -44,7 +44,7 @@ class DryRun:
     def __init__(self, evaluator: Evaluator, phase: str, seed: int, run: int) -> None:
         assert isinstance(evaluator.model, PrintedModel)
         self._evaluator, self._phase, self._seed, self._run = evaluator, phase, seed, run
-        self._space, self._model = evaluator.space, evaluator.model
+        self._space = evaluator.space
         self.estimator = Estimator(evaluator.space, evaluator.model, evaluator.objective)
         self._variants: dict[tuple[float, ...], Variant] = {}
         self._prior = {trial.key for trial in evaluator.prior}
@@ -64,8 +64,6 @@ class DryRun:
 
     def starts_with(self, variant: Variant) -> bool:
         """Whether a search may start with a variant. If its parts have no room, that is learned."""
-        if not self._evaluator.admits(variant) or self._model.refused_first(variant.design):
-            return False
         if not isinstance(self.estimator.layout(variant), Evaluation):
             return True
         self._passed_over.append(variant)

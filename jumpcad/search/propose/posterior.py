@@ -8,7 +8,6 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from types import MappingProxyType
 from typing import Any, Self
 
@@ -16,7 +15,6 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import erfcx, log_ndtr
 
-from jumpcad.design import PARAMETERS
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import EQUALS, SCREENED, Evaluation
@@ -40,22 +38,6 @@ THETA_DIGITS = 3
 """Decimals of the logarithms with which the next fit starts: a row of a study is half as long."""
 
 
-SPRINGS = 4.0
-"""Natural logarithm of the torque or energy of the springs that counts as much as a whole range; judgement."""
-
-
-def with_springs(space: Space, points: Array) -> Array:
-    """Return points (m, d) with two more axes (m, d + 2): logarithms of torque and energy of the wound springs.
-
-    Most limits of a printed robot, and its jump, depend on these, which are products of parameters.
-    """
-    _, c, d, _, ratio, rest_deg, stiffness, _ = space.values(points)[:, : len(PARAMETERS)].T
-    rise = np.clip((c - 1.0) * np.sin(np.radians(rest_deg)) / d, -1.0, 1.0)
-    wound_deg = np.maximum(ratio * (rest_deg + np.degrees(np.arcsin(rise))), 1.0)
-    axes = np.log([stiffness * wound_deg, stiffness * wound_deg**2]) / SPRINGS
-    return np.column_stack([points, *axes])
-
-
 @dataclass(frozen=True)
 class SearchPosterior:
     """Processes fitted to trials: of the score, once two designs are feasible, and of each constraint's margin.
@@ -67,8 +49,6 @@ class SearchPosterior:
     score: Surrogate | None
     constraints: Mapping[str, Surrogate]
     guess: Surrogate | None = None
-    placed: Callable[[Array], Array] = np.asarray
-    """Makes the axes of the processes of points (m, d) of the unit cube."""
 
     @classmethod
     def from_trials(
@@ -79,7 +59,6 @@ class SearchPosterior:
         fit: bool,
         guesses: Mapping[Key, tuple[Array, float]] = NO_GUESSES,
         score_of: Callable[[Trial], float | None] = lambda trial: trial.score,
-        springs: bool = False,
     ) -> Self:
         """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
 
@@ -95,15 +74,11 @@ class SearchPosterior:
             Points (d,) and guessed scores of variants, by their keys; of trials too.
         score_of
             The score of a trial that is learned, also of one that only misses what is required.
-        springs
-            Whether the processes have axes of the springs too: of printed robots.
         """
-        placed = partial(with_springs, space) if springs else np.asarray
-        categories = (*space.categories, 0, 0) if springs else space.categories
         x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension)
 
         def learn(name: str, points: Array, values: Array) -> Surrogate:
-            return Surrogate(placed(points), values, thetas.get(name), fit, categories)
+            return Surrogate(points, values, thetas.get(name), fit, space.categories)
 
         constraints = {}
         for name, margins in constraint_margins(trials).items():
@@ -118,12 +93,12 @@ class SearchPosterior:
             values = warped(forwards(np.array([value for _, value in guesses.values()]), scores))
             guess = learn(GUESS, places, values)
             of_keys = dict(zip(guesses, values.tolist(), strict=True))
-            pairs = zip(jumps, guess.predict(placed(points))[0].tolist(), strict=True)
+            pairs = zip(jumps, guess.predict(points)[0].tolist(), strict=True)
             their = np.array([of_keys.get(trial.key, mean) for (_, trial), mean in pairs])
-            return cls(learn(MORE, points, warped(forwards(scores, scores)) - their), constraints, guess, placed)
+            return cls(learn(MORE, points, warped(forwards(scores, scores)) - their), constraints, guess)
         if len(jumps) < 2:
-            return cls(None, constraints, placed=placed)
-        return cls(learn("score", points, warped(forwards(scores, scores))), constraints, placed=placed)
+            return cls(None, constraints)
+        return cls(learn("score", points, warped(forwards(scores, scores))), constraints)
 
     @property
     def thetas(self) -> dict[str, list[float]]:
@@ -136,7 +111,7 @@ class SearchPosterior:
 
     def log_feasible(self, points: Array) -> Array:
         """Return the logarithm of the probability (m,) that designs (m, d) meet every constraint."""
-        points, total = self.placed(points), np.zeros(len(points))
+        total = np.zeros(len(points))
         for surrogate in self.constraints.values():
             mean, deviation = surrogate.predict(points)
             total += log_ndtr(mean / deviation)
@@ -146,7 +121,6 @@ class SearchPosterior:
         """Return the logarithm of the expected improvement (m,) of the warped score over `best` at points (m, d)."""
         if self.score is None:
             return np.zeros(len(points))
-        points = self.placed(points)
         mean, deviation = self.score.predict(points)
         if self.guess is not None:
             guessed, unsure = self.guess.predict(points)
@@ -156,11 +130,9 @@ class SearchPosterior:
 
     def condition_on(self, point: Array) -> "SearchPosterior":
         """Return the posterior with its own means at a point (d,) added as measurements (kriging believer)."""
-        point = self.placed(point[None])[0]
         constraints = {name: surrogate.condition_on(point) for name, surrogate in self.constraints.items()}
         score = None if self.score is None else self.score.condition_on(point)
-        guess = None if self.guess is None else self.guess.condition_on(point)
-        return SearchPosterior(score, constraints, guess, self.placed)
+        return SearchPosterior(score, constraints, None if self.guess is None else self.guess.condition_on(point))
 
 
 def forwards(scores: Array, measured: Array) -> Array:

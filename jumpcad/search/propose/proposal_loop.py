@@ -163,9 +163,7 @@ class ProposalLoop:
         if self._dry_run is not None:
             trials += self._dry_run.failures(self._trials, self.tried)
             guesses = self._dry_run.estimates(self._trials, self.tried)
-        posterior = SearchPosterior.from_trials(
-            self._space, trials, self.thetas, self._refit, guesses, self._score_of, self._dry_run is not None
-        )
+        posterior = SearchPosterior.from_trials(self._space, trials, self.thetas, self._refit, guesses, self._score_of)
         self.thetas, self._refit = {**self.thetas, **posterior.thetas}, False
         for point in self._proposed:
             posterior = posterior.condition_on(point)

@@ -10,7 +10,6 @@ from matplotlib.ticker import MaxNLocator
 
 from jumpcad.arguments import check_arguments
 from jumpcad.search.fronts import described_cost
-from jumpcad.search.models import PrintedModel
 from jumpcad.search.phases import FRONTS, LEARNING_PHASES
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.report import plots
@@ -42,10 +41,8 @@ def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[],
     if trials and identity["method"] in FRONTS:
         figures["pareto"] = partial(plots.pareto, trials, objective, described_cost(identity))
     if space.dimension <= 2:
-        printed = identity["model"]["name"] == PrintedModel.name
         for name, number, count in _moments(trials):
-            theta = trials[number].proposal["theta"]
-            posterior = SearchPosterior.from_trials(space, trials[:count], theta, fit=False, springs=printed)
+            posterior = SearchPosterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=False)
             figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective, columns)
     return figures
 

@@ -56,7 +56,7 @@ def _require_proposal(trial: Trial, free: int) -> None:
     if trial.phase in LEARNING_PHASES and trial.step and "theta" not in trial.proposal:
         raise JumpcadError("proposal.theta: missing")
     if not (
-        (isinstance(thetas, dict) and all(3 <= len(theta) <= free + 4 for theta in thetas.values()))
+        (isinstance(thetas, dict) and all(3 <= len(theta) <= free + 2 for theta in thetas.values()))
         and (isinstance(tried, list) and all(1 <= len(point) <= free for point in tried))
         and all(isinstance(value, float) for value in others)
     ):
