@@ -290,6 +290,8 @@ class PrintedModel(RobotModel):
         """
         from jumpcad.building import layout_of
 
+        if rejecting := errors(findings := geometry_findings(variant.design)):
+            return Evaluation(rejecting[0].name, findings=tuple(findings))
         try:
             model = self.varied(variant.workshop) if variant.workshop else self
             return layout_figures(layout_of(variant.design, model.workshop or load_workshop()))
