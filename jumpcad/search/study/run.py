@@ -78,7 +78,7 @@ def run_study(
     prior, remark = _read_prior(request)
     with StudyStore.write(path, request.identity(prior)) as store:
         for one in filter(None, (remark, request.left_out)):
-            store.note_once(one)
+            store.note(one, once=True)
         stages = _stages(request, store, len(prior))
         if store.recall(ENDED) is not None:
             store.remember(ENDED, None)  # until this run ends

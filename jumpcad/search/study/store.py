@@ -215,17 +215,11 @@ class StudyStore:
         except (AttributeError, sqlite3.Error):  # it could not be opened, or there was no space for its tables
             return True
 
-    def note(self, text: str) -> None:
-        """Keep a line about the run: a lost worker, a quarantined design."""
+    def note(self, text: str, once: bool = False) -> None:
+        """Keep a line about the run: a lost worker, a quarantined design; `once`, unless it is there already."""
+        unless = "WHERE NOT (? AND EXISTS (SELECT 1 FROM notes WHERE text = ?))"
         with self._transaction():
-            self._connection.execute("INSERT INTO notes VALUES (?)", (text,))
-
-    def note_once(self, text: str) -> None:
-        """Keep a line about the run, unless it is there already."""
-        with self._transaction():
-            self._connection.execute(
-                "INSERT INTO notes SELECT ? WHERE NOT EXISTS (SELECT 1 FROM notes WHERE text = ?)", (text, text)
-            )
+            self._connection.execute(f"INSERT INTO notes SELECT ? {unless}", (text, once, text))
 
     def notes(self) -> list[str]:
         """Return the lines about the run; of very many, how many there are and then the newest."""

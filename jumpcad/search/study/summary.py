@@ -95,7 +95,7 @@ def simulated_righting(model: RobotModel, store: StudyStore, winner: Trial | Non
         varied = model.varied(winner.workshop) if winner.workshop else model
         found = land(build(winner.design, varied.workshop, name=""), TRIES, settings=model.settings)
     except JumpcadError as error:
-        store.note_once(f"{RIGHTS_ITSELF}: not simulated: {error}")
+        store.note(f"{RIGHTS_ITSELF}: not simulated: {error}", once=True)
         return {}
     shares = {"tries": float(TRIES), "drops": found.drops_righted, "landings": found.share_righted}
     store.remember(RIGHTING, _Righting(trial=winner.position, shares=_Shares(**shares)), _RIGHTING)
