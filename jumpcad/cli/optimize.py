@@ -72,7 +72,7 @@ def optimize(
     source = context.get_parameter_source("seed")
     asked = seeds_of(seeds, methods or (), source is not None and source.name == "COMMANDLINE")
     requests = options.requests(methods or [DEFAULT], asked or [options.seed], evaluations)
-    robot, space, centre = requests[0].model, requests[0].space, requests[0].around
+    robot, space, centre = options.robot_model(), requests[0].space, requests[0].around
     base = options.study or Path(requests[0].default_name())
     paths = [base] if asked is None else study_files(requests, options.study)
     for path in paths:
