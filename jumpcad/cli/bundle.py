@@ -229,13 +229,7 @@ def _print_facts(facts: dict[str, Any], parts: bool) -> None:
         masses = table("part", ">quantity", "material", ">g each", ">g", "mass from")
         for line in facts["masses"]:
             grams = 1000.0 * line["mass_kg"]
-            row = (
-                line["quantity"],
-                line["material"],
-                f"{grams:.2f}",
-                f"{line['quantity'] * grams:.2f}",
-                line["source"],
-            )
+            row = line["quantity"], line["material"], f"{grams:.2f}", f"{line['quantity'] * grams:.2f}", line["source"]
             masses.add_row(line["name"], *map(str, row))
         masses.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
         screen.print(masses)
