@@ -10,7 +10,7 @@ from jumpcad.building.releasing import release_of
 from jumpcad.building.weighing import require_parts, weighed_part
 from jumpcad.design import Design
 from jumpcad.drive import Drive
-from jumpcad.drive.stock_spring import of_stock, springs_on_leg
+from jumpcad.drive.stock_spring import for_bought_springs, springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.flight import Blow, leg_blow
@@ -105,7 +105,7 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth(), nam
         layout = replace(_with_pin_room(design, workshop, growth), label=name)
     except CannotBuildError as refusal:
         if workshop.bought.spring:
-            refusal.args = (of_stock(str(refusal)),)
+            refusal.ways = for_bought_springs(refusal.ways)
         raise
     for thing in THINGS:
         if (place := thing.place(layout, workshop)) is not None:

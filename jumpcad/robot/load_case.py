@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.dimensions import GAP_MM, GRAVITY_M_S2
 from jumpcad.drive.dog import JAWS
-from jumpcad.findings import Finding, at_most
+from jumpcad.findings import Finding, Remedy, at_most, lower
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.axles.loads import axle_beams
@@ -41,7 +41,7 @@ ONE_TOE = (
 )
 """Loads, for formulas."""
 PUSH_OFF = "loads: inverse dynamics of the push-off (Norton, Design of Machinery, ch. 11)"
-WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the links"
+WEAKER = (*lower("stiffness_nmm_per_deg", "compression_ratio"), "choose a stronger material for the links")
 
 
 @dataclass(frozen=True)
@@ -188,8 +188,8 @@ def load_case(robot: Robot) -> LoadCase:
 
 
 def stress_finding(
-    name: str, what: str, stress_mpa: float, allowable_mpa: float, remedy: str, grows: str = ""
+    name: str, what: str, stress_mpa: float, allowable_mpa: float, ways: Remedy, grows: str = ""
 ) -> Finding:
     """Return the finding of a stress against its limit; `grows` is the section that grows where it fails."""
     message = f"{what}: {stress_mpa:.1f} of {allowable_mpa:.1f} MPa"
-    return at_most(name, stress_mpa, allowable_mpa, "MPa", message, remedy, grows=grows)
+    return at_most(name, stress_mpa, allowable_mpa, "MPa", message, ways, grows=grows)
