@@ -1,7 +1,6 @@
 """From eight numbers and a workshop to a `Robot`: layout, parts, bought parts, bodies."""
 
 import math
-import pickle
 from dataclasses import replace
 
 from jumpcad.building.bearing_and_drive import solve_bearing_and_drive
@@ -30,6 +29,7 @@ from jumpcad.robot.stop.strength import StopBlow, stop_blow
 from jumpcad.robot.things import THINGS
 from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth, grown_mm
+from jumpcad.transforms import same_by_value
 from jumpcad.workshop import Workshop
 
 PIN_ROUNDS = 5
@@ -84,9 +84,9 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
 
 
 def _same_but_for_lever(one: Layout, other: Layout) -> bool:
-    """Tell whether two layouts are the same but for the height of the lever, which only the main leg has."""
+    """Tell whether two layouts of a design are the same but for the height of the lever, which only the main leg has."""
     sections = replace(one.sections, lever_root_mm=other.sections.lever_root_mm)
-    return pickle.dumps(replace(one, sections=sections)) == pickle.dumps(other)
+    return same_by_value(replace(one, sections=sections, linkage=other.linkage), other)
 
 
 def _weighed(drawing: Drawing, workshop: Workshop, known: Part | None) -> Part:
