@@ -59,7 +59,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
     release = release_of(layout, workshop, parts, hardware, bodies, spring)
     blow = leg_blow(bodies, layout.linkage, spring, layout.stop.angle_rad)
-    held = _held(layout, blow)
+    held = _met_by_stop(layout, blow)
     leg_range = (-design.compression_rad, held.stop.angle_rad + held.give_rad)
     joints, loop, _ = five_bar(layout.linkage, leg_range, spring.peak_torque_nm)
     return Robot(
@@ -84,7 +84,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
 
 
 def _same_but_for_lever(one: Layout, other: Layout) -> bool:
-    """Tell whether two layouts of a design are the same but for the height of the lever, which only the main leg has."""
+    """Tell whether layouts of one design are the same but for the height of the lever, which only the main leg has."""
     sections = replace(one.sections, lever_root_mm=other.sections.lever_root_mm)
     return same_by_value(replace(one, sections=sections, linkage=other.linkage), other)
 
@@ -176,7 +176,7 @@ def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNee
     return SensorNeeds(part, part.travel, seats.sensor_axial_mm, seats.sensor_along_mm, stop, reserve, layer)
 
 
-def _held(layout: Layout, blow: Blow) -> StopBlow:
+def _met_by_stop(layout: Layout, blow: Blow) -> StopBlow:
     """Return the leg's impact on its stop, rounded: last digits of an integration in time differ between processors."""
     stop = layout.stop
     held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))

@@ -13,7 +13,7 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.axles.loads import axle_beams
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.sizing import dog_inside_mm
 from jumpcad.strength.axle_beam import AxleBeam
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM, RoundBar, axle_bar, pin_bar
@@ -181,7 +181,7 @@ class LoadCase:
         return (on_leg, on_pin), on_lever
 
 
-@carried
+@decided_once
 def load_case(robot: Robot) -> LoadCase:
     """Return a robot under load."""
     return LoadCase(robot)
