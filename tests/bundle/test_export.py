@@ -47,7 +47,7 @@ def test_the_manifest_says_on_which_ground_the_robot_stands_and_with_which_frict
     """Its pads', or that of bare feet; the simulation of a bundle by another program needs it."""
     ground = {"surface": "dry oak", "pad": pad, "friction": 0.7, "bare_friction": 0.3}
     robot = replace(small_robot, workshop=workshop_with(small_robot.workshop, ground=ground))
-    jump = bundle_module._jump(robot, False)
+    jump = bundle_module.headline(robot, False)
     assert bundle_module._facts(robot, jump)["ground"] == {"friction": friction, "pad": pad, "surface": "dry oak"}
 
 
