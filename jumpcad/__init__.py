@@ -40,4 +40,25 @@ if TYPE_CHECKING:
     from jumpcad.workshop import Workshop as Workshop
     from jumpcad.workshop import load_workshop as load_workshop
 else:
-    __getattr__, __dir__, __all__ = lazy_exports(__name__)
+    __getattr__, __dir__, __all__ = lazy_exports(__name__, {
+        "jumpcad": "search",
+        "jumpcad.version": "__version__",
+        "jumpcad.api": "build capsule_robot check evaluate export simulate",
+        "jumpcad.bundle.manifest": "Bundle",
+        "jumpcad.comparison": "compare",
+        "jumpcad.design": "PRINTED_BOUNDS SEARCH_BOUNDS Design load_design",
+        "jumpcad.environment": "JumpEnv",
+        "jumpcad.errors": "CannotBuildError JumpcadError",
+        "jumpcad.evaluation": "EvaluationResult",
+        "jumpcad.findings": "Finding",
+        "jumpcad.landing.landing": "land",
+        "jumpcad.landing.series": "jumps",
+        "jumpcad.paper": "published",
+        "jumpcad.robot.robot": "Robot",
+        "jumpcad.search.optimization": "optimize",
+        "jumpcad.settings": "Settings load_settings",
+        "jumpcad.simulation": "Jump",
+        "jumpcad.simulation.robot_file": "load_robot",
+        "jumpcad.variation": "variants",
+        "jumpcad.workshop": "Workshop load_workshop",
+    })  # fmt: skip

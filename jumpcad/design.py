@@ -18,6 +18,7 @@ from jumpcad.dimensions import unit_of_key
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, find_template, read_toml, template_names, to_toml
 from jumpcad.files.complaints import described
+from jumpcad.findings import higher, nearer_to_1
 
 DEFAULT = "default"
 """The workshop of designs that have none of their own."""
@@ -137,8 +138,9 @@ class Design(Record):
         if missing >= 0:
             raise CannotBuildError(
                 f"no assembled pose: for legs of {self.l2_mm:g} and {self.l3_mm:g} mm the foot l4 = {self.l4_mm:.1f} "
-                f"mm must be more than {self.l4_mm + missing:.1f} mm: bring c_coef = {self.c_coef:g} nearer to 1 or "
-                f"raise d_coef = {self.d_coef:g}"
+                f"mm must be more than {self.l4_mm + missing:.1f} mm, with c_coef = {self.c_coef:g}, "
+                f"d_coef = {self.d_coef:g}",
+                ways=nearer_to_1("c_coef") + higher("d_coef"),
             )
         rise = (self.l3_mm - self.l2_mm) * math.sin(math.radians(self.rest_angle_deg))
         return math.asin(rise / self.l4_mm)

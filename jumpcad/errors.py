@@ -3,6 +3,8 @@
 import re
 import unicodedata
 
+from jumpcad.findings import Remedy, in_words
+
 CONTROL_CATEGORIES = ("Cc", "Cf", "Cs", "Zl", "Zp")
 """Unicode categories: control and format characters, halves of surrogate pairs, separators of lines."""
 LONGEST = 4000
@@ -27,15 +29,26 @@ class JumpcadError(Exception):
 class CannotBuildError(JumpcadError):
     """The request is well-formed, but the answer is no: this design cannot work or cannot be made.
 
-    Where a number missed its limit, `limit` names it and `margin` says by how much, in `unit`; negative.
+    Where a number missed its limit, `limit` names it and `margin` says by how much, in `unit`; negative. `ways` are
+    what to change; the text ends with them.
     """
 
     exit_code = 1
 
-    def __init__(self, message: str, limit: str = "", margin: float | None = None, unit: str = "mm") -> None:
+    def __init__(
+        self, message: str, limit: str = "", margin: float | None = None, unit: str = "mm", ways: Remedy = ()
+    ) -> None:
         super().__init__(message)
-        self.limit, self.unit = limit, unit
+        self.limit, self.unit, self.ways = limit, unit, ways
         self.margin = None if margin is None else min(float(margin), 0.0)
+
+    @property
+    def what(self) -> str:
+        """What is wrong, without what to change."""
+        return str(self.args[0])
+
+    def __str__(self) -> str:
+        return ": ".join(filter(None, (self.what, in_words(self.ways))))
 
 
 def without_controls(text: str, kept: str = "") -> str:

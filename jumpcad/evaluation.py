@@ -127,7 +127,8 @@ class _Refused(EvaluationResult):
     _build: partial[EvaluationResult]
 
     def __init__(self, gate: tuple[Finding, ...], build: partial[EvaluationResult]) -> None:
-        vars(self).update(_gate=gate, _build=build)
+        object.__setattr__(self, "_gate", gate)
+        object.__setattr__(self, "_build", build)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Refused) and self._build.args == other._build.args
@@ -135,19 +136,28 @@ class _Refused(EvaluationResult):
     def __hash__(self) -> int:
         return hash(self._build.args[0])
 
-    def __getattr__(self, name: str) -> Any:
-        if name not in ("robot", "jump", "findings", "metrics"):
-            raise AttributeError(name)
-        try:
-            return getattr(self._whole, name)
-        except CannotBuildError:
-            if name == "findings":
-                return self._gate
-            raise
-
     @cached_property
     def _whole(self) -> EvaluationResult:
         return self._build()
+
+    @property
+    def robot(self) -> Robot:
+        return self._whole.robot
+
+    @property
+    def jump(self) -> Jump:
+        return self._whole.jump
+
+    @property
+    def metrics(self) -> dict[str, float]:
+        return self._whole.metrics
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        try:
+            return self._whole.findings
+        except CannotBuildError:
+            return self._gate
 
     @property
     def verdict(self) -> str:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any, Literal, get_args
 
 Severity = Literal["info", "warning", "error"]
@@ -31,6 +32,73 @@ class Basis:
 
 
 @dataclass(frozen=True)
+class Change:
+    """A way out: a design's parameter or a workshop's setting, by its whole key, and which way it is to go.
+
+    `note` is said behind it, of "choose" before it: what is chosen. `value` is one that cures, where it is known.
+    """
+
+    key: str
+    way: Literal["lower", "raise", "bring nearer to 1", "choose"]
+    note: str = ""
+    value: float | None = None
+
+    @property
+    def direction(self) -> int | None:
+        """The sign of the change of a number, 0 of one that is brought nearer to 1; None where none is asked for."""
+        return None if self.value is not None else {"lower": -1, "raise": 1, "bring nearer to 1": 0}.get(self.way)
+
+    @property
+    def row(self) -> "Change | str":
+        """What it has in common with those that are said in one row with it."""
+        return self if self.direction is None else self.way
+
+
+Ways = tuple[Change | str, ...]
+Remedy = str | Ways
+"""Ways out, the first one best; those that are no key's change are said in words."""
+
+
+def lower(*keys: str, note: str = "") -> Ways:
+    """Return the ways out of lowering one of some keys."""
+    return tuple(Change(key, "lower", note if key == keys[-1] else "") for key in keys)
+
+
+def higher(*keys: str, note: str = "") -> Ways:
+    """Return the ways out of raising one of some keys."""
+    return tuple(Change(key, "raise", note if key == keys[-1] else "") for key in keys)
+
+
+def nearer_to_1(key: str) -> Ways:
+    """Return the way out of bringing a ratio nearer to 1."""
+    return (Change(key, "bring nearer to 1"),)
+
+
+def choose(kind: str, *keys: str) -> Ways:
+    """Return the ways out of choosing, such as "a smaller" bought.roller."""
+    return tuple(Change(key, "choose", kind) for key in keys)
+
+
+def in_words(remedy: Remedy) -> str:
+    """Return a remedy as a user reads it, such as "lower a or b, or raise c (a longer body)"."""
+    if isinstance(remedy, str):
+        return remedy
+    said = []
+    for row, group in groupby(remedy, lambda one: one if isinstance(one, str) else one.row):
+        if isinstance(row, Change) and row.way == "choose":
+            said.append(f"choose {row.note} {row.key}")
+        elif isinstance(row, Change):
+            said.append(f"{row.way.split()[0]} {row.key} to {row.value:g}{row.note and f' ({row.note})'}")
+        elif row in ("lower", "raise", "bring nearer to 1"):
+            (verb, *more), ways = row.split(" ", 1), [one for one in group if isinstance(one, Change)]
+            *first, last = (f"{one.key}{one.note and f' ({one.note})'}" for one in ways)
+            said.append(" ".join([verb, " or ".join(filter(None, [", ".join(first), last])), *more]))
+        else:
+            said.append(row)
+    return ", or ".join(said)
+
+
+@dataclass(frozen=True)
 class Finding:
     """One checked limit.
 
@@ -42,8 +110,8 @@ class Finding:
         `info` where the limit is kept; else `warning`, or `error` where it forbids the robot.
     margin
         Signed, in `unit`: negative where the limit is violated, and by how much.
-    message, remedy
-        What was found, and what to change.
+    message, ways
+        What was found, and what to change; `remedy` says it in words.
     value, limit
         What was found and what is allowed, in `unit`; None where no single number is compared.
     grows
@@ -55,10 +123,15 @@ class Finding:
     margin: float
     unit: str
     message: str
-    remedy: str
+    ways: Remedy
     value: float | None = None
     limit: float | None = None
     grows: str = ""
+
+    @property
+    def remedy(self) -> str:
+        """What to change, in words."""
+        return in_words(self.ways)
 
     @property
     def use(self) -> float | None:
@@ -84,7 +157,9 @@ class Finding:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
-        return dict(vars(self))  # flat, so the slow deep copy of `asdict` is not needed
+        return {
+            ("remedy" if key == "ways" else key): value for key, value in (vars(self) | {"ways": self.remedy}).items()
+        }
 
 
 def bare(name: str, severity: Severity, margin: float, unit: str) -> Finding:
@@ -93,23 +168,23 @@ def bare(name: str, severity: Severity, margin: float, unit: str) -> Finding:
 
 
 def at_most(
-    name: str, value: float, allowed: float, unit: str, message: str, remedy: str, violated: Severity = "error",
+    name: str, value: float, allowed: float, unit: str, message: str, ways: Remedy, violated: Severity = "error",
     grows: str = "",
 ) -> Finding:  # fmt: skip
     """Return the finding of a value that may be as large as what is allowed."""
-    return limit(name, allowed - value, unit, message, remedy, violated, value=value, allowed=allowed, grows=grows)
+    return limit(name, allowed - value, unit, message, ways, violated, value=value, allowed=allowed, grows=grows)
 
 
 def at_least(
-    name: str, value: float, needed: float, unit: str, message: str, remedy: str, violated: Severity = "error",
+    name: str, value: float, needed: float, unit: str, message: str, ways: Remedy, violated: Severity = "error",
     grows: str = "",
 ) -> Finding:  # fmt: skip
     """Return the finding of a value that may be as small as what is needed."""
-    return limit(name, value - needed, unit, message, remedy, violated, value=value, allowed=needed, grows=grows)
+    return limit(name, value - needed, unit, message, ways, violated, value=value, allowed=needed, grows=grows)
 
 
 def limit(
-    name: str, margin: float, unit: str, message: str, remedy: str, violated: Severity = "error", *,
+    name: str, margin: float, unit: str, message: str, ways: Remedy, violated: Severity = "error", *,
     value: float | None = None, allowed: float | None = None, grows: str = "",
 ) -> Finding:  # fmt: skip
     """Return the finding of a limit that is violated where its margin is negative, or not a number.
@@ -117,7 +192,7 @@ def limit(
     For a limit that is not one number against another; see `at_most` and `at_least` for those that are.
     """
     severity: Severity = "info" if margin >= 0 else violated
-    return Finding(name, severity, float(margin), unit, message, remedy, _number(value), _number(allowed), grows)
+    return Finding(name, severity, float(margin), unit, message, ways, _number(value), _number(allowed), grows)
 
 
 def least(findings: Iterable[Finding]) -> dict[str, Finding]:

@@ -7,15 +7,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
+    Face = tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]
 
-def lazy_exports(package: str) -> "tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]":
-    """Return `__getattr__`, `__dir__` and the public names of a package.
 
-    They stand once, as its `__init__` imports them for type checkers: a line `from HOME import NAME as NAME` for each.
+def lazy_exports(package: str, names: dict[str, str]) -> "Face":
+    """Return `__getattr__`, `__dir__` and `__all__` of a package whose public names are those of other modules.
+
+    `names` has them by module, with spaces between; those of the package itself are modules in it. Type checkers read
+    the imports that stand beside it.
     """
-    face: Any = sys.modules[package]
-    lines = (line.split() for line in face.__spec__.loader.get_source(package).splitlines())
-    homes = {words[5]: words[1] for words in lines if words[:1] == ["from"] and words[4:5] == ["as"]}
+    homes = {name: home for home, row in names.items() for name in row.split()}
 
     def load(name: str) -> "Any":
         import importlib
@@ -26,7 +27,7 @@ def lazy_exports(package: str) -> "tuple[Callable[[str], Any], Callable[[], list
             value = importlib.import_module(f"{package}.{name}")
         else:
             value = getattr(__import__(homes[name], fromlist=[name]), name)
-        setattr(face, name, value)
+        setattr(sys.modules[package], name, value)
         return value
 
-    return load, lambda: list(face.__all__), list(homes)
+    return load, lambda: sorted(homes), list(homes)

@@ -1,18 +1,17 @@
 """Remedies with numbers: values of parameters that cure what fails, found by trying."""
 
 import math
-import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
 
-from jumpcad.checks import CHECKS, Check
+from jumpcad.checks import CHECKS, OF_MECHANISM, Check
 from jumpcad.checks.assembly import assembly_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import printability_findings
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
-from jumpcad.findings import Finding, least
+from jumpcad.findings import Change, Finding, Remedy, least
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.tables import PRELOAD_MAX_DEG
 from jumpcad.workshop.varied import varied, workshop_value
@@ -31,12 +30,6 @@ FIRST, BEYOND = 0.125, 1.1
 SLOW = (printability_findings, interference_findings, assembly_findings)
 """Checks that take about a second: no number is sought for their limits."""
 FAILS = "cannot be built"
-VERBS = {"lower": -1, "shorten": -1, "raise": 1, "lengthen": 1, "bring": 0}
-NEARER = " nearer to 1"
-DIRECTIONS = VERBS | {"a lower": -1, "smaller": -1, "shorter": -1, "less": -1, "larger": 1, "longer": 1, "more": 1}
-KEY = rf"(?:[a-z]+\.[a-z_]+|{'|'.join(PARAMETERS)})"
-KEYS = re.compile(rf"\b{KEY}(?:(?:, | or ){KEY})*\b")
-WORD = re.compile(rf"\b(?:({'|'.join(reversed(DIRECTIONS))})|({KEY}))\b")
 
 
 class Remedies:
@@ -59,34 +52,37 @@ class Remedies:
         self._costly = tuple(
             one for one in CHECKS if not one.cheap and one.find not in SLOW and wrong & one.basis.keys()
         )
-        cured: dict[str, str] = {}
+        cured: dict[str, Remedy] = {}
         numbered = []
         for one in findings:
-            remedy = cured.get(one.name) or one.remedy
+            ways = cured.get(one.name, one.ways)
             if one.name in wrong and one.name not in cured:
-                remedy, gone = self._numbered(one.remedy, one.name, one.margin, wrong)
+                ways, gone = self._numbered(one.ways, one.name, one.name, one.margin, wrong)
                 cured |= dict.fromkeys(gone - cured.keys(), f"the change for {one.name} is enough")
-            numbered.append(replace(one, remedy=remedy))
+            numbered.append(replace(one, ways=ways))
         return numbered
 
     def of_refusal(self, refusal: CannotBuildError) -> CannotBuildError:
         """Return why a design cannot be built, its remedy with a number where one is found."""
-        what, colon, remedy = str(refusal).rpartition(": ")
-        numbered, _ = self._numbered(remedy, FAILS, _margin(refusal), frozenset([FAILS]))
-        return CannotBuildError(what + colon + numbered, refusal.limit, refusal.margin, refusal.unit)
+        ways, _ = self._numbered(refusal.ways, refusal.limit, FAILS, _margin(refusal), frozenset([FAILS]))
+        return CannotBuildError(refusal.what, refusal.limit, refusal.margin, refusal.unit, ways)
 
-    def _numbered(self, remedy: str, name: str, margin: float, wrong: frozenset[str]) -> tuple[str, frozenset[str]]:
-        """Return a remedy, with a number where one is found, and the limits that it cures."""
-        for word, key in sorted(asked(remedy), key=lambda one: not self._is_far(*one)):
-            value = self._cure(key, DIRECTIONS[word], (name, margin), wrong)
+    def _numbered(
+        self, remedy: Remedy, limit: str, name: str, margin: float, wrong: frozenset[str]
+    ) -> tuple[Remedy, frozenset[str]]:
+        """Return a remedy, that with a number first where one is found, and the limits that it cures."""
+        ways = OF_MECHANISM.get(limit, ()) if isinstance(remedy, str) else remedy
+        changes = [one for one in ways if isinstance(one, Change) and one.direction is not None]
+        for one in sorted(changes, key=lambda one: not self._is_far(one.key, one.direction or 0)):
+            value = self._cure(one.key, one.direction or 0, (name, margin), wrong)
             if value is not None:
-                said = f"{key} {'to' if word in VERBS else '='} {value:g}"
-                return told_first(remedy, key, said), wrong - self._tried[key, value][0]
+                others = (other for other in ways if other != one)
+                return (replace(one, value=value), *others), wrong - self._tried[one.key, value][0]
         return remedy, frozenset()
 
-    def _is_far(self, word: str, key: str) -> bool:
+    def _is_far(self, key: str, direction: int) -> bool:
         """Whether a parameter lies at the end of its usual range, or beyond, from which it is to move: it is first."""
-        if key not in PARAMETERS or not (direction := DIRECTIONS[word]):
+        if key not in PARAMETERS or not direction:
             return False
         bounds, now = SEARCH_BOUNDS[key], getattr(self._design, key)
         return bool(now <= bounds.lower if direction > 0 else now >= bounds.upper)
@@ -150,24 +146,6 @@ class Remedies:
             return frozenset([FAILS]), {}
         margins = {name: one.margin for name, one in least(found).items()}
         return frozenset(one.name for one in found if one.severity != "info"), margins
-
-
-def asked(remedy: str) -> Iterator[tuple[str, str]]:
-    """Yield the word of `DIRECTIONS` and the name of each parameter that a remedy asks to change."""
-    last = ""
-    for word, key in WORD.findall(remedy):
-        last = word or last
-        if key and last:
-            yield last, key
-
-
-def told_first(remedy: str, key: str, said: str) -> str:
-    """Return a remedy that says a parameter's number before the other parameters in a row, which have none."""
-    for row in KEYS.finditer(remedy):
-        if key in (names := re.split(", | or ", row[0])):
-            others = [name for name in names if name != key]
-            return remedy[: row.start()] + " or ".join([said, *others]) + remedy[row.end() :].removeprefix(NEARER)
-    return remedy
 
 
 def _margin(refusal: CannotBuildError) -> float:

@@ -7,7 +7,7 @@ the processor: the same robot has the same bytes everywhere.
 """
 
 import math
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
@@ -20,21 +20,31 @@ class ByValue:
     """A dataclass, with `eq=False`, whose fields may be arrays: two are equal where all fields are, arrays by value."""
 
     def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
-            return NotImplemented
-        return all(_equal(one, two) for one, two in zip(self._compared(), other._compared(), strict=True))
+        return same_by_value(self, other) if type(other) is type(self) else NotImplemented
 
     def __hash__(self) -> int:
-        return hash((type(self).__name__, *(one for one in self._compared() if isinstance(one, str | int | float))))
-
-    def _compared(self) -> list[Any]:
-        return [getattr(self, field.name) for field in fields(self) if field.compare]  # type: ignore[arg-type]
+        return hash((type(self).__name__, *(one for one in _compared(self) if isinstance(one, str | int | float))))
 
 
-def _equal(one: Any, other: Any) -> bool:
-    if isinstance(one, dict) and isinstance(other, dict):
-        return one.keys() == other.keys() and all(_equal(value, other[key]) for key, value in one.items())
-    return np.array_equal(one, other) if isinstance(one, np.ndarray) else bool(one == other)
+def same_by_value(one: Any, other: Any) -> bool:
+    """Tell whether two things are equal; arrays, and dataclasses that compare by identity, are by what is in them."""
+    if one is other:
+        return True
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return np.array_equal(one, other)
+    if type(one) is not type(other):
+        return bool(one == other)
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same_by_value(value, other[key]) for key, value in one.items())
+    if isinstance(one, list | tuple):
+        return len(one) == len(other) and all(map(same_by_value, one, other))
+    if is_dataclass(one):
+        return all(map(same_by_value, _compared(one), _compared(other)))
+    return bool(one == other)
+
+
+def _compared(data: Any) -> list[Any]:
+    return [getattr(data, field.name) for field in fields(data) if field.compare]
 
 
 def direction(angle_rad: npt.ArrayLike) -> Array:

@@ -5,7 +5,7 @@ import math
 import pytest
 from support.each import each
 
-from jumpcad.findings import Finding, at_least, at_most
+from jumpcad.findings import Change, at_least, at_most, choose, higher, lower, nearer_to_1
 
 
 @each(
@@ -46,8 +46,19 @@ def test_use_is_a_minimum_over_the_value(
     assert (finding.margin, finding.use, finding.severity) == (margin, use, severity)
 
 
-def test_plain_data_gives_the_finding_back() -> None:
-    finding = at_most("stress", 10.0, 40.0, "MPa", "found", "remedy", grows="leg")
-    data = finding.to_dict()
-    assert list(data)[:6] == ["name", "severity", "margin", "unit", "message", "remedy"]
-    assert Finding(**data) == finding
+def test_plain_data_has_the_remedy_in_words() -> None:
+    """Neighbours that are changed alike stand in a row, a number with its own parameter."""
+    ways = higher("d_coef", "c_coef", note="a longer body") + lower("e_coef") + nearer_to_1("l1")
+    for remedy, words in (
+        ("drill it", "drill it"),
+        (ways, "raise d_coef or c_coef (a longer body), or lower e_coef, or bring l1 nearer to 1"),
+        (
+            (Change("a", "raise", "softer", 1.25), *higher("a", "b", "c")),
+            "raise a to 1.25 (softer), or raise a, b or c",
+        ),
+        ((Change("l1", "bring nearer to 1", value=0.5), "drill it"), "bring l1 to 0.5, or drill it"),
+        (choose("a smaller", "bought.a", "bought.b"), "choose a smaller bought.a, or choose a smaller bought.b"),
+    ):
+        data = at_most("stress", 10.0, 40.0, "MPa", "found", remedy, grows="leg").to_dict()
+        assert list(data)[:6] == ["name", "severity", "margin", "unit", "message", "remedy"]
+        assert data["remedy"] == words

@@ -3,12 +3,13 @@
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from support.places import ROOT
 
 import jumpcad
-from jumpcad import search
+from jumpcad import files, search, simulation
 
 SHOW = """
 import sys
@@ -36,8 +37,10 @@ def test_only_public_names_are_shown_and_nothing_loads_before_its_use():
         assert not {"simulation", "cli", "face", "TYPE_CHECKING"} & set(shown)
 
 
-@pytest.mark.parametrize("package", [jumpcad, search])
-def test_every_public_name_is_there_and_others_are_not(package):
+@pytest.mark.parametrize("package", [jumpcad, search, files, simulation])
+def test_every_public_name_is_there_also_for_type_checkers_and_others_are_not(package):
+    checked = re.findall(r"^ *from \S+ import (\S+) as \1$", Path(package.__file__).read_text(), re.M)
+    assert sorted(checked) == sorted(package.__all__) == dir(package)
     for name in package.__all__:
         assert getattr(package, name) is not None
     with pytest.raises(AttributeError, match=f"module '{package.__name__}' has no attribute 'robots'"):

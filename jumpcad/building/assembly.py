@@ -1,7 +1,6 @@
 """From eight numbers and a workshop to a `Robot`: layout, parts, bought parts, bodies."""
 
 import math
-import pickle
 from dataclasses import replace
 
 from jumpcad.building.bearing_and_drive import solve_bearing_and_drive
@@ -10,7 +9,7 @@ from jumpcad.building.releasing import release_of
 from jumpcad.building.weighing import require_parts, weighed_part
 from jumpcad.design import Design
 from jumpcad.drive import Drive
-from jumpcad.drive.stock_spring import of_stock, springs_on_leg
+from jumpcad.drive.stock_spring import for_bought_springs, springs_on_leg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.flight import Blow, leg_blow
@@ -30,6 +29,7 @@ from jumpcad.robot.stop.strength import StopBlow, stop_blow
 from jumpcad.robot.things import THINGS
 from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth, grown_mm
+from jumpcad.transforms import same_by_value
 from jumpcad.workshop import Workshop
 
 PIN_ROUNDS = 5
@@ -59,7 +59,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
     release = release_of(layout, workshop, parts, hardware, bodies, spring)
     blow = leg_blow(bodies, layout.linkage, spring, layout.stop.angle_rad)
-    held = _held(layout, blow)
+    held = _met_by_stop(layout, blow)
     leg_range = (-design.compression_rad, held.stop.angle_rad + held.give_rad)
     joints, loop, _ = five_bar(layout.linkage, leg_range, spring.peak_torque_nm)
     return Robot(
@@ -84,9 +84,9 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
 
 
 def _same_but_for_lever(one: Layout, other: Layout) -> bool:
-    """Tell whether two layouts are the same but for the height of the lever, which only the main leg has."""
+    """Tell whether layouts of one design are the same but for the height of the lever, which only the main leg has."""
     sections = replace(one.sections, lever_root_mm=other.sections.lever_root_mm)
-    return pickle.dumps(replace(one, sections=sections)) == pickle.dumps(other)
+    return same_by_value(replace(one, sections=sections, linkage=other.linkage), other)
 
 
 def _weighed(drawing: Drawing, workshop: Workshop, known: Part | None) -> Part:
@@ -105,7 +105,7 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth(), nam
         layout = replace(_with_pin_room(design, workshop, growth), label=name)
     except CannotBuildError as refusal:
         if workshop.bought.spring:
-            refusal.args = (of_stock(str(refusal)),)
+            refusal.ways = for_bought_springs(refusal.ways)
         raise
     for thing in THINGS:
         if (place := thing.place(layout, workshop)) is not None:
@@ -176,7 +176,7 @@ def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNee
     return SensorNeeds(part, part.travel, seats.sensor_axial_mm, seats.sensor_along_mm, stop, reserve, layer)
 
 
-def _held(layout: Layout, blow: Blow) -> StopBlow:
+def _met_by_stop(layout: Layout, blow: Blow) -> StopBlow:
     """Return the leg's impact on its stop, rounded: last digits of an integration in time differ between processors."""
     stop = layout.stop
     held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))

@@ -17,6 +17,7 @@ from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive, DriveLimits, synthesise
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import choose
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
 from jumpcad.mechanism.reflected import reflected_mass
@@ -122,6 +123,6 @@ def _require_hub_room(settled: Settled) -> None:
     if holes.bearing.outer_mm > largest:
         raise CannotBuildError(
             f"the leg's bearing {holes.bearing.name} has {holes.bearing.outer_mm:g} mm diameter; {largest:.1f} mm fit "
-            "beside the roller's screw and the cam's axle: choose a smaller bought.leg_bearing",
-            "leg_bearing", largest - holes.bearing.outer_mm,
+            "beside the roller's screw and the cam's axle",
+            "leg_bearing", largest - holes.bearing.outer_mm, ways=choose("a smaller", "bought.leg_bearing"),
         )  # fmt: skip

@@ -18,7 +18,7 @@ from jumpcad.files.csv_text import to_csv
 from jumpcad.parts.mass_line import MassLine
 from jumpcad.plural import counted
 from jumpcad.robot.foot.pads import printed_pads
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.springs.wire import CHOOSE, ORDERED
 from jumpcad.workshop import Workshop
 
@@ -121,7 +121,7 @@ class Bill:
         return Bill(tuple(items), tuple(plates), self.used)
 
 
-@carried
+@decided_once
 def bill_of_materials(robot: Robot) -> Bill:
     """Return a robot's printed parts, then the bought ones by article, with the prices of its workshop."""
     printed = [

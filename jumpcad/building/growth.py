@@ -45,9 +45,7 @@ def built_and_checked(design: Design, workshop: Workshop, name: str) -> tuple[Ro
     refused = errors(geometry_findings(design))
     if refused:
         first = refused[0]
-        raise CannotBuildError(
-            f"{first.name}: {first.message}: {first.remedy}", first.name, first.margin, unit=first.unit
-        )
+        raise CannotBuildError(f"{first.name}: {first.message}", first.name, first.margin, first.unit, first.ways)
     robot, findings, growth, grown = _grown(assembled(design, workshop, name, Growth()), Growth())
     if (stronger := growth.stronger(workshop)) != growth:
         robot, findings, *_ = _grown(assembled(design, workshop, name, stronger, robot), stronger)

@@ -77,7 +77,7 @@ def export(
     require_name(robot.name)
     require_place(folder)
     if wrong := errors(electronics_findings(robot)):
-        raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
+        raise CannotBuildError(wrong[0].message, ways=wrong[0].ways)
     exporters = chosen([name for name, wanted in (("step", step), ("ros2", ros2)) if wanted])
     jump = headline(robot, pictures)
     return write_folder(folder, robot.name, _facts(robot, jump), contents(robot, exporters, pictures, jump), force)

@@ -6,7 +6,7 @@ from jumpcad.catalogue import Battery
 from jumpcad.electronics.nets import gpio
 from jumpcad.landing.series import LANDING_S, REST_S
 from jumpcad.robot.cage.place import Cage
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.sensor.limits import RUN_ON_S
 from jumpcad.robot.sensor.place import SensorPlace
 
@@ -36,7 +36,7 @@ RESERVE_V = 0.2
 Judgement: a winding lowers the voltage by less, also with an old battery of three times the resistance."""
 
 
-@carried
+@decided_once
 def numbers(robot: Robot) -> dict[str, float | int | None]:
     """Return this robot's numbers, by the names that the firmware uses."""
     workshop, train = robot.workshop, robot.layout.drive.train

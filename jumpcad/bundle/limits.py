@@ -5,7 +5,7 @@ from typing import Any
 
 from jumpcad.checks import check
 from jumpcad.findings import SHOWN_AS, Finding, errors
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.simulation import Jump
 
 JUST = "at the limit"
@@ -19,7 +19,7 @@ A margin of exactly 0 is that of a condition that holds or does not, and is not 
 """
 
 
-@carried
+@decided_once
 def limits_of(robot: Robot) -> list[Finding]:
     """Return the findings of every check of a robot, checked once."""
     return check(robot)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jumpcad.checks.interference import Piece, may_share, shared_volume_mm3
-from jumpcad.findings import Basis, Finding
+from jumpcad.findings import Basis, Finding, Remedy, choose, higher, lower
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot.cage.limits import ELSEWHERE
@@ -94,13 +94,15 @@ def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]
             f"{one.by} blocks the {what} of {one.name} in step {one.step.title}: it covers {one.share_mm2:.2f} mm²; "
             f"{TOLERANCE_MM2:g} mm² are allowed"
         )
-        remedy = "raise carrying_link_mm or d_coef (a longer body), or choose another bought.retention"
+        ways: Remedy = higher("carrying_link_mm", "d_coef", note="a longer body") + choose(
+            "another", "bought.retention"
+        )
         if one.name.startswith(OF_FOOT):
-            remedy = "lower ground_link_angle_deg (toes that point more ahead)"
+            ways = lower("ground_link_angle_deg", note="toes that point more ahead")
         elif "cage_" in (one.name[:5], one.by[:5]):
-            remedy = ELSEWHERE
+            ways = ELSEWHERE
         margin = TOLERANCE_MM2 - one.share_mm2
-        yield Finding(name, "error", margin, "mm²", message, remedy, value=one.share_mm2, limit=TOLERANCE_MM2)
+        yield Finding(name, "error", margin, "mm²", message, ways, value=one.share_mm2, limit=TOLERANCE_MM2)
     if not blocked:
         yield Finding(name, "info", TOLERANCE_MM2, "mm²", none, "nothing to do", limit=TOLERANCE_MM2)
 

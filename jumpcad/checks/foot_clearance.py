@@ -1,7 +1,7 @@
 """Clearance of the body above the foot, springs loaded (mm)."""
 
 from jumpcad.checks.interference import Position, box_of, pieces_of, pose_of
-from jumpcad.findings import Basis, Finding, limit
+from jumpcad.findings import Basis, Finding, higher, limit, lower
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot.robot import Robot
 from jumpcad.transforms import Array
@@ -40,7 +40,7 @@ def foot_findings(robot: Robot) -> list[Finding]:
         limit(
             "foot_clearance", gap - FOOT_GAP_MM, "mm",
             f"{found} of the foot with loaded springs; {FOOT_GAP_MM:g} mm are needed",
-            "lower compression_ratio, or raise ground_link_angle_deg",
+            lower("compression_ratio") + higher("ground_link_angle_deg"),
             value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
         )
     ]  # fmt: skip

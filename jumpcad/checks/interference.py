@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from manifold3d import Manifold
 
-from jumpcad.findings import Basis, Finding
+from jumpcad.findings import Basis, Finding, higher, lower
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Drawing, Shape, solid_of
@@ -26,6 +26,7 @@ from jumpcad.solids.overlap import overlap_volume_mm3
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import Array, pose_about_y
 
+WAYS = higher("carrying_link_mm", "d_coef") + lower("compression_ratio")
 WINDING_POSITIONS = 13
 DROP_POSITIONS = 13
 PAST_POSITIONS = 3
@@ -161,7 +162,7 @@ def interference_findings(robot: Robot) -> list[Finding]:
         Finding(
             "interference", "error", TOLERANCE_MM3 - volume, "mm³",
             f"{a} and {b} share {volume:.2f} mm³ of {TOLERANCE_MM3:g} mm³, {label}",
-            ELSEWHERE if "cage_" in (a[:5], b[:5]) else "raise carrying_link_mm or d_coef, or lower compression_ratio",
+            ELSEWHERE if "cage_" in (a[:5], b[:5]) else WAYS,
             value=volume, limit=TOLERANCE_MM3,
         )
         for a, b, label, volume in overlaps(robot)

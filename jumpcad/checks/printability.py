@@ -14,7 +14,7 @@ import numpy as np
 from manifold3d import CrossSection, JoinType
 
 from jumpcad.dimensions import OVERHANG_LINES
-from jumpcad.findings import Basis, Finding, at_least, at_most, limit
+from jumpcad.findings import Basis, Finding, Remedy, at_least, at_most, higher, limit, lower
 from jumpcad.parts.part import Drawing
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.finish import faults
@@ -86,7 +86,7 @@ def bed_findings(robot: Robot) -> list[Finding]:
             "bed_fit", margin, "mm",
             f"{part.name}, {size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm, on a bed of "
             f"{bed[0]:g} x {bed[1]:g} x {bed[2]:g} mm",
-            "a larger printer, or a smaller carrying_link_mm",
+            ("a larger printer", *lower("carrying_link_mm")),
         )
     ]  # fmt: skip
 
@@ -106,13 +106,13 @@ def printability_findings(robot: Robot) -> list[Finding]:
     ]
     flat = [(name, region) for name, _, region in regions]
     finer = "a finer nozzle with its own fits"
-    less = {key: f"{finer}, or a lower fits.{key} if your printer prints it" for key in MINIMA}
+    less = {key: (finer, *lower(f"fits.{key}", note="if your printer prints it")) for key in MINIMA}
     undersides = [(drawing.name, *side) for drawing in drawings for side in _undersides(drawing, fits, process)]
     reaches = [(size, name) for name, bridge, size in undersides if not bridge]
     spans = [(size, name) for name, bridge, size in undersides if bridge]
     return [
         _narrowest("walls", "wall", flat, _thin_wall, wall_min, less["wall_min_mm"]),
-        _narrowest("holes", "hole", flat, _narrow_hole, hole_min, f"{less['hole_min_mm']}, or drill it"),
+        _narrowest("holes", "hole", flat, _narrow_hole, hole_min, (*less["hole_min_mm"], "drill it")),
         _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, less["pin_min_mm"]),
         _largest(
             "overhangs",
@@ -121,13 +121,15 @@ def printability_findings(robot: Robot) -> list[Finding]:
             OVERHANG_LINES * process.line_width_mm,
             "turn the part over, or use support",
         ),
-        _largest("bridges", "bridge", spans, fits.bridge_mm, "use support, or raise fits.bridge_mm if possible"),
+        _largest(
+            "bridges", "bridge", spans, fits.bridge_mm, ("use support", *higher("fits.bridge_mm", note="if possible"))
+        ),
         *_solid_findings(drawings),
     ]
 
 
 def _narrowest(
-    name: str, what: str, regions: Sequence[tuple[str, Region]], fails: Fails, least_mm: float, remedy: str
+    name: str, what: str, regions: Sequence[tuple[str, Region]], fails: Fails, least_mm: float, ways: Remedy
 ) -> Finding:
     """Return the finding of the narrowest thing in named regions, looked for up to twice the least width.
 
@@ -146,15 +148,15 @@ def _narrowest(
     found = f"the narrowest {what} is {worst:.2f} mm, in {where}" if where else f"no {what} is under {worst:.2f} mm"
     message = f"{found}; {least_mm:g} mm are needed"
     if not where:  # known only to be wider than the range of the search
-        return limit(name, worst - least_mm, "mm", message, remedy, allowed=least_mm)
-    return at_least(name, worst, least_mm, "mm", message, remedy)
+        return limit(name, worst - least_mm, "mm", message, ways, allowed=least_mm)
+    return at_least(name, worst, least_mm, "mm", message, ways)
 
 
-def _largest(name: str, what: str, sizes: Sequence[tuple[float, str]], most_mm: float, remedy: str) -> Finding:
+def _largest(name: str, what: str, sizes: Sequence[tuple[float, str]], most_mm: float, ways: Remedy) -> Finding:
     """Return the finding of the largest of named sizes."""
     worst, where = max(sizes, default=(0.0, ""))
     found = f"the longest {what} is {worst:.2f} mm, in {where}" if where else f"no part has any {what}"
-    return at_most(name, worst, most_mm, "mm", f"{found}; {most_mm:g} mm print without support", remedy)
+    return at_most(name, worst, most_mm, "mm", f"{found}; {most_mm:g} mm print without support", ways)
 
 
 def _tall_regions(drawing: Drawing, least_mm: float) -> Iterator[tuple[float, Region]]:

@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 
 from jumpcad.collision.stable_poses import least_share_on_feet
-from jumpcad.findings import Basis, Finding, at_least
+from jumpcad.findings import Basis, Finding, at_least, higher
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.robot import Robot
 
 RIGHTED = 90.0
 """Least percentage of stable poses on its feet, wherever the centre of mass is within its shifts. Judgement: robots
 above it rose from every drop in simulation."""
-CROUCH = "raise compression_ratio, so that it crouches lower, or take the sizes that jumpcad cage DESIGN finds"
+CROUCH = (*higher("compression_ratio", note="it crouches lower"), "take the sizes that jumpcad cage DESIGN finds")
 BASIS = {
     "cage_rights": Basis(
         f"least share of stable poses on the feet ≥ {RIGHTED:g} %, springs loaded, the centre of mass as computed and "

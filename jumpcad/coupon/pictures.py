@@ -53,7 +53,7 @@ def coupon_pictures(made: Sequence[Piece], holes: HoleSizes) -> dict[str, bytes]
         for row, middle in zip(rows, row_middles_mm(rows), strict=True)
         if row.letter
     ]
-    pictures = {"gauge": _picture([first.look], [np.zeros(3)], points)}
+    pictures = {"gauge": _picture([first.shown_mesh], [np.zeros(3)], points)}
     for name, patterns in GROUPS.items():
         chosen = [
             (piece, reading) for piece in made for key, reading in patterns.items() if re.fullmatch(key, piece.name)
@@ -63,7 +63,7 @@ def coupon_pictures(made: Sequence[Piece], holes: HoleSizes) -> dict[str, bytes]
             (f"{piece.name}: {reading}" if reading else piece.name, place + piece.mesh.bounds.mean(axis=0))
             for (piece, reading), place in zip(chosen, places, strict=True)
         ]
-        pictures[name] = _picture([piece.look for piece, _ in chosen], places, points)
+        pictures[name] = _picture([piece.shown_mesh for piece, _ in chosen], places, points)
     return pictures
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Shape, look_of, mesh_of
+from jumpcad.parts.part import Shape, mesh_of, shown_mesh_of
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.text import engravable, text
@@ -65,9 +65,9 @@ class Piece:
         return mesh_of(self.shape)
 
     @property
-    def look(self) -> "trimesh.Trimesh":
+    def shown_mesh(self) -> "trimesh.Trimesh":
         """The mesh without fine detail, for pictures (mm)."""
-        return look_of(self.shape)
+        return shown_mesh_of(self.shape)
 
 
 @dataclass(frozen=True)

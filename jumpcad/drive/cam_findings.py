@@ -7,18 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.drive.cam_limits import FIRST_ROWS, NO_DROP_RAD, ROWS, CamLimits
-from jumpcad.findings import SHOWN_AS, Basis, Finding, limit
+from jumpcad.findings import SHOWN_AS, Basis, Finding, Ways, choose, limit, lower
 from jumpcad.transforms import Array
 
 
 @dataclass(frozen=True)
 class Limit:
-    """A checked limit: its finding's name, unit, remedy and basis, and the margin that scales to 1."""
+    """A checked limit: its finding's name, unit, ways out and basis, and the margin that scales to 1."""
 
     name: str
     unit: str
     scale: float
-    remedy: str
+    ways: Ways
     basis: Basis
 
 
@@ -26,8 +26,9 @@ def _degrees(angle_rad: float) -> str:
     return f"{math.degrees(angle_rad):g}°"
 
 
-_WIND_LESS = "lower compression_ratio"
-_SMALLER = "a smaller bought.roller, or less release.play_deg"
+_WEAKER = lower("stiffness_nmm_per_deg", "compression_ratio")
+_WIND_LESS = lower("compression_ratio")
+_SMALLER = choose("a smaller", "bought.roller") + lower("release.play_deg")
 _PITCH = "closed-form pitch curve: jumpcad/drive/cam.py"
 _GAP = f"{CamLimits.clearance_mm:g} mm + safety.gap_reserve_mm"
 _UNDERCUT, _PRESSURE = f"{CamLimits.undercut_margin_mm:g} mm", f"{CamLimits.pressure_mpa:g} MPa"
@@ -36,7 +37,7 @@ _RESERVE = _degrees(CamLimits.reserve_rad)
 _LOW, _HIGH = _degrees(CamLimits.axis_min_rad), _degrees(CamLimits.axis_max_rad)
 LIMITS = (
     Limit(
-        "cam_pressure_angle", "rad", 0.1, f"{_WIND_LESS}, or lower safety.pressure_angle_reserve_deg",
+        "cam_pressure_angle", "rad", 0.1, _WIND_LESS + lower("safety.pressure_angle_reserve_deg"),
         Basis(
             f"largest α of the lift ≤ {_STEEPEST} - safety.pressure_angle_reserve_deg; cos α = a·sin ψ/|L·(1 + θ')·u "
             "- a|, L lever with direction u, ψ from u to the cam's axis at a, θ' leg's angle by cam's angle",
@@ -44,7 +45,7 @@ LIMITS = (
         ),
     ),
     Limit(
-        "cam_undercut", "mm", 1.0, "a smaller bought.roller",
+        "cam_undercut", "mm", 1.0, choose("a smaller", "bought.roller"),
         Basis(
             f"1/κ - radius of the roller ≥ {_UNDERCUT} + safety.gap_reserve_mm; κ largest convex curvature of the "
             "pitch curve",
@@ -52,7 +53,7 @@ LIMITS = (
         ),
     ),
     Limit(
-        "cam_contact", "MPa", 10.0, "lower stiffness_nmm_per_deg or compression_ratio, or a wider bought.roller",
+        "cam_contact", "MPa", 10.0, _WEAKER + choose("a wider", "bought.roller"),
         Basis(
             f"largest √(N·E/((1 - ν²)·π·b·ρ)) ≤ {_PRESSURE}/√r (MPa); N = K·(θ + p)/(L·cos α) force on the roller, b "
             f"its width, 1/ρ sum of both curvatures, E modulus of the gears' material, ν = {CamLimits.poisson:g}",
@@ -61,7 +62,7 @@ LIMITS = (
         ),
     ),
     Limit(
-        "cam_roller_load", "N", 10.0, "lower stiffness_nmm_per_deg or compression_ratio, or a larger bought.roller",
+        "cam_roller_load", "N", 10.0, _WEAKER + choose("a larger", "bought.roller"),
         Basis(
             "largest K·(θ + p)/(L·cos α) ≤ C0/r (N); torque of the springs over lever L, C0 static load rating",
             "statics; C0: makers' catalogues, templates/hardware/bearings.toml",
@@ -75,7 +76,7 @@ LIMITS = (
         ),
     ),
     Limit(
-        "cam_hub", "mm", 1.0, f"{_WIND_LESS}, or a smaller bought.leg_bearing",
+        "cam_hub", "mm", 1.0, _WIND_LESS + choose("a smaller", "bought.leg_bearing"),
         Basis(
             f"a - R - r_h ≥ {_GAP}; a from the hub to the cam's axis, R cam's outer radius, r_h larger of "
             f"{CamLimits.hub_radius_mm:g} mm for a bushing and the radius of the springs' coil",
@@ -99,7 +100,7 @@ LIMITS = (
         ),
     ),
     Limit(
-        "cam_overshoot", "rad", 0.1, "a smaller body.stop_deg",
+        "cam_overshoot", "rad", 0.1, lower("body.stop_deg"),
         Basis(
             "min(λ - ω, γ - (λ - ω)) ≥ 0 (°); λ lever's lead over the cam's axis at rest, γ direction of the corner "
             "once the roller falls freely, both seen from the hub, ω = body.stop_deg + 3°",
@@ -131,18 +132,17 @@ def cam_findings(limits: CamLimits, margin: Array, numbers: Mapping[str, Array])
     for checked, room in zip(LIMITS, margin, strict=True):
         value, allowed = compared.get(checked.name, (None, None))
         words = _found(checked.name, float(room), limits)
-        found.append(limit(checked.name, room, checked.unit, words, checked.remedy, value=value, allowed=allowed))
+        found.append(limit(checked.name, room, checked.unit, words, checked.ways, value=value, allowed=allowed))
     return tuple(found)
 
 
-def missed(limits: CamLimits, margin: Array) -> str:
+def missed(limits: CamLimits, margin: Array) -> tuple[str, Ways]:
     """Return which limits the margins (limits,) of a cam miss most, and what to change."""
     missing = margin / SCALES[FIRST_ROWS]
     binding = [LIMITS[i] for i in np.argsort(missing) if missing[i] < 0.7 * missing.min()]
     short = {checked.name: float(margin[LIMITS.index(checked)]) for checked in binding}
     words = ", ".join(f"{_found(name, room, limits)} ({_short(name, room)} short)" for name, room in short.items())
-    ways = dict.fromkeys(way for checked in binding for way in checked.remedy.split(", or "))
-    return f"{words}: {', or '.join(ways)}"
+    return words, tuple(dict.fromkeys(way for checked in binding for way in checked.ways))
 
 
 def _short(name: str, room: float) -> str:

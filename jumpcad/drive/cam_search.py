@@ -20,6 +20,7 @@ from jumpcad.drive.cam_findings import SCALES, cam_findings, missed
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits, axis_range, measure
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import choose, lower
 from jumpcad.process.blas_threads import one_thread
 from jumpcad.transforms import Array
 
@@ -53,7 +54,12 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
         search.allow_for(shapes[0], margins[:, 0])
     margin = np.minimum.reduceat(margins[:, chosen], FIRST_ROWS)
     if not fine.any():
-        raise CannotBuildError(_refusal(law, limits, margin), "cam", (margin / SCALES[FIRST_ROWS]).min(), "")
+        missing, ways = missed(limits, margin)
+        raise CannotBuildError(
+            f"no cam winds the leg by {math.degrees(law.compression_rad):.1f}° against {law.spring_torque_nm:.2f} N·m; "
+            f"the nearest one misses: {missing}",
+            "cam", (margin / SCALES[FIRST_ROWS]).min(), "", ways,
+        )  # fmt: skip
     numbers = {name: values[[chosen]] for name, values in numbers.items()}
     geometry = _geometry(law, limits, shapes[chosen], outer[[chosen]])
     outline = geometry.outline_mm()
@@ -69,13 +75,6 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
         contact_pressure_mpa=float(numbers["pressure"][0]),
         worn_mm=limits.worn_mm(float(numbers["force"][0])),
         findings=cam_findings(limits, margin, numbers),
-    )
-
-
-def _refusal(law: CamLaw, limits: CamLimits, margin: Array) -> str:
-    return (
-        f"no cam winds the leg by {math.degrees(law.compression_rad):.1f}° against "
-        f"{law.spring_torque_nm:.2f} N·m; the nearest one misses: {missed(limits, margin)}"
     )
 
 
@@ -102,8 +101,8 @@ class _Shapes:
             raise CannotBuildError(
                 f"no lever from {lever_min:.1f} mm (hub, roller and clearance) to {limits.lever_max_mm:g} mm (cam's "
                 f"axis {limits.gap_min_mm:.1f} to {limits.gap_max_mm:g} mm beyond it, overshoot at least "
-                f"{math.degrees(limits.overshoot_rad):.1f}°): choose a bought.roller of less than {fits:.1f} mm "
-                "diameter, a smaller bought.leg_bearing, or a lower stiffness_nmm_per_deg"
+                f"{math.degrees(limits.overshoot_rad):.1f}°), which needs a roller of less than {fits:.1f} mm diameter",
+                ways=choose("a smaller", "bought.roller", "bought.leg_bearing") + lower("stiffness_nmm_per_deg"),
             )
         self.known: dict[bytes, tuple[float, Array, Array, Array]] = {}
 

@@ -14,7 +14,7 @@ from jumpcad.drive.corner import clear_window_rad, roll_over
 from jumpcad.drive.dog import PLAY_MORE_RAD
 from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
 from jumpcad.drive.synthesis import Drive
-from jumpcad.findings import Basis, Finding, at_least, at_most
+from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
 from jumpcad.mechanism.model import RollerOff, Spring
 from jumpcad.mechanism.reflected import ReflectedMass
 from jumpcad.workshop import Workshop
@@ -222,7 +222,7 @@ def _findings(
     play, over = math.degrees(drive.dog.play_rad), math.degrees(drive.cam.roll_over_rad)
     turned, reserved = drive.train.cam_speed_rad_s * push_off_s, (1.0 + workshop.safety.kick_reserve) * kick_nm
     needed, window = play + math.degrees(turned + PLAY_MORE_RAD), math.degrees(np.nan_to_num(window_rad))
-    more_play = f'release.play_deg = "auto" or more than {over + 3.0:.0f}, or a smaller bought.roller'
+    more_play = (f'release.play_deg = "auto" or more than {over + 3.0:.0f}', *choose("a smaller", "bought.roller"))
     return (
         at_least(
             "release_energy", 100.0 * ratio, least, "%",
@@ -234,18 +234,19 @@ def _findings(
             "cam_corner", 100.0 * worn, least, "%",
             f"the cam's corner wears to a radius of {drive.cam.worn_mm:.1f} mm, with which {100.0 * worn:.1f} % of the "
             f"springs' energy is left after the release; {least:g} % are needed",
-            'more release.play_deg, a wider or larger bought.roller, or a stronger material of the gears', "warning",
+            (*higher("release.play_deg"), *choose("a wider or larger", "bought.roller"),
+             "a stronger material of the gears"), "warning",
         ),
         at_most(
             "release_kick", 1000.0 * reserved, 1000.0 * allowed_nm, "mN·m",
             f"torque peak at the gear motor when the released cam strikes: {1000.0 * kick_nm:.0f} mN·m, "
             f"{1000.0 * reserved:.0f} mN·m with the reserve; {1000.0 * allowed_nm:.0f} mN·m are allowed",
-            f"a stiffer lever, or {more_play}", grows="lever",
+            ("a stiffer lever", *more_play), grows="lever",
         ),
         at_most(
             "release_window", needed, window, "°",
             "the cam may turn {}° past the end of its lift while the leg swings back; the roller's path is "
             "free up to {}°".format(*_told_apart(needed, window)),
-            "a slower or lighter motor, less release.play_deg, or a smaller bought.roller",
+            ("a slower or lighter motor", *lower("release.play_deg"), *choose("a smaller", "bought.roller")),
         ),
     )  # fmt: skip

@@ -12,7 +12,7 @@ from typing import Literal
 
 from jumpcad.catalogue import Wire
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, free_arm_angle_rad
-from jumpcad.findings import Basis, Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most, lower
 from jumpcad.mechanism.model import Spring
 
 BASIS = {
@@ -203,8 +203,8 @@ def torsion_spring(
             at_most(
                 "spring_stress", stress, allowable, "MPa",
                 f"the springs' wire of {d:g} mm, loaded: {stress:.0f} of {allowable:.0f} MPa",
-                "lower stiffness_nmm_per_deg or compression_ratio" if not stock else
-                "lower compression_ratio, or choose another bought.spring with thicker wire",
+                lower("stiffness_nmm_per_deg", "compression_ratio") if not stock else
+                (*lower("compression_ratio"), "choose another bought.spring with thicker wire"),
             ),
         ),
         stock=stock,

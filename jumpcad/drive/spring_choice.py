@@ -11,6 +11,7 @@ from jumpcad.catalogue import Wire
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, plain_stress_mpa, torsion_spring
 from jumpcad.drive.spring_arms import FULL_TURN_RAD, Arms, between_pins_rad
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import lower
 from jumpcad.mechanism.model import Spring
 
 TURNS_MIN, INDEX_MIN, INDEX_MAX = 3.0, 4.0, 16.0
@@ -55,8 +56,8 @@ def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: Sp
     raise CannotBuildError(
         f"no wire of {wire.diameters_mm[0]:g} to {wire.diameters_mm[-1]:g} mm makes a torsion spring for "
         f"{torque_nmm:.0f} N·mm at {loaded:.1f}° in {limits.outer_max_mm:g} mm diameter and "
-        f"{max(limits.body_lengths_max_mm):g} mm length: lower stiffness_nmm_per_deg or compression_ratio, or give the "
-        "springs more room"
+        f"{max(limits.body_lengths_max_mm):g} mm length",
+        ways=(*lower("stiffness_nmm_per_deg", "compression_ratio"), "give the springs more room"),
     )
 
 

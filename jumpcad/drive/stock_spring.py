@@ -7,7 +7,7 @@ from jumpcad.design import Design, limits_of
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, torsion_spring
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, beside_mm, between_pins_rad
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Basis, Finding
+from jumpcad.findings import Basis, Change, Finding, Remedy, higher, lower
 from jumpcad.mechanism.model import Spring
 from jumpcad.workshop.tables import PRELOAD_MAX_DEG
 
@@ -21,14 +21,15 @@ STIFFNESS, SPRING = "stiffness_nmm_per_deg", "bought.spring"
 """Parameter of a design that says nothing where springs are bought, and the key of a workshop that does then."""
 
 
-def of_stock(words: str) -> str:
-    """Return a message with a remedy that can be taken where springs are bought: their rate is not the design's."""
-    words = words.replace(f"a lower {STIFFNESS}", f"a weaker {SPRING}")
-    for way, kind in (("lower", "weaker"), ("raise", "stronger")):
-        choose = f"choose a {kind} {SPRING}"
-        words = words.replace(f"{way} {STIFFNESS} or compression_ratio", f"{choose} or {way} compression_ratio")
-        words = words.replace(f"{way} {STIFFNESS}", choose)
-    return words
+def for_bought_springs(ways: Remedy) -> Remedy:
+    """Return the ways out that can be taken where springs are bought: their rate is not the design's."""
+    if isinstance(ways, str):
+        return ways
+    kinds = {"lower": "a weaker", "raise": "a stronger"}
+    return tuple(
+        Change(SPRING, "choose", kinds[one.way]) if isinstance(one, Change) and one.key == STIFFNESS else one
+        for one in ways
+    )
 
 
 def springs_on_leg(design: Design, stock: StockSpring | None = None, preload_rad: float = 0.0) -> Spring:
@@ -75,9 +76,9 @@ def fitted_spring(
     if spring.mandrel_mm < limits.mandrel_min_mm:
         raise CannotBuildError(
             f"bought.spring = {stock.name!r}: when loaded, its coil leaves room for a bushing of "
-            f"{spring.mandrel_mm:.2f} mm; the axle needs one of {limits.mandrel_min_mm:.2f} mm: choose one with "
-            "a larger inside diameter, or lower compression_ratio",
+            f"{spring.mandrel_mm:.2f} mm; the axle needs one of {limits.mandrel_min_mm:.2f} mm",
             "spring_bushing", spring.mandrel_mm - limits.mandrel_min_mm,
+            ways=("choose one with a larger inside diameter", *lower("compression_ratio")),
         )  # fmt: skip
     return spring
 
@@ -124,11 +125,11 @@ def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: Spr
     # a larger angle between the arms turns the plate's pin by as much
     less, more = (ends[0] - math.degrees(last)) % 360.0, (math.degrees(first) - ends[1]) % 360.0
     fits = (stock.arm_angle_deg + (more + 1.0 if more < less else -less - 1.0)) % 360.0
-    load = "raise spring.preload_deg, " if math.degrees(on_leg.preload_rad) + less <= PRELOAD_MAX_DEG else ""
+    load = higher("spring.preload_deg") if math.degrees(on_leg.preload_rad) + less <= PRELOAD_MAX_DEG else ()
     return CannotBuildError(
         f"bought.spring = {stock.name!r}: with arms {stock.arm_angle_deg:g}° apart, the plate's pin must be between "
         f"{ends[0]:.0f}° and {ends[1]:.0f}° from forward; there is room from {math.degrees(first):.0f}° to "
-        f"{math.degrees(last):.0f}°, {min(less, more):.0f}° away: {load}choose a spring with arms about "
-        f"{fits:.0f}° apart, or change rest_angle_deg",
+        f"{math.degrees(last):.0f}°, {min(less, more):.0f}° away",
         "spring_pins", -min(less, more), "°",
+        (*load, f"choose a spring with arms about {fits:.0f}° apart", "change rest_angle_deg"),
     )  # fmt: skip

@@ -20,7 +20,7 @@ from jumpcad.drive.stock_spring import fitted_spring, rate_finding, springs_on_l
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
 from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, higher
 
 LEAST_TURN_RAD = math.radians(1.0)
 """Least cam angle that the motor may turn while the leg swings back; `release_window` reports where there is less."""
@@ -103,8 +103,9 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     if compression < LEAST_COMPRESSION_RAD:
         raise CannotBuildError(
             f"the springs are loaded by {math.degrees(compression):.2f}°, less than "
-            f"{math.degrees(LEAST_COMPRESSION_RAD):g}°: raise compression_ratio, rest_angle_deg or c_coef",
+            f"{math.degrees(LEAST_COMPRESSION_RAD):g}°",
             "compression", math.degrees(compression - LEAST_COMPRESSION_RAD), "°",
+            higher("compression_ratio", "rest_angle_deg", "c_coef"),
         )  # fmt: skip
     spring = _spring(design, limits, catalogue)
     stiffness = 2.0 * spring.stiffness_nm_per_rad
@@ -134,9 +135,8 @@ def _spring(design: Design, limits: DriveLimits, catalogue: Catalogue) -> Torsio
     if spring.pin_radius_mm > reach:
         raise CannotBuildError(
             f"bought.spring = {stock.name!r}: its arms need the leg's pin {spring.pin_radius_mm:.1f} mm from the axle; "
-            f"in a leg of {design.l2_mm:.1f} mm at most {reach:.1f} mm is possible: choose a smaller spring, or raise "
-            "carrying_link_mm",
-            "spring_pin", reach - spring.pin_radius_mm,
+            f"in a leg of {design.l2_mm:.1f} mm at most {reach:.1f} mm is possible",
+            "spring_pin", reach - spring.pin_radius_mm, ways=("choose a smaller spring", *higher("carrying_link_mm")),
         )  # fmt: skip
     return replace(spring, findings=(*spring.findings, rate_finding(design, stock)))
 

@@ -14,7 +14,7 @@ from jumpcad.drive.gear_pair import GearPair
 from jumpcad.drive.motor import EMPTY_SHARE, allowed_nm, free_speed_rad_s, winding
 from jumpcad.drive.train_limits import TrainLimits
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import SHOWN_AS, Basis, Finding, at_most, limit
+from jumpcad.findings import SHOWN_AS, Basis, Finding, Remedy, at_most, higher, limit, lower
 
 CONTACT_RATIO_MIN = 1.1
 """Least pairs of teeth in contact on average; judgement: handbooks advise 1.2 for gears that run long and fast."""
@@ -111,15 +111,16 @@ def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) 
                 return train
     torque = law.peak_torque_nm / limits.cam_efficiency
     allowed = max(allowed_nm(motor, limits) for motor in motors)
-    remedy = "lower stiffness_nmm_per_deg or compression_ratio, or allow a stronger motor"
+    ways: Remedy = (*lower("stiffness_nmm_per_deg", "compression_ratio"), "allow a stronger motor")
     if torque < allowed * limits.pair_efficiency:  # the motor is strong enough, and too fast
-        remedy = "raise stiffness_nmm_per_deg or compression_ratio, or allow a slower motor"
+        ways = (*higher("stiffness_nmm_per_deg", "compression_ratio"), "allow a slower motor")
     raise NoTrainError(
         f"no motor turns the cam: it needs {1000 * torque:.0f} mN·m, the strongest allowed motor may give "
         f"{1000 * allowed:.0f} mN·m, and no one or two gear pairs make "
         f"{torque / allowed / limits.pair_efficiency:.1f}:1 (limits: {math.degrees(limits.cam_speed_max_rad_s):.0f} "
         f"°/s, {limits.cam_gear_tip_max_mm:.1f} mm radius of the cam gear, {limits.stress_mpa:g} MPa in "
-        f"teeth {limits.face_width_mm:g} mm wide): {remedy}"
+        f"teeth {limits.face_width_mm:g} mm wide)",
+        ways=ways,
     )
 
 

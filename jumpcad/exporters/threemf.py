@@ -24,7 +24,7 @@ from jumpcad.files.rendering import fill, render
 from jumpcad.printing.plates import Printable, PrintPlate, brim_mm, packed
 from jumpcad.printing.project import project_settings
 from jumpcad.robot.foot.pads import printed_pads
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.scene.camera import View
 from jumpcad.scene.renderer import Renderer, png_of
 from jumpcad.scene.visuals import PRINTED_COLOURS, Colour
@@ -39,7 +39,7 @@ BED_MM = 1.0
 BED: Colour = (0.80, 0.81, 0.83)
 
 
-@carried
+@decided_once
 def print_plates(robot: Robot) -> tuple[PrintPlate, ...]:
     """Return a robot's print plates, packed on its workshop's bed, those of pads last."""
     pads = printed_pads(robot.hardware, robot.workshop)
@@ -142,6 +142,6 @@ def thumbnail(plate: PrintPlate, bed_mm: Sequence[float]) -> bytes:
     width, depth = bed_mm[:2]
     bed = trimesh.creation.box((width, depth, BED_MM))
     bed.apply_translation((width / 2.0, depth / 2.0, -BED_MM / 2.0))
-    things = [(bed, BED), *((placed.part.look, PRINTED_COLOURS["links"]) for placed in plate.items)]
+    things = [(bed, BED), *((placed.part.shown_mesh, PRINTED_COLOURS["links"]) for placed in plate.items)]
     poses = [np.eye(4), *(in_metres(placed.T_bed_part) for placed in plate.items)]
     return png_of(Renderer(things).picture(poses, PICTURE, VIEW, bed.vertices / 1000.0))

@@ -21,4 +21,9 @@ if TYPE_CHECKING:
     from jumpcad.files.templates import template_names as template_names
     from jumpcad.files.templates import templates_folder as templates_folder
 else:
-    __getattr__, __dir__, __all__ = lazy_exports(__name__)
+    __getattr__, __dir__, __all__ = lazy_exports(__name__, {
+        "jumpcad.files.complaints": "did_you_mean",
+        "jumpcad.files.reading": "read_bytes read_json read_text read_toml to_toml",
+        "jumpcad.files.records": "Contradiction Record TomlTable",
+        "jumpcad.files.templates": "find_template template_names templates_folder",
+    })  # fmt: skip

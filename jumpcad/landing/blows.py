@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
-from jumpcad.findings import Finding, at_most
+from jumpcad.findings import Finding, at_most, lower
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot.cage.place import Cage, CageBar
 from jumpcad.robot.cage.strength import landing_n, ring_n_per_mm
@@ -196,5 +196,5 @@ def landing_strength(robot: Robot, forces: Sequence[PartForce]) -> Finding | Non
         f"of a blow of {1000.0 * hit.energy_j:.0f} mJ on the {hit.part} the floor must take {stop * borne:.0f} mJ, the "
         f"{hit.part} the rest: over {stop:.1f} mm at the {borne:.1f} N that {name} allows; on a floor that "
         f"gives nothing {hit.hard_n:.1f} N act at most",
-        "let it land on a mat that gives as much, or lower stiffness_nmm_per_deg or compression_ratio", "warning",
+        ("let it land on a mat that gives as much", *lower("stiffness_nmm_per_deg", "compression_ratio")), "warning",
     )  # fmt: skip

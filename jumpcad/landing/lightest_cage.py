@@ -8,7 +8,7 @@ from jumpcad.checks.righting import RIGHTED
 from jumpcad.collision.stable_poses import least_share_on_feet, share_on_feet
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.findings import errors
+from jumpcad.findings import choose, errors, higher
 from jumpcad.landing.landing import Landings, land
 from jumpcad.robot.cage.place import Cage, plate_ends_mm
 from jumpcad.robot.robot import Robot
@@ -66,8 +66,9 @@ def lightest_cage(design: Design, workshop: Workshop, tries: int = TRIES) -> tup
         why = f"feet after {100.0 * landed.drops_righted:.0f} % of drops, {100.0 * DROPS:.0f} % are needed"
     raise CannotBuildError(
         f"of {len(found)} cages of {best.cage.rod} none rights it: with the best it comes onto its {why}"
-        f"{''.join(failing)}: raise compression_ratio, so that it crouches lower, or another cage.rod",
+        f"{''.join(failing)}",
         "cage_rights", -lacking,
+        ways=higher("compression_ratio", note="it crouches lower") + choose("another", "cage.rod"),
     )  # fmt: skip
 
 

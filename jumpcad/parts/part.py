@@ -73,9 +73,9 @@ class Drawing:
         return mesh_of(self.shape)
 
     @cached_property
-    def look(self) -> "trimesh.Trimesh":
+    def shown_mesh(self) -> "trimesh.Trimesh":
         """The mesh without fine detail, for pictures of the part (mm)."""
-        return look_of(self.shape)
+        return shown_mesh_of(self.shape)
 
 
 @lru_cache(SHAPES_KEPT)
@@ -93,14 +93,14 @@ def mesh_of(shape: Shape) -> "trimesh.Trimesh":
 
 
 @lru_cache(SHAPES_KEPT)
-def look_of(shape: Shape) -> "trimesh.Trimesh":
+def shown_mesh_of(shape: Shape) -> "trimesh.Trimesh":
     """Return a shape's mesh without fine detail (mm); whoever asks gets the same one."""
     from jumpcad.solids.finish import to_trimesh
 
     return to_trimesh(solid_of(shape).simplify(UNSEEN_MM))
 
 
-def laid(slabs: Iterable[tuple[float, float, Region]], face: Face = "left") -> tuple[Stack, Array]:
+def lying_stack(slabs: Iterable[tuple[float, float, Region]], face: Face = "left") -> tuple[Stack, Array]:
     """Lay slabs (y0, y1, region in x-z) on their left or right face; return stack and pose in the slabs' frame."""
     slabs = list(slabs)
     if face == "left":
@@ -161,9 +161,9 @@ class Part:
         return self.drawing.mesh
 
     @property
-    def look(self) -> "trimesh.Trimesh":
+    def shown_mesh(self) -> "trimesh.Trimesh":
         """The mesh without fine detail, for pictures (mm)."""
-        return self.drawing.look
+        return self.drawing.shown_mesh
 
     @property
     def mass_kg(self) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.mechanism.mass import MassProperties
-from jumpcad.parts.part import laid, look_of, lying_on_left, solid_of
+from jumpcad.parts.part import lying_on_left, lying_stack, shown_mesh_of, solid_of
 from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import Slab
 from jumpcad.solids.stack import Stack
@@ -62,10 +62,10 @@ class BoughtPart(ByValue):
         return solid_of(self.shape)
 
     @cached_property
-    def look(self) -> "trimesh.Trimesh":
+    def shown_mesh(self) -> "trimesh.Trimesh":
         """The mesh that is seen, in its own frame, without detail that eyes miss (mm)."""
         if self.wire is None:
-            return look_of(self.shape)
+            return shown_mesh_of(self.shape)
         rotation, origin = self.T_body_part[:3, :3], self.T_body_part[:3, 3]
         return tube(np.einsum("ji,nj->ni", rotation, self.wire.points_mm - origin), self.wire.diameter_mm)
 
@@ -102,5 +102,5 @@ def _turned(slabs: tuple[Slab, ...], turn_rad: float, mass_g: float) -> tuple[St
 @lru_cache(maxsize=256)
 def _drawn(slabs: tuple[Slab, ...]) -> tuple[Stack, float, MassProperties]:
     """Return slabs along y laid on their left face, the y of that face, and the mass properties at unit density."""
-    stack, _ = laid((slab.z0_mm, slab.z1_mm, slab.outline) for slab in slabs)
+    stack, _ = lying_stack((slab.z0_mm, slab.z1_mm, slab.outline) for slab in slabs)
     return stack, max(slab.z1_mm for slab in slabs), stack.mass_properties(1.0)

@@ -6,20 +6,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Ways, lower
 from jumpcad.transforms import Array
 
 ROUND_OFF_MM = 1e-6
 
-SMALLER = {
-    "main_leg": "a shorter carrying_link_mm",
-    "front_link": "a shorter carrying_link_mm or a smaller c_coef",
-    "foot": "a shorter carrying_link_mm, or a smaller d_coef or e_coef",
-    "toe": "a shorter carrying_link_mm or a smaller e_coef",
-    "body_plate": "a shorter carrying_link_mm, a smaller d_coef, or a smaller battery or boards",
-    "cage_bar": "smaller cage.rear_radius_mm and cage.front_radius_mm",
+SMALLER: dict[str, Ways] = {
+    "main_leg": lower("carrying_link_mm"),
+    "front_link": lower("carrying_link_mm", "c_coef"),
+    "foot": lower("carrying_link_mm", "d_coef", "e_coef"),
+    "toe": lower("carrying_link_mm", "e_coef"),
+    "body_plate": (*lower("carrying_link_mm", "d_coef"), "choose a smaller battery or boards"),
+    "cage_bar": lower("cage.rear_radius_mm", "cage.front_radius_mm"),
 }
 """What to change where a part is too large, by the beginning of its name; other parts are the body's."""
-CAGED = 'shorter horns by cage.front_ahead_mm and cage.rear_behind_mm, no cage (cage.rod = ""), '
+CAGED = (*lower("cage.front_ahead_mm", "cage.rear_behind_mm", note="shorter horns"), 'no cage (cage.rod = "")')
 
 
 @dataclass(frozen=True)
@@ -69,17 +70,16 @@ def require_bed(
     if found.margin_mm < -ROUND_OFF_MM:
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
         raise CannotBuildError(
-            f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle, by {-found.margin_mm:.1f} mm: "
-            f"choose a larger printer in the workshop, or {_smaller(name, caged)}",
-            "bed", found.margin_mm,
+            f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle, by {-found.margin_mm:.1f} mm",
+            "bed", found.margin_mm, ways=("choose a larger printer in the workshop", *_smaller(name, caged)),
         )  # fmt: skip
     return found
 
 
-def _smaller(name: str, caged: bool) -> str:
+def _smaller(name: str, caged: bool) -> Ways:
     """Return what makes a part smaller."""
-    horns = CAGED if caged and name.startswith("body_plate") else ""
-    return horns + next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER["body_plate"])
+    horns = CAGED if caged and name.startswith("body_plate") else ()
+    return (*horns, *next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER["body_plate"]))
 
 
 def _at_angles(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[BedFit]:

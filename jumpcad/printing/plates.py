@@ -43,7 +43,7 @@ class Printable(Protocol):
         """The mesh."""
 
     @property
-    def look(self) -> "trimesh.Trimesh":
+    def shown_mesh(self) -> "trimesh.Trimesh":
         """The mesh as detailed as a picture needs."""
 
 

@@ -21,6 +21,7 @@ from jumpcad.dimensions import (
 from jumpcad.drive import Drive
 from jumpcad.drive.socket import cap_ear_mm
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import higher, lower
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.robot.electronics.fitting_places import Fittings, fittings_of
 from jumpcad.robot.electronics.place import Electronics
@@ -264,6 +265,6 @@ def _require_legs_apart(linkage: Linkage, sections: Sections, gap_mm: float) -> 
         lie = "overlap by" if apart_mm < 0 else "come as near as"
         raise CannotBuildError(
             f"main leg and front link {lie} {abs(apart_mm):.2g} mm; {gap_mm:g} mm between them are needed, "
-            f"{shortfall(room)} more than there is: lower compression_ratio, or raise d_coef or rest_angle_deg",
-            "legs_apart", room,
+            f"{shortfall(room)} more than there is",
+            "legs_apart", room, ways=lower("compression_ratio") + higher("d_coef", "rest_angle_deg"),
         )  # fmt: skip

@@ -8,12 +8,12 @@ import numpy as np
 
 from jumpcad.dimensions import GAP_MM, GRAVITY_M_S2
 from jumpcad.drive.dog import JAWS
-from jumpcad.findings import Finding, at_most
+from jumpcad.findings import Finding, Remedy, at_most, lower
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.axles.loads import axle_beams
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.sizing import dog_inside_mm
 from jumpcad.strength.axle_beam import AxleBeam
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM, RoundBar, axle_bar, pin_bar
@@ -41,7 +41,7 @@ ONE_TOE = (
 )
 """Loads, for formulas."""
 PUSH_OFF = "loads: inverse dynamics of the push-off (Norton, Design of Machinery, ch. 11)"
-WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the links"
+WEAKER = (*lower("stiffness_nmm_per_deg", "compression_ratio"), "choose a stronger material for the links")
 
 
 @dataclass(frozen=True)
@@ -181,15 +181,15 @@ class LoadCase:
         return (on_leg, on_pin), on_lever
 
 
-@carried
+@decided_once
 def load_case(robot: Robot) -> LoadCase:
     """Return a robot under load."""
     return LoadCase(robot)
 
 
 def stress_finding(
-    name: str, what: str, stress_mpa: float, allowable_mpa: float, remedy: str, grows: str = ""
+    name: str, what: str, stress_mpa: float, allowable_mpa: float, ways: Remedy, grows: str = ""
 ) -> Finding:
     """Return the finding of a stress against its limit; `grows` is the section that grows where it fails."""
     message = f"{what}: {stress_mpa:.1f} of {allowable_mpa:.1f} MPa"
-    return at_most(name, stress_mpa, allowable_mpa, "MPa", message, remedy, grows=grows)
+    return at_most(name, stress_mpa, allowable_mpa, "MPa", message, ways, grows=grows)

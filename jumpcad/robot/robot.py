@@ -83,7 +83,7 @@ class Robot(Mechanism):
             """Show the robot's page; `jumpcad.notebook` gives this method to the class."""
 
 
-def carried(decide: Callable[[Robot], T]) -> Callable[[Robot], T]:
+def decided_once(decide: Callable[[Robot], T]) -> Callable[[Robot], T]:
     """Let what a function decides about a robot be decided once: the robot, which does not change, carries it."""
 
     @wraps(decide)

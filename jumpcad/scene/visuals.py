@@ -11,7 +11,7 @@ import numpy as np
 
 from jumpcad.parts.part import Part, Shape
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array, in_metres
 
@@ -63,7 +63,7 @@ class Visual:
     @property
     def mesh(self) -> "trimesh.Trimesh":
         """The mesh in its own frame (mm), as detailed as a picture needs."""
-        return self.source.drawing.look if isinstance(self.source, Part) else self.source.look
+        return self.source.drawing.shown_mesh if isinstance(self.source, Part) else self.source.shown_mesh
 
     @property
     def shape(self) -> Shape | DrawnWire:
@@ -83,7 +83,7 @@ class Visual:
         return np.asarray(np.einsum("ij,nj->ni", pose[:3, :3], self.corners_m) + pose[:3, 3])
 
 
-@carried
+@decided_once
 def visuals(robot: Robot) -> tuple[Visual, ...]:
     """Return every copy of every printed part, then every bought part."""
     return (*_printed(robot), *(_bought(item) for item in robot.hardware))

@@ -50,4 +50,24 @@ if TYPE_CHECKING:
     from jumpcad.search.study.trial import to_frame as to_frame
     from jumpcad.search.study.trial import write_table as write_table
 else:
-    __getattr__, __dir__, __all__ = lazy_exports(__name__)
+    __getattr__, __dir__, __all__ = lazy_exports(__name__, {
+        "jumpcad.search.explore": "components feasibility_map importance sample sweep",
+        "jumpcad.search.fronts": "COSTS Cost energy_j front hypervolume",
+        "jumpcad.search.models": "MODELS CapsuleModel PrintedModel PublishedModel RobotModel robot_model",
+        "jumpcad.search.optimization": "optimize",
+        "jumpcad.search.parameter": "SearchParameter",
+        "jumpcad.search.phases": "METHODS",
+        "jumpcad.search.pick.robust": "ActiveBound Candidate",
+        "jumpcad.search.report": "plots",
+        "jumpcad.search.report.figures": "save_figure",
+        "jumpcad.search.report.study_plots": "plot_study",
+        "jumpcad.search.space": "Space",
+        "jumpcad.search.study.evaluator": "Evaluator",
+        "jumpcad.search.study.objective": "OBJECTIVES Evaluation Objective find_objective",
+        "jumpcad.search.study.pool": "Pool dask_pool local_pool",
+        "jumpcad.search.study.request": "Request",
+        "jumpcad.search.study.result": "Result",
+        "jumpcad.search.study.run": "run_study",
+        "jumpcad.search.study.store": "StudyStore",
+        "jumpcad.search.study.trial": "Trial to_frame write_table",
+    })  # fmt: skip

@@ -18,4 +18,9 @@ if TYPE_CHECKING:
     from jumpcad.simulation.uncertain import Uncertainty as Uncertainty
     from jumpcad.simulation.uncertain import uncertain_jump as uncertain_jump
 else:
-    __getattr__, __dir__, __all__ = lazy_exports(__name__)
+    __getattr__, __dir__, __all__ = lazy_exports(__name__, {
+        "jumpcad.simulation.engines": "ENGINES default_engine",
+        "jumpcad.simulation.jump": "Jump",
+        "jumpcad.simulation.simulator": "Settings headline load_settings simulate",
+        "jumpcad.simulation.uncertain": "Uncertainty uncertain_jump",
+    })  # fmt: skip

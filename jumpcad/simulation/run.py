@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.findings import Basis, Finding, at_most, limit
+from jumpcad.findings import Basis, Finding, at_most, higher, limit
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.settings import Settings, coefficients, takeoff_clearance_m
 from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_m_s2, drag_per_m
@@ -160,7 +160,7 @@ class Run:
             "no_takeoff", "error", min(speed - needed, 0.0), "m/s",
             f"the robot stays on the ground: its centre of mass gets {speed:.2f} m/s from the springs; about "
             f"{needed:.2f} m/s leave the ground",
-            "raise stiffness_nmm_per_deg or compression_ratio", speed, needed,
+            higher("stiffness_nmm_per_deg", "compression_ratio"), speed, needed,
         )  # fmt: skip
 
     def trajectory(self) -> Trajectory | None:

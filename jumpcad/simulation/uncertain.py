@@ -20,7 +20,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.planar import touchdown
 from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
@@ -129,7 +129,7 @@ def uncertainty_of(robot: Robot, settings: Settings | None = None) -> Uncertaint
         return None
 
 
-@carried
+@decided_once
 def _as_made(robot: Robot) -> Uncertainty | None:
     return uncertainty_of(robot, Settings())
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.steps.assembly_order import ORDER, ROBOT, Move, Plan
 from jumpcad.transforms import Array, chained
@@ -52,7 +52,7 @@ class Step:
         )
 
 
-@carried
+@decided_once
 def assembly_steps(robot: Robot) -> tuple[Step, ...]:
     """Return the steps that a robot needs; everything on it is put on in exactly one of them."""
     left = list(visuals(robot))

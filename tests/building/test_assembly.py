@@ -67,7 +67,7 @@ def test_everything_bought_is_between_or_beside_the_plates(name: str) -> None:
     low, high = robot.layout.lateral.outside
     for item in robot.hardware:
         if item.body == BODY:
-            y = (item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3])[:, 1]
+            y = (item.shown_mesh.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3])[:, 1]
             assert low - 4.0 < y.min(), item.name
             assert y.max() < high + (8.0 if item.name == "sensor" else 4.0), item.name
 

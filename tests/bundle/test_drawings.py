@@ -201,7 +201,7 @@ def test_leads_end_at_the_pads_of_the_controller_in_their_order_from_the_usb_soc
     """From above with USB to the right, the row that is left with USB ahead lies in front, at the board's edge."""
     board = robot.electrical_parts.controller
     (item,) = (one for one in robot.hardware if one.name == "controller")
-    corners = item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
+    corners = item.shown_mesh.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
     (back, right, _), (front, left, _) = corners.min(axis=0), corners.max(axis=0)
     found = {end.pin: at for lead in leads_of(robot) for end, at in zip(lead.ends, lead.points_mm[[0, -1]], strict=True)
              if end.part == "controller"}  # fmt: skip

@@ -298,7 +298,7 @@ def test_the_block_under_the_motor_meets_the_plate_alone() -> None:
         turn = layout.motor_angle_rad
         axes = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
         for item in (one for one in robot.hardware if one.body == BODY):
-            points = item.look.copy().apply_transform(item.T_body_part).vertices
+            points = item.shown_mesh.copy().apply_transform(item.T_body_part).vertices
             outside = points[points[:, 1] < layout.lateral.right_plate[0] - 1e-3][:, ::2] - layout.motor_mm
             along = np.einsum("ij,nj->ni", axes, outside)
             if len(along):

@@ -171,7 +171,7 @@ def test_the_block_stops_half_a_millimetre_before_what_stands_beside_the_window(
                 layout.motor_mm[1] + sin * corners[:, 0] + cos * corners[:, 2],
             ])  # fmt: skip
             thing = replace(item, T_body_part=np.eye(4))
-            vars(thing)["look"] = SimpleNamespace(vertices=points)  # the mesh that is seen
+            vars(thing)["shown_mesh"] = SimpleNamespace(vertices=points)  # the mesh that is seen
             assert _prong_mm(replace(robot, hardware=(thing,))) == prong, (across, along, out, sign)
 
 
@@ -185,7 +185,7 @@ def test_sizes_are_those_of_the_parts() -> None:
     assert most - least == pytest.approx(0.3)
     rod = next(item for item in robot.hardware if item.name == "leg_axle")
     between = float(np.diff(robot.layout.lateral.outside)[0]) - 2.0 * AXLE_FLOOR_MM  # of the plates' closed bores
-    assert least == pytest.approx(between - float(np.ptp(rod.look.vertices[:, 2])), abs=0.051)
+    assert least == pytest.approx(between - float(np.ptp(rod.shown_mesh.vertices[:, 2])), abs=0.051)
     assert found["motor_wire_mm"] == max(mm for *_, end, _, mm in wires(robot) if end.part == "motor")
     for name in ("front_spacer_right", "front_spacer_left", "spring_bushing_left", "cam_spacer_right"):
         assert found["tube_mm"][name] == pytest.approx(float(part(robot, name).mesh.extents[2]), abs=0.001)

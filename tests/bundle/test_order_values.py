@@ -102,7 +102,7 @@ def test_the_grooves_of_clips_are_ordered_where_the_rods_have_them() -> None:
     assert rod["groove_off_mm"] == 0.2  # half of the play of 0.2 mm that each clip has along the rod
     found = Counter[float]()
     for item in (item for item in robot.hardware if ", grooves " in item.article):
-        points = item.look.vertices
+        points = item.shown_mesh.vertices
         bottom = points[np.abs(np.hypot(points[:, 0], points[:, 1]) - 1.15) < 0.02, 2]
         middle = (points[:, 2].min() + points[:, 2].max()) / 2.0
         found[round(float(bottom[bottom > middle].min() - bottom[bottom < middle].max()), 1)] += 1
@@ -115,7 +115,7 @@ def test_bars_of_legs_are_glued_to_the_designs_lengths() -> None:
     """Two pieces and two cuts of 2 mm; a bar that is too long fills the play at an end, and fits."""
     robot = built("kenan-2.0", leg="carbon-strip-3x6")
     bars = order(robot)["bars"]
-    lengths = {round(float(np.ptp(item.look.vertices, axis=0).max()), 1) for item in robot.hardware
+    lengths = {round(float(np.ptp(item.shown_mesh.vertices, axis=0).max()), 1) for item in robot.hardware
                if item.name.endswith("_bar")}  # fmt: skip
     assert {length for _, length in bars["cut"]} == lengths
     assert 0.0 <= bars["long_mm"] - sum(lengths) - 2 * 2.0 < 10.0

@@ -12,6 +12,7 @@ from support.limits import default_limits
 from jumpcad.drive.cam_findings import LIMITS, SCALES, Limit, _found, missed
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, measure
+from jumpcad.findings import in_words
 
 CAM = default_limits().cam
 
@@ -36,17 +37,18 @@ def test_what_a_cam_misses_is_named_with_how_much_and_what_to_change() -> None:
     margin = 0.0 * SCALES[FIRST_ROWS] + 1.0
     names = [checked.name for checked in LIMITS]
     margin[names.index("cam_undercut")] = -0.5
-    words = missed(CAM, margin)
+    words, ways = missed(CAM, margin)
     assert "least convex radius" in words
-    assert "(0.5 mm short): a smaller bought.roller" in words
+    assert words.endswith("(0.5 mm short)")
+    assert in_words(ways) == "choose a smaller bought.roller"
     assert "pressure angle" not in words
     margin[names.index("cam_pressure_angle")] = -math.radians(5.0)
-    words = missed(CAM, margin)
+    words, ways = missed(CAM, margin)
     assert "(5° short)" in words
-    assert "lower compression_ratio, or lower safety.pressure_angle_reserve_deg" in words
+    assert "lower compression_ratio or safety.pressure_angle_reserve_deg" in in_words(ways)
     for undercut, worst in ((-0.8, "pressure angle"), (-0.95, "convex radius")):  # 5° are 0.87 of the scale
         margin[names.index("cam_undercut")] = undercut
-        words = missed(CAM, margin)
+        words, _ = missed(CAM, margin)
         assert min(("pressure angle", "convex radius"), key=words.index) == worst
 
 
@@ -60,7 +62,7 @@ def test_what_a_cam_misses_is_named_with_how_much_and_what_to_change() -> None:
         ("a wider bought.roller", {}, {"cam_width_mm": 1.1}, ("contact",)),
         ("a larger bought.roller", {}, {"roller_load_n": 1.1}, ("roller_load",)),
         ("a smaller bought.leg_bearing", {}, {"hub_radius_mm": 0.9}, ("hub",)),
-        ("a smaller body.stop_deg", {}, {"overshoot_rad": 0.9}, ("overshoot",)),
+        ("lower body.stop_deg", {}, {"overshoot_rad": 0.9}, ("overshoot",)),
     ],
 )  # fmt: skip
 def test_what_is_to_be_changed_makes_the_margin_greater(
@@ -74,5 +76,5 @@ def test_what_is_to_be_changed_makes_the_margin_greater(
     less, more = (np.minimum.reduceat(of, FIRST_ROWS) for of in rows)
     for number, checked in enumerate(LIMITS):
         if checked.name.removeprefix("cam_") in mends:
-            assert remedy in checked.remedy
+            assert remedy in in_words(checked.ways)
             assert more[number] > less[number], checked.name

@@ -151,7 +151,7 @@ def test_preloaded_springs_are_told_where_their_pin_would_have_to_be(preload_deg
 def test_springs_with_opposite_arms_fit_where_they_are_loaded_at_rest() -> None:
     """By as much preload as their pin is off, where the room stays; a robot keeps its limits, and has K·(q² - p²)/2."""
     opposite = load_catalogue().springs["9271K621"]
-    with pytest.raises(CannotBuildError, match=r"raise spring\.preload_deg, choose") as refused:
+    with pytest.raises(CannotBuildError, match=r"raise spring\.preload_deg, or choose") as refused:
         fitted(opposite)
     named = math.radians(0.01 - (refused.value.margin or 0.0))
     fitted(opposite, preload_rad=named)

@@ -27,7 +27,7 @@ class Part:
     quantity: int = 1
 
     @property
-    def look(self):
+    def shown_mesh(self):
         return self.mesh
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left, lying_on_right, upright
+from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right, lying_stack, upright
 from jumpcad.solids.outline import rectangle
 
 WEDGE = [(2.0, 5.0, rectangle((8.0, 3.0), (4.0, 1.5))), (5.0, 7.0, rectangle((2.0, 3.0), (1.0, 1.5)))]
@@ -14,7 +14,7 @@ WEDGE = [(2.0, 5.0, rectangle((8.0, 3.0), (4.0, 1.5))), (5.0, 7.0, rectangle((2.
 
 @pytest.mark.parametrize("face", ["left", "right"])
 def test_a_part_laid_and_placed_is_where_it_was_drawn(face: str) -> None:
-    stack, pose = laid(WEDGE, face)
+    stack, pose = lying_stack(WEDGE, face)
     mesh = Drawing("wedge", "body", stack, (Placement(BODY, pose),)).mesh.apply_transform(pose)
     assert stack.z0_mm == 0.0
     np.testing.assert_allclose(mesh.bounds, [[0.0, 2.0, 0.0], [8.0, 7.0, 3.0]], atol=1e-6)
@@ -24,8 +24,8 @@ def test_a_part_laid_and_placed_is_where_it_was_drawn(face: str) -> None:
 
 def test_the_named_face_lies_on_the_bed() -> None:
     """Left is where y is greatest."""
-    left, _ = laid(WEDGE, "left")
-    right, _ = laid(WEDGE, "right")
+    left, _ = lying_stack(WEDGE, "left")
+    right, _ = lying_stack(WEDGE, "right")
     assert left.slabs[0].region.area() == 6.0
     assert right.slabs[0].region.area() == 24.0
 
@@ -37,7 +37,7 @@ def test_poses_are_rigid_and_right_handed(pose: np.ndarray) -> None:
 
 
 def test_a_long_part_fits_the_bed_askew_only() -> None:
-    stack, pose = laid([(0.0, 6.0, rectangle((230.0, 10.0)))])
+    stack, pose = lying_stack([(0.0, 6.0, rectangle((230.0, 10.0)))])
     beam = Drawing("beam", "links", stack, (Placement(BODY, pose),))
     assert beam.fit_to_bed((250.0, 210.0, 200.0)).angle_deg % 90.0 == 0.0
     assert beam.fit_to_bed((250.0, 210.0, 200.0)).margin_mm == pytest.approx(20.0)

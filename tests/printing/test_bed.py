@@ -86,5 +86,5 @@ def test_what_is_advised_makes_the_part_smaller_or_the_rest_of_it_no_larger(long
 @pytest.mark.parametrize("part", ["body_plate_left", "electronics_tray_lower", "stop_bar"])
 def test_parts_of_the_body_are_smaller_in_a_smaller_body_or_with_smaller_electronics(part: str) -> None:
     bounds = np.array([[0.0, 0.0, 0.0], [400.0, 5.0, 5.0]])
-    with pytest.raises(CannotBuildError, match=r"a smaller d_coef, or a smaller battery or boards$"):
+    with pytest.raises(CannotBuildError, match=r"or d_coef, or choose a smaller battery or boards$"):
         require_bed(part, bounds, lambda: bounds[:, :2], BED)

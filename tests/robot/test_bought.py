@@ -27,7 +27,7 @@ def robot(request: pytest.FixtureRequest) -> Robot:
 
 def reach_mm(item: BoughtPart) -> np.ndarray:
     """Return the least and the greatest y of a bought part in the frame of its body."""
-    return item.look.copy().apply_transform(item.T_body_part).bounds[:, 1]
+    return item.shown_mesh.copy().apply_transform(item.T_body_part).bounds[:, 1]
 
 
 def test_a_rod_is_steel_of_the_length_in_its_name(robot: Robot) -> None:
@@ -83,7 +83,7 @@ def test_a_lock_nut_is_a_hexagon_of_din_985(assembled_robot: Robot) -> None:
     (nut,) = named(assembled_robot, "roller_nut")
     volume = (5.5**2 * math.sqrt(3.0) / 2.0 - math.pi / 4.0 * 3.0**2) * 4.0
     assert nut.shape.volume_mm3 == pytest.approx(volume, rel=0.01)
-    size = np.ptp(np.asarray(nut.look.vertices), axis=0)
+    size = np.ptp(np.asarray(nut.shown_mesh.vertices), axis=0)
     assert sorted(size) == pytest.approx([4.0, 5.5, 5.5 * 2.0 / math.sqrt(3.0)], abs=0.01)
 
 
@@ -127,7 +127,7 @@ def test_the_shafts_flat_lies_on_the_flat_of_the_pinions_bore(name: str) -> None
     lateral, shaft = robot.layout.lateral, next(item for item in robot.hardware if item.name == "motor_shaft")
     y = lateral.gears[-1][0] + 1.0
     pinion = region(cut(placed(robot, "motor_pinion"), y))
-    section = region(cut(shaft.look.copy().apply_transform(shaft.T_body_part), y))
+    section = region(cut(shaft.shown_mesh.copy().apply_transform(shaft.T_body_part), y))
     assert section.area == pytest.approx(math.pi * 1.5**2, rel=0.15)
     assert section.intersection(pinion).area < 0.02 * section.area
 

@@ -59,7 +59,7 @@ def test_axles_and_pins_are_beams_between_what_holds_them(name: str) -> None:
     left, right = (sum(plate) / 2.0 for plate in plates)  # the plates without what stands on them
     span, arm_n = left - right, spring.torque_nmm / spring.arms.lever_mm
     roller = next(item for item in robot.hardware if item.name == "roller")
-    cam = float(roller.look.copy().apply_transform(roller.T_body_part).bounds[:, 1].mean())
+    cam = float(roller.shown_mesh.copy().apply_transform(roller.T_body_part).bounds[:, 1].mean())
     end = robot.layout.lateral.spring_left[1] - spring.wire_mm / 2.0
     thickness = sections.thickness_mm
     (_, on_pin), _ = case.wound_forces_n
@@ -109,7 +109,7 @@ def test_the_thread_of_a_screw_that_is_an_axle_bears_less_than_its_shank() -> No
     case, lateral = LoadCase(robot), robot.layout.lateral
     plates = [sum(plate) / 2.0 for plate in (lateral.left_plate, lateral.right_plate)]
     screw = next(item for item in robot.hardware if item.name == "leg_axle")
-    points = screw.look.copy().apply_transform(screw.T_body_part).bounds[:, 1]
+    points = screw.shown_mesh.copy().apply_transform(screw.T_body_part).bounds[:, 1]
     thread = points[0] + SCREW_THREAD_MM  # its end towards the head, which is on the left
     spring = robot.layout.drive.spring
     pin = spring.torque_nmm / spring.arms.lever_mm * (lateral.spring_right[0] + spring.wire_mm / 2.0 - plates[1])

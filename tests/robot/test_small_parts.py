@@ -43,7 +43,7 @@ def test_the_rollers_screw_clears_the_cam_gear_with_all_play_against_it(name: st
     shoulder = levels[levels < gear[0]].max()
     gear_play = gear[0] - shoulder + cam[0] - spacer[1]
     screw = next(item for item in robot.hardware if item.name == "roller_screw")
-    head = screw.look.copy().apply_transform(screw.T_body_part).bounds[1, 1]
+    head = screw.shown_mesh.copy().apply_transform(screw.T_body_part).bounds[1, 1]
     assert head + leg_play < gear[0] - gear_play - 0.1
 
 

@@ -31,9 +31,9 @@ def plate_key(plate: PrintPlate, bed_mm: Sequence[float]) -> object:
     """Return what a picture of a plate on a bed shows: the meshes of its parts, where each lies, and the bed."""
     seen = hashlib.sha256(repr(tuple(bed_mm)).encode())
     for placed in plate.items:
-        look = placed.part.look
-        seen.update(repr((look.vertices.shape, look.faces.shape)).encode())
-        for numbers in (look.vertices, look.faces, placed.T_bed_part):
+        mesh = placed.part.shown_mesh
+        seen.update(repr((mesh.vertices.shape, mesh.faces.shape)).encode())
+        for numbers in (mesh.vertices, mesh.faces, placed.T_bed_part):
             seen.update(numbers.tobytes())
     return seen.digest()
 

@@ -7,7 +7,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.mass import combined
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body
-from jumpcad.parts.part import Drawing, Part, Placement, laid, lying_on_left, lying_on_right
+from jumpcad.parts.part import Drawing, Part, Placement, lying_on_left, lying_on_right, lying_stack
 from jumpcad.parts.purchased import bought
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle, stadium, union
@@ -53,7 +53,7 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
             "left",
         ),
     ):
-        stack, pose = laid(slabs, face)
+        stack, pose = lying_stack(slabs, face)
         drawings.append(Drawing(title, role, stack, (Placement(body, pose),)))
     ring = Stack.of([(0.0, 3.0, disc(7.2) - hole(3.1))])
     places = tuple(

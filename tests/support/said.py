@@ -8,7 +8,7 @@ from pydantic import BaseModel
 
 from jumpcad.catalogue import Battery, Board
 from jumpcad.design import Design
-from jumpcad.findings import Finding
+from jumpcad.findings import Change, Finding
 from jumpcad.workshop import Workshop
 
 SHOWN = {"rad": 180.0 / math.pi, "rad/s": 180.0 / math.pi, "N·m": 1000.0}
@@ -26,12 +26,12 @@ def said(message: str, value: float) -> bool:
 
 @cache
 def keys() -> frozenset[str]:
-    """Return the names of a design's numbers and of a workshop's settings, with and without their section."""
+    """Return the names of a design's numbers, of a board's or a battery's, and of a workshop's settings in full."""
     found = {*Design.model_fields, *Battery.model_fields, *Board.model_fields}
     for section, field in Workshop.model_fields.items():
         if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
             for key in field.annotation.model_fields:
-                found |= {key, f"{section}.{key}"}
+                found.add(f"{section}.{key}")
     return frozenset(found)
 
 
@@ -45,10 +45,5 @@ def well_told(finding: Finding) -> bool:
 
 def ways(finding: Finding) -> list[tuple[str, float]]:
     """Return the numbers of a design that a remedy tells to lower or to raise, each with a factor that does so."""
-    told = re.findall(r"\b(lower|raise) ([\w.]+)(?:,? or (?!lower|raise)([\w.]+))?", finding.remedy)
-    return [
-        (name, 0.97 if way == "lower" else 1.03)
-        for way, *names in told
-        for name in names
-        if name in Design.model_fields
-    ]
+    changes = [one for one in finding.ways if isinstance(one, Change) and one.key in Design.model_fields]
+    return [(one.key, 1.0 + 0.03 * one.direction) for one in changes if one.direction]

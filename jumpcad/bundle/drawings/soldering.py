@@ -6,7 +6,7 @@ from typing import Any
 from jumpcad.electronics.nets import AT, Terminal, Wiring
 from jumpcad.files.rendering import fill
 from jumpcad.robot.electronics.leads import OWN_LEGS
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 
 PITCH_MM, WIDE_MM, TOP_MM, BESIDE_MM, FREE_MM = 7.0, 46.0, 18.0, 80.0, 20.0
 ROW_MM, TRACK_MM, GAP_MM, BODY_MM = 9.0, 3.0, 15.0, (22.0, 4.0)
@@ -16,7 +16,7 @@ CONTROLLER = "controller"
 Point = tuple[float, float]
 
 
-@carried
+@decided_once
 def soldering_svg(robot: Robot) -> str:
     """Return the drawing; empty where nothing is soldered so, or where the board's sides are not known."""
     board, wiring = robot.electrical_parts.controller, robot.wiring

@@ -151,7 +151,7 @@ def _prong_mm(robot: Robot) -> float:
     axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     reach, width = (window[1] + PRONG_ENDS_MM) / 2.0 + PRONG_FREE_MM, window[0] / 2.0 + PRONG_MM[1]
     for item in (item for item in robot.hardware if item.body == BODY):
-        points = item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
+        points = item.shown_mesh.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
         outside = (points[points[:, 1] < plate - ROUND_OFF_MM][:, ::2] - layout.motor_mm) @ axes
         if not len(outside):
             continue

@@ -14,7 +14,7 @@ from jumpcad.electronics.nets import LOWER_OHM, Wiring
 from jumpcad.electronics.supply import boards_beside_a
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.leads import lead_lengths
-from jumpcad.robot.robot import Robot, carried
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.stop.limits import free_release_j
 
 STORED_V = 3.8
@@ -32,7 +32,7 @@ BOX_FREE_MM = 8.0
 """Between a box on which a robot lies and its cage, and from the hoops down to the table; judgement."""
 
 
-@carried
+@decided_once
 def operation_values(robot: Robot) -> dict[str, Any]:
     """Return articles, currents (mA), voltages (V), times (s, ms) and energies (J) by the names that templates use."""
     workshop, train, cam = robot.workshop, robot.layout.drive.train, robot.layout.drive.cam

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from jumpcad.dimensions import ROLLER_WASHER_MM
-from jumpcad.findings import Basis, Finding, at_most
+from jumpcad.findings import Basis, Finding, Ways, at_most, choose, higher, lower
 from jumpcad.robot.load_case import LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 from jumpcad.strength.axles import SCREW_AREA_MM2, SCREW_YIELD_MPA, clipped_pins
@@ -19,6 +19,7 @@ ROLLER_SCREW_CORE_MM = 2.39
 ROLLER_SCREW_YIELD_MPA = 640.0
 """Property class 8.8, ISO 898-1."""
 BENDING = "32·M·d/(π·(d⁴ - b⁴)) ≤ yield stress/s (MPa), d diameter, b bore"
+SOFTER = lower("stiffness_nmm_per_deg", "compression_ratio")
 ROUND = (
     "bending of a round bar: Shigley 3-10; yield stress: templates/hardware/axles.toml, at most safety.steel_yield_mpa"
 )
@@ -115,11 +116,15 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     stress = pin_stress_mpa(layout.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
     allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
     yield stress_finding(
-        "roller_screw_strength", "the roller's screw, springs loaded", stress, allowed, "a narrower bought.roller"
+        "roller_screw_strength",
+        "the roller's screw, springs loaded",
+        stress,
+        allowed,
+        choose("a narrower", "bought.roller"),
     )
 
 
-def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) -> str:
+def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) -> Ways:
     """Return what to change for an axle or pin; where it is too weak, with sufficient figures.
 
     The stress falls with the cube of the diameter; the rate of the spring that is named is on the safe side.
@@ -127,24 +132,25 @@ def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) 
     bar, spring = case.bars[name], case.workshop.stock_spring
     share = max(stress_mpa / allowed_mpa, 1.0)
     needed = bar.yield_mpa * share
-    softer = "lower stiffness_nmm_per_deg or compression_ratio"
+    softer = SOFTER
     if spring is not None:  # the design's stiffness counts for springs made to order alone
         rate = spring.rate_nmm_per_deg / share**2  # a softer spring changes cam and gears too, so that less is gained
-        softer = f'a bought.spring of {rate:.1f} N·mm/° at most, or "" for softer ones made to order'
+        softer = (f'a bought.spring of {rate:.1f} N·mm/° at most, or "" for softer ones made to order',)
     if share == 1.0:
-        return f"a stronger bought.axle or larger bought.axle_mm, or {softer}"
+        return (*choose("a stronger", "bought.axle"), *higher("bought.axle_mm"), *softer)
     rods = case.workshop.catalogue.rods.values()
     strong = [rod.name for rod in rods if rod.yield_mpa >= needed and not rod.bore_share]
     kind = (
         "no stronger pins"
         if name in PINS
-        else f'bought.axle of {" or ".join(strong)} with retention = "plates"'
+        else f'bought.axle of {" or ".join(strong)} with bought.retention = "plates"'
         if strong
         else "no shipped rod"
     )
     return (
         f"{needed:.0f} MPa yield stress ({kind}), {_thicker(case, name, share)}a span between the plates shorter by "
-        f"{100.0 * (1.0 - 1.0 / share):.0f} % (a shorter motor, a narrower battery or board), or {softer}"
+        f"{100.0 * (1.0 - 1.0 / share):.0f} % (a shorter motor, a narrower battery or board)",
+        *softer,
     )
 
 
@@ -191,7 +197,7 @@ def _fatigue(case: LoadCase) -> Iterator[Finding]:
         "spring_fatigue", spring.stress_mpa, allowed, "MPa",
         f"the springs' wire: {spring.stress_mpa:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps; its life is "
         f"{'infinite' if math.isinf(lasts) else f'about {float(rounded):.0f} jumps'}",
-        "lower stiffness_nmm_per_deg or compression_ratio", "warning",
+        SOFTER, "warning",
     )  # fmt: skip
     limits = {name: pin_limit_mpa(bar.yield_mpa / YIELD_SHARE, safety.jumps) for name, bar in case.bars.items()}
     name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / limits[item[0]])
@@ -199,7 +205,7 @@ def _fatigue(case: LoadCase) -> Iterator[Finding]:
     yield at_most(
         "axle_fatigue", stress, allowed, "MPa",
         f"the {name.replace('_', ' ')}: {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
-        "raise bought.axle_mm with its bearings, or lower stiffness_nmm_per_deg or compression_ratio", "warning",
+        higher("bought.axle_mm", note="with its bearings") + SOFTER, "warning",
     )  # fmt: skip
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from jumpcad.dimensions import GRAVITY_M_S2, PAD_WALL_MM
-from jumpcad.findings import Basis, Finding, at_least, at_most
+from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
 from jumpcad.robot.cage.place import BAR_MM, HORN_MM, HORN_MORE_MM, HORN_SIZE_MM, LAP_MM, Cage, ground, plate_ends_mm
 from jumpcad.robot.cage.strength import (
     FALLS,
@@ -81,7 +81,7 @@ BASIS = {
     ),
 }
 ELSEWHERE = "change cage.front_ahead_mm, cage.rear_behind_mm or the radii, or leave them 0"
-SOFTER = "another cage.rod, or a larger cage.rear_radius_mm or cage.front_radius_mm"
+SOFTER = choose("another", "cage.rod") + higher("cage.rear_radius_mm", "cage.front_radius_mm")
 
 
 def cage_findings(robot: Robot) -> Iterator[Finding]:
@@ -108,14 +108,14 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
     yield at_most(
         "cage_sag", sag, SAG_MM, "mm",
         f"a hoop of {most:.0f} mm gives by {sag:.1f} mm under half of the robot; {SAG_MM:g} mm are allowed",
-        "a thicker cage.rod, or a smaller cage.rear_radius_mm or cage.front_radius_mm",
+        choose("a thicker", "cage.rod") + lower("cage.rear_radius_mm", "cage.front_radius_mm"),
     )  # fmt: skip
     height = robot.workshop.cage.bar_mm
     stress = bar_mpa(rod, least, BAR_MM, height)
     yield at_most(
         "cage_bar", stress, CREEP_MPA, "MPa",
         f"cross bars {BAR_MM:g} x {height:g} mm under their rods: {stress:.1f} of {CREEP_MPA:g} MPa",
-        "raise cage.bar_mm, or a thinner cage.rod",
+        higher("cage.bar_mm") + choose("a thinner", "cage.rod"),
     )  # fmt: skip
     forces = np.array([landing_n(rod, radius, energy) for radius in radii[:2]])
     stress = max(horn[0] * force for horn, force in zip(_horns(robot, cage), forces, strict=True))
@@ -124,7 +124,7 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
     yield at_most(
         "cage_horn", stress, allowed, "MPa",
         f"horns of the body plates at a landing on a hoop: {stress:.1f} of {allowed:.1f} MPa",
-        "raise body.plate_mm, or lower cage.front_ahead_mm",
+        higher("body.plate_mm") + lower("cage.front_ahead_mm"),
     )  # fmt: skip
     yield from fall_findings(robot)
     free, above = _free_mm(robot.layout, cage), _above_mm(robot.layout, cage)
@@ -176,7 +176,7 @@ def fall_findings(robot: Robot, hits_j: Mapping[tuple[str, str], float] | None =
             f"cage_{way}", hit, bear, "J",
             f"cage_bar_{name} may land {'on an end' if way == 'side' else f'from {way}'} with {hit:.2f} J; its "
             f"{'hoop and horns' if way == 'side' else 'horns'} bear {bear:.2f} J",
-            "let it land on grass, a mat or a carpet, or raise body.plate_mm", "warning",
+            ("let it land on grass, a mat or a carpet", *higher("body.plate_mm")), "warning",
         )  # fmt: skip
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from jumpcad.catalogue import CageRod
 from jumpcad.dimensions import PAD_WALL_MM
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import higher, lower
 from jumpcad.robot.layout import Layout, moving_obstacles
 from jumpcad.robot.space.room import EVERYWHERE, Obstacle, clearance
 from jumpcad.transforms import Array, ByValue, chained, direction, pose_at
@@ -261,8 +262,8 @@ def _hoop(
         key = f"cage.{name}_radius_mm"
         raise CannotBuildError(
             f"{key} = {radius:g}: cage_bar_{name} reaches {half:.0f} mm to either side, and {needed:.0f} mm are needed "
-            f"beyond the plates: raise {key}, or lower cage.arc_deg",
-            "cage_clear", half - needed,
+            f"beyond the plates",
+            "cage_clear", half - needed, ways=higher(key) + lower("cage.arc_deg"),
         )  # fmt: skip
     rotation = np.array(
         [[0.0, math.sin(lean), math.cos(lean)], [1.0, 0.0, 0.0], [0.0, math.cos(lean), -math.sin(lean)]]

@@ -9,6 +9,7 @@ import numpy as np
 
 from jumpcad.catalogue import Component
 from jumpcad.dimensions import CLEAR_MM, TRAY_MM
+from jumpcad.findings import higher
 from jumpcad.robot.electronics.place import TAPE_MM, Electronics, Side
 from jumpcad.robot.space.lateral import Lateral
 from jumpcad.robot.space.places import best_place, grid_candidates
@@ -96,7 +97,7 @@ def _near(wanted: Array, obstacles: list[Obstacle], half: tuple[float, float], y
     places = places[places[:, 1] > half[1]]  # above the pivots' line, where the plates are
     index = best_place(
         what, obstacles, places, (half[0] + CLEAR_MM / 2.0, half[1] + CLEAR_MM / 2.0), 0.0, y,
-        lambda p: np.linalg.norm(p - wanted, axis=1), "raise d_coef or carrying_link_mm (a longer body)",
+        lambda p: np.linalg.norm(p - wanted, axis=1), higher("d_coef", "carrying_link_mm", note="a longer body"),
     )  # fmt: skip
     return np.asarray(places[index])
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from jumpcad.findings import Basis, Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most, choose, higher
 from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
 
@@ -33,5 +33,5 @@ def holding_findings(robot: Robot) -> Iterator[Finding]:
         "electronics_hold", loads[worst], allowed, "N",
         f"at a landing of {acceleration:.0f} m/s² the {worst} pulls with {loads[worst]:.1f} N on its {what}, which "
         f"holds {allowed:.1f} N",
-        "raise safety.landing_stop_mm (a softer floor), or choose a lighter bought.battery",
+        higher("safety.landing_stop_mm", note="a softer floor") + choose("a lighter", "bought.battery"),
     )  # fmt: skip

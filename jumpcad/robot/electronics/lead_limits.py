@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.findings import Basis, Finding, at_least
+from jumpcad.findings import Basis, Finding, at_least, higher
 from jumpcad.robot.electronics.leads import way_in
 from jumpcad.robot.layout import moving_obstacles
 from jumpcad.robot.robot import Robot
@@ -47,5 +47,5 @@ def lead_findings(robot: Robot) -> Iterator[Finding]:
         yield at_least(
             "wires_clear", gap, NEEDED_MM, "mm",
             f"the {role}'s leads pass {far}{gap:.1f} mm from what moves; {NEEDED_MM:g} mm are needed",
-            "raise d_coef or carrying_link_mm (a longer body)",
+            higher("d_coef", "carrying_link_mm", note="a longer body"),
         )  # fmt: skip

@@ -3,6 +3,7 @@
 import numpy as np
 
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, STANDOFF_RADIUS_MM
+from jumpcad.findings import higher
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.space.places import best_place, grid_candidates
 from jumpcad.robot.space.room import EVERYWHERE, Obstacle, box_obstacle, disc
@@ -32,8 +33,8 @@ def tray_place(obstacles: list[Obstacle], electronics: Electronics, l1_mm: float
     index = best_place(
         "battery and electronics", obstacles, places + np.array([0.0, half[1]]), half, 0.0, inside,
         lambda p: np.abs(p[:, 0] - 0.5 * l1_mm) + HEIGHT_COST * np.abs(p[:, 1] - half[1]),
-        "raise d_coef or carrying_link_mm (a longer body), or choose a smaller battery or smaller boards: "
-        f"{electronics.names} take {electronics.length_mm:.1f} x {electronics.height_mm:.1f} mm",
+        (*higher("d_coef", "carrying_link_mm", note="a longer body"), "choose a smaller battery or smaller boards: "
+         f"{electronics.names} take {electronics.length_mm:.1f} x {electronics.height_mm:.1f} mm"),
     )  # fmt: skip
     return np.asarray(places[index])
 
@@ -65,7 +66,7 @@ def standoff_places(
         index = best_place(
             "standoffs", [*obstacles, *taken], places, (STANDOFF_RADIUS_MM, STANDOFF_RADIUS_MM), 0.0, inside,
             lambda p, target=target: np.linalg.norm(p - target, axis=1),  # type: ignore[misc]
-            "raise carrying_link_mm",
+            higher("carrying_link_mm"),
         )  # fmt: skip
         found.append(places[index])
     return tuple(found)

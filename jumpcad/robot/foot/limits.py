@@ -4,7 +4,7 @@ import numpy as np
 
 from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, STOP_PAD_MM
 from jumpcad.drive.socket import socket_half_mm
-from jumpcad.findings import Basis, Finding, at_least
+from jumpcad.findings import Basis, Finding, at_least, higher, lower
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.stop.place import TAB_MM
 from jumpcad.robot.train.motor_socket import ear_places, motor_box
@@ -43,7 +43,7 @@ def ground_findings(robot: Robot) -> list[Finding]:
         at_least(
             "ground_clearance", clearance, needed, "mm",
             f"least height of {name} above the ground: {clearance:.1f} mm; {needed:g} mm are needed",
-            "lower compression_ratio, or raise rest_angle_deg",
+            lower("compression_ratio") + higher("rest_angle_deg"),
         )
     ]  # fmt: skip
 

@@ -59,9 +59,9 @@ class PrintedPad:
         return to_trimesh(self.item.solid)
 
     @property
-    def look(self) -> "trimesh.Trimesh":
+    def shown_mesh(self) -> "trimesh.Trimesh":
         """The mesh without fine detail, for pictures (mm)."""
-        return self.item.look
+        return self.item.shown_mesh
 
 
 def foot_pads(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:

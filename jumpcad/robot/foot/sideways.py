@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jumpcad.findings import Basis, Finding, at_least, at_most
+from jumpcad.findings import Basis, Change, Finding, Ways, at_least, at_most, higher, lower
 from jumpcad.mechanism.feasibility import centre_of_mass_on_foot_mm
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.parts.holes import HoleSizes
@@ -58,28 +58,28 @@ def sideways_findings(robot: Robot) -> list[Finding]:
     """Return `sideways_tipping`, the least margin at rest, loaded and at landing, and `lateral_balance` if asked."""
     worst = min(rolls(robot), key=lambda roll: roll.margin_deg)
     reserve = robot.workshop.safety.roll_reserve_deg
-    wider = "raise body.toe_half_width_mm"
+    wider: Ways = higher("body.toe_half_width_mm")
     if worst.margin_deg < reserve:
         width = _width_mm(robot, reserve)
-        wider = (
-            f"body.toe_half_width_mm = {width:.0f}" if width else "no body.toe_half_width_mm is enough: reduce the play"
-        )
+        wider = ("no body.toe_half_width_mm is enough: reduce the play",)
+        if width:
+            wider = (Change("body.toe_half_width_mm", "raise", value=round(width)),)
     found = [
         at_least(
             "sideways_tipping", worst.margin_deg, reserve, "°",
             f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
             f"takes {worst.play_deg:.1f}°; {worst.margin_deg:.1f}° are left, of {reserve:g}° at least",
-            f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm "
-            f"where that is below {EYE_MM:g}",
+            (*wider, *higher("e_coef", "ground_link_angle_deg", note="wider toes"),
+             *lower("fits.eye_mm", note=f"not below {EYE_MM:g}")),
         )
     ]  # fmt: skip
     if limit := robot.workshop.safety.lateral_offset_mm:
         offset = robot.lateral_offset_mm
-        side, way = ("left", "raise") if offset > 0.0 else ("right", "lower")
+        side, way = ("left", higher("body.right_mm")) if offset > 0.0 else ("right", lower("body.right_mm"))
         found.append(at_most(
             "lateral_balance", abs(offset), limit, "mm",
             f"the centre of mass lies {abs(offset):.1f} mm to the {side} of the leg; {limit:g} mm are allowed",
-            f'{way} body.right_mm, or seats.battery = "balance" and seats.boards = "balance"',
+            (*way, 'seats.battery = "balance" and seats.boards = "balance"'),
         ))  # fmt: skip
     return found
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
-from jumpcad.findings import Basis, Finding
+from jumpcad.findings import Basis, Finding, higher, lower
 from jumpcad.robot.foot.toes import SCREWS_MM, joint_height_mm
 from jumpcad.robot.load_case import IN_PLANE, INTERLAYER, ONE_TOE, PUSH_OFF, WEAKER, LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
@@ -17,7 +17,7 @@ from jumpcad.robot.sizing import TWIST_FACTOR, rail_middle_mm
 from jumpcad.strength.loads import rail_moment_nmm, rail_twist_nmm, toe_moment_nmm
 from jumpcad.strength.stress import STATIONS, VON_MISES, Beam, bar_shear_mpa, eye_stress_mpa, tapered_stress_mpa
 
-SOFTER = f"raise e_coef (longer toes), or {WEAKER}"
+SOFTER = (*higher("e_coef", note="longer toes"), *WEAKER)
 """A tip that is farther from the body's mass is met by less of it."""
 TIPS = "F largest load of both toes' tips in the push-off"
 BASIS = {
@@ -86,18 +86,18 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
     toes = case.toes_n
     toe, rail = sections.toe(case.shell), sections.rail(case.shell)
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, toes))
-    remedy = f"lower e_coef (shorter toes), or {WEAKER}"
-    yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, remedy, "toe")
+    ways = (*lower("e_coef", note="shorter toes"), *WEAKER)
+    yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, ways, "toe")
     stress = tapered_stress_mpa(rail, rail_moment_nmm(design, toes))
     yield stress_finding(
-        "rail_strength", "the foot's rails in bending at release", stress, case.allowable_mpa, remedy, "rail"
+        "rail_strength", "the foot's rails in bending at release", stress, case.allowable_mpa, ways, "rail"
     )
     middle = rail_middle_mm(sections.thickness_mm, sections.lug_thickness_mm)
     shear = bar_shear_mpa(rail_twist_nmm(design, toes, middle), sections.lug_thickness_mm, sections.rail_root_mm)
     yield stress_finding(
         "rail_twist", "the foot's rails twisted beside the ankle at release", VON_MISES * float(shear),
         case.workshop.material("links").strength_in_plane_mpa / TWIST_FACTOR,
-        f"lower ground_link_angle_deg, or {remedy}", "rail",
+        (*lower("ground_link_angle_deg"), *ways), "rail",
     )  # fmt: skip
     blow = case.toe_blow_n
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
@@ -106,11 +106,11 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
         stress = _toe_bar_mpa(case, blow * bar)
         yield stress_finding(
             "toe_bar_strength", "the bar across a toe's tip", stress, case.allowable_mpa,
-            "lower body.toe_half_width_mm", "toe",
+            lower("body.toe_half_width_mm"), "toe",
         )  # fmt: skip
     if case.layout.toes_apart:
         stress = _toe_joint_mpa(case, max(0.5 * toes, blow))
-        yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, remedy, "toe")
+        yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, ways, "toe")
 
 
 def _toe_bar_mpa(case: LoadCase, moment_nmm: float) -> float:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.findings import Basis, Finding, at_most, limit
+from jumpcad.findings import Basis, Finding, at_most, choose, limit
 from jumpcad.robot.leg.bars import BarPlace
 from jumpcad.robot.leg.drawing import front_bar_place, leg_bar_place
 from jumpcad.robot.leg.strength import (
@@ -22,7 +22,7 @@ from jumpcad.robot.leg.strength import (
 )
 from jumpcad.robot.load_case import IN_PLANE, LANDING, ONE_TOE, LoadCase, stress_finding
 
-OTHER = 'a stronger bought.leg, or bought.leg = ""'
+OTHER = (*choose("a stronger", "bought.leg"), 'bought.leg = ""')
 BED = "a rigid bar on an elastic bed: judgement, jumpcad/robot/leg/strength.py"
 GOODWINDS = "strengths of the bar: Goodwinds, technical material specifications"
 BASIS = {
@@ -77,7 +77,7 @@ def leg_bar_findings(case: LoadCase) -> Iterator[Finding]:
     stress = max(first.pressure_mpa(at_mouth, across), first.wall_mpa(at_mouth, across), first.bending_mpa(at_floor))
     yield stress_finding(
         "leg_socket_strength", "the main leg's socket around its bar", stress, case.allowable_mpa,
-        f"{OTHER}, or a stronger material for the links",
+        (*OTHER, "a stronger material for the links"),
     )  # fmt: skip
     ends = [Socket(bar, place.far_floor_mm - place.far_mouth_mm, 0.0, 0.0, 0.0) for place in (leg, front)]
     pulls = (axial, max(case.front_n, case.landing_n))

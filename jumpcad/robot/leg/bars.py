@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from jumpcad.catalogue import LegBar
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import higher
 
 SOCKET_HEIGHTS = 5.0
 """Length of the socket that carries the leg's bending moment, in heights of the bar; judgement: pultruded carbon has
@@ -52,7 +53,8 @@ def bar_place(what: str, bar: LegBar, first_mm: float, least_mouth_mm: float, la
     if far - mouth < FREE_MM:
         raise CannotBuildError(
             f"bought.leg = {bar.name!r}: {far - mouth:.1f} mm of the {what} are free between the bar's sockets; "
-            f'{FREE_MM:g} mm are needed: bought.leg = "", a larger carrying_link_mm, or a lower bar',
+            f"{FREE_MM:g} mm are needed",
             "leg_bar", far - mouth - FREE_MM,
+            ways=('bought.leg = ""', *higher("carrying_link_mm"), "choose a lower bar"),
         )  # fmt: skip
     return BarPlace(bar, first_mm, mouth, far, last_mm)

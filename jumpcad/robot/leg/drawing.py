@@ -10,7 +10,7 @@ import numpy as np
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, OVERHANG_LINES, STOP_PAD_MM
 from jumpcad.mechanism.model import FRONT_LINK, MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Drawing, Placement, laid
+from jumpcad.parts.part import Drawing, Placement, lying_stack
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.leg.bars import BarPlace, bar_place
 from jumpcad.solids.outline import Region, disc, filleted, hole, rectangle, stadium, tapered_bar, union
@@ -61,13 +61,13 @@ def main_leg(layout: Layout, workshop: Workshop) -> list[Drawing]:
     hub = holes.hub_slabs(-half, half)
     if place is None:
         whole = filleted(union([inner, outer]), FILLET_MM) - union([eye, *holed])
-        stack, pose = laid((y0, y1, whole - region) for y0, y1, region in hub)
+        stack, pose = lying_stack((y0, y1, whole - region) for y0, y1, region in hub)
         return [Drawing("main_leg", "links", holes.chamfered(stack), (Placement(MAIN_LEG, pose),))]
     lever_end = filleted(inner, FILLET_MM) - union(holed)
-    stack, pose = laid((y0, y1, lever_end - region) for y0, y1, region in hub)
+    stack, pose = lying_stack((y0, y1, lever_end - region) for y0, y1, region in hub)
     first = _socketed(stack, place, holes, half)
     far = filleted(outer, FILLET_MM) - eye - _before(place.far_mouth_mm)
-    stack, end_pose = laid([(-half, half, far)])
+    stack, end_pose = lying_stack([(-half, half, far)])
     last = _socketed(stack, place, holes, half)
     return [
         Drawing("main_leg", "links", holes.chamfered(first), (Placement(MAIN_LEG, pose),)),
@@ -91,9 +91,9 @@ def front_link(layout: Layout, workshop: Workshop) -> Drawing:
     bore, place = holes.eye(layout.axle_mm), front_bar_place(layout, holes)
     region = filleted(outline, FILLET_MM) - union([hole(bore), hole(bore, eye)])
     if place is None:
-        stack, pose = laid([(-half, half, region)])
+        stack, pose = lying_stack([(-half, half, region)])
         return Drawing("front_link", "links", holes.chamfered(stack), (Placement(FRONT_LINK, pose),))
-    stack, pose = laid([(-half, half, region ^ _before(place.mouth_mm))])
+    stack, pose = lying_stack([(-half, half, region ^ _before(place.mouth_mm))])
     turned = np.diag([-1.0, 1.0, -1.0, 1.0])
     turned[0, 3] = length
     places = (Placement(FRONT_LINK, pose), Placement(FRONT_LINK, turned @ pose))

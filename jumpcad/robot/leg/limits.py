@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
-from jumpcad.findings import Basis, Finding, at_most, limit
+from jumpcad.findings import Basis, Finding, at_most, choose, higher, limit, lower
 from jumpcad.robot.leg import bar_limits
 from jumpcad.robot.load_case import IN_PLANE, LANDING, PUSH_OFF, WEAKER, LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
@@ -81,7 +81,7 @@ def _leg(case: LoadCase) -> Iterator[Finding]:
     stress = bored_stress_mpa(torque, sections.thickness_mm, hub, holes.hub_bore_mm)
     yield stress_finding(
         "hub_strength", "main leg beside its hub's bore, springs loaded", stress, case.allowable_mpa,
-        f"a smaller bought.leg_bearing, or {WEAKER}", "leg",
+        choose("a smaller", "bought.leg_bearing") + WEAKER, "leg",
     )  # fmt: skip
     lever = Beam(
         sections.thickness_mm, np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS), case.shell
@@ -116,7 +116,7 @@ def _front_link(case: LoadCase) -> Iterator[Finding]:
     yield at_most(
         "front_link_buckling", case.landing_n, allowed, "N",
         f"front link under the whole landing force: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
-        "shorten the front link (c_coef, carrying_link_mm), or raise landing_stop_mm with softer ground",
+        lower("c_coef", "carrying_link_mm") + higher("safety.landing_stop_mm", note="softer ground"),
         grows="front",
     )  # fmt: skip
 

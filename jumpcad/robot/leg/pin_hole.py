@@ -10,6 +10,7 @@ import numpy as np
 
 from jumpcad.dimensions import CLEAR_MM, PIN_HOLE_EDGE_MM
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import higher, lower
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot.space.lateral import Lateral
 from jumpcad.robot.space.room import Obstacle, clearance, disc, shortfall
@@ -83,8 +84,8 @@ def pin_hole(
             blocker = min(others, key=lambda one: room_mm([one]))
             raise CannotBuildError(
                 f"no way for the leg's springs' pin through the left plate: {shortfall(room)} too little beside the "
-                f"{blocker.name}: raise d_coef, or take a smaller spring (lower stiffness_nmm_per_deg, or another "
-                "bought.spring)",
+                f"{blocker.name}",
                 "pin_way", room,
+                ways=higher("d_coef") + lower("stiffness_nmm_per_deg", note="a smaller spring"),
             )  # fmt: skip
     return found

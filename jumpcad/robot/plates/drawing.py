@@ -9,7 +9,7 @@ from jumpcad.dimensions import MOTOR_CLAMP_MM, TAB_MM, TRAY_MM
 from jumpcad.drive.socket import window_mm
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Drawing, Face, Placement, laid
+from jumpcad.parts.part import Drawing, Face, Placement, lying_stack
 from jumpcad.robot.cage.drawing import horn_openings, horns
 from jumpcad.robot.cage.place import HORN_MORE_MM, Cage
 from jumpcad.robot.electronics.fittings import fitting_openings
@@ -110,11 +110,11 @@ def _drawing(
     covered: Region | None = None,
 ) -> Drawing:
     """Lay a plate outside down and engrave its label where its face, the first slab, has room and nothing covers it."""
-    stack, pose = laid(slabs, face)
+    stack, pose = lying_stack(slabs, face)
     if label:
         bare = slabs[0][2] if covered is None else slabs[0][2] - covered
         letters = letters_on(label, bare, mirrored=face == "left")
         if letters is not None:
-            cut, _ = laid([(*engraved_y, letters)], face)
+            cut, _ = lying_stack([(*engraved_y, letters)], face)
             stack = stack.minus(cut)
     return Drawing(name, "body", holes.chamfered(stack), (Placement(BODY, pose),))

@@ -1,6 +1,6 @@
 """Strength of the plates around axles and pins (N, mm, MPa)."""
 
-from jumpcad.findings import Basis, Finding
+from jumpcad.findings import Basis, Finding, higher
 from jumpcad.robot.load_case import IN_PLANE, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 
@@ -21,4 +21,4 @@ def seat_finding(robot: Robot) -> list[Finding]:
     worst = max(beam.plate_load_n / (seat + longer.get(name, 0.0)) for name, beam in case.beams.items())
     allowable = case.workshop.material("body").strength_in_plane_mpa / case.workshop.safety.printed_factor
     what, stress = "plates under axles and pins", worst / case.layout.axle_mm
-    return [stress_finding("plate_seat", what, stress, allowable, "raise body.plate_mm", "plate")]
+    return [stress_finding("plate_seat", what, stress, allowable, higher("body.plate_mm"), "plate")]

@@ -11,6 +11,7 @@ import numpy as np
 
 from jumpcad.catalogue import Component, Travel
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import choose, lower
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, lying_on_right
@@ -105,9 +106,9 @@ def _require_base(layout: Layout, holes: HoleSizes) -> None:
     if base < least:
         raise CannotBuildError(
             f"no room for the sensor's mount: the base of its switch is {base:.2f} mm outside the left plate, which is "
-            f"{plate:.1f} mm thick, {least:.2f} mm are needed: choose a thinner body.plate_mm, a stiffer material of "
-            "the plates, or a taller bought.sensor",
+            f"{plate:.1f} mm thick, {least:.2f} mm are needed",
             "sensor_mount", base - least,
+            ways=(*lower("body.plate_mm"), "a stiffer material of the plates", *choose("a taller", "bought.sensor")),
         )  # fmt: skip
 
 

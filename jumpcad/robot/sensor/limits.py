@@ -3,13 +3,13 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.findings import Basis, Finding, at_least, at_most
+from jumpcad.findings import Basis, Finding, at_least, at_most, higher, lower
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.sensor.place import SensorPlace, middle_mm
 
 RUN_ON_S = 0.06
 """How long the motor runs on after the sensor has opened (`bundle.firmware`)."""
-SCATTER = "seats.sensor_axial_mm (a better fit on the cam's axle)"
+SCATTER = lower("seats.sensor_axial_mm", note="a better fit on the cam's axle")
 TRAVEL = "travel of the plunger: data sheet, templates/hardware/electronics.toml; scatter: judgement"
 BASIS = {
     "sensor_press": Basis(
@@ -50,20 +50,20 @@ def _plunger(sensor: SensorPlace) -> Iterator[Finding]:
         "sensor_press", press, 0.0, "mm",
         f"at ready the land presses the sensor at least {press:.2f} mm beyond where it operates "
         f"({sensor.press_mm:.2f} +- {axial + travel.operating_tolerance_mm:.2f} mm), of 0 mm at least",
-        f"lower {SCATTER}, or choose a bought.sensor with more overtravel",
+        (*SCATTER, "choose a bought.sensor with more overtravel"),
     )  # fmt: skip
     deepest = travel.operating_mm - land + axial
     most = travel.operating_mm - travel.total_mm
     yield at_most(
         "sensor_overtravel", deepest, most, "mm",
         f"the land presses the sensor at most {deepest:.2f} mm beyond its operating position, of {most:.2f} mm",
-        f"lower {SCATTER}, or choose a bought.sensor with more overtravel",
+        (*SCATTER, "choose a bought.sensor with more overtravel"),
     )  # fmt: skip
     free = land + sensor.depth_mm - axial - travel.free_mm
     yield at_least(
         "sensor_free", free, 0.0, "mm",
         f"the groove leaves the sensor's plunger {free:.2f} mm free for the rest of the turn, of 0 mm at least",
-        f"lower {SCATTER}, or choose a bought.sensor with less travel",
+        (*SCATTER, "choose a bought.sensor with less travel"),
     )  # fmt: skip
 
 
@@ -75,7 +75,7 @@ def _angles(robot: Robot, sensor: SensorPlace) -> Iterator[Finding]:
         "sensor_ready", left, 0.0, "°",
         f"the sensor closes {drawn:.1f} +- {scatter:.1f}° of the cam before the drop; the motor stops in {stop:.1f}°, "
         f"which leaves {left:.1f}°, of 0° at least",
-        "raise seats.sensor_reserve_deg",
+        higher("seats.sensor_reserve_deg"),
     )  # fmt: skip
     speed = robot.layout.drive.train.cam_speed_rad_s
     opens, end = math.degrees(sensor.open_rad), math.degrees(2.0 * math.pi - robot.layout.drive.cam.law.lift_rad)
@@ -85,5 +85,5 @@ def _angles(robot: Robot, sensor: SensorPlace) -> Iterator[Finding]:
         "sensor_open", margin, 0.0, "°",
         f"the sensor opens {opens:.1f} +- {scatter:.1f}° after the drop begins; the motor stands {last:.1f}° after it"
         f" at the latest, before the next lift at {end:.1f}°, which leaves {margin:.1f}°, of 0° at least",
-        f"raise seats.sensor_reserve_deg, or lower {SCATTER}",
+        higher("seats.sensor_reserve_deg") + SCATTER,
     )  # fmt: skip

@@ -14,6 +14,7 @@ from jumpcad.catalogue import Component, Travel
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, PAD_WALL_MM
 from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import choose, higher
 from jumpcad.robot.space.lateral import Lateral
 from jumpcad.robot.space.places import TURN_STEPS, around, best_place
 from jumpcad.robot.space.room import Obstacle, box_obstacle, disc, shortfall
@@ -205,7 +206,7 @@ def sensor_place(
             best = best_place(
                 "sensor beside the cam gear", [*free, *kept, shaft], places, half, directions + math.pi / 2.0, y,
                 lambda p: np.linalg.norm(p - PLACE_WANTED_MM, axis=1),
-                "raise d_coef or carrying_link_mm, or choose a smaller bought.sensor",
+                higher("d_coef", "carrying_link_mm") + choose("a smaller", "bought.sensor"),
             )  # fmt: skip
         except CannotBuildError as found:
             refusal = refusal or found

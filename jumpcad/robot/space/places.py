@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Remedy
 from jumpcad.robot.space.room import GROUP, Cloud, Obstacle, clearance, shortfall
 from jumpcad.transforms import Array
 
@@ -50,14 +51,14 @@ def best_place(
     angles_rad: Array | float,
     y_mm: tuple[float, float],
     cost: Callable[[Array], Array],
-    remedy: str,
+    ways: Remedy,
 ) -> int:
     """Return the index of the cheapest candidate that collides with no obstacle.
 
     Raises
     ------
     CannotBuildError
-        If no candidate is free; it says by how much the best one collides, with what, and the remedy.
+        If no candidate is free; it says by how much the best one collides, with what, and the ways out.
     """
     order = np.argsort(cost(centres_mm), kind="stable")
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
@@ -82,6 +83,6 @@ def best_place(
     here, turn = centres_mm[best : best + 1], angles[best : best + 1]
     blocker = min(obstacles, key=lambda obstacle: clearance([obstacle], here, half_mm, turn, y_mm)[0])
     raise CannotBuildError(
-        f"no room for the {what}: {shortfall(free[best])} too little beside the {blocker.name}: {remedy}",
-        f"room_{what.replace(' ', '_')}", free[best],
+        f"no room for the {what}: {shortfall(free[best])} too little beside the {blocker.name}",
+        f"room_{what.replace(' ', '_')}", free[best], ways=ways,
     )  # fmt: skip

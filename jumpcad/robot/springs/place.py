@@ -17,6 +17,7 @@ from jumpcad.dimensions import (
 )
 from jumpcad.drive import TorsionSpring
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Remedy, higher, lower
 from jumpcad.robot.space.lateral import Lateral
 from jumpcad.robot.space.places import around, best_place
 from jumpcad.robot.space.room import Obstacle, bar, clearance, disc
@@ -42,8 +43,8 @@ PLATE_PINS_RAD = pin_directions_rad(PIN_STEPS_DEG[0])
 class NoPinRoomError(CannotBuildError):
     """Something stands where the springs want their pin; `free_rad` are directions in which nothing does."""
 
-    def __init__(self, message: str, free_rad: tuple[float, ...]) -> None:
-        super().__init__(message)
+    def __init__(self, message: str, free_rad: tuple[float, ...], ways: Remedy) -> None:
+        super().__init__(message, ways=ways)
         self.free_rad = free_rad
 
 
@@ -59,16 +60,16 @@ def spring_pin_place(obstacles: list[Obstacle], hub: Array, spring: TorsionSprin
     """
     half, radius = (spring.arms.pin_mm / 2.0,) * 2, spring.pin_radius_mm
     (place,) = places = around(hub, radius, np.array([spring.plate_pin_rad]))
-    remedy = "lower stiffness_nmm_per_deg (a smaller spring) or raise carrying_link_mm"
+    ways = lower("stiffness_nmm_per_deg", note="a smaller spring") + higher("carrying_link_mm")
     try:
-        best_place("spring pin", obstacles, places, half, 0.0, inside, lambda p: np.zeros(len(p)), remedy)
+        best_place("spring pin", obstacles, places, half, 0.0, inside, lambda p: np.zeros(len(p)), ways)
     except CannotBuildError as refusal:
         free: list[float] = []
         for step in PIN_STEPS_DEG:
             directions = np.array(pin_directions_rad(step))
             room = clearance(obstacles, around(hub, radius, directions), half, 0.0, inside)
             free = free or directions[room >= 0.0].tolist()
-        raise NoPinRoomError(str(refusal), tuple(free)) from None
+        raise NoPinRoomError(refusal.what, tuple(free), refusal.ways) from None
     return np.asarray(place)
 
 

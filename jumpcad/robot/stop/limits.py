@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
-from jumpcad.findings import Basis, Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most, choose, lower
 from jumpcad.mechanism.flight import Blow
 from jumpcad.robot.load_case import LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
@@ -23,7 +23,8 @@ from jumpcad.strength.stress import CREEP_MPA, Beam
 
 PAD_STRAIN = 0.5
 """Largest deflection of a pad over its thickness; judgement: rubber bumpers are compressed to half."""
-SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
+WEAKER = lower("stiffness_nmm_per_deg", "compression_ratio")
+SOFTER = choose("another", "body.stop_pad") + WEAKER
 
 BLOW = "F = 0.82·ω·√(k·I) the pad's peak force, ω and I rate and inertia of the leg at the stop, k the pad's stiffness"
 TWICE = "0.82 and twice the peak: judgement; impact: jumpcad/mechanism/flight.py"
@@ -74,17 +75,17 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
     case, blow, stop = load_case(robot), robot.stop_blow, robot.layout.stop
     bar, plates, leg = _stresses_mpa(robot, case, BLOW_FACTOR * blow.force_n, BLOW_FACTOR * blow.torque_nm)
     links, body = (robot.workshop.material(role).strength_in_plane_mpa for role in ("links", "body"))
-    remedy = f"choose a softer body.stop_pad, or {SOFTER.partition(', or ')[2]}"
-    yield stress_finding("stop_strength", "the rest stop's bar at twice the impact force", bar, links, remedy, "stop")
-    yield stress_finding("stop_plates", "plates' ears at twice the impact force", plates, body, remedy, "plate")
-    yield stress_finding("stop_leg", "main leg at its heel, at twice the impact force", leg, links, remedy, "leg")
+    ways = choose("a softer", "body.stop_pad") + WEAKER
+    yield stress_finding("stop_strength", "the rest stop's bar at twice the impact force", bar, links, ways, "stop")
+    yield stress_finding("stop_plates", "plates' ears at twice the impact force", plates, body, ways, "plate")
+    yield stress_finding("stop_leg", "main leg at its heel, at twice the impact force", leg, links, ways, "leg")
     if (loaded_rad := robot.spring.preload_rad - stop.angle_rad) > 0.0:
         held_nm = robot.spring.stiffness_nm_per_rad * loaded_rad
         lasting = max(_stresses_mpa(robot, case, 1000.0 * held_nm / stop.radius_mm, held_nm))
         yield at_most(
             "stop_creep", lasting, CREEP_MPA, "MPa",
             f"plates, leg and rest stop under the springs' preload, which lasts: {lasting:.1f} of {CREEP_MPA:g} MPa",
-            "lower spring.preload_deg",
+            lower("spring.preload_deg"),
         )  # fmt: skip
     give, room = blow.give_mm, PAD_STRAIN * stop.pad.thickness_mm
     yield at_most(
@@ -100,7 +101,7 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
         "stop_clearance", degrees, room, "°",
         f"the leg turns {degrees:.1f}° beyond its stop at {math.degrees(stop.angle_rad):.1f}° past rest; the cam "
         f"leaves room for {room:.1f}°",
-        "choose a stiffer body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio",
+        choose("a stiffer", "body.stop_pad") + WEAKER,
     )  # fmt: skip
     yield _free_release(robot)
 

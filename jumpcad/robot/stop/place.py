@@ -13,6 +13,7 @@ import numpy as np
 from jumpcad.catalogue import Pad
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, STOP_EDGE_MM, STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import choose, higher, lower
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot.sizing import Sections
 from jumpcad.robot.space.room import Obstacle, box_obstacle, clearance, shortfall
@@ -140,9 +141,8 @@ def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float, gap_
         if angle <= least:
             raise CannotBuildError(
                 f"no rest stop: {missing} with the leg {math.degrees(angle + GIVE_ROOM_RAD):.1f}° past rest, which a "
-                f"stop at {LEAST_DEG:g}° and its pad's deflection need: lower rest_angle_deg, or raise d_coef or "
-                "c_coef",
-                "stop_reach", -short,
+                f"stop at {LEAST_DEG:g}° and its pad's deflection need",
+                "stop_reach", -short, ways=lower("rest_angle_deg") + higher("d_coef", "c_coef"),
             )  # fmt: skip
         angle = max(angle - math.radians(STEP_DEG), least)
 
@@ -178,7 +178,8 @@ def stop_place(
     if pad.thickness_mm < STOP_PAD_MIN_MM:
         raise CannotBuildError(
             f"body.stop_pad = {pad.name} is {pad.thickness_mm:g} mm thick; the rest stop needs at least "
-            f"{STOP_PAD_MIN_MM:g} mm: choose a thicker pad"
+            f"{STOP_PAD_MIN_MM:g} mm",
+            ways=choose("a thicker", "body.stop_pad"),
         )
     below = linkage.rest_rad + angle_rad
     heel = max(sections.leg_root_mm / 2.0, sections.eye_radius_mm) + HEEL_MM
@@ -194,9 +195,8 @@ def stop_place(
     room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate, known_mm)) - reserve_mm
     if not (room >= 0.0).any():
         raise CannotBuildError(
-            f"no room for the rest stop behind the main leg: {shortfall(room.max())} too little: lower "
-            "compression_ratio, or raise rest_angle_deg",
-            "stop_room", room.max(),
+            f"no room for the rest stop behind the main leg: {shortfall(room.max())} too little",
+            "stop_room", room.max(), ways=lower("compression_ratio") + higher("rest_angle_deg"),
         )  # fmt: skip
     best = int(np.argmax(room >= 0.0))
     return StopPlace(

@@ -17,7 +17,7 @@ from jumpcad.drive.dog import Dog
 from jumpcad.drive.gears import Gear
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left, lying_on_right
+from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right, lying_stack
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.sensor.place import GEAR_PLAY_MM, TRACK_WALL_MM, SensorPlace
 from jumpcad.robot.sizing import dog_inside_mm
@@ -57,7 +57,7 @@ def cam(layout: Layout, workshop: Workshop) -> Drawing:
         (y1, shoulder, disc(dog.outer_mm, centre) - bore),
         (shoulder, gear_y1, jaws.translate(centre)),
     ]
-    stack, pose = laid(slabs, "right")
+    stack, pose = lying_stack(slabs, "right")
     return Drawing("cam", "gears", holes.chamfered(stack), (Placement(BODY, pose),))
 
 

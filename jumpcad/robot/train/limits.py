@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from jumpcad.drive import cam_findings, release, spring, stock_spring, train
-from jumpcad.findings import Basis, Finding, Severity
+from jumpcad.findings import Basis, Finding, Severity, lower
 from jumpcad.robot.load_case import INTERLAYER, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 
@@ -33,9 +33,9 @@ def _dog(robot: Robot) -> Finding:
     case, gears = load_case(robot), robot.workshop.material("gears")
     stress = case.dog_stress_mpa(max(robot.layout.drive.cam.peak_torque_nm, robot.release.blow_nm))
     allowable = gears.strength_interlayer_mpa / robot.workshop.safety.printed_factor
-    remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
+    ways = (*lower("stiffness_nmm_per_deg", "compression_ratio"), "choose a stronger material for the gears")
     return stress_finding(
-        "cam_dog_strength", "the cam's dog, across its layers at release", stress, allowable, remedy, "dog"
+        "cam_dog_strength", "the cam's dog, across its layers at release", stress, allowable, ways, "dog"
     )
 
 

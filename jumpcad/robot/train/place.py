@@ -15,6 +15,7 @@ from jumpcad.dimensions import (
 from jumpcad.drive import Drive
 from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Remedy, higher
 from jumpcad.robot.space.lateral import Lateral
 from jumpcad.robot.space.places import best_place, ring_candidates
 from jumpcad.robot.space.room import Obstacle, box_obstacle, clearance, disc, shortfall
@@ -58,7 +59,7 @@ def train_places(
     stages, motor = drive.train.stages, drive.train.motor
     half = socket_half_mm(motor, ear_mm)
     body_y = (lateral.inside[0], lateral.gears[-1][0] - GAP_MM)
-    tip, remedy = stages[0].pinion.tip_radius_mm, _smaller(motor)
+    tip, ways = stages[0].pinion.tip_radius_mm, _smaller(motor)
     meshes_with = "cam gear" if len(stages) == 1 else "idler wheel"
 
     def motor_place(axis: Array, extra: list[Obstacle]) -> tuple[Array, float]:
@@ -66,11 +67,11 @@ def train_places(
         others = [obstacle for obstacle in obstacles + extra if obstacle.name != meshes_with]
         free = clearance(others, places, (0.0, 0.0), 0.0, lateral.gears[-1], tip) >= tip
         if not free.any():
-            raise CannotBuildError(f"no room for the pinion of {tip:.1f} mm radius on the motor: {remedy}")
+            raise CannotBuildError(f"no room for the pinion of {tip:.1f} mm radius on the motor", ways=ways)
         places, angles = places[free], angles[free]
         index = best_place(
             "motor", obstacles + extra, places, half, angles, body_y,
-            lambda p: np.linalg.norm(p - MOTOR_WANTED_MM, axis=1), remedy,
+            lambda p: np.linalg.norm(p - MOTOR_WANTED_MM, axis=1), ways,
         )  # fmt: skip
         return places[index], float(angles[index])
 
@@ -93,15 +94,15 @@ def train_places(
         if best is None or (cost, index) < best[:2]:
             best = (cost, index, place, angle)
     if best is None:
-        raise CannotBuildError(f"no room for the idler and the motor beside the cam: {remedy}")
+        raise CannotBuildError("no room for the idler and the motor beside the cam", ways=ways)
     _, index, place, angle = best
     return idlers[index], place, angle
 
 
-def _smaller(motor: Motor) -> str:
+def _smaller(motor: Motor) -> Remedy:
     return (
-        "raise d_coef or carrying_link_mm (a longer body), or allow a smaller motor than "
-        f"{motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
+        *higher("d_coef", "carrying_link_mm", note="a longer body"),
+        f"allow a smaller motor than {motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)",
     )
 
 

@@ -5,10 +5,11 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
+from jumpcad.building.growth import built_and_checked
 from jumpcad.design import PRINTED_BOUNDS, SEARCH_BOUNDS
-from jumpcad.drive.stock_spring import STIFFNESS
+from jumpcad.drive.stock_spring import SPRING, STIFFNESS
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding, errors
+from jumpcad.findings import Change, Finding, Remedy, errors, in_words
 from jumpcad.plural import counted
 from jumpcad.search.models import PrintedModel, RobotModel
 from jumpcad.search.space import Space
@@ -56,7 +57,7 @@ def why_rejected(trials: Sequence[Trial], space: Space, model: RobotModel) -> li
         its = [trial for trial in trials if (name, text) in _causes(trial)]
         message, remedy = _told(name, max(its, key=lambda one: one.evaluation.margins.get(name, 0.0)), model)
         met = ", ".join(_bounds(remedy, space, model))
-        parts = (message, remedy, f"move what keeps it from that: {met}" if met else "")
+        parts = (message, in_words(remedy), f"move what keeps it from that: {met}" if met else "")
         lines.append(f"{name}, {count} of {len(trials)}: {'; '.join(filter(None, parts))}")
     return lines
 
@@ -76,40 +77,44 @@ def _causes(trial: Trial) -> list[tuple[str, str]]:
     return [(name, said if name == CANNOT_BUILD else "") for name in trial.evaluation.reasons]
 
 
-def _told(name: str, trial: Trial, model: RobotModel) -> tuple[str, str]:
+def _told(name: str, trial: Trial, model: RobotModel) -> tuple[str, Remedy]:
     """Return what a design's refusal says, and its remedy, with a number where one is found for a printed robot."""
     from jumpcad.remedies import Remedies
 
-    evaluation, remedies = trial.evaluation, None
+    evaluation = trial.evaluation
     if evaluation.detail and evaluation.verdict != CANNOT_BUILD:  # it may have ended its worker
         return evaluation.detail, ""
+    found: Sequence[Finding] = ()
     if isinstance(model, PrintedModel):
         model = model.varied(trial.workshop) if trial.workshop else model
-        remedies = Remedies(trial.design, model.workshop or load_workshop())
-    if evaluation.detail:
-        refusal = CannotBuildError(evaluation.detail, name, evaluation.margins.get(name))
-        message, _, remedy = str(remedies.of_refusal(refusal) if remedies else refusal).rpartition(": ")
-        return message or remedy, remedy if message else ""
-    found: Sequence[Finding] = errors(model(trial.design).findings)  # a study keeps no texts
-    found = remedies.of_findings(found) if remedies else found
-    return next(((one.message, one.remedy) for one in found if one.name == name), ("", ""))
+        shop = model.workshop or load_workshop()
+        remedies = Remedies(trial.design, shop)
+        if evaluation.detail:
+            try:  # a study keeps no ways out
+                built_and_checked(trial.design, shop, "")
+            except CannotBuildError as refusal:
+                refusal = remedies.of_refusal(refusal)
+                return refusal.what, refusal.ways
+        found = remedies.of_findings(errors(model(trial.design).findings))
+    elif not evaluation.detail:
+        found = errors(model(trial.design).findings)
+    return next(((one.message, one.ways) for one in found if one.name == name), (evaluation.detail, ""))
 
 
-def _bounds(remedy: str, space: Space, model: RobotModel) -> Iterator[str]:
+def _bounds(remedy: Remedy, space: Space, model: RobotModel) -> Iterator[str]:
     """Yield the bounds that a remedy's number lies beyond; where it has none, those narrower than the usual ones."""
-    from jumpcad.remedies import DIRECTIONS, asked
-
     parameters = {one.name: one for one in space.parameters if not one.names}
     bounds = PRINTED_BOUNDS if isinstance(model, PrintedModel) else SEARCH_BOUNDS
     stock = model.workshop.stock_spring if isinstance(model, PrintedModel) and model.workshop else None
-    for word, key in asked(remedy):
-        if key == STIFFNESS and stock:
-            yield f"bought.spring = {stock.name}, whose stiffness it is"
+    for change in remedy:
+        if not isinstance(change, Change):
             continue
-        if (direction := DIRECTIONS[word]) and (one := parameters.pop(key, None)):
-            usual, up = bounds.get(key, one), direction > 0
+        key, up = change.key, change.way == "raise"
+        if stock and key in (STIFFNESS, SPRING):
+            yield f"bought.spring = {stock.name}, whose stiffness it is"
+        elif change.way in ("lower", "raise") and (one := parameters.pop(key, None)):
+            usual = bounds.get(key, one)
             end, value = (one.upper, usual.upper) if up else (one.lower, usual.lower)
-            if said := re.search(rf"{re.escape(key)}(?: to| =) ({NUMBERS.pattern})", remedy):
-                value = float(said[1].rstrip("."))
-            if direction * (value - end) > 0.0:
+            value = value if change.value is None else change.value
+            if (value > end) if up else (value < end):
                 yield f"{key} {('at most' if up else 'at least') if one.free else 'fixed at'} {end:g}"

@@ -125,9 +125,9 @@ def test_a_clevis_pin_is_the_shortest_from_stock_whose_split_pin_is_outside() ->
         assert split == pytest.approx(low + pin.end_mm + np.array([-0.5, 0.5]) * pin.cotter_mm)
         assert split[1] <= -face - 0.2 + 1e-6
         item = things[f"{name}_split_pin"]
-        along, _, up = np.ptp(item.look.copy().apply_transform(item.T_body_part).bounds, axis=0)
+        along, _, up = np.ptp(item.shown_mesh.copy().apply_transform(item.T_body_part).bounds, axis=0)
         assert (along > up) == (name != "leg_spring_pin")  # along the foot, and across the leg
         assert max(along, up) == pytest.approx(5.0, abs=0.05)
-        x, y = item.look.vertices[:, :2].T
+        x, y = item.shown_mesh.vertices[:, :2].T
         bent = np.abs(y) > pin.cotter_mm / 2.0 + 0.01
         assert np.hypot(x, y)[bent].min() == pytest.approx(1.5 + 0.1, abs=0.01)  # beside the pin, not in it

@@ -19,7 +19,7 @@ def level(mesh: trimesh.Trimesh, z_mm: float) -> shapely.Geometry:
 
 def box_of(robot: Robot, name: str) -> np.ndarray:
     item = next(one for one in robot.hardware if one.name == name)
-    return item.look.copy().apply_transform(item.T_body_part).bounds
+    return item.shown_mesh.copy().apply_transform(item.T_body_part).bounds
 
 
 @pytest.fixture(scope="module", params=[lambda: built("kenan-2.0"), geared], ids=["one cell", "two pairs"])

@@ -11,7 +11,7 @@ from jumpcad.robot.robot import Robot
 
 def points(robot: Robot, name: str) -> np.ndarray:
     item = next(one for one in robot.hardware if one.name == name)
-    return item.look.copy().apply_transform(item.T_body_part).vertices
+    return item.shown_mesh.copy().apply_transform(item.T_body_part).vertices
 
 
 def cut_mm(robot: Robot, name: str) -> tuple[float, float]:

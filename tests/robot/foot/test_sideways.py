@@ -131,7 +131,7 @@ def test_narrow_toes_tip_and_bars_across_them_help() -> None:
     narrow = build(NARROW, workshop(toe_half_width_mm=0.0))
     (finding,) = sideways_findings(narrow)
     assert (finding.name, finding.severity) == ("sideways_tipping", "error")
-    advised = float(finding.remedy.partition("body.toe_half_width_mm = ")[2].partition(",")[0])
+    advised = float(finding.remedy.partition("raise body.toe_half_width_mm to ")[2].partition(",")[0])
     (held,) = sideways_findings(build(NARROW, workshop(toe_half_width_mm=advised)))
     assert held.severity == "info", "the width that is advised holds"
     assert advised < 45.0

@@ -42,7 +42,7 @@ def pieces(found: Robot, body: str) -> dict[str, np.ndarray]:
                 assert mesh.is_watertight
                 sizes[f"{part.name}{number}"] = mesh.bounds
     bar = next(item for item in found.hardware if item.name == f"{body}_bar")
-    sizes["bar"] = bar.look.copy().apply_transform(bar.T_body_part).bounds
+    sizes["bar"] = bar.shown_mesh.copy().apply_transform(bar.T_body_part).bounds
     return sizes
 
 

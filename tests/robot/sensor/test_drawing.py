@@ -52,6 +52,6 @@ def test_the_plate_leaves_the_case_a_gap_and_has_material_around_it(robot: Robot
 
 def test_the_switch_stands_in_its_mount_with_its_plunger_inwards(robot: Robot) -> None:
     sensor, item = robot.layout.sensor, next(one for one in robot.hardware if one.name == "sensor")
-    bounds = item.look.copy().apply_transform(item.T_body_part).bounds
+    bounds = item.shown_mesh.copy().apply_transform(item.T_body_part).bounds
     assert bounds[1, 1] == pytest.approx(robot.layout.lateral.left_plate[1] + sensor.base_mm)
     assert np.ptp(bounds[:, 1]) == pytest.approx(sensor.needs.travel.total_mm)

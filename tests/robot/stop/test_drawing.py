@@ -20,7 +20,7 @@ def test_the_pad_lies_in_its_seat_before_the_bar(robot: Robot) -> None:
     """Glued to the seat's floor, 0.02 mm before it, it stands out towards the leg by its thickness less 0.6 mm."""
     bar = part(robot, "stop_bar")
     item = next(one for one in robot.hardware if one.name == "stop_pad")
-    pad = item.look.copy().apply_transform(np.linalg.inv(bar.placements[0].T_body_part) @ item.T_body_part)
+    pad = item.shown_mesh.copy().apply_transform(np.linalg.inv(bar.placements[0].T_body_part) @ item.T_body_part)
     thick = robot.layout.stop.pad.thickness_mm
     assert pad.bounds[:, 1] == pytest.approx([-0.6, thick - 0.6], abs=2e-3)
     assert pad.bounds[:, 2] == pytest.approx([0.0, 8.0], abs=2e-3)

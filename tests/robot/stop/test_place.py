@@ -53,7 +53,9 @@ def test_the_stop_gives_way_to_what_is_there_and_says_what_misses(robot: Robot) 
         stop_place([replace(post, radius_mm=40.0)], *given)
     enough, thin = (stop.pad.model_copy(update={"thickness_mm": thickness}) for thickness in (1.5, 1.49))
     assert stop_place([], *given[:3], enough, *given[4:]).pad == enough
-    with pytest.raises(CannotBuildError, match=r"is 1\.49 mm thick; .* needs at least 1\.5 mm: choose a thicker pad"):
+    with pytest.raises(
+        CannotBuildError, match=r"is 1\.49 mm thick; .*at least 1\.5 mm: choose a thicker body.stop_pad"
+    ):
         stop_place([], *given[:3], thin, *given[4:])
 
 

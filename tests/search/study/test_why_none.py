@@ -69,7 +69,7 @@ def test_the_most_frequent_refusals_have_the_bound_that_a_cure_lies_beyond() -> 
     line = why_rejected(trials, space, model)[0]
     assert line.startswith("no_takeoff, 3 of 3: the robot stays on the ground: ")
     assert line.endswith("move what keeps it from that: compression_ratio at most 0.2")
-    cured = float(line.partition("compression_ratio to ")[2].split()[0])
+    cured = float(line.partition("compression_ratio to ")[2].split(",")[0])
     assert "no_takeoff" not in model(Design(**weak.model_dump() | {"compression_ratio": cured})).reasons
 
 
@@ -77,6 +77,5 @@ def test_refused_layouts_are_told_apart_by_what_they_say() -> None:
     texts = ["no room for a motor of 12 mm: raise d_coef", "no room for a motor of 9.5 mm: raise d_coef", "odd"]
     design = SMALL.to_design(PLACES[0])
     trials = [Trial("ga", 0, 0, design, Evaluation("cannot_build", detail=one), None, "m", 0.0) for one in texts]
-    lines = why_rejected(trials, Space.parse(fix=["d_coef=0.7"]), Hill())
-    first = "cannot_build, 2 of 3: no room for a motor of 12 mm; raise d_coef; move what keeps it from that: "
-    assert lines == [f"{first}d_coef fixed at 0.7", "cannot_build, 1 of 3: odd"]
+    lines = why_rejected(trials, SMALL, Hill())
+    assert lines == [f"cannot_build, 2 of 3: {texts[0]}", "cannot_build, 1 of 3: odd"]
