@@ -74,7 +74,7 @@ def build(
     if not force:
         _require_same_design_file(robot, design_file(design), folder)
     with status(f"simulating {robot.name} …"):
-        plain = replace(capsule_robot(robot.design), spring=replace(robot.spring, one_sided=False))
+        plain = replace(capsule_robot(robot.design), springs=(replace(robot.spring, one_sided=False),))
         printed, capsule = (headline(one) for one in (robot, plain))
     if printed.verdict != "jump" and not anyway:
         raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
