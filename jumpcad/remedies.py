@@ -8,7 +8,7 @@ from jumpcad.checks import CHECKS, OF_MECHANISM, Check
 from jumpcad.checks.assembly import assembly_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import printability_findings
-from jumpcad.design import PARAMETERS, PRINTED_BOUNDS, Design, limits_of
+from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, limits_of
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
 from jumpcad.findings import Change, Finding, Remedy, least
@@ -84,7 +84,7 @@ class Remedies:
         """Whether a parameter lies at the end of its usual range, or beyond, from which it is to move: it is first."""
         if key not in PARAMETERS or not direction:
             return False
-        bounds, now = PRINTED_BOUNDS[key], getattr(self._design, key)
+        bounds, now = SEARCH_BOUNDS[key], getattr(self._design, key)
         return bool(now <= bounds.lower if direction > 0 else now >= bounds.upper)
 
     def _cure(self, key: str, direction: int, fails: tuple[str, float], wrong: frozenset[str]) -> float | None:
@@ -169,6 +169,6 @@ def _end(key: str, now: float, direction: int) -> float:
         return now * (2.0 if direction > 0 else 0.5) or 20.0 * (direction > 0)
     if direction == 0:
         return 1.0
-    bounds, side = PRINTED_BOUNDS[key], int(direction > 0)
+    bounds, side = SEARCH_BOUNDS[key], int(direction > 0)
     usual = (bounds.lower, bounds.upper)[side]
     return usual if direction * (usual - now) > 0.0 else limits_of(key)[side]

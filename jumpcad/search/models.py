@@ -41,8 +41,6 @@ COSTLY = (RIGHTS_ITSELF, RESTS, ROBUST_TOUCHDOWN, ROBUST_PITCH)
 """Figures of a printed robot that are computed where a requirement or the objective asks for them alone."""
 ESTIMATE_STEP_S = 0.002
 """Time step of the planar engine for an estimate: within 0.3 % of the score at 0.1 ms on 37 robots of a search."""
-BEYOND_LINK_M = 0.07
-"""By how much a printed robot is larger than its longest link, about: within a third for nine in ten of 211."""
 LENGTH_MM = 0.2
 """Error of a link's length of a robot that is made in no workshop; judgement."""
 
@@ -308,6 +306,8 @@ class PrintedModel(RobotModel):
         """
         from jumpcad.building import layout_of
 
+        if rejecting := errors(findings := geometry_findings(variant.design)):
+            return Evaluation(rejecting[0].name, findings=tuple(findings))
         try:
             model = self.varied(variant.workshop) if variant.workshop else self
             return layout_figures(layout_of(variant.design, model.workshop or load_workshop()))
@@ -319,17 +319,15 @@ class PrintedModel(RobotModel):
     def quick_score(self, design: Design, objective: Objective) -> float:
         """Return about what the capsule robot of the design scores; -inf where it does not jump.
 
-        Its size is about that of the printed robot. Where it has no such figure, its fitness ranks the designs.
+        Where it has no such figure, its fitness ranks the designs: it has no size but that of its links.
         """
         if not self._quick.admits(design):
             return -math.inf
         found = self._quick(design)
         if found.verdict != "jump":
             return -math.inf
-        size = design.l_max_mm / 1000.0 + BEYOND_LINK_M
-        sized = {"size_m": size, "body_lengths": found.metrics["touchdown_distance_m"] / size}
         try:
-            return objective.score(Evaluation("jump", {**found.metrics, **sized})) or 0.0
+            return objective.score(replace(found, findings=())) or 0.0
         except JumpcadError:
             return found.metrics["fitness"]
 

@@ -148,7 +148,8 @@ class PlanarRun(Run):
 def touchdown(mechanism: Mechanism, settings: Settings, pins_nm: float | None = None) -> tuple[float, float] | None:
     """Return way (m) and pitch (°) at the touchdown; None of what does not take off. No gate, no audit, no air.
 
-    The jump of `simulate` in a sixth of its time: all is compiled. `pins_nm` is the friction of the pins if known.
+    Of a robot whose leg meets a stop: the jump of `simulate` in a sixth of its time, all compiled. `pins_nm` is the
+    friction of the pins if known.
     """
     world = PlanarWorld(with_spring_factor(mechanism, settings.spring_efficiency), settings, pins_nm)
     found = world.push_off()

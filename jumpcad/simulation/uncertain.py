@@ -20,7 +20,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
-from jumpcad.robot.robot import Robot
+from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.planar import touchdown
 from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
@@ -121,10 +121,17 @@ def uncertainty_of(robot: Robot, settings: Settings | None = None) -> Uncertaint
 
     What pages and commands tell of a robot as it may be made comes from here, so that they tell the same.
     """
+    if settings is None:
+        return _as_made(robot)
     try:
-        return uncertain_jump(robot, settings or Settings(), "planar", samples=AS_MADE)
+        return uncertain_jump(robot, settings, "planar", samples=AS_MADE)
     except JumpcadError:
         return None
+
+
+@decided_once
+def _as_made(robot: Robot) -> Uncertainty | None:
+    return uncertainty_of(robot, Settings())
 
 
 def robust_figures(robot: Mechanism, settings: Settings, rate_scatter: float) -> dict[str, float]:

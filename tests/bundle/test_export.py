@@ -19,7 +19,7 @@ from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import Bundle, verify
 from jumpcad.errors import JumpcadError
 from jumpcad.robot.robot import Robot
-from jumpcad.simulation import uncertain
+from jumpcad.simulation import headline, uncertain
 
 
 def exported(robot: Robot, folder: Path) -> Bundle:
@@ -47,7 +47,7 @@ def test_the_manifest_says_on_which_ground_the_robot_stands_and_with_which_frict
     """Its pads', or that of bare feet; the simulation of a bundle by another program needs it."""
     ground = {"surface": "dry oak", "pad": pad, "friction": 0.7, "bare_friction": 0.3}
     robot = replace(small_robot, workshop=workshop_with(small_robot.workshop, ground=ground))
-    jump = bundle_module._jump(robot, False)
+    jump = headline(robot)
     assert bundle_module._facts(robot, jump)["ground"] == {"friction": friction, "pad": pad, "surface": "dry oak"}
 
 

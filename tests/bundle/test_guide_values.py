@@ -206,7 +206,7 @@ def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pyte
     robot = built("kenan-2.0")
 
     def told(**jump: object) -> tuple[object, ...]:
-        monkeypatch.setattr(module, "simulate", lambda *_: SimpleNamespace(**jump))
+        monkeypatch.setattr(module, "headline", lambda *_: SimpleNamespace(**jump))
         return tuple(_jump(robot)[name] for name in ("range_mm", "rise_mm", "far_m", "high_m"))
 
     assert told(verdict="jump", touchdown_distance_m=0.883, com_rise_m=0.634) == (880, 630, 2.0, 1.5)
@@ -217,7 +217,7 @@ def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pyte
     def refused(*_: object) -> None:
         raise CannotBuildError("no engine")
 
-    monkeypatch.setattr(module, "simulate", refused)
+    monkeypatch.setattr(module, "headline", refused)
     assert _jump(robot) == {"range_mm": None, "rise_mm": None, "far_m": 3.0, "high_m": 2.0}
 
 

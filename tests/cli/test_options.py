@@ -69,7 +69,7 @@ def test_every_option_of_optimize_arrives_and_is_that_of_python(run: Run, asked:
     own = load_design("kenan-2.0")
     assert [one.name for one in request.space.parameters if one.free] == ["c_coef", "rest_angle_deg"]
     assert all(one.lower <= getattr(own, one.name) <= one.upper for one in request.space.parameters)
-    whole = {one.name: one.width for one in Space.default().parameters}
+    whole = {one.name: one.width for one in Space.make(workshop=shop).parameters}
     for one in request.space.parameters:
         assert one.width == 0.0 or one.width <= 0.2 * whole[one.name] + 1e-9
     assert asked["pool"] == (3, None, 33.0)

@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support import needs
 
@@ -12,7 +13,8 @@ from jumpcad.findings import Finding
 from jumpcad.paper import published
 from jumpcad.search.models import robot_model
 from jumpcad.search.pick.tolerances import Tolerances
-from jumpcad.search.study.objective import find_objective
+from jumpcad.search.space import Space
+from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.variant import Variant
 from jumpcad.settings import load_settings
 from jumpcad.simulation import Jump
@@ -169,3 +171,14 @@ def test_only_a_printed_robot_of_which_no_other_learns_is_refused_before_it_is_b
     assert (first.verdict, built.verdict) == ("too_weak", "too_weak")
     assert (first.metrics, bool(built.metrics)) == ({}, True)
     assert printed(weak, {"made.spring_factor": 1.05}).metrics
+
+
+def test_what_has_no_pose_in_the_machine_s_bounds_is_refused_before_it_is_laid_out():
+    """Dry runs lay out any point of a search, also one whose springs pass a dead point while they are wound."""
+    model = robot_model()
+    space = Space.make(workshop=model.workshop)
+    outcomes = [model.laid_out(space.to_variant(point)) for point in space.spread(64, np.random.default_rng(3))]
+    refused = [one for one in outcomes if isinstance(one, Evaluation) and one.verdict == "winding"]
+    assert refused
+    assert all("winding" in one.reasons for one in refused)
+    assert any(not isinstance(one, Evaluation) for one in outcomes)

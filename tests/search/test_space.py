@@ -234,7 +234,7 @@ def test_the_box_of_a_printed_robot_is_wider_than_the_study_s_unless_that_is_ask
     shop = load_workshop()
     wide, study = Space.make(workshop=shop), Space.default()
     for wider, narrower in zip(wide.parameters, study.parameters, strict=True):
-        assert wider.lower < narrower.lower < narrower.upper < wider.upper
+        assert wider.lower < narrower.lower < narrower.upper < wider.upper, wider.name
     assert Space.parse(bound=["study"], workshop=shop) == Space.make(bounds=SEARCH_BOUNDS, workshop=shop) == study
     assert Space.make() == study == Space.make(workshop=shop, study=True)
     mixed = Space.parse(bound=["study", "c_coef=1:1.3"], fix=["d_coef=0.7"], workshop=shop)

@@ -19,7 +19,7 @@ from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
-from jumpcad.search.study.evaluator import TOGETHER, Evaluator
+from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED
 from jumpcad.search.study.request import Stage
 from jumpcad.search.study.trial import Trial, feasible_trials, is_flat, nearest_to_required
@@ -34,9 +34,9 @@ LEARNED, LEARNED_BEST = 400, 100
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
 RUN_SEED = 1_000_000
 """Above any number of steps: added to the seed of the steps of each further run."""
-IDLE, IDLE_ALONE, IDLE_REQUIRED = 10, 25, 20
-"""The search ends after so many steps in a row that gain too little: where robots are estimated, where not, and where
-they are with requirements, which part the good designs; judgement."""
+IDLE, IDLE_ALONE = 20, 25
+"""The search ends after so many steps in a row that gain too little: where robots are estimated, and where not. After
+ten, one of two searches of everything that can be built had ended at 25 designs."""
 HOPELESS, FARTHEST = 1e-8, 6.25
 """Of the best score: what a proposal promises that promises nothing. Neighbours are then up to so many times as far
 away, an eighth of the unit cube along an axis; judgement."""
@@ -76,20 +76,19 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
             admits = unproposed(evaluator, proposals, loop.may_hold)
             ask = partial(propose, evaluator.space, best=best, elite=elite, generator=generator, admits=admits)
             beside = loop.beside(trials, admits, generator) if stalled else None
-            proposal = beside or loop.propose(ask, best, generator)
+            proposal = beside or loop.propose(ask, best)
             if proposal is None:
                 break
             if polls and beside is None and proposal.promised_gain(best) < HOPELESS:
                 wider = FARTHEST ** generator.random()
                 proposal = loop.beside(trials, admits, generator, wider) or proposal
             proposals.append(proposal)
-        return [*proposals, *loop.far(unproposed(evaluator, proposals, loop.may_hold))]
+        return proposals
 
     estimated = isinstance(evaluator.model, PrintedModel) and not evaluator.space.varies_workshop
 
     def ended() -> bool:  # scores that are all alike have not converged
-        usual = IDLE_REQUIRED if evaluator.model.requirements else IDLE
-        enough = idle() >= (usual if estimated else IDLE_ALONE)
+        enough = idle() >= (IDLE if estimated else IDLE_ALONE)
         return stage.least_gain > 0.0 and enough and not is_flat(evaluator.trials)
 
     return run_steps(evaluator, "bo", stage, proposer, ended)
@@ -151,15 +150,13 @@ def run_steps(
                 loop = ProposalLoop(space, learned, dry_run, thetas, refit, evaluator.unrequired)
                 proposals = proposer(loop, known, count, np.random.default_rng([seed, 2, RUN_SEED * stage.run + step]))
             thetas = loop.thetas
-            proposals = proposals[:left]
-            more = {TOGETHER: float(len(proposals))} if len(proposals) > count else {}
-            notes: list[dict[str, Any]] = [{**proposal.note(), **more, "theta": thetas} for proposal in proposals]
+            notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
             if notes and loop.tried:
                 notes[0] |= {TRIED: [point.tolist() for point in loop.tried]}
             evaluator.evaluate(
                 [proposal.variant for proposal in proposals], phase, step, proposals=notes, run=stage.run
             )
-        count = len(finished or proposals)
+            count = len(proposals)
         if count == 0:
             found = len(evaluator.trials) - start
             if found < space.size:

@@ -5,22 +5,19 @@ the next proposal is better. All of it follows from the trials and from the poin
 resumed search goes on alike.
 """
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Self
 
 import numpy as np
 
 from jumpcad.findings import bare
-from jumpcad.search.estimate.estimate import LEAST, Estimator
-from jumpcad.search.estimate.fitted_figures import MARK
+from jumpcad.search.estimate.estimate import Estimator
 from jumpcad.search.models import PrintedModel
-from jumpcad.search.propose.far import far_points
 from jumpcad.search.propose.initial_designs import ranked_points
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED, Evaluation
-from jumpcad.search.study.trial import Trial, required_sizes
+from jumpcad.search.study.trial import Trial
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
 
@@ -28,8 +25,6 @@ TRIED = "tried"
 """What the note of a trial calls the points of the dry runs of its step."""
 FIRST = 32
 """Designs that are estimated first: the best by the capsule robot."""
-GROWTH = 1.6
-"""The whole space is looked at again where so many times more robots are known; judgement."""
 ESTIMATED, FAILED = 160, 160
 """Most estimates that are learned from besides those of trials, and most failures: the last ones. Estimates are made
 anew with every fit, and the time of a step grows with both."""
@@ -49,7 +44,6 @@ class DryRun:
     def __init__(self, evaluator: Evaluator, phase: str, seed: int, run: int) -> None:
         assert isinstance(evaluator.model, PrintedModel)
         self._evaluator, self._phase, self._seed, self._run = evaluator, phase, seed, run
-        self._model = evaluator.model
         self._space = evaluator.space
         self.estimator = Estimator(evaluator.space, evaluator.model, evaluator.objective)
         self._variants: dict[tuple[float, ...], Variant] = {}
@@ -70,8 +64,6 @@ class DryRun:
 
     def starts_with(self, variant: Variant) -> bool:
         """Whether a search may start with a variant. If its parts have no room, that is learned."""
-        if not self._evaluator.admits(variant) or self._model.refused_first(variant.design):
-            return False
         if not isinstance(self.estimator.layout(variant), Evaluation):
             return True
         self._passed_over.append(variant)
@@ -86,29 +78,6 @@ class DryRun:
         if self.estimator.ready:
             jumped = [trial.variant for trial in trials if self._evaluator.unrequired(trial) is not None]
             self.look_at([*map(self._variant, self.ranked[:FIRST]), *tried, *jumped])
-
-    def far_points(
-        self, trials: Sequence[Trial], log_feasible: Callable[[Array], Array], generator: np.random.Generator
-    ) -> list[Array]:
-        """Return points (d,) of the whole space with the best rough estimates; none unless robots are many more.
-
-        What misses a requirement is worth less, by what it lacks.
-        """
-        before = [trial for trial in trials if trial.position[:3] != trials[-1].position[:3]]
-        if not self.estimator.ready or _growths(trials) == _growths(before):
-            return []
-        sizes = required_sizes(trials)
-
-        def rough(variant: Variant) -> float:
-            found = self.estimator.rough(variant)
-            if found is None or found.score is None:
-                return 0.0
-            missed = (min(found.margins.get(name, 0.0), 0.0) / size for name, size in sizes.items())
-            return max(found.score, 0.0) * math.exp(sum(missed))
-
-        points = far_points(self._space, rough, log_feasible, generator)
-        self.look_at(map(self._space.to_variant, points))
-        return points
 
     def look_at(self, variants: Iterable[Variant]) -> None:
         """Lay out and estimate, on all cores, what was not yet."""
@@ -181,9 +150,3 @@ class DryRun:
 
 def _stayed(variant: Variant, outcome: Evaluation) -> Trial:
     return Trial("", 0, 0, variant.design, outcome.bare, None, "", 0.0, {}, variant.workshop)
-
-
-def _growths(trials: Sequence[Trial]) -> int:
-    """Return how many times the number of robots among some trials has grown by `GROWTH`."""
-    robots = sum(MARK in one.evaluation.metrics for one in trials)
-    return math.floor(math.log(robots / LEAST, GROWTH)) + 1 if robots >= LEAST else 0

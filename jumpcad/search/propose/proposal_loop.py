@@ -66,26 +66,21 @@ class ProposalLoop:
         self._refit = refit
         self.tried: list[Array] = []
         self._proposed: list[Array] = []
-        self._far: list[Array] = []
         self._failed: set[Key] = set()
 
     @property
     def _estimates(self) -> bool:
         return self._dry_run is not None and self._dry_run.estimator.ready
 
-    def propose(
-        self, ask: Callable[..., Proposal | None], best: float, generator: np.random.Generator | None = None
-    ) -> Proposal | None:
+    def propose(self, ask: Callable[..., Proposal | None], best: float) -> Proposal | None:
         """Return a proposal of `ask`, which is called with a posterior and the points that held in a dry run for it.
 
         Its own mean is then believed, as if it had been measured, until the step is over. `best` is the score to be
-        improved. With a generator, all of the space is looked at now and then.
+        improved.
         """
         held: list[Proposal] = []
         self._look_around()
         posterior = self._learned()
-        if self._estimates and generator is not None and not self.tried:
-            posterior = self._look_far(posterior, generator)
         proposal = ask(posterior, held=[])
         for _ in range(ROUNDS if self._dry_run else 0):
             assert self._dry_run is not None
@@ -157,24 +152,6 @@ class ProposalLoop:
         self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
         assert self._dry_run is not None
         self._dry_run.look_at(map(self._space.to_variant, self.tried))
-
-    def _look_far(self, posterior: SearchPosterior, generator: np.random.Generator) -> SearchPosterior:
-        """Try points of the whole space with good rough estimates, now and then; return what is then learned."""
-        assert self._dry_run is not None
-        points = self._dry_run.far_points(self._trials, posterior.log_feasible, generator)
-        self.tried += points
-        self._far = points
-        return self._learned() if points else posterior
-
-    def far(self, admits: Callable[[Variant], bool]) -> list[Proposal]:
-        """Return the points of the whole space that were tried for this step and held, and are admitted.
-
-        All are evaluated: a robot costs less than a proposal, and their limits say what rejects good designs.
-        """
-        proposals = [Proposal(self._space.to_variant(point), point, 0.0, 0.0) for point in self._far]
-        return [
-            one for one in proposals if self._dry_run and not self._dry_run.failure(one.variant) and admits(one.variant)
-        ]
 
     def may_hold(self, variant: Variant) -> bool:
         """Whether a variant may be proposed: it has not failed in a dry run of this step, nor has no room."""

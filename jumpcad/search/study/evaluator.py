@@ -17,8 +17,6 @@ from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Position, Trial, in_order
 from jumpcad.search.study.variant import NOTHING, Key, Variant
 
-TOGETHER = "together"
-"""What the notes of a step's trials call their number, where it is more than was asked for."""
 Watch = Callable[[Trial, bool], None]
 """Called with every trial, and whether it was computed now (or read from the study file)."""
 
@@ -104,10 +102,10 @@ class Evaluator:
         return variant.key in self._finished
 
     def finished(self, phase: str, step: int, count: int, run: int = 0) -> list[Trial] | None:
-        """Read a whole step of `count` trials, or as many as their notes say; None if one of them is missing."""
+        """Read a whole step of `count` trials from the study file; None if one of them is missing."""
         at = phase, run, step
         trials = in_order(trial for trial in self._finished.values() if trial.position[:3] == at)
-        if not trials or len(trials) != trials[0].proposal.get(TOGETHER, count):
+        if len(trials) != count:
             return None
         for trial in trials:
             self._add(trial, computed=False)

@@ -56,14 +56,5 @@ def test_the_printed_robot_s_quick_model_is_the_capsule_robot():
 def test_an_objective_that_capsules_lack_ranks_by_fitness():
     design = load_design("best-ga")
     fitness = robot_model().quick_score(design, find_objective("fitness"))
-    assert robot_model().quick_score(design, find_objective("range-per-joule")) == fitness > 0
+    assert robot_model().quick_score(design, find_objective("body_lengths")) == fitness > 0
     assert TOP
-
-
-def test_the_quick_model_is_about_as_large_as_the_printed_robot():
-    """Else the smallest links would seem the best: a body with battery and motor has no size of theirs."""
-    model = robot_model()
-    for name in ("kenan-2.0", "best-printable"):
-        design, score = load_design(name), find_objective("touchdown")
-        size_m = model.quick_score(design, score) / model.quick_score(design, find_objective("body_lengths"))
-        assert abs(size_m / model(design).metrics["size_m"] - 1.0) < 1.0 / 3.0

@@ -9,7 +9,7 @@ from jumpcad.search.study.objective import OBJECTIVES, Evaluation, described_obj
 JUMP = {
     "body_lengths": 6.0, "fitness": 9.0, "ballistic_range_m": 0.9, "com_rise_m": 0.3, "spring_energy_j": 0.6,
     "electrical_energy_j": 2.0, "jumps_per_charge": 400.0,
-    "touchdown_distance_m": 0.8, "rest_distance_m": 1.2,
+    "touchdown_distance_m": 0.8, "rest_distance_m": 1.2, "robust_touchdown_m": 0.7,
 }  # fmt: skip
 
 
@@ -19,7 +19,7 @@ def finding(name, severity, margin):
 
 def test_scores_of_a_jump():
     assert {name: one.score(Evaluation("jump", JUMP)) for name, one in OBJECTIVES.items()} == pytest.approx({
-        "body_lengths": 6.0, "touchdown": 0.8, "rest": 1.2, "fitness": 9.0, "range": 0.9, "rise": 0.3,
+        "body_lengths": 6.0, "touchdown": 0.8, "rest": 1.2, "robust": 0.7, "fitness": 9.0, "range": 0.9, "rise": 0.3,
         "range-per-joule": 0.45, "range-per-spring-joule": 1.5, "jumps-per-joule": 0.5, "metres-per-charge": 360.0,
     })  # fmt: skip
 
