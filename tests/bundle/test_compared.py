@@ -2,7 +2,7 @@
 
 import pytest
 
-from jumpcad.bundle.compared import Beside, Compared
+from jumpcad.bundle.page import Beside, Compared
 from jumpcad.files.rendering import fill
 
 

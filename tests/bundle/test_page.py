@@ -16,8 +16,7 @@ from support.workshops import workshop_with
 
 import jumpcad
 from jumpcad.building import build
-from jumpcad.bundle.compared import compared_of
-from jumpcad.bundle.page import write_report
+from jumpcad.bundle.page import compared_of, write_report
 from jumpcad.calibration.measurements import load_measurements
 from jumpcad.design import load_design
 from jumpcad.dimensions import unit_of_key

@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 from support.built import built
 
-from jumpcad.bundle import step_pictures
+from jumpcad.bundle import renders
 from jumpcad.scene.camera import aimed
 from jumpcad.scene.renderer import paletted
 
@@ -13,17 +13,17 @@ from jumpcad.scene.renderer import paletted
 def test_every_picture_marks_where_front_and_left_are(monkeypatch: pytest.MonkeyPatch) -> None:
     """As a camera sees a point ahead of the robot, and one to the left of it, against the picture's middle."""
     marked: list[dict[str, np.ndarray]] = []
-    monkeypatch.setattr(step_pictures, "labelled", lambda picture, *_: marked.append(_[-1]) or picture)
+    monkeypatch.setattr(renders, "labelled", lambda picture, *_: marked.append(_[-1]) or picture)
 
     class Blank:
         def picture(self, _poses: object, size: tuple[int, int], *_: object) -> Image.Image:
             return Image.new("RGB", size)
 
     robot = built("kenan-2.0")
-    views = [view for _, view in step_pictures.named_views(robot)]
+    views = [view for _, view in renders.named_views(robot)]
     numbers = {thing.name: index for view in views for index, thing in enumerate(view.things)}
     for view in views:
-        step_pictures._picture(view, dict.fromkeys(numbers, 0), Blank(), (560, 520))  # type: ignore[arg-type]
+        renders._picture(view, dict.fromkeys(numbers, 0), Blank(), (560, 520))  # type: ignore[arg-type]
     assert len(marked) == len(views) > 20
     for view, marks in zip(views, marked, strict=True):
         middle = view.frame_m.mean(axis=0)

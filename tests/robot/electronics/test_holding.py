@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from support.built import built
 
-from jumpcad.robot.electronics.holding import holding_findings
+from jumpcad.robot.electronics.limits import holding_findings
 from jumpcad.robot.load_case import LoadCase
 
 

@@ -8,9 +8,9 @@ import shapely
 from support.built import built
 
 from jumpcad.bundle.drawings.wiring import wires
-from jumpcad.robot.electronics import lead_limits as leads
-from jumpcad.robot.electronics.lead_limits import lead_findings
+from jumpcad.robot.electronics import limits as leads
 from jumpcad.robot.electronics.leads import way_in
+from jumpcad.robot.electronics.limits import lead_findings
 from jumpcad.robot.space.room import disc
 
 

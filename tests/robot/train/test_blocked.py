@@ -10,7 +10,7 @@ from support.strengths import changed
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.robot.load_case import LoadCase
-from jumpcad.robot.train.blocked import BLOCKED_FACTOR, blocked_findings
+from jumpcad.robot.train.limits import BLOCKED_FACTOR, blocked_findings
 
 
 @pytest.mark.parametrize("pairs", [1, 2])
